@@ -1,0 +1,362 @@
+"""How an engine shakes, order by order."""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from crankpin import _core, _tables
+from crankpin._frozen import Frozen
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin._engine import Engine
+    from crankpin._inputs import Spectrum
+
+
+class Ellipse(NamedTuple):
+    """What force or moment traces in one order: half axes and the direction of the long one."""
+
+    major: Any
+    """Longest half axis."""
+    minor: Any
+    """Shortest half axis; below zero where the vector turns against the crank."""
+    tilt_deg: Any
+    """Direction of the long axis from +x, in (−90, 90]; 0 for a circle."""
+
+
+class ErrorBound(NamedTuple):
+    """What orders left out can add to the length of a vector at any crank angle."""
+
+    force: float
+    """N."""
+    moment: float
+    """N·m."""
+
+
+@dataclasses.dataclass(frozen=True)
+class OrderBalance:
+    """One order of a :class:`Balance`; complex peak phasors."""
+
+    order: int
+    force: NDArray[np.complex128]
+    """Along x and y, N: (2,)."""
+    moment: NDArray[np.complex128]
+    """About x (pitch) and y (yaw), N·m: (2,)."""
+    forward_force: complex
+    backward_force: complex
+    forward_moment: complex
+    backward_moment: complex
+    force_ellipse: Ellipse
+    moment_ellipse: Ellipse
+
+
+class Balance(Frozen):
+    """How an engine shakes at one speed: complex peak phasors, order by order.
+
+    A quantity of order n is ``Re(P exp(inθ))``. In the cross-section, force and moment are
+    ``x + iy = forward exp(inθ) + backward exp(−inθ)``: what turns with the crank, which a
+    counterweight can cancel at order 1, and what turns against it. Sums that vanish are exactly
+    zero: they are reported so when below ``force_zero_bound`` and its companions, what rounding
+    can leave of them.
+
+    Made by :meth:`Engine.balance`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000, orders=[1, 2, 4])
+    >>> b.orders
+    (1, 2, 4)
+    >>> bool(abs(b.force[:2]).max() == 0)
+    True
+    >>> b.order(1).moment_ellipse.minor == b.order(1).moment_ellipse.major  # a circle
+    True
+    """
+
+    engine: Engine
+    """The engine."""
+    rpm: float
+    """Crank speed."""
+    reference_z: float
+    """Plane about which moments are taken, m."""
+    spectrum: Spectrum | None
+    """What stood in for the slider-cranks."""
+
+    def __init__(
+        self,
+        core: _core.Balance,
+        engine: Engine,
+        rpm: float,
+        reference_z: float | None,
+        spectrum: Spectrum | None,
+    ) -> None:
+        plane = engine.reference_z if reference_z is None else float(reference_z)
+        frozen = None if spectrum is None else dict(spectrum)
+        self._set(_core=core, engine=engine, rpm=rpm, reference_z=plane, spectrum=frozen)
+
+    _core: _core.Balance
+
+    # --- phasors --------------------------------------------------------------------------------
+
+    @cached_property
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed."""
+        return tuple(self._core.orders)
+
+    @cached_property
+    def omitted(self) -> tuple[int, ...]:
+        """With ``orders="auto"``: orders that were looked at and left out."""
+        return tuple(self._core.omitted)
+
+    @property
+    def error_bound(self) -> ErrorBound:
+        """With ``orders="auto"``: what all orders left out can add at any crank angle."""
+        return ErrorBound(self._core.error_bound("force"), self._core.error_bound("moment"))
+
+    @cached_property
+    def force(self) -> NDArray[np.complex128]:
+        """Shaking force along x and y, N: (n_orders, 2)."""
+        return self._core.xy("force")
+
+    @cached_property
+    def moment(self) -> NDArray[np.complex128]:
+        """Rocking moment about x (pitch) and y (yaw), N·m: (n_orders, 2)."""
+        return self._core.xy("moment")
+
+    @cached_property
+    def torque(self) -> NDArray[np.complex128]:
+        """Roll torque of the inertia forces on the block about +z, N·m: (n_orders,).
+
+        InputError where a spectrum of forces was given, which tells nothing of it.
+        """
+        return self._core.roll_torque()
+
+    @cached_property
+    def crank_torque(self) -> NDArray[np.complex128]:
+        """Torque of the inertia forces on the crank about +z, N·m: (n_orders,)."""
+        return self._core.crank_torque()
+
+    @cached_property
+    def forward_force(self) -> NDArray[np.complex128]:
+        """Part of the force that turns with the crank, N: (n_orders,)."""
+        return self._core.forward("force")
+
+    @cached_property
+    def backward_force(self) -> NDArray[np.complex128]:
+        """Part of the force that turns against the crank, N: (n_orders,)."""
+        return self._core.backward("force")
+
+    @cached_property
+    def forward_moment(self) -> NDArray[np.complex128]:
+        """Part of the moment that turns with the crank, N·m: (n_orders,)."""
+        return self._core.forward("moment")
+
+    @cached_property
+    def backward_moment(self) -> NDArray[np.complex128]:
+        """Part of the moment that turns against the crank, N·m: (n_orders,)."""
+        return self._core.backward("moment")
+
+    @cached_property
+    def force_zero_bound(self) -> NDArray[np.float64]:
+        """What rounding can leave of a force that vanishes, N: (n_orders,)."""
+        return self._core.zero_bound("force")
+
+    @cached_property
+    def moment_zero_bound(self) -> NDArray[np.float64]:
+        """What rounding can leave of a moment that vanishes, N·m: (n_orders,)."""
+        return self._core.zero_bound("moment")
+
+    @cached_property
+    def torque_zero_bound(self) -> NDArray[np.float64]:
+        """What rounding can leave of a torque that vanishes, N·m: (n_orders,)."""
+        return self._core.zero_bound("torque")
+
+    # --- peaks ----------------------------------------------------------------------------------
+
+    @property
+    def force_peak_xy(self) -> NDArray[np.float64]:
+        """Largest force of each order along x and along y, N: (n_orders, 2)."""
+        return np.abs(self.force)
+
+    @property
+    def moment_peak_xy(self) -> NDArray[np.float64]:
+        """Largest moment of each order about x and about y, N·m: (n_orders, 2)."""
+        return np.abs(self.moment)
+
+    @property
+    def torque_peak(self) -> NDArray[np.float64]:
+        """Largest roll torque of each order, N·m: (n_orders,)."""
+        return np.abs(self.torque)
+
+    @cached_property
+    def force_ellipse(self) -> Ellipse:
+        """Ellipses that the force traces, each field (n_orders,)."""
+        return _ellipse(self.forward_force, self.backward_force)
+
+    @cached_property
+    def moment_ellipse(self) -> Ellipse:
+        """Ellipses that the moment traces, each field (n_orders,)."""
+        return _ellipse(self.forward_moment, self.backward_moment)
+
+    @property
+    def force_peak_vector(self) -> NDArray[np.float64]:
+        """Longest force of each order, N: (n_orders,)."""
+        return self.force_ellipse.major  # type: ignore[no-any-return]
+
+    @property
+    def moment_peak_vector(self) -> NDArray[np.float64]:
+        """Longest moment of each order, N·m: (n_orders,)."""
+        return self.moment_ellipse.major  # type: ignore[no-any-return]
+
+    @cached_property
+    def force_sum_peak_xy(self) -> NDArray[np.float64]:
+        """Largest force along x and along y of all orders together, N: (2,); true extrema."""
+        return self._core.sum_peak_xy("force")
+
+    @cached_property
+    def moment_sum_peak_xy(self) -> NDArray[np.float64]:
+        """Largest moment about x and about y of all orders together, N·m: (2,); true extrema."""
+        return self._core.sum_peak_xy("moment")
+
+    @cached_property
+    def force_sum_peak_vector(self) -> float:
+        """Longest force of all orders together, N; a true extremum."""
+        return self._core.sum_peak_vector("force")
+
+    @cached_property
+    def moment_sum_peak_vector(self) -> float:
+        """Longest moment of all orders together, N·m; a true extremum."""
+        return self._core.sum_peak_vector("moment")
+
+    @cached_property
+    def torque_sum_peak(self) -> float:
+        """Largest roll torque of all orders together, N·m; a true extremum."""
+        return self._core.torque_sum_peak()
+
+    def order(self, order: int) -> OrderBalance:
+        """Return one order.
+
+        Raises
+        ------
+        InputError
+            If the order was not asked for.
+        """
+        if order not in self.orders:
+            listed = ", ".join(map(str, self.orders))
+            raise _core.InputError(f"order = {order}: this balance has orders {listed}")
+        k = self.orders.index(order)
+        return OrderBalance(
+            order=order,
+            force=self.force[k],
+            moment=self.moment[k],
+            forward_force=complex(self.forward_force[k]),
+            backward_force=complex(self.backward_force[k]),
+            forward_moment=complex(self.forward_moment[k]),
+            backward_moment=complex(self.backward_moment[k]),
+            force_ellipse=Ellipse(*(float(axis[k]) for axis in self.force_ellipse)),
+            moment_ellipse=Ellipse(*(float(axis[k]) for axis in self.moment_ellipse)),
+        )
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the complex peak phasors as a table, one row an order (needs pandas)."""
+        pandas = _tables.pandas()
+        columns = {
+            "force_x": self.force[:, 0],
+            "force_y": self.force[:, 1],
+            "moment_x": self.moment[:, 0],
+            "moment_y": self.moment[:, 1],
+        }
+        if self.spectrum is None:
+            columns["torque"] = self.torque
+        return pandas.DataFrame(columns, index=pandas.Index(self.orders, name="order"))
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the complex peak phasors with named dimensions and units (needs xarray)."""
+        variables = {
+            "force": (("order", "axis"), self.force, {"units": "N"}),
+            "moment": (("order", "axis"), self.moment, {"units": "N m"}),
+        }
+        if self.spectrum is None:
+            variables["torque"] = (("order",), self.torque, {"units": "N m"})
+        coords = {
+            "order": ("order", list(self.orders), {"units": "1/rev"}),
+            "axis": ("axis", ["x", "y"]),
+        }
+        attributes = {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
+        return _tables.xarray().Dataset(variables, coords, attributes)
+
+    def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
+        """Draw the peaks of each order along (about) x and y as bars; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        quantity
+            ``"force"`` or ``"moment"``.
+        """
+        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+
+        return _plots.balance(self, ax, quantity)
+
+    def _table(self) -> _tables.Table:
+        header = ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m"]
+        columns = [self.force_peak_xy, self.moment_peak_xy]
+        if self.spectrum is None:
+            header.append("|M_z| N·m")
+            columns.append(self.torque_peak[:, None])
+        rows = np.hstack(columns)
+        name = self.engine.name or f"{len(self.engine)} cylinders"
+        title = f"{name} at {self.rpm:g} rpm: peaks of force, rocking moment and roll torque"
+        labels = [f"{order}" for order in self.orders]
+        return _tables.Table(title, header, labels, rows)
+
+    def __repr__(self) -> str:
+        return self._table().text()
+
+    def _repr_html_(self) -> str:
+        return self._table().html()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Balance):
+            return NotImplemented
+        return self._inputs() == other._inputs()
+
+    def __hash__(self) -> int:
+        return hash((self.engine, self.rpm, self.orders, self.reference_z))
+
+    def _inputs(self) -> tuple[Any, ...]:
+        return (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum, self.omitted)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = {"omitted": self.omitted}
+        return (_again, (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum), state)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._set(**state)
+
+
+def _again(
+    engine: Engine,
+    rpm: float,
+    orders: tuple[int, ...],
+    reference_z: float,
+    spectrum: Spectrum | None,
+) -> Balance:
+    return engine.balance(rpm, orders, reference_z=reference_z, spectrum=spectrum)
+
+
+def _ellipse(forward: NDArray[np.complex128], backward: NDArray[np.complex128]) -> Ellipse:
+    axes = np.array(_core.ellipse(list(zip(forward.tolist(), backward.tolist(), strict=True))))
+    major, minor, tilt = axes.reshape(-1, 3).T
+    return Ellipse(major, minor, np.degrees(tilt))

@@ -1,0 +1,251 @@
+"""One cylinder: its moving parts, their motion and their harmonics."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+
+from crankpin import _core, _inputs
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._inputs import Orders
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Cylinder:
+    """The moving parts of one cylinder.
+
+    The rod counts as two masses: one that moves with the piston and one that turns with the
+    crankpin. For forces and moments that is exact, for any rod. The turning mass belongs to the
+    throw: engines take it as ``rotating_mass``.
+
+    Parameters
+    ----------
+    crank_radius
+        Crank radius r, half the stroke, m.
+    rod_length
+        Rod length l between its centres, m; r < l − ``|pin_offset|``.
+    reciprocating_mass
+        Mass that moves with the piston, kg.
+    pin_offset
+        Offset e (désaxé) of the piston pin's path from the crank's axis, m; positive on the side to
+        which the crankpin swings after top dead centre.
+
+    Raises
+    ------
+    InputError
+        If a figure is not finite or has the wrong sign, or the crank cannot turn.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> cylinder = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=1.487)
+    >>> round(cylinder.rod_ratio, 4)
+    0.2848
+    >>> cylinder.replace(rod_length=0.18).rod_ratio
+    0.25
+    """
+
+    crank_radius: float
+    rod_length: float
+    reciprocating_mass: float
+    pin_offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("crank_radius", "rod_length", "reciprocating_mass", "pin_offset"):
+            object.__setattr__(self, name, _inputs.number(name, getattr(self, name)))
+        _core.check_cylinder(self._parts)
+
+    @property
+    def _parts(self) -> tuple[float, float, float, float]:
+        return (self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)
+
+    @property
+    def rod_ratio(self) -> float:
+        """λ = r/l, crank radius over rod length."""
+        return self.crank_radius / self.rod_length
+
+    @property
+    def stroke(self) -> float:
+        """Twice the crank radius, m (a pin offset lengthens the piston's travel a little)."""
+        return 2.0 * self.crank_radius
+
+    def replace(self, **changes: float) -> Cylinder:
+        """Return a copy with some parts changed."""
+        try:
+            return dataclasses.replace(self, **changes)
+        except TypeError as error:
+            raise _core.InputError(f"replace: {error}") from None
+
+    def position(self, theta_deg: ArrayLike) -> NDArray[np.float64]:
+        """Return the piston pin's distance from the crank's axis along the bore, m.
+
+        Exact: ``r cos θ + √(l² − (r sin θ − e)²)``.
+
+        Parameters
+        ----------
+        theta_deg
+            Crank angles from the crankpin's pointing along the bore, degrees; any shape.
+
+        Returns
+        -------
+        array of the shape of ``theta_deg``
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Cylinder(0.05, 0.15, 0.5).position([0, 180])
+        array([0.2, 0.1])
+        """
+        return self._motion(theta_deg, 0)
+
+    def velocity(self, theta_deg: ArrayLike, rpm: float) -> NDArray[np.float64]:
+        """Return the piston's velocity along the bore, away from the crank, m/s.
+
+        Parameters
+        ----------
+        theta_deg
+            Crank angles from the crankpin's pointing along the bore, degrees; any shape.
+        rpm
+            Crank speed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Cylinder(0.05, 0.15, 0.5).velocity(90, rpm=6000).round(3)
+        array(-31.416)
+        """
+        return self._motion(theta_deg, 1) * angular_speed(rpm)
+
+    def acceleration(self, theta_deg: ArrayLike, rpm: float) -> NDArray[np.float64]:
+        """Return the piston's acceleration along the bore, away from the crank, m/s².
+
+        The inertia force on the engine, along the bore, is minus the reciprocating mass times it.
+
+        Parameters
+        ----------
+        theta_deg
+            Crank angles from the crankpin's pointing along the bore, degrees; any shape.
+        rpm
+            Crank speed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Cylinder(0.05, 0.15, 0.5).acceleration(0, rpm=6000).round(1)
+        array(-26318.9)
+        """
+        return self._motion(theta_deg, 2) * angular_speed(rpm) ** 2
+
+    def harmonics(self, orders: Orders) -> NDArray[np.complex128]:
+        """Return the harmonics aₙ of the inertia force, exact, complex, (n_orders,).
+
+        The force on the engine along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Cylinder(1, 2, 7).harmonics([1, 2, 4]).real.round(9)
+        array([ 1.        ,  0.535552857, -0.038426149])
+        """
+        return _core.cylinder_harmonics(self._parts, explicit(orders))
+
+    def torque_harmonics(self, orders: Orders) -> tuple[NDArray[np.complex128], ...]:
+        """Return the harmonics of roll torque and crank torque over m·r²·ω², each (n_orders,).
+
+        Roll torque is that of the inertia force on the block about +z, crank torque that on the
+        crank. Without pin offset one is minus the other; an offset adds the moment of the force
+        about the crank's axis.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> roll, crank = cp.Cylinder(0.05, 0.15, 0.5).torque_harmonics([1, 2])
+        >>> abs(roll + crank).max()
+        0.0
+        """
+        return _core.cylinder_torque_harmonics(self._parts, explicit(orders))
+
+    def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
+        shape = np.shape(theta_deg)
+        flat = _inputs.vector("theta_deg", np.ravel(theta_deg))
+        return _core.motion(self._parts, flat)[:, column].reshape(shape)
+
+
+def angular_speed(rpm: float) -> float:
+    """Return ω in rad/s."""
+    return 2.0 * np.pi * _inputs.number("rpm", rpm) / 60.0
+
+
+def explicit(orders: Orders) -> list[int]:
+    """Return a list of orders; here none can be chosen."""
+    listed = _inputs.orders(orders)
+    if listed is None:
+        raise _core.InputError('orders = "auto": give whole numbers here, such as [1, 2]')
+    return listed
+
+
+@overload
+def slider_crank_harmonics(
+    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: None = None
+) -> NDArray[np.float64]: ...
+@overload
+def slider_crank_harmonics(
+    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike
+) -> NDArray[np.complex128]: ...
+def slider_crank_harmonics(
+    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike | None = None
+) -> NDArray[Any]:
+    """Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
+
+    The force along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``; a₁ = 1 and a₂ ≈ λ. Every order
+    has full relative accuracy: the coefficients come from the factors of
+    √(l² − (r sin θ − e)²), not from samples nor from a series in λ.
+
+    Parameters
+    ----------
+    rod_ratio
+        λ = crank radius / rod length; any shape.
+    orders
+        Whole multiples of crank speed.
+    pin_offset_ratio
+        Pin offset / crank radius, |e/r| < 1/λ − 1; broadcast with ``rod_ratio``. Without it the
+        pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
+
+    Returns
+    -------
+    array of shape (\\*broadcast shape, n_orders)
+        float64 without ``pin_offset_ratio``, complex128 with it.
+
+    Raises
+    ------
+    InputError
+        If a rod ratio is not between 0 and 1, or an offset keeps the crank from turning.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> cp.slider_crank_harmonics(0.5, [1, 2, 3, 4]).round(9)
+    array([ 1.        ,  0.535552857,  0.        , -0.038426149])
+    >>> cp.slider_crank_harmonics([0.25, 0.3], orders=2).shape
+    (2, 1)
+    """
+    listed = explicit(orders)
+    if pin_offset_ratio is None:
+        shape = np.shape(rod_ratio)
+        flat = _inputs.vector("rod_ratio", rod_ratio if len(shape) < 2 else np.ravel(rod_ratio))
+        return _core.centred_table(flat, listed).reshape(*shape, len(listed))
+    try:
+        ratios, offsets = np.broadcast_arrays(rod_ratio, pin_offset_ratio)
+    except ValueError as error:
+        raise _core.InputError(f"rod_ratio and pin_offset_ratio: {error}") from None
+    table = _core.offset_table(
+        _inputs.vector("rod_ratio", np.ravel(ratios)),
+        _inputs.vector("pin_offset_ratio", np.ravel(offsets)),
+        listed,
+    )
+    return table.reshape(*ratios.shape, len(listed))

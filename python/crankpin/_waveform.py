@@ -1,0 +1,157 @@
+"""Force, moment and torque over crank angle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin import _tables
+from crankpin._balance import ErrorBound
+from crankpin._core import InputError
+from crankpin._frozen import Frozen
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin import _core
+    from crankpin._engine import Engine
+
+
+class Waveform(Frozen):
+    """Force, moment and torque of an engine at given crank angles.
+
+    Made by :meth:`Engine.waveform`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> engine = cp.Engine.preset("v6-60")
+    >>> exact = engine.waveform(rpm=6000, theta_deg=[0, 10, 20])
+    >>> summed = engine.waveform(rpm=6000, theta_deg=[0, 10, 20], orders="auto", rtol=1e-6)
+    >>> bool(abs(exact.moment - summed.moment).max() <= summed.error_bound.moment)
+    True
+    """
+
+    engine: Engine
+    """The engine."""
+    rpm: float
+    """Crank speed."""
+    theta_deg: NDArray[np.float64]
+    """Crank angles, degrees: (n_theta,)."""
+    force: NDArray[np.float64]
+    """Shaking force along x and y, N: (n_theta, 2)."""
+    moment: NDArray[np.float64]
+    """Rocking moment about x (pitch) and y (yaw), N·m: (n_theta, 2)."""
+    orders: tuple[int, ...] | None
+    """Orders that were summed; None for exact kinematics."""
+    omitted: tuple[int, ...]
+    """With ``orders="auto"``: orders that were looked at and left out."""
+    error_bound: ErrorBound
+    """With ``orders="auto"``: what all orders left out can add at any crank angle."""
+
+    def __init__(
+        self, engine: Engine, rpm: float, theta_deg: NDArray[np.float64], parts: _core.WaveformParts
+    ) -> None:
+        force, moment, torque, crank_torque, balance = parts
+        theta = theta_deg.copy()
+        theta.flags.writeable = False
+        none = ErrorBound(0.0, 0.0)
+        self._set(
+            engine=engine,
+            rpm=rpm,
+            theta_deg=theta,
+            force=force,
+            moment=moment,
+            _torque=torque,
+            _crank_torque=crank_torque,
+            orders=None if balance is None else tuple(balance.orders),
+            omitted=() if balance is None else tuple(balance.omitted),
+            error_bound=none
+            if balance is None
+            else ErrorBound(balance.error_bound("force"), balance.error_bound("moment")),
+        )
+
+    _torque: NDArray[np.float64] | None
+    _crank_torque: NDArray[np.float64] | None
+
+    @property
+    def torque(self) -> NDArray[np.float64]:
+        """Roll torque of the inertia forces on the block about +z, N·m: (n_theta,).
+
+        InputError where a spectrum of forces was given, which tells nothing of it.
+        """
+        return _known(self._torque)
+
+    @property
+    def crank_torque(self) -> NDArray[np.float64]:
+        """Torque of the inertia forces on the crank about +z, N·m: (n_theta,)."""
+        return _known(self._crank_torque)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a table, one row a crank angle (needs pandas)."""
+        pandas = _tables.pandas()
+        columns = {
+            "force_x": self.force[:, 0],
+            "force_y": self.force[:, 1],
+            "moment_x": self.moment[:, 0],
+            "moment_y": self.moment[:, 1],
+        }
+        if self._torque is not None:
+            columns |= {"torque": self._torque, "crank_torque": self.crank_torque}
+        return pandas.DataFrame(columns, index=pandas.Index(self.theta_deg, name="theta_deg"))
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return arrays with named dimensions and units (needs xarray)."""
+        variables: dict[str, Any] = {
+            "force": (("theta_deg", "axis"), self.force, {"units": "N"}),
+            "moment": (("theta_deg", "axis"), self.moment, {"units": "N m"}),
+        }
+        if self._torque is not None:
+            variables["torque"] = (("theta_deg",), self._torque, {"units": "N m"})
+            variables["crank_torque"] = (("theta_deg",), self.crank_torque, {"units": "N m"})
+        coords = {
+            "theta_deg": ("theta_deg", self.theta_deg, {"units": "degree"}),
+            "axis": ("axis", ["x", "y"]),
+        }
+        attributes = {"engine": self.engine.name, "rpm": self.rpm}
+        return _tables.xarray().Dataset(variables, coords, attributes)
+
+    def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
+        """Draw a quantity over crank angle; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        quantity
+            ``"force"``, ``"moment"`` or ``"torque"``.
+        """
+        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+
+        return _plots.waveform(self, ax, quantity)
+
+    def __repr__(self) -> str:
+        how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"
+        return f"<Waveform of {self.engine!r} at {self.rpm:g} rpm, {len(self.theta_deg)} angles, {how}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_again, (self.__dict__,))
+
+
+def _again(state: dict[str, Any]) -> Waveform:
+    waveform = Waveform.__new__(Waveform)
+    for value in state.values():
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False
+    waveform._set(**state)  # noqa: SLF001 - its own constructor
+    return waveform
+
+
+def _known(torque: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    if torque is None:
+        raise InputError("spectrum = given: a spectrum of forces tells nothing of torque; leave it out")
+    return torque

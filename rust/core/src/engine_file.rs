@@ -1,0 +1,217 @@
+//! Engines as TOML and JSON, with a schema version; what is written reads back as the same engine.
+
+use serde::{Deserialize, Serialize};
+
+use crate::angle::Angle;
+use crate::engine::{Engine, Placement};
+use crate::error::{Error, Result};
+use crate::slider_crank::Cylinder;
+
+/// Version of the schema that this file reads and writes.
+pub const SCHEMA: u32 = 1;
+/// Longest text that is read: a thousand cylinders with parts of their own take a fifth of it.
+const LONGEST_TEXT: usize = 1 << 20;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EngineFile {
+    schema: u32,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source: String,
+    /// Moving parts of every placement that has none of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cylinder: Option<Parts>,
+    placements: Vec<Place>,
+}
+
+#[derive(Serialize, Deserialize, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct Parts {
+    crank_radius: f64,
+    rod_length: f64,
+    reciprocating_mass: f64,
+    #[serde(default)]
+    pin_offset: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Place {
+    tdc_deg: Degrees,
+    bank_deg: Degrees,
+    z: f64,
+    #[serde(default)]
+    rotating_mass: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cylinder: Option<Parts>,
+}
+
+/// Degrees as a number, or as a fraction in a string where no double is exact.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Degrees {
+    Number(f64),
+    Text(String),
+}
+
+impl Degrees {
+    fn of(angle: Angle) -> Self {
+        let text = angle.to_string();
+        text.parse().map_or(Self::Text(text), Self::Number)
+    }
+
+    fn angle(&self, argument: &str) -> Result<Angle> {
+        let angle = match self {
+            Self::Number(degrees) => Angle::from_degrees(*degrees),
+            Self::Text(text) => text.parse(),
+        };
+        angle.map_err(|error| error.within(&format!("{argument}: ")))
+    }
+}
+
+impl Parts {
+    fn of(cylinder: &Cylinder) -> Self {
+        Self {
+            crank_radius: cylinder.crank_radius(),
+            rod_length: cylinder.rod_length(),
+            reciprocating_mass: cylinder.reciprocating_mass(),
+            pin_offset: cylinder.pin_offset(),
+        }
+    }
+
+    fn cylinder(&self) -> Result<Cylinder> {
+        Cylinder::new(self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)
+    }
+}
+
+impl EngineFile {
+    fn of(engine: &Engine) -> Self {
+        let first = engine.placements()[0].cylinder;
+        let shared = engine.placements().iter().all(|p| p.cylinder == first);
+        let place = |p: &Placement| Place {
+            tdc_deg: Degrees::of(p.tdc),
+            bank_deg: Degrees::of(p.bank),
+            z: p.z,
+            rotating_mass: p.rotating_mass,
+            cylinder: (!shared).then(|| Parts::of(&p.cylinder)),
+        };
+        Self {
+            schema: SCHEMA,
+            name: engine.name().to_owned(),
+            source: engine.source().to_owned(),
+            cylinder: shared.then(|| Parts::of(&first)),
+            placements: engine.placements().iter().map(place).collect(),
+        }
+    }
+
+    fn engine(self) -> Result<Engine> {
+        if self.schema != SCHEMA {
+            let cure = format!("this version reads schema = {SCHEMA}");
+            return Err(Error::value("schema", self.schema, cure));
+        }
+        let shared = self.cylinder.map(|parts| parts.cylinder()).transpose();
+        let shared = shared.map_err(|error| error.within("cylinder."))?;
+        let placements = self.placements.iter().enumerate().map(|(i, place)| {
+            let at = format!("placements[{i}].");
+            let own = place.cylinder.map(|parts| parts.cylinder()).transpose();
+            let own = own.map_err(|error| error.within(&format!("{at}cylinder.")))?;
+            let cylinder = own.or(shared).ok_or_else(|| {
+                let cure = "give the engine a [cylinder], or each placement one of its own";
+                Error::value(format!("{at}cylinder"), "none", cure)
+            })?;
+            Ok(Placement {
+                cylinder,
+                tdc: place.tdc_deg.angle(&format!("{at}tdc_deg"))?,
+                bank: place.bank_deg.angle(&format!("{at}bank_deg"))?,
+                z: place.z,
+                rotating_mass: place.rotating_mass,
+            })
+        });
+        let placements = placements.collect::<Result<_>>()?;
+        Engine::new(self.name, self.source, placements)
+    }
+}
+
+/// Text as TOML.
+pub fn to_toml(engine: &Engine) -> Result<String> {
+    toml::to_string(&EngineFile::of(engine)).map_err(|e| unreadable("TOML", &e))
+}
+
+/// Text as JSON.
+pub fn to_json(engine: &Engine) -> Result<String> {
+    serde_json::to_string_pretty(&EngineFile::of(engine)).map_err(|e| unreadable("JSON", &e))
+}
+
+/// Engine from TOML.
+pub fn from_toml(text: &str) -> Result<Engine> {
+    sized("TOML", text)?;
+    toml::from_str::<EngineFile>(text).map_err(|e| unreadable("TOML", &e))?.engine()
+}
+
+/// Engine from JSON.
+pub fn from_json(text: &str) -> Result<Engine> {
+    sized("JSON", text)?;
+    serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+}
+
+fn sized(format: &'static str, text: &str) -> Result<()> {
+    if text.len() <= LONGEST_TEXT {
+        return Ok(());
+    }
+    let reason = format!("{} bytes long; an engine file has at most {LONGEST_TEXT}", text.len());
+    Err(Error::File { format, reason })
+}
+
+fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
+    Error::File { format, reason: error.to_string().trim_end().to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn engines() -> impl Strategy<Value = Engine> {
+        let cylinder = (1e-3..1.0, 1.01..9.0, 0.0..1e3, -0.009..0.009).prop_map(|(r, l, m, e)| {
+            Cylinder::new(r, r * l, m, r * e).unwrap()
+        });
+        let place = (cylinder, -720.0..720.0, -720_i64..720, 1_i64..40, -9.0..9.0, 0.0..9.0);
+        let place = place.prop_map(|(cylinder, tdc, bank, parts, z, rotating_mass)| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(tdc).unwrap(),
+            bank: Angle::from_degree_fraction(bank, parts).unwrap(),
+            z,
+            rotating_mass,
+        });
+        (proptest::collection::vec(place, 1..9), ".*").prop_map(|(placements, name)| {
+            Engine::new(name, "", placements).unwrap()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_written_reads_back(engine in engines()) {
+            prop_assert_eq!(&from_toml(&to_toml(&engine).unwrap()).unwrap(), &engine);
+            prop_assert_eq!(&from_json(&to_json(&engine).unwrap()).unwrap(), &engine);
+        }
+
+        #[test]
+        fn no_text_makes_it_panic(text in ".{0,300}") {
+            let _ = from_toml(&text);
+            let _ = from_json(&text);
+        }
+    }
+
+    #[test]
+    fn hostile_texts_are_refused() {
+        let deep = "[".repeat(100_000);
+        assert!(from_json(&deep).is_err());
+        assert!(from_toml(&format!("a = {deep}")).is_err());
+        assert!(from_json(&" ".repeat(LONGEST_TEXT + 1)).is_err());
+        assert!(from_toml("schema = 2\nplacements = []").is_err());
+        assert!(from_toml("schema = 1\nplacements = []").is_err());
+        assert!(from_toml("schema = 1\nplacements = []\nextra = 1").is_err());
+    }
+}

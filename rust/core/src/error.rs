@@ -1,0 +1,110 @@
+//! What can be wrong with an input: the argument, its value, and what would be right.
+
+use thiserror::Error;
+
+/// The result of anything that takes a caller's figures.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// An input that makes no engine, or a request that cannot be met.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Error {
+    /// A figure that is not finite, of the wrong sign, or beyond the limits of [`crate::limits`].
+    #[error("{argument} = {value}: {cure}")]
+    Value {
+        /// Name of the argument as the caller typed it.
+        argument: String,
+        /// The value given.
+        value: String,
+        /// What would be right.
+        cure: String,
+    },
+    /// A crank that cannot turn: the rod does not reach.
+    #[error(
+        "crank_radius = {crank_radius}, rod_length = {rod_length}, pin_offset = {pin_offset}: the \
+         crank cannot turn; make crank_radius less than rod_length - |pin_offset| = {reach}"
+    )]
+    CannotTurn {
+        /// Crank radius, m.
+        crank_radius: f64,
+        /// Rod length, m.
+        rod_length: f64,
+        /// Pin offset, m.
+        pin_offset: f64,
+        /// Rod length less the offset, m.
+        reach: f64,
+    },
+    /// Lists that should be equally long.
+    #[error("{argument} has {found} entries, {reference} has {expected}: give one for each {item}")]
+    Length {
+        /// The list of the wrong length.
+        argument: String,
+        /// How many entries it has.
+        found: usize,
+        /// The list that sets the length.
+        reference: String,
+        /// How many it should have.
+        expected: usize,
+        /// What the lists run over.
+        item: &'static str,
+    },
+    /// A result that would not fit in memory.
+    #[error(
+        "{argument}: the result would take {bytes} bytes, more than the limit of {limit}; {cure}"
+    )]
+    TooLarge {
+        /// What made it large.
+        argument: String,
+        /// Size of the result in bytes (saturating).
+        bytes: u128,
+        /// Largest size allowed.
+        limit: u128,
+        /// How to ask for it in parts.
+        cure: &'static str,
+    },
+    /// An engine file that cannot be read.
+    #[error("engine file ({format}): {reason}")]
+    File {
+        /// `TOML` or `JSON`.
+        format: &'static str,
+        /// What the parser met, and where.
+        reason: String,
+    },
+    /// The caller asked to stop.
+    #[error("stopped on request")]
+    Cancelled,
+}
+
+impl Error {
+    /// A value that cannot be used, with the cure.
+    pub fn value(
+        argument: impl Into<String>,
+        value: impl std::fmt::Display,
+        cure: impl Into<String>,
+    ) -> Self {
+        Self::Value {
+            argument: argument.into(),
+            value: shorten(&value.to_string()),
+            cure: cure.into(),
+        }
+    }
+
+    /// The same error about an argument that is part of a larger one (`cylinders[3].z`).
+    #[must_use]
+    pub fn within(self, place: &str) -> Self {
+        match self {
+            Self::Value { argument, value, cure } => {
+                Self::Value { argument: format!("{place}{argument}"), value, cure }
+            }
+            other => other,
+        }
+    }
+}
+
+/// Long values (a whole file, a huge list) are cut, so that the message stays readable.
+fn shorten(text: &str) -> String {
+    const LONGEST: usize = 80;
+    if text.chars().count() <= LONGEST {
+        return text.to_owned();
+    }
+    text.chars().take(LONGEST).chain("…".chars()).collect()
+}

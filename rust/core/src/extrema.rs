@@ -1,0 +1,249 @@
+//! The true peak of a sum of orders: the largest magnitude of a trigonometric polynomial.
+//!
+//! Samples alone miss it by up to 1 − cos(nh/2). Here a grid of sixteen points to the shortest wave
+//! brackets every rise-then-fall, Newton's method polishes those that can hold the peak, and
+//! intervals without such a bracket are halved until a third-derivative bound rules them out.
+
+use std::f64::consts::TAU;
+
+use crate::Complex64;
+
+/// Grid points to the shortest wave.
+const POINTS_PER_WAVE: usize = 16;
+/// Halvings after which what an interval could hide is below 1e-13 of the peak.
+const MOST_HALVINGS: u32 = 12;
+
+/// A grid that serves every sum of the same orders.
+#[derive(Debug, Clone)]
+pub struct PeakFinder {
+    /// Orders over their greatest common divisor.
+    waves: Vec<u32>,
+    /// `e^{iθ}` at the grid points of a force or torque.
+    linear: Vec<Complex64>,
+    /// ... and of its squared length, which has twice the degree.
+    quadratic: Vec<Complex64>,
+}
+
+/// Value and two derivatives by crank angle.
+type Jet = [f64; 3];
+
+impl PeakFinder {
+    /// For sums of these orders.
+    #[must_use]
+    pub fn new(orders: &[u32]) -> Self {
+        let divisor = orders.iter().fold(0, |a, &b| greatest_common_divisor(a, b)).max(1);
+        let waves: Vec<u32> = orders.iter().map(|n| n / divisor).collect();
+        let degree = waves.iter().copied().max().unwrap_or(1) as usize;
+        Self { waves, linear: circle(POINTS_PER_WAVE * degree), quadratic: circle(2 * POINTS_PER_WAVE * degree) }
+    }
+
+    /// max over θ of |Re Σ Pₙ e^{inθ}|, phasors in the order of the orders.
+    #[must_use]
+    pub fn along_axis(&self, phasors: &[Complex64]) -> f64 {
+        let real = |sum: [Complex64; 3]| sum.map(|z| z.re);
+        let up = self.peak(&self.linear, &|e| real(self.sum(phasors, e)));
+        let down = self.peak(&self.linear, &|e| real(self.sum(phasors, e)).map(|v| -v));
+        up.max(down).max(0.0)
+    }
+
+    /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}).
+    #[must_use]
+    pub fn of_vector(&self, x: &[Complex64], y: &[Complex64]) -> f64 {
+        // Scaled so that squares neither overflow nor vanish.
+        let scale = x.iter().chain(y).map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
+        if scale == 0.0 {
+            return 0.0;
+        }
+        let scaled = |phasors: &[Complex64]| phasors.iter().map(|z| z / scale).collect::<Vec<_>>();
+        let (x, y) = (scaled(x), scaled(y));
+        let squared = |e: Complex64| {
+            let mut jet = [0.0; 3];
+            for phasors in [&x, &y] {
+                let [v, slope, bend] = self.sum(phasors, e).map(|z| z.re);
+                jet[0] += v * v;
+                jet[1] += 2.0 * v * slope;
+                jet[2] += 2.0 * (slope * slope + v * bend);
+            }
+            jet
+        };
+        self.peak(&self.quadratic, &squared).max(0.0).sqrt() * scale
+    }
+
+    /// The sum and its two derivatives where `e^{iθ}` is given.
+    fn sum(&self, phasors: &[Complex64], unit: Complex64) -> [Complex64; 3] {
+        let mut sums = [Complex64::default(); 3];
+        let (mut power, mut at) = (Complex64::new(1.0, 0.0), 0);
+        for (&wave, &phasor) in self.waves.iter().zip(phasors) {
+            // Ascending orders go from power to power; others start again.
+            if wave < at {
+                (power, at) = (Complex64::new(1.0, 0.0), 0);
+            }
+            power *= if wave - at == 1 { unit } else { unit.powu(wave - at) };
+            at = wave;
+            let n = f64::from(wave);
+            let term = phasor * power;
+            sums[0] += term;
+            sums[1] += Complex64::new(-n * term.im, n * term.re);
+            sums[2] -= term * (n * n);
+        }
+        sums
+    }
+
+    /// Largest value over the circle.
+    fn peak(&self, grid: &[Complex64], at: &impl Fn(Complex64) -> Jet) -> f64 {
+        let jets: Vec<Jet> = grid.iter().map(|&unit| at(unit)).collect();
+        let step = TAU / grid.len() as f64;
+        let degree = (grid.len() / POINTS_PER_WAVE) as f64;
+        let highest = jets.iter().map(|jet| jet[0]).fold(f64::NEG_INFINITY, f64::max);
+        let size = jets.iter().map(|jet| jet[0].abs()).fold(0.0, f64::max);
+        if size == 0.0 {
+            return 0.0;
+        }
+        // A peak stands within half a step of a point with cos(nh/2) of its height (M. Riesz).
+        let ceiling = size / (0.5 * degree * step).cos();
+        let hidden = |width: f64| (width * degree).powi(3) / 12.0 * ceiling;
+        let mut best = highest;
+        let mut rest = Vec::new();
+        for (k, jet) in jets.iter().enumerate() {
+            let next = &jets[(k + 1) % jets.len()];
+            let interval = Interval { from: k as f64 * step, width: step, ends: [*jet, *next], halvings: 0 };
+            if interval.rises_then_falls() {
+                // Within a step of its peak the polynomial falls by less than 1 − cos(nh).
+                if jet[0].max(next[0]) >= best - ceiling * (1.0 - (degree * step).cos()) {
+                    best = best.max(interval.polish(at));
+                }
+            } else {
+                rest.push(interval);
+            }
+        }
+        while let Some(interval) = rest.pop() {
+            let could_be = interval.ends[0][0].max(interval.ends[1][0]) + hidden(interval.width);
+            if could_be <= best || interval.halvings == MOST_HALVINGS {
+                continue;
+            }
+            for half in interval.halve(at) {
+                if half.rises_then_falls() {
+                    best = best.max(half.polish(at));
+                } else {
+                    rest.push(half);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// Part of the circle with the function's values at its ends.
+struct Interval {
+    from: f64,
+    width: f64,
+    ends: [Jet; 2],
+    halvings: u32,
+}
+
+impl Interval {
+    fn rises_then_falls(&self) -> bool {
+        self.ends[0][1] > 0.0 && self.ends[1][1] < 0.0
+    }
+
+    fn halve(&self, at: &impl Fn(Complex64) -> Jet) -> [Self; 2] {
+        let width = 0.5 * self.width;
+        let middle = at(Complex64::cis(self.from + width));
+        let halvings = self.halvings + 1;
+        [
+            Self { from: self.from, width, ends: [self.ends[0], middle], halvings },
+            Self { from: self.from + width, width, ends: [middle, self.ends[1]], halvings },
+        ]
+    }
+
+    /// Height of the maximum between the ends: Newton's method on the slope, bisection where it
+    /// would leave the bracket.
+    fn polish(&self, at: &impl Fn(Complex64) -> Jet) -> f64 {
+        let (mut low, mut high) = (self.from, self.from + self.width);
+        let mut best = self.ends[0][0].max(self.ends[1][0]);
+        let mut here = low + 0.5 * self.width;
+        for _ in 0..60 {
+            let [value, slope, bend] = at(Complex64::cis(here));
+            best = best.max(value);
+            if slope > 0.0 {
+                low = here;
+            } else {
+                high = here;
+            }
+            let newton = here - slope / bend;
+            let next = if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
+            // The value has no slope here: 1e-9 rad off it is right to rounding.
+            if slope == 0.0 || (next - here).abs() < 1e-9 * self.width {
+                break;
+            }
+            here = next;
+        }
+        best
+    }
+}
+
+fn circle(points: usize) -> Vec<Complex64> {
+    (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect()
+}
+
+fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn sampled(orders: &[u32], phasors: &[Complex64], points: usize) -> f64 {
+        let at = |k: usize| {
+            let θ = k as f64 * TAU / points as f64;
+            let term = |(&n, p): (&u32, &Complex64)| (p * Complex64::cis(f64::from(n) * θ)).re;
+            orders.iter().zip(phasors).map(term).sum::<f64>().abs()
+        };
+        (0..points).map(at).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn one_order_peaks_at_its_magnitude() {
+        let finder = PeakFinder::new(&[3]);
+        let p = Complex64::new(3.0, -4.0);
+        // 16 roundings of half a unit at most
+        assert!((finder.along_axis(&[p]) - 5.0).abs() < 1e-14);
+        let i = Complex64::i();
+        assert!((finder.of_vector(&[p], &[-i * p]) - 5.0).abs() < 1e-14);
+        assert_eq!(finder.along_axis(&[Complex64::default()]), 0.0);
+    }
+
+    #[test]
+    fn a_flat_maximum_is_found() {
+        // cos θ − cos 2θ / 4 has T'' = 0 at θ = 0
+        let finder = PeakFinder::new(&[1, 2]);
+        let phasors = [Complex64::new(1.0, 0.0), Complex64::new(-0.25, 0.0)];
+        // its largest magnitude is at θ = π
+        assert!((finder.along_axis(&phasors) - 1.25).abs() < 1e-15);
+        let quartic = [Complex64::new(4.0 / 3.0, 0.0), Complex64::new(-1.0 / 3.0, 0.0)];
+        assert!((finder.of_vector(&quartic, &[Complex64::default(); 2]) - 5.0 / 3.0).abs() < 1e-14);
+    }
+
+    proptest! {
+        #[test]
+        fn no_sample_is_higher_and_a_dense_one_as_high(
+            orders in proptest::sample::subsequence((1_u32..12).collect::<Vec<_>>(), 1..6),
+            parts in proptest::collection::vec((-1.0..1.0, -1.0..1.0), 6),
+        ) {
+            let phasors: Vec<_> =
+                orders.iter().zip(&parts).map(|(_, &(re, im))| Complex64::new(re, im)).collect();
+            let peak = PeakFinder::new(&orders).along_axis(&phasors);
+            let dense = sampled(&orders, &phasors, 20_000);
+            let size: f64 = phasors.iter().map(|p| p.norm()).sum();
+            // rounding of six terms, and of θ·n at the samples
+            prop_assert!(dense <= peak + 1e-13 * size);
+            // half a step of 20 000 at order 11: (11·1.6e-4)²/2 = 1.5e-6 of the size
+            prop_assert!(peak <= dense + 2e-6 * size);
+        }
+    }
+}

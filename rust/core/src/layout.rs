@@ -1,0 +1,302 @@
+//! Engines from the few figures by which people know them: throws, bank angle, firing order.
+
+use std::str::FromStr;
+
+use crate::angle::Angle;
+use crate::engine::{self, Engine, Placement};
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Cylinder;
+
+/// A bank of a vee, seen from the flywheel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// At x > 0.
+    Right,
+    /// At x < 0.
+    Left,
+}
+
+/// How the cylinders of a vee are numbered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Numbering {
+    /// Along the crank, from bank to bank: 1 and 2 on the first throw.
+    Alternating,
+    /// Along one bank, then along the other.
+    ByBank,
+}
+
+/// How a firing order fixes the crank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FiringRule {
+    /// A four-stroke with equal intervals: pins are split wherever the bank angle asks for it.
+    Even,
+    /// The IJESC paper's: within each bank the cylinders, in the order in which they fire, lag by
+    /// equal parts of a turn; the lags of both banks start from the same crank angle.
+    Ijesc,
+}
+
+/// An upright engine of one bank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inline {
+    /// Crankpin angles in the direction of rotation, relative to each other, front to flywheel.
+    pub throws: Vec<Angle>,
+    /// Distance between neighbouring cylinders, m.
+    pub spacing: f64,
+    /// Mass that turns with each throw, kg.
+    pub rotating_mass: Vec<f64>,
+    /// Crank angle at which cylinder 1 is at top dead centre.
+    pub first_tdc: Angle,
+}
+
+impl Inline {
+    /// The engine with this cylinder throughout.
+    pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
+        limits::finite("spacing", self.spacing)?;
+        let upright = Angle::Turns(1, 4);
+        let masses = per_throw(&self.rotating_mass, self.throws.len())?;
+        let placements = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
+            let z = i as f64 * self.spacing;
+            Placement { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
+        });
+        Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc)
+    }
+}
+
+/// An upright vee: two cylinders to a throw, one in each bank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vee {
+    /// Angle between the banks.
+    pub bank_angle: Angle,
+    /// Crankpin angles of the right bank, in the direction of rotation, front to flywheel.
+    pub throws: Vec<Angle>,
+    /// Distance between neighbouring throws, m.
+    pub spacing: f64,
+    /// Left pin minus right pin, in the direction of rotation.
+    pub pin_split: Angle,
+    /// How far the left bank stands behind the right, towards the flywheel, m.
+    pub bank_stagger: f64,
+    /// Mass that turns with each throw, half of it with each of its two pins, kg.
+    pub rotating_mass: Vec<f64>,
+    /// How the cylinders are numbered.
+    pub numbering: Numbering,
+    /// The bank with cylinder 1.
+    pub first_bank: Side,
+    /// Crank angle at which cylinder 1 is at top dead centre.
+    pub first_tdc: Angle,
+}
+
+impl Vee {
+    /// The engine with this cylinder throughout.
+    pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
+        let masses = per_throw(&self.rotating_mass, self.throws.len())?;
+        let seats = self.seats(2 * self.throws.len())?;
+        let placements = seats.iter().map(|seat| {
+            let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
+            let pin = self.throws[seat.throw] + split;
+            seat.placement(cylinder, seat.bank - pin, 0.5 * masses[seat.throw])
+        });
+        Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc)
+    }
+
+    /// Where each cylinder sits, by number; the throws' angles are not asked.
+    fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
+        limits::finite("spacing", self.spacing)?;
+        limits::finite("bank_stagger", self.bank_stagger)?;
+        engine::bank_angle_in_range(self.bank_angle.degrees())?;
+        let (upright, half) = (Angle::Turns(1, 4), self.bank_angle.half());
+        let throws = cylinders / 2;
+        let seat = |i: usize| {
+            let (throw, on_first) = match self.numbering {
+                Numbering::Alternating => (i / 2, i % 2 == 0),
+                Numbering::ByBank => (i % throws, i < throws),
+            };
+            let side = match (self.first_bank, on_first) {
+                (Side::Right, true) | (Side::Left, false) => Side::Right,
+                _ => Side::Left,
+            };
+            let (bank, stagger) = match side {
+                Side::Right => (upright - half, 0.0),
+                Side::Left => (upright + half, self.bank_stagger),
+            };
+            Seat { throw, side, bank, z: throw as f64 * self.spacing + stagger }
+        };
+        Ok((0..cylinders).map(seat).collect())
+    }
+}
+
+struct Seat {
+    throw: usize,
+    side: Side,
+    bank: Angle,
+    z: f64,
+}
+
+impl Seat {
+    fn placement(&self, cylinder: Cylinder, tdc: Angle, rotating_mass: f64) -> Placement {
+        Placement { cylinder, tdc, bank: self.bank, z: self.z, rotating_mass }
+    }
+}
+
+/// The order in which cylinders fire, by number from 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FiringOrder(Vec<usize>);
+
+impl FiringOrder {
+    /// Each cylinder from 1 to the number of them, once.
+    pub fn new(order: Vec<usize>) -> Result<Self> {
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        if order.is_empty() || order.len() > limits::MOST_CYLINDERS || !sorted.into_iter().eq(1..=order.len()) {
+            let listed: Vec<String> = order.iter().map(ToString::to_string).collect();
+            let cure = "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
+            return Err(Error::value("firing_order", listed.join("-"), cure));
+        }
+        Ok(Self(order))
+    }
+
+    /// When each cylinder fires, by number: 0 for the first.
+    fn ranks(&self) -> Vec<usize> {
+        let mut ranks = vec![0; self.0.len()];
+        for (rank, &cylinder) in self.0.iter().enumerate() {
+            ranks[cylinder - 1] = rank;
+        }
+        ranks
+    }
+
+    /// An upright inline engine that fires so, at equal intervals of a four-stroke.
+    pub fn inline(&self, cylinder: Cylinder, layout: &Inline) -> Result<Engine> {
+        let ranks = self.ranks();
+        let throws = ranks.iter().map(|&rank| -part(rank, 720, self.0.len())).collect();
+        Inline { throws, ..layout.clone() }.engine(cylinder)
+    }
+
+    /// A vee that fires so; `layout.throws` and `layout.pin_split` are not asked.
+    pub fn vee(&self, cylinder: Cylinder, rule: FiringRule, layout: &Vee) -> Result<Engine> {
+        let count = self.0.len();
+        if count % 2 == 1 {
+            let cure = "a vee has an even number of cylinders; leave out bank_angle_deg for an \
+                        inline engine";
+            return Err(Error::value("firing_order", format!("of {count} cylinders"), cure));
+        }
+        let ranks = self.ranks();
+        let seats = layout.seats(count)?;
+        let masses = per_throw(&layout.rotating_mass, count / 2)?;
+        let placements = seats.iter().zip(&ranks).map(|(seat, &rank)| {
+            let tdc = match rule {
+                FiringRule::Even => part(rank, 720, count),
+                FiringRule::Ijesc => {
+                    let fired_before = seats
+                        .iter()
+                        .zip(&ranks)
+                        .filter(|&(other, &earlier)| other.side == seat.side && earlier < rank)
+                        .count();
+                    let lag = part(fired_before, 360, count / 2);
+                    // Vertical crank at θ = 0: top dead centre at φ ∓ γ.
+                    seat.bank - Angle::Turns(1, 4) + lag
+                }
+            };
+            seat.placement(cylinder, tdc, 0.5 * masses[seat.throw])
+        });
+        Engine::new("", "", placements.collect())?.with_first_tdc(layout.first_tdc)
+    }
+}
+
+impl FromStr for FiringOrder {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let parts = text.split(['-', ',', ' ']).filter(|part| !part.is_empty());
+        let order: std::result::Result<Vec<usize>, _> = parts.map(str::parse).collect();
+        order.map_or_else(
+            |_| {
+                let cure = "give cylinder numbers joined by '-', such as 1-3-4-2";
+                Err(Error::value("firing_order", text, cure))
+            },
+            Self::new,
+        )
+    }
+}
+
+/// `index` of `count` equal parts of this many degrees.
+fn part(index: usize, degrees: i64, count: usize) -> Angle {
+    // Both are at most the number of cylinders.
+    let (index, count) = (index as i64, count as i64);
+    Angle::from_degree_fraction(index * degrees, count.max(1)).unwrap_or(Angle::ZERO)
+}
+
+/// One mass for each throw: a single one stands for all.
+fn per_throw(masses: &[f64], throws: usize) -> Result<Vec<f64>> {
+    match masses {
+        [] => Ok(vec![0.0; throws]),
+        [mass] => Ok(vec![*mass; throws]),
+        _ if masses.len() == throws => Ok(masses.to_vec()),
+        _ => Err(Error::Length {
+            argument: "rotating_mass".into(),
+            found: masses.len(),
+            reference: "throws".into(),
+            expected: throws,
+            item: "throw",
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vee(bank_angle: f64, numbering: Numbering, first_bank: Side) -> Vee {
+        Vee {
+            bank_angle: Angle::from_degrees(bank_angle).unwrap(),
+            throws: Vec::new(),
+            spacing: 0.1,
+            pin_split: Angle::ZERO,
+            bank_stagger: 0.0,
+            rotating_mass: Vec::new(),
+            numbering,
+            first_bank,
+            first_tdc: Angle::ZERO,
+        }
+    }
+
+    fn cylinder() -> Cylinder {
+        Cylinder::new(0.045, 0.158, 1.487, 0.0).unwrap()
+    }
+
+    fn pins(engine: &Engine) -> Vec<f64> {
+        let first = engine.placements()[0].pin();
+        engine.placements().iter().map(|p| (p.pin() - first).reduced().degrees()).collect()
+    }
+
+    #[test]
+    fn the_cross_plane_crank_follows_from_its_firing_order() {
+        let order: FiringOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
+        let layout = vee(90.0, Numbering::Alternating, Side::Left);
+        let engine = order.vee(cylinder(), FiringRule::Even, &layout).unwrap();
+        assert_eq!(pins(&engine), [0.0, 0.0, 90.0, 90.0, 270.0, 270.0, 180.0, 180.0]);
+    }
+
+    #[test]
+    fn the_ijesc_rule_gives_each_bank_its_own_lags() {
+        let order: FiringOrder = "1-4-5-2-3-6".parse().unwrap();
+        let layout = vee(60.0, Numbering::Alternating, Side::Right);
+        let engine = order.vee(cylinder(), FiringRule::Ijesc, &layout).unwrap();
+        // cylinders (1, 3, 5) lag by 0, 240, 120 and (2, 4, 6) by 120, 0, 240
+        assert_eq!(pins(&engine), [0.0, 240.0, 120.0, 0.0, 240.0, 120.0]);
+    }
+
+    #[test]
+    fn even_firing_of_a_60_degree_v6_splits_its_pins_by_minus_60() {
+        let order: FiringOrder = "1-2-3-4-5-6".parse().unwrap();
+        let layout = vee(60.0, Numbering::Alternating, Side::Right);
+        let engine = order.vee(cylinder(), FiringRule::Even, &layout).unwrap();
+        assert_eq!(pins(&engine)[1], 300.0);
+    }
+
+    #[test]
+    fn orders_that_are_none_are_refused() {
+        for bad in ["", "1-1", "0-1", "1-3", "1-x", "-", "2-3"] {
+            assert!(bad.parse::<FiringOrder>().is_err(), "{bad}");
+        }
+    }
+}

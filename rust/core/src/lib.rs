@@ -1,0 +1,40 @@
+//! How a reciprocating engine shakes, and which engine does not.
+//!
+//! A file is one idea, and imports run one way:
+//! [`error`], [`limits`], [`cancel`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
+//! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
+//! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
+//! [`extrema`] finds the peak of a sum of orders for the last three.
+//!
+//! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
+//! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
+//! with `P` its peak phasor.
+
+pub mod angle;
+pub mod balance;
+pub mod cancel;
+pub mod engine;
+pub mod engine_file;
+pub mod error;
+pub mod extrema;
+pub mod harmonics;
+pub mod layout;
+pub mod limits;
+mod simd;
+pub mod slider_crank;
+pub mod spectrum;
+pub mod sweep;
+pub mod waveform;
+
+pub use angle::Angle;
+pub use balance::{Balance, Orders};
+pub use cancel::Cancel;
+pub use engine::{Engine, Hold, Placement};
+pub use error::{Error, Result};
+pub use slider_crank::Cylinder;
+pub use spectrum::Spectrum;
+pub use sweep::Sweep;
+pub use waveform::Waveform;
+
+/// Complex numbers as nalgebra, ndarray and NumPy share them.
+pub type Complex64 = nalgebra::Complex<f64>;

@@ -1,0 +1,74 @@
+//! Which figures are taken: wide enough for any engine in any unit by mistake, narrow enough that
+//! no sum or square of them overflows.
+
+use crate::error::{Error, Result};
+
+/// Largest magnitude of a length, mass or speed. Its fifth power (m·r²·ω²) and the square of that
+/// stay below the largest double.
+pub const LARGEST: f64 = 1e30;
+/// Smallest crank radius and rod length; ratios of two lengths neither overflow nor vanish.
+pub const SMALLEST_LENGTH: f64 = 1e-30;
+/// Most cylinders in an engine.
+pub const MOST_CYLINDERS: usize = 1000;
+/// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.
+pub const HIGHEST_ORDER: u32 = 10_000;
+/// Largest result, in bytes, that one call returns.
+pub const LARGEST_RESULT: u128 = 1 << 32;
+
+/// A finite figure of at most [`LARGEST`].
+pub fn finite(argument: &str, value: f64) -> Result<f64> {
+    if value.is_finite() && value.abs() <= LARGEST {
+        return Ok(value);
+    }
+    Err(Error::value(argument, value, format!("give a finite number of magnitude {LARGEST:e} at most")))
+}
+
+/// A finite figure that is zero or more.
+pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
+    if value >= 0.0 {
+        return finite(argument, value);
+    }
+    Err(Error::value(argument, value, "give a number that is zero or more"))
+}
+
+/// A length that is more than zero.
+pub fn length(argument: &str, value: f64) -> Result<f64> {
+    if (SMALLEST_LENGTH..=LARGEST).contains(&value) {
+        return Ok(value);
+    }
+    let cure = format!("give metres, between {SMALLEST_LENGTH:e} and {LARGEST:e}");
+    Err(Error::value(argument, value, cure))
+}
+
+/// An order between 1 and [`HIGHEST_ORDER`].
+pub fn order(value: u32) -> Result<u32> {
+    if (1..=HIGHEST_ORDER).contains(&value) {
+        return Ok(value);
+    }
+    let cure = format!("orders are whole multiples of crank speed, 1 to {HIGHEST_ORDER}");
+    Err(Error::value("orders", value, cure))
+}
+
+/// Distinct orders, at least one, each in range.
+pub fn orders(values: &[u32]) -> Result<()> {
+    if values.is_empty() {
+        return Err(Error::value("orders", "[]", "give at least one order, such as [1, 2]"));
+    }
+    let mut seen = values.to_vec();
+    seen.sort_unstable();
+    if let Some(pair) = seen.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(Error::value("orders", pair[0], "is given twice; give each order once"));
+    }
+    values.iter().try_for_each(|&n| order(n).map(drop))
+}
+
+/// A result of this many elements of `size` bytes fits.
+pub fn result_size(argument: &str, lengths: &[usize], size: usize, cure: &'static str) -> Result<()> {
+    let bytes = lengths
+        .iter()
+        .fold(size as u128, |bytes, &length| bytes.saturating_mul(length as u128));
+    if bytes <= LARGEST_RESULT {
+        return Ok(());
+    }
+    Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
+}

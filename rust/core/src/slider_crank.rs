@@ -1,0 +1,190 @@
+//! One cylinder's moving parts and their exact motion at any crank angle.
+//!
+//! The piston stands at `x(θ) = r cos θ + √(l² − (r sin θ − e)²)` along its bore, θ measured from
+//! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
+//! crankpin swings after that.
+
+use crate::error::{Error, Result};
+use crate::limits;
+
+/// The moving parts of one cylinder. Rotating mass belongs to the throw: see [`crate::engine`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    crank_radius: f64,
+    rod_length: f64,
+    reciprocating_mass: f64,
+    pin_offset: f64,
+}
+
+impl Cylinder {
+    /// Crank radius, rod length and pin offset in m, reciprocating mass in kg.
+    pub fn new(
+        crank_radius: f64,
+        rod_length: f64,
+        reciprocating_mass: f64,
+        pin_offset: f64,
+    ) -> Result<Self> {
+        limits::length("crank_radius", crank_radius)?;
+        limits::length("rod_length", rod_length)?;
+        limits::not_negative("reciprocating_mass", reciprocating_mass)?;
+        limits::finite("pin_offset", pin_offset)?;
+        let cylinder = Self { crank_radius, rod_length, reciprocating_mass, pin_offset };
+        let reach = rod_length - pin_offset.abs();
+        if crank_radius >= reach {
+            return Err(Error::CannotTurn { crank_radius, rod_length, pin_offset, reach });
+        }
+        Ok(cylinder)
+    }
+
+    /// Crank radius r, half the stroke, m.
+    #[must_use]
+    pub fn crank_radius(&self) -> f64 {
+        self.crank_radius
+    }
+
+    /// Rod length l between its centres, m.
+    #[must_use]
+    pub fn rod_length(&self) -> f64 {
+        self.rod_length
+    }
+
+    /// Mass that moves with the piston, kg.
+    #[must_use]
+    pub fn reciprocating_mass(&self) -> f64 {
+        self.reciprocating_mass
+    }
+
+    /// Pin offset e (désaxé), m.
+    #[must_use]
+    pub fn pin_offset(&self) -> f64 {
+        self.pin_offset
+    }
+
+    /// λ = r/l.
+    #[must_use]
+    pub fn rod_ratio(&self) -> f64 {
+        self.crank_radius / self.rod_length
+    }
+
+    /// m·r, the size of the first-order force over ω², kg·m.
+    #[must_use]
+    pub fn first_order(&self) -> f64 {
+        self.reciprocating_mass * self.crank_radius
+    }
+
+    /// The proportions that fix the motion.
+    #[must_use]
+    pub fn proportions(&self) -> Proportions {
+        let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
+        Proportions { offset: e / r, above: ((l - r) + e) / r, below: ((l - r) - e) / r, rod: l / r }
+    }
+}
+
+/// A slider-crank in units of its crank radius.
+///
+/// The rod's reach beyond the crank on either side is kept by itself: near the crank that cannot
+/// turn, everything depends on it, and `l/r ± e/r − 1` would lose it to rounding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proportions {
+    /// l/r.
+    pub rod: f64,
+    /// e/r.
+    pub offset: f64,
+    /// (l + e − r)/r > 0.
+    pub above: f64,
+    /// (l − e − r)/r > 0.
+    pub below: f64,
+}
+
+impl Proportions {
+    /// From λ = r/l and e/r.
+    pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
+        if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
+            let cure = "give crank radius over rod length, more than 0 and less than 1";
+            return Err(Error::value("rod_ratio", rod_ratio, cure));
+        }
+        limits::length("rod_ratio", rod_ratio)?;
+        limits::finite("pin_offset_ratio", offset)?;
+        // 1 − λ as an exact sum of two doubles, so that ±e/r is weighed against all of it.
+        let reach = 1.0 - rod_ratio;
+        let rest = (1.0 - reach) - rod_ratio;
+        let above = (offset.mul_add(rod_ratio, reach) + rest) / rod_ratio;
+        let below = ((-offset).mul_add(rod_ratio, reach) + rest) / rod_ratio;
+        if above.min(below) <= 0.0 {
+            let cure = format!(
+                "the crank cannot turn at rod_ratio = {rod_ratio}; make |pin_offset / crank_radius| \
+                 less than 1/rod_ratio - 1 = {}",
+                reach / rod_ratio
+            );
+            return Err(Error::value("pin_offset_ratio", offset, cure));
+        }
+        Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
+    }
+
+    /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank
+    /// radii, where the crank has the given sine and cosine.
+    #[must_use]
+    #[inline]
+    pub fn motion(&self, sin: f64, cos: f64) -> Motion {
+        // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor
+        // loses digits where it is small.
+        let squared = cos * cos;
+        let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
+        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        let height_squared = (self.above + to_above) * (self.below + to_below);
+        let height = height_squared.sqrt();
+        let lateral = sin - self.offset;
+        // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
+        let velocity = -lateral * cos / height;
+        let acceleration =
+            (lateral * sin - self.rod * self.rod * squared / height_squared) / height;
+        Motion {
+            position: cos + height,
+            velocity: velocity - sin,
+            acceleration: acceleration - cos,
+        }
+    }
+}
+
+/// Where the piston is and how it moves, in crank radii; derivatives by crank angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// x/r.
+    pub position: f64,
+    /// (dx/dθ)/r.
+    pub velocity: f64,
+    /// (d²x/dθ²)/r.
+    pub acceleration: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_long_rod_moves_its_piston_like_a_scotch_yoke() {
+        let proportions = Proportions::new(1e-12, 0.0).unwrap();
+        let motion = proportions.motion(0.6, 0.8);
+        assert_relative_eq!(motion.velocity, -0.6, max_relative = 1e-11);
+        assert_relative_eq!(motion.acceleration, -0.8, max_relative = 1e-11);
+    }
+
+    #[test]
+    fn stroke_is_twice_the_radius_without_offset() {
+        let proportions = Proportions::new(0.3, 0.0).unwrap();
+        let top = proportions.motion(0.0, 1.0).position;
+        let bottom = proportions.motion(0.0, -1.0).position;
+        assert_relative_eq!(top - bottom, 2.0, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn a_crank_that_cannot_turn_is_refused() {
+        assert!(Proportions::new(1.0, 0.0).is_err());
+        assert!(Proportions::new(0.5, 1.0).is_err());
+        assert!(Proportions::new(0.5, 0.999_999).is_ok());
+        assert!(Cylinder::new(0.05, 0.15, 0.5, 0.1).is_err());
+        assert!(Cylinder::new(0.05, f64::NAN, 0.5, 0.0).is_err());
+        assert!(Cylinder::new(0.05, 0.15, -0.5, 0.0).is_err());
+    }
+}

@@ -1,0 +1,306 @@
+//! Engines: lists, builders, files.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use crankpin_core as core;
+use crankpin_core::engine::{Hold, Placement};
+use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Vee};
+use crankpin_core::{Error, engine_file};
+use ndarray::Array1;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_error};
+
+/// An engine of the core.
+#[pyclass(frozen, eq, module = "crankpin._core", from_py_object)]
+#[derive(Clone, PartialEq)]
+pub struct Engine(pub core::Engine);
+
+/// One of a few words.
+fn choice<T>(argument: &str, value: &str, choices: &[(&str, T)]) -> PyResult<T>
+where
+    T: Copy,
+{
+    if let Some((_, chosen)) = choices.iter().find(|(name, _)| *name == value) {
+        return Ok(*chosen);
+    }
+    let names: Vec<String> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+    let cure = format!("give {}", names.join(" or "));
+    Err(python_error(Error::value(argument, format!("\"{value}\""), cure)))
+}
+
+/// What a change of bank angle holds.
+pub fn hold(value: &str) -> PyResult<Hold> {
+    choice("hold", value, &[("pins", Hold::Pins), ("firing", Hold::Firing)])
+}
+
+fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(python_error(Error::Length {
+        argument: argument.into(),
+        found,
+        reference: "bank_deg".into(),
+        expected,
+        item: "cylinder",
+    }))
+}
+
+impl Engine {
+    fn column<'py>(
+        &self,
+        py: Python<'py>,
+        value: impl Fn(&Placement) -> f64,
+    ) -> Bound<'py, PyArray1<f64>> {
+        frozen(py, self.0.placements().iter().map(value).collect::<Array1<f64>>())
+    }
+}
+
+/// Where the cylinders of a vee sit and how they are numbered.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct VeeLayout {
+    bank_angle: Angle,
+    throws: Vec<Angle>,
+    spacing: f64,
+    pin_split: Angle,
+    bank_stagger: f64,
+    rotating_mass: Vec<f64>,
+    numbering: String,
+    odd_bank: String,
+    first_tdc: Angle,
+}
+
+impl VeeLayout {
+    fn vee(self) -> PyResult<Vee> {
+        let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
+        Ok(Vee {
+            bank_angle: self.bank_angle.0,
+            throws: angles(self.throws),
+            spacing: self.spacing,
+            pin_split: self.pin_split.0,
+            bank_stagger: self.bank_stagger,
+            rotating_mass: self.rotating_mass,
+            numbering: choice("numbering", &self.numbering, &numberings)?,
+            first_bank: choice(
+                "odd_bank",
+                &self.odd_bank,
+                &[("right", Side::Right), ("left", Side::Left)],
+            )?,
+            first_tdc: self.first_tdc.0,
+        })
+    }
+}
+
+/// Where the cylinders of an inline engine sit.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct InlineLayout {
+    throws: Vec<Angle>,
+    spacing: f64,
+    rotating_mass: Vec<f64>,
+    first_tdc: Angle,
+}
+
+impl InlineLayout {
+    fn inline(self) -> Inline {
+        Inline {
+            throws: angles(self.throws),
+            spacing: self.spacing,
+            rotating_mass: self.rotating_mass,
+            first_tdc: self.first_tdc.0,
+        }
+    }
+}
+
+#[pymethods]
+impl Engine {
+    #[staticmethod]
+    #[expect(clippy::too_many_arguments, reason = "an engine is this many lists")]
+    fn from_lists(
+        cylinders: Vec<Parts>,
+        tdc_deg: Option<Vec<Angle>>,
+        pin_deg: Option<Vec<Angle>>,
+        bank_deg: Vec<Angle>,
+        z: Vec<f64>,
+        rotating_mass: Vec<f64>,
+        name: String,
+        source: String,
+    ) -> PyResult<Self> {
+        let count = bank_deg.len();
+        same_length("cylinder", cylinders.len(), count)?;
+        same_length("z", z.len(), count)?;
+        same_length("rotating_mass", rotating_mass.len(), count)?;
+        let banks = angles(bank_deg);
+        let tdcs = match (tdc_deg, pin_deg) {
+            (Some(tdcs), None) => {
+                same_length("tdc_deg", tdcs.len(), count)?;
+                angles(tdcs)
+            }
+            (None, Some(pins)) => {
+                same_length("pin_deg", pins.len(), count)?;
+                angles(pins).into_iter().zip(&banks).map(|(pin, &bank)| bank - pin).collect()
+            }
+            (tdcs, _) => {
+                let given = if tdcs.is_some() { "both given" } else { "neither given" };
+                let cure = "give either the crank angles of top dead centre or the pins' angles";
+                return Err(python_error(Error::value("tdc_deg and pin_deg", given, cure)));
+            }
+        };
+        let mut placements = Vec::with_capacity(count);
+        for (i, parts) in cylinders.into_iter().enumerate() {
+            placements.push(Placement {
+                cylinder: cylinder(parts)?,
+                tdc: tdcs[i],
+                bank: banks[i],
+                z: z[i],
+                rotating_mass: rotating_mass[i],
+            });
+        }
+        core::Engine::new(name, source, placements).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn inline(parts: Parts, layout: InlineLayout) -> PyResult<Self> {
+        layout.inline().engine(cylinder(parts)?).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn vee(parts: Parts, layout: VeeLayout) -> PyResult<Self> {
+        layout.vee()?.engine(cylinder(parts)?).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn inline_from_firing_order(
+        parts: Parts,
+        firing_order: &str,
+        layout: InlineLayout,
+    ) -> PyResult<Self> {
+        let order: FiringOrder = firing_order.parse().or_raise()?;
+        order.inline(cylinder(parts)?, &layout.inline()).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn vee_from_firing_order(
+        parts: Parts,
+        firing_order: &str,
+        rule: &str,
+        layout: VeeLayout,
+    ) -> PyResult<Self> {
+        let order: FiringOrder = firing_order.parse().or_raise()?;
+        let rule = choice("rule", rule, &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)])?;
+        order.vee(cylinder(parts)?, rule, &layout.vee()?).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        engine_file::from_toml(text).or_raise().map(Self)
+    }
+
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        engine_file::from_json(text).or_raise().map(Self)
+    }
+
+    fn to_toml(&self) -> PyResult<String> {
+        engine_file::to_toml(&self.0).or_raise()
+    }
+
+    fn to_json(&self) -> PyResult<String> {
+        engine_file::to_json(&self.0).or_raise()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        self.0.source()
+    }
+
+    #[getter]
+    fn cylinders(&self) -> Vec<Parts> {
+        let parts = |c: core::Cylinder| {
+            (c.crank_radius(), c.rod_length(), c.reciprocating_mass(), c.pin_offset())
+        };
+        self.0.placements().iter().map(|p| parts(p.cylinder)).collect()
+    }
+
+    #[getter]
+    fn tdc_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |p| p.tdc.degrees())
+    }
+
+    #[getter]
+    fn bank_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |p| p.bank.degrees())
+    }
+
+    #[getter]
+    fn pin_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |p| p.pin().degrees())
+    }
+
+    #[getter]
+    fn z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |p| p.z)
+    }
+
+    #[getter]
+    fn rotating_mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |p| p.rotating_mass)
+    }
+
+    /// Angles as text that reads back exactly.
+    #[getter]
+    fn exact_angles(&self) -> (Vec<String>, Vec<String>) {
+        let text = |angle: fn(&Placement) -> core::Angle| {
+            self.0.placements().iter().map(|p| angle(p).to_string()).collect()
+        };
+        (text(|p| p.tdc), text(|p| p.bank))
+    }
+
+    #[getter]
+    fn bank_angle_deg(&self) -> PyResult<f64> {
+        Ok(self.0.banks().or_raise()?.angle().degrees())
+    }
+
+    #[getter]
+    fn middle(&self) -> f64 {
+        self.0.middle()
+    }
+
+    fn with_bank_angle(&self, bank_angle: Angle, held: &str) -> PyResult<Self> {
+        self.0.with_bank_angle(bank_angle.0, hold(held)?).or_raise().map(Self)
+    }
+
+    fn with_first_tdc(&self, tdc: Angle) -> PyResult<Self> {
+        self.0.with_first_tdc(tdc.0).or_raise().map(Self)
+    }
+
+    fn named(&self, name: String, source: String) -> Self {
+        Self(self.0.named(name, source))
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        for p in self.0.placements() {
+            // Adding 0.0 makes −0.0, which equals 0.0, hash like it.
+            let figures = [p.tdc.degrees(), p.bank.degrees(), p.z, p.cylinder.crank_radius()];
+            figures.map(|x| (x + 0.0).to_bits()).hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let json = slf.get().to_json()?;
+        Ok((slf.get_type().getattr("from_json")?, PyTuple::new(slf.py(), [json])?))
+    }
+}

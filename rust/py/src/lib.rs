@@ -1,0 +1,34 @@
+//! The Python face of `crankpin-core`: a file for each of its files, and no arithmetic.
+//!
+//! `crankpin._core` is private; people import `crankpin`, whose classes wrap what is here and carry
+//! the documentation.
+
+use pyo3::prelude::*;
+
+mod balance;
+mod convert;
+mod engine;
+mod interrupt;
+mod slider_crank;
+mod sweep;
+mod waveform;
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("SCHEMA", crankpin_core::engine_file::SCHEMA)?;
+    module.add("InputError", module.py().get_type::<convert::InputError>())?;
+    module.add_class::<engine::Engine>()?;
+    module.add_class::<balance::Balance>()?;
+    module.add_class::<sweep::Sweep>()?;
+    module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::motion, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::cylinder_harmonics, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::cylinder_torque_harmonics, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::centred_table, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::offset_table, module)?)?;
+    module.add_function(wrap_pyfunction!(balance::balance, module)?)?;
+    module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
+    module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! One cylinder: motion and harmonics.
+
+use crankpin_core::{Complex64, angle, harmonics, limits};
+use ndarray::Array2;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::{OrRaise, Parts, cylinder, frozen};
+use crate::interrupt;
+
+/// Refuse a cylinder that makes no engine.
+#[pyfunction]
+pub fn check_cylinder(parts: Parts) -> PyResult<()> {
+    cylinder(parts).map(drop)
+}
+
+/// Position (m), velocity (m/rad) and acceleration (m/rad²) at crank angles: columns of (n, 3).
+#[pyfunction]
+pub fn motion<'py>(
+    py: Python<'py>,
+    parts: Parts,
+    theta_deg: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let cylinder = cylinder(parts)?;
+    let thetas = theta_deg.as_slice()?.to_vec();
+    let cure = "split theta_deg into parts";
+    limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), cure).or_raise()?;
+    let rows = interrupt::run(py, thetas.len() * 32, |cancel| {
+        let (proportions, radius) = (cylinder.proportions(), cylinder.crank_radius());
+        let mut rows = Array2::zeros((thetas.len(), 3));
+        for (i, &theta) in thetas.iter().enumerate() {
+            if i % 4096 == 0 {
+                cancel.check()?;
+            }
+            limits::finite("theta_deg", theta)?;
+            let unit = angle::cis_degrees(theta);
+            let motion = proportions.motion(unit.im, unit.re);
+            rows[[i, 0]] = motion.position * radius;
+            rows[[i, 1]] = motion.velocity * radius;
+            rows[[i, 2]] = motion.acceleration * radius;
+        }
+        Ok(rows)
+    })?;
+    Ok(frozen(py, rows))
+}
+
+/// Harmonics of a cylinder's inertia force over m·r·ω².
+#[pyfunction]
+pub fn cylinder_harmonics<'py>(
+    py: Python<'py>,
+    parts: Parts,
+    orders: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+    limits::orders(&orders).or_raise()?;
+    let values = harmonics::coefficients(&cylinder(parts)?.proportions(), &orders);
+    Ok(frozen(py, values.into()))
+}
+
+/// Harmonics of a cylinder's roll and crank torque over m·r²·ω².
+#[pyfunction]
+#[expect(clippy::type_complexity, reason = "a pair of arrays")]
+pub fn cylinder_torque_harmonics<'py>(
+    py: Python<'py>,
+    parts: Parts,
+    orders: Vec<u32>,
+) -> PyResult<(Bound<'py, PyArray1<Complex64>>, Bound<'py, PyArray1<Complex64>>)> {
+    limits::orders(&orders).or_raise()?;
+    let torque = harmonics::torque(&cylinder(parts)?.proportions(), &orders);
+    Ok((frozen(py, torque.roll.into()), frozen(py, torque.crank.into())))
+}
+
+/// Harmonics without offset for many rod ratios: (n, `n_orders`).
+#[pyfunction]
+pub fn centred_table<'py>(
+    py: Python<'py>,
+    rod_ratios: PyReadonlyArray1<'py, f64>,
+    orders: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let ratios = rod_ratios.as_slice()?.to_vec();
+    let steps = ratios.len() * orders.len();
+    let table =
+        interrupt::run(py, steps, |cancel| harmonics::centred_table(&ratios, &orders, cancel))?;
+    Ok(frozen(py, table))
+}
+
+/// Harmonics for many pairs of rod ratio and offset over r: (n, `n_orders`).
+#[pyfunction]
+pub fn offset_table<'py>(
+    py: Python<'py>,
+    rod_ratios: PyReadonlyArray1<'py, f64>,
+    offsets: PyReadonlyArray1<'py, f64>,
+    orders: Vec<u32>,
+) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    let (ratios, offsets) = (rod_ratios.as_slice()?.to_vec(), offsets.as_slice()?.to_vec());
+    let steps = ratios.len() * orders.len() * 32;
+    let table = interrupt::run(py, steps, |cancel| {
+        harmonics::offset_table(&ratios, &offsets, &orders, cancel)
+    })?;
+    Ok(frozen(py, table))
+}

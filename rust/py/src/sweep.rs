@@ -1,0 +1,131 @@
+//! Sweeps.
+
+use crankpin_core as core;
+use crankpin_core::sweep::{Axes, Quantity, Values};
+use crankpin_core::{Cancel, Complex64, Error};
+use ndarray::IxDyn;
+use numpy::{PyArray, PyArrayDyn, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::{OrRaise, frozen, python_error, spectrum};
+use crate::engine::{Engine, hold};
+use crate::interrupt;
+
+/// Engines and axes, checked.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct Sweep(core::Sweep);
+
+fn quantity(name: &str) -> PyResult<Quantity> {
+    match name {
+        "force" => Ok(Quantity::Force),
+        "moment" => Ok(Quantity::Moment),
+        "torque" => Ok(Quantity::Torque),
+        other => {
+            let cure = "give \"force\", \"moment\" or \"torque\"";
+            Err(python_error(Error::value("quantity", other, cure)))
+        }
+    }
+}
+
+/// Steps that a true peak of a sum of orders costs more than an amplitude.
+const PEAK_STEPS: usize = 400;
+
+impl Sweep {
+    fn values<'py, T: numpy::Element + Send>(
+        &self,
+        py: Python<'py>,
+        steps_each: usize,
+        work: impl FnOnce(&core::Sweep, &Cancel) -> core::Result<Values<T>> + Send,
+    ) -> PyResult<Bound<'py, PyArray<T, IxDyn>>> {
+        let points = self.0.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
+        let steps = points.saturating_mul(steps_each);
+        let values = interrupt::run(py, steps, |cancel| work(&self.0, cancel))?;
+        Ok(frozen(py, values))
+    }
+}
+
+#[pymethods]
+impl Sweep {
+    #[new]
+    #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+    fn new(
+        engines: Vec<Engine>,
+        bank_angle_deg: Option<PyReadonlyArray1<'_, f64>>,
+        held: Option<&str>,
+        rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
+        pin_offset: Option<PyReadonlyArray1<'_, f64>>,
+        rpm: PyReadonlyArray1<'_, f64>,
+        orders: Vec<u32>,
+        reference_z: Option<f64>,
+        spectrum: Option<Vec<(u32, Complex64)>>,
+    ) -> PyResult<Self> {
+        let list = |values: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
+            Ok(values.map(|values| values.as_slice().map(<[f64]>::to_vec)).transpose()?)
+        };
+        let bank_angle = match (list(bank_angle_deg)?, held) {
+            (Some(angles), Some(held)) => Some((angles, hold(held)?)),
+            (None, None) => None,
+            (Some(_), None) => {
+                let cure = "say what the bank angle leaves as it is: hold=\"pins\" (the crank; firing \
+                            intervals change) or hold=\"firing\" (the TDCs; pins are split)";
+                return Err(python_error(Error::value("hold", "None", cure)));
+            }
+            (None, Some(held)) => {
+                let cure = "hold says what a sweep of bank_angle_deg leaves as it is: give both";
+                return Err(python_error(Error::value("hold", held, cure)));
+            }
+        };
+        let axes = Axes {
+            bank_angle,
+            rod_ratio: list(rod_ratio)?,
+            pin_offset: list(pin_offset)?,
+            rpm: rpm.as_slice()?.to_vec(),
+        };
+        let engines = engines.into_iter().map(|engine| engine.0).collect();
+        let spectrum = self::spectrum(spectrum)?;
+        core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise().map(Self)
+    }
+
+    /// Lengths of engine, bank angle, rod ratio, pin offset, speed.
+    #[getter]
+    fn shape(&self) -> [usize; 5] {
+        self.0.shape()
+    }
+
+    fn phasors<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, 8, |sweep, cancel| sweep.phasors(quantity, cancel))
+    }
+
+    fn peaks<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, 8, |sweep, cancel| sweep.peaks(quantity, cancel))
+    }
+
+    fn vector_peaks<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, 8, |sweep, cancel| sweep.vector_peaks(quantity, cancel))
+    }
+
+    fn sum_peaks<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_peaks(quantity, cancel))
+    }
+
+    fn sum_vector_peaks<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_vector_peaks(quantity, cancel))
+    }
+}

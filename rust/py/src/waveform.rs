@@ -1,0 +1,55 @@
+//! Waveforms at given crank angles.
+
+use crankpin_core as core;
+use crankpin_core::Complex64;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::balance::{self, Balance};
+use crate::convert::{frozen, spectrum};
+use crate::engine::Engine;
+use crate::interrupt;
+
+/// Force, moment, roll torque, crank torque, and the balance whose orders were summed.
+type Parts<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Option<Bound<'py, PyArray1<f64>>>,
+    Option<Bound<'py, PyArray1<f64>>>,
+    Option<Balance>,
+);
+
+/// From exact kinematics, or (`summed`) as a sum of orders.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+pub fn waveform<'py>(
+    py: Python<'py>,
+    engine: &Bound<'py, Engine>,
+    rpm: f64,
+    theta_deg: PyReadonlyArray1<'py, f64>,
+    summed: bool,
+    orders: Option<Vec<u32>>,
+    rtol: f64,
+    reference_z: Option<f64>,
+    spectrum: Option<Vec<(u32, Complex64)>>,
+) -> PyResult<Parts<'py>> {
+    let engine = &engine.get().0;
+    let thetas = theta_deg.as_slice()?.to_vec();
+    let spectrum = self::spectrum(spectrum)?;
+    let steps = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
+    let waveform = interrupt::run(py, steps, |cancel| {
+        if !summed {
+            return core::waveform::exact(engine, rpm, &thetas, reference_z, cancel);
+        }
+        let orders = balance::orders(orders, rtol);
+        let spectrum = spectrum.as_ref();
+        core::waveform::from_orders(engine, rpm, &thetas, &orders, reference_z, spectrum, cancel)
+    })?;
+    Ok((
+        frozen(py, waveform.force),
+        frozen(py, waveform.moment),
+        waveform.torque.map(|values| frozen(py, values)),
+        waveform.crank_torque.map(|values| frozen(py, values)),
+        waveform.balance.map(Balance),
+    ))
+}
