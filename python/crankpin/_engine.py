@@ -706,7 +706,7 @@ class Engine(Frozen):
         return Waveform(self, rpm, theta, waveform)
 
     def _warn_of_units(self, rpm: float) -> None:
-        _inputs.warn_of_units((radius for radius, *_ in self._core.cylinders), rpm)
+        _inputs.warn_of_units(self._core.largest_crank_radius, rpm)
 
 
 def _parts(cylinder: Cylinder) -> tuple[float, float, float, float]:

@@ -30,12 +30,13 @@ FASTEST_PISTON = 60.0
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a contiguous one-dimensional array of floats; a scalar becomes a single value."""
     try:
+        # At least one dimension: a scalar becomes a single value.
         array = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
     if array.ndim > 1:
         raise InputError(f"{name} has shape {array.shape}: give one dimension")
-    return np.atleast_1d(array)
+    return array
 
 
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
@@ -48,8 +49,8 @@ def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that floa
 
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     """Return one float for each item; a scalar stands for all."""
-    array = vector(name, values)
-    return array.tolist() if np.ndim(values) else array.tolist() * count
+    listed: list[float] = vector(name, values).tolist()
+    return listed if np.ndim(values) else listed * count
 
 
 def angles(name: str, values: Angles) -> list[Any]:
@@ -90,9 +91,9 @@ def spectrum(values: Spectrum | None) -> list[tuple[int, complex]] | None:
         raise InputError(f"spectrum = {shorten(values)}: {error}") from None
 
 
-def warn_of_units(crank_radii: Iterable[float], rpm: float) -> None:
+def warn_of_units(crank_radius: float, rpm: float) -> None:
     """Warn where a piston would be faster than in any engine."""
-    mean_speed = 4.0 * max(crank_radii) * rpm / 60.0
+    mean_speed = 4.0 * crank_radius * rpm / 60.0
     if mean_speed > FASTEST_PISTON:
         warnings.warn(
             f"mean piston speed is {mean_speed:.0f} m/s, more than any engine's ({FASTEST_PISTON:.0f}): "

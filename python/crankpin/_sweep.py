@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -94,31 +95,25 @@ def sweep(
     >>> s.moment.shape
     (17, 2, 2)
     """
-    if isinstance(engines, Engine):
-        names: list[str] | None = None
-        listed = [engines]
-    elif isinstance(engines, Mapping):
-        names, listed = [str(name) for name in engines], list(engines.values())
-    elif isinstance(engines, Iterable):
-        listed = list(engines)
-        names = _names(listed)
-    else:
-        raise _core.InputError(f"engines = {_inputs.shorten(engines)}: give crankpin.Engine objects")
-    if not all(isinstance(engine, Engine) for engine in listed):
-        raise _core.InputError(f"engines = {_inputs.shorten(engines)}: give crankpin.Engine objects")
-    axes: dict[str, NDArray[np.float64]] = {}
-    swept: dict[str, NDArray[np.float64] | list[str]] = {} if names is None else {"engine": names}
+    listed, names = _listed(engines)
     given = {
         "bank_angle_deg": bank_angle_deg,
         "rod_ratio": rod_ratio,
         "pin_offset": pin_offset,
         "rpm": rpm,
     }
+    axes: dict[str, NDArray[np.float64]] = {}
+    swept: dict[str, NDArray[np.float64] | list[str]] = {} if names is None else {"engine": names}
+    fixed: dict[str, float] = {}
     for name, values in given.items():
-        if values is not None:
-            axes[name] = _inputs.vector(name, values)
-            if np.ndim(values):
-                swept[name] = axes[name]
+        if values is None:
+            continue
+        axes[name] = axis = _inputs.vector(name, values)
+        if np.ndim(values):
+            swept[name] = _read_only(axis)
+        else:
+            fixed[name] = float(axis[0])
+    wanted = explicit(orders)
     core = _core.Sweep(
         [engine._core for engine in listed],  # noqa: SLF001 - the two are one package
         axes.get("bank_angle_deg"),
@@ -126,14 +121,13 @@ def sweep(
         axes.get("rod_ratio"),
         axes.get("pin_offset"),
         axes["rpm"],
-        explicit(orders),
+        wanted,
         reference_z,
         _inputs.spectrum(spectrum),
     )
-    fastest = float(axes["rpm"].max())
-    radii = (radius for engine in listed for radius, *_ in engine._core.cylinders)  # noqa: SLF001
-    _inputs.warn_of_units(radii, fastest)
-    return Sweep(core, listed, swept, tuple(explicit(orders)), given, hold)
+    _inputs.warn_of_units(core.largest_crank_radius, float(axes["rpm"].max()))
+    arguments = {"reference_z": reference_z, "spectrum": spectrum, "orders": tuple(wanted)}
+    return Sweep(core, tuple(listed), swept, fixed, hold, arguments)
 
 
 class Sweep(Frozen):
@@ -167,31 +161,25 @@ class Sweep(Frozen):
     def __init__(
         self,
         core: _core.Sweep,
-        engines: list[Engine],
+        engines: tuple[Engine, ...],
         swept: dict[str, NDArray[np.float64] | list[str]],
-        orders: tuple[int, ...],
-        given: dict[str, Any],
+        fixed: dict[str, float],
         hold: Hold | None,
+        arguments: dict[str, Any],
     ) -> None:
-        for values in swept.values():
-            if isinstance(values, np.ndarray):
-                values.flags.writeable = False
-        fixed = {
-            name: float(value)
-            for name, value in given.items()
-            if value is not None and name not in swept
-        }
         self._set(
             _core=core,
-            engines=tuple(engines),
-            coords=swept,
-            orders=orders,
-            fixed=fixed,
+            engines=engines,
+            coords=MappingProxyType(swept),
+            orders=arguments["orders"],
+            fixed=MappingProxyType(fixed),
             hold=hold,
-            _swept_shape=tuple(len(values) for values in swept.values()),
+            _arguments=arguments,
+            _swept_shape=tuple([len(values) for values in swept.values()]),
         )
 
     _core: _core.Sweep
+    _arguments: dict[str, Any]
     _swept_shape: tuple[int, ...]
 
     def dims(self, quantity: Quantity = "moment") -> tuple[str, ...]:
@@ -351,6 +339,12 @@ class Sweep(Frozen):
         name = "torque_peak" if quantity == "torque" else f"{quantity}_peak_xy"
         return getattr(self, name)  # type: ignore[no-any-return]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        axes = {name: values for name, values in self.coords.items() if name != "engine"}
+        names = self.coords.get("engine")
+        arguments = self._arguments | dict(self.fixed) | axes | {"hold": self.hold}
+        return (_again, (self.engines, names, arguments))
+
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
         held = f", hold={self.hold!r}" if self.hold else ""
@@ -364,9 +358,36 @@ _ORDER_DIMS: dict[str, tuple[str, ...]] = {
 }
 
 
+def _again(engines: tuple[Engine, ...], names: list[str] | None, arguments: dict[str, Any]) -> Sweep:
+    if names is None:
+        return sweep(engines[0], **arguments)
+    return sweep(dict(zip(names, engines, strict=True)), **arguments)
+
+
+def _listed(engines: Engines) -> tuple[list[Engine], list[str] | None]:
+    """Return the engines, and their names where there may be several."""
+    if isinstance(engines, Engine):
+        return [engines], None
+    names: list[str] | None = None
+    if isinstance(engines, Mapping):
+        names, engines = [str(name) for name in engines], list(engines.values())
+    listed = list(engines) if isinstance(engines, Iterable) else [engines]
+    for engine in listed:
+        if not isinstance(engine, Engine):
+            raise _core.InputError(f"engines = {_inputs.shorten(engine)}: give crankpin.Engine objects")
+    return listed, _names(listed) if names is None else names
+
+
 def _names(engines: list[Engine]) -> list[str]:
     """Name engines by their names where these tell them apart, else by number."""
-    names = [engine.name for engine in engines if isinstance(engine, Engine)]
-    if all(names) and len(set(names)) == len(names):
+    names = [engine.name for engine in engines]
+    if "" not in names and len(set(names)) == len(names):
         return names
     return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
+
+
+def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a copy: the caller's own array stays writable."""
+    values = values.copy()
+    values.setflags(write=False)
+    return values

@@ -1,15 +1,50 @@
-"""Tables as text and HTML, and the libraries that make others, imported when used."""
+"""Tables as text, HTML and CSV, and the libraries that make others, imported when used."""
 
 from __future__ import annotations
 
+import csv
 import dataclasses
 import html
 import importlib
-from typing import TYPE_CHECKING, Any
+import io
+import math
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import NDArray
+
+Label: TypeAlias = "str | Sequence[str | float]"
+"""What stands before a row's numbers: a text, or several texts and numbers, a column each."""
+
+SYMBOLS = {
+    "force": ("|F_x|", "|F_y|"),
+    "moment": ("|M_x|", "|M_y|"),
+    "torque": ("|M_z|",),
+}
+"""Quantity → peaks of its parts."""
+
+UNITS = {"force": "N", "moment": "N·m", "torque": "N·m"}
+"""Quantity → unit."""
+
+NAMES = {"force": "shaking force", "moment": "rocking moment", "torque": "roll torque"}
+"""Quantity → what it is called."""
+
+SWEPT = {
+    "bank_angle_deg": ("bank angle", "°"),
+    "rod_ratio": ("rod ratio", ""),
+    "pin_offset": ("pin offset", " m"),
+    "rpm": ("", " rpm"),
+}
+"""Swept dimension → what it is called, and what follows its value."""
+
+HELD = {
+    "pins": "pins held as the bank angle changes",
+    "firing": "top dead centres held as the bank angle changes",
+}
+"""What a change of bank angle leaves as it is."""
 
 
 def pandas() -> Any:  # noqa: ANN401 - a module
@@ -29,29 +64,47 @@ def _optional(name: str) -> Any:  # noqa: ANN401 - a module
         raise ImportError(f'{name} is not installed: pip install "crankpin[{name}]"') from error
 
 
+def value_text(dimension: str, value: float) -> str:
+    """Return a swept quantity with its value: ``bank angle 60°``, ``5000 rpm``."""
+    name, unit = SWEPT[dimension]
+    return f"{name} {value:.10g}{unit}".strip()
+
+
 @dataclasses.dataclass(frozen=True)
 class Table:
     """Labelled rows of numbers under a title."""
 
     title: str
     header: list[str]
-    """Names of the label column and of the columns of numbers."""
-    labels: list[str]
+    """Names of the label columns and of the columns of numbers."""
+    labels: Sequence[Label]
     rows: NDArray[np.float64]
+    decimals: int | None = None
+    """Digits after the point in text; None for five significant digits."""
 
     def cells(self) -> list[list[str]]:
-        """Return the rows as text, numbers to five significant digits and zeros as 0."""
+        """Return the rows as text, numbers rounded and exact zeros as 0."""
         return [
-            [label, *(f"{value:.5g}" if value else "0" for value in row)]
-            for label, row in zip(self.labels, self.rows.tolist(), strict=True)
+            [*(_short(part) for part in label), *(self._rounded(value) for value in row)]
+            for label, row in self._lines()
         ]
 
     def text(self) -> str:
-        """Return the table as aligned text."""
+        """Return the table as aligned text, columns of words to the left."""
         lines = [self.header, *self.cells()]
         widths = [max(len(line[k]) for line in lines) for k in range(len(self.header))]
-        body = ("  ".join(cell.rjust(w) for cell, w in zip(line, widths, strict=True)) for line in lines)
-        return "\n".join([self.title, *body])
+        # A label that is a text alone stays to the right: most are orders.
+        first = next(iter(self.labels), "")
+        words = () if isinstance(first, str) else [isinstance(part, str) for part in first]
+        leftwards = {k for k, is_text in enumerate(words) if is_text}
+        body = (
+            "  ".join(
+                cell.ljust(width) if k in leftwards else cell.rjust(width)
+                for k, (cell, width) in enumerate(zip(line, widths, strict=True))
+            ).rstrip()
+            for line in lines
+        )
+        return "\n".join([*([self.title] if self.title else []), *body])
 
     def html(self) -> str:
         """Return the table as HTML for notebooks."""
@@ -64,14 +117,33 @@ class Table:
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
     def csv(self) -> str:
-        """Return the table as CSV, numbers in full."""
-        lines = [",".join(_quoted(name) for name in self.header)]
-        for label, row in zip(self.labels, self.rows.tolist(), strict=True):
-            lines.append(",".join([_quoted(label), *(repr(value) for value in row)]))
-        return "\n".join(lines) + "\n"
+        """Return the table as CSV, numbers in full: they read back as they were."""
+        file = io.StringIO()
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(self.header)
+        writer.writerows([*label, *row] for label, row in self._lines())
+        return file.getvalue()
+
+    def _lines(self) -> list[tuple[Sequence[str | float], list[float]]]:
+        pairs = zip(self.labels, self.rows.tolist(), strict=True)
+        return [([label] if isinstance(label, str) else label, row) for label, row in pairs]
+
+    def _rounded(self, value: float) -> str:
+        if not value:
+            return "0"
+        return f"{value:.5g}" if self.decimals is None else f"{value:.{self.decimals}f}"
 
 
-def _quoted(text: str) -> str:
-    if any(character in text for character in ',"\n'):
-        return '"' + text.replace('"', '""') + '"'
-    return text
+def decimals(rows: NDArray[np.float64]) -> int | None:
+    """Return how many decimals show the largest number to six digits, None where that is silly.
+
+    Columns of one quantity read best with their points in line.
+    """
+    largest = float(abs(rows).max(initial=0.0))
+    if not 0.01 <= largest < 1e9:
+        return None
+    return max(0, 5 - math.floor(math.log10(largest)))
+
+
+def _short(part: str | float) -> str:
+    return part if isinstance(part, str) else f"{part:.10g}"

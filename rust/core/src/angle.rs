@@ -98,9 +98,12 @@ impl Angle {
     pub fn cis(self, n: i64) -> Complex64 {
         match self {
             Self::Turns(numerator, denominator) => {
-                let multiple = (i128::from(numerator) * i128::from(n))
-                    .rem_euclid(i128::from(denominator));
-                cis_turns(multiple as i64, denominator)
+                let multiple = match numerator.checked_mul(n) {
+                    Some(product) => product.rem_euclid(denominator),
+                    None => (i128::from(numerator) * i128::from(n))
+                        .rem_euclid(i128::from(denominator)) as i64,
+                };
+                cis_turns(multiple, denominator)
             }
             Self::Degrees(degrees) => {
                 // n·degrees as an exact sum of two doubles, each reduced by itself.
@@ -122,12 +125,13 @@ pub fn cis_degrees(degrees: f64) -> Complex64 {
     rotate(rest, quarter as i64)
 }
 
+/// For a numerator in [0, denominator); denominators are small enough for the products.
 fn cis_turns(numerator: i64, denominator: i64) -> Complex64 {
     // Nearest quarter, and what is left in [-1/8, 1/8] turn, both in integers.
-    let quarter = (8 * i128::from(numerator) + i128::from(denominator)) / (2 * i128::from(denominator));
-    let rest = 4 * i128::from(numerator) - quarter * i128::from(denominator);
+    let quarter = (8 * numerator + denominator) / (2 * denominator);
+    let rest = 4 * numerator - quarter * denominator;
     let radians = std::f64::consts::FRAC_PI_2 * (rest as f64 / denominator as f64);
-    rotate(radians, quarter as i64)
+    rotate(radians, quarter)
 }
 
 fn rotate(radians: f64, quarters: i64) -> Complex64 {
@@ -144,18 +148,30 @@ fn rotate(radians: f64, quarters: i64) -> Complex64 {
 fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
     let (numerator, denominator) =
         if denominator < 0 { (-numerator, -denominator) } else { (numerator, denominator) };
-    let divisor = greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs());
-    let divisor = i128::try_from(divisor).ok()?;
-    let numerator = i64::try_from(numerator / divisor).ok()?;
-    let denominator = i64::try_from(denominator / divisor).ok()?;
+    let (numerator, denominator) = match (i64::try_from(numerator), i64::try_from(denominator)) {
+        (Ok(numerator), Ok(denominator)) => {
+            let divisor = greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs());
+            let divisor = i64::try_from(divisor).ok()?;
+            (numerator / divisor, denominator / divisor)
+        }
+        _ => {
+            let divisor = greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs());
+            let divisor = i128::try_from(divisor).ok()?;
+            (i64::try_from(numerator / divisor).ok()?, i64::try_from(denominator / divisor).ok()?)
+        }
+    };
     (denominator <= LARGEST_DENOMINATOR).then_some(Angle::Turns(numerator, denominator))
 }
 
-fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
-    while b != 0 {
+fn greatest_common_divisor<T>(mut a: T, mut b: T) -> T
+where
+    T: Copy + PartialEq + From<u8> + std::ops::Rem<Output = T>,
+{
+    let zero = T::from(0);
+    while b != zero {
         (a, b) = (b, a % b);
     }
-    a.max(1)
+    if a == zero { T::from(1) } else { a }
 }
 
 /// Continued fraction of the angle in turns, up to [`MOST_PARTS`].
@@ -195,8 +211,13 @@ impl Add for Angle {
 
     fn add(self, other: Self) -> Self {
         if let (Self::Turns(a, b), Self::Turns(c, d)) = (self, other) {
-            let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
-            if let Some(sum) = turns(a * d + c * b, b * d) {
+            let sum = if b == d {
+                turns(i128::from(a) + i128::from(c), b.into())
+            } else {
+                let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
+                turns(a * d + c * b, b * d)
+            };
+            if let Some(sum) = sum {
                 return sum;
             }
         }
@@ -247,9 +268,11 @@ impl fmt::Display for Angle {
             && Self::from_degrees(degrees).ok() != Some(*self)
         {
             let numerator = i128::from(numerator) * 360;
-            let divisor = greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs().into());
-            let divisor = divisor.cast_signed();
-            return write!(f, "{}/{}", numerator / divisor, i128::from(denominator) / divisor);
+            let denominator = i128::from(denominator);
+            let divisor =
+                greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs())
+                    .cast_signed();
+            return write!(f, "{}/{}", numerator / divisor, denominator / divisor);
         }
         write!(f, "{degrees}")
     }

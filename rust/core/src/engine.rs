@@ -129,6 +129,12 @@ impl Engine {
         self.placements.iter().map(|p| (p.z - reference).abs()).fold(0.0, f64::max)
     }
 
+    /// Largest crank radius of any cylinder, m.
+    #[must_use]
+    pub fn largest_crank_radius(&self) -> f64 {
+        self.placements.iter().map(|p| p.cylinder.crank_radius()).fold(0.0, f64::max)
+    }
+
     /// Directions of the banks of an engine that has two.
     pub fn banks(&self) -> Result<Banks> {
         let mut directions: Vec<Angle> = Vec::new();

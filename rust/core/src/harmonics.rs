@@ -17,6 +17,7 @@ use rayon::slice::ParallelSlice;
 
 use crate::Complex64;
 use crate::cancel::Cancel;
+use crate::double::Double;
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::simd::vectorised;
@@ -36,7 +37,7 @@ const LARGEST_PLAIN_POWER: u32 = 15;
 #[must_use]
 pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
     if proportions.offset == 0.0 {
-        let centred = Centred::new(1.0 / proportions.rod, proportions.above);
+        let centred = Centred::new(proportions);
         return orders.iter().map(|&n| Complex64::new(centred.coefficient(n), 0.0)).collect();
     }
     Offset::new(proportions).coefficients(orders)
@@ -166,7 +167,8 @@ fn centred_rows(
                     lanes_of_rows(lanes, orders, tables, rows);
                 } else {
                     for (&λ, row) in lanes.iter().zip(rows.chunks_exact_mut(width)) {
-                        let centred = Centred::new(λ, (1.0 - λ) / λ);
+                        let Ok(proportions) = Proportions::new(λ, 0.0) else { continue };
+                        let centred = Centred::new(&proportions);
                         for (&n, value) in orders.iter().zip(row) {
                             *value = centred.coefficient(n);
                         }
@@ -209,7 +211,8 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             }
         } else {
             for lane in 0..LANES {
-                power[lane] = accurate_power(rod_ratios[lane], p[lane], n - 1);
+                let Ok(proportions) = Proportions::new(rod_ratios[lane], 0.0) else { continue };
+                power[lane] = Root::new(proportions.above).power(n - 1);
             }
         }
         for lane in 0..LANES {
@@ -229,10 +232,11 @@ struct Horner {
 impl Horner {
     /// Rod ratios up to here take at most as many terms as a table holds.
     const LARGEST_ROD_RATIO: f64 = 0.9;
+    /// p⁴ there: p = 0.62678…
+    const LARGEST_FOURTH: f64 = 0.155;
 
     fn tables(orders: &[u32]) -> Vec<Self> {
-        let largest = Centred::new(Self::LARGEST_ROD_RATIO, 0.0).fourth;
-        let count = (NEGLIGIBLE_LOG / -largest.ln()).ceil() as usize;
+        let count = (NEGLIGIBLE_LOG / -Self::LARGEST_FOURTH.ln()).ceil() as usize;
         orders.iter().map(|&n| Self::new(n, count)).collect()
     }
 
@@ -272,31 +276,49 @@ fn leading(n: u32) -> f64 {
     sign * f64::from(n).powi(2) * b
 }
 
-/// `base^power`, where `base` is p(λ) rounded: the rounding of p is taken out to first order, and
-/// the library's power is right to half a unit.
-fn accurate_power(rod_ratio: f64, base: f64, power: u32) -> f64 {
-    // Residual of λ(1 + p²) = 2p; λ − 2p is exact since p ≤ λ ≤ 2p.
-    let square = base * base;
-    let rest = base.mul_add(base, -square);
-    let residual = rod_ratio.mul_add(square, rod_ratio - 2.0 * base) + rod_ratio * rest;
-    let correction = residual / (2.0 - 2.0 * rod_ratio * base) / base;
-    base.powf(f64::from(power)) * (1.0 + f64::from(power) * correction)
+/// p = a − √(a² − 1) for a = 1 + reach.
+#[derive(Clone, Copy)]
+struct Root {
+    /// The double next to it, within a few units.
+    p: f64,
+    /// What is missing, relative to p.
+    correction: f64,
+    /// √(a² − 1).
+    root: f64,
+}
+
+impl Root {
+    fn new(reach: Double) -> Self {
+        let g = reach.high;
+        let root = (g * (2.0 + g)).sqrt();
+        let p = 1.0 / (1.0 + g + root);
+        // Residual of p² − 2(1 + g)p + 1 to twice the digits, and a step of Newton's method.
+        let (cross, square) = (Double::product(-2.0 * g, p), Double::product(p, p));
+        let residual = Double::sum(1.0, cross.high)
+            .plus(-2.0 * p)
+            .plus(square.high)
+            .plus(cross.low + square.low - 2.0 * reach.low * p);
+        Self { p, correction: residual.high / (2.0 * root * p), root }
+    }
+
+    /// pⁿ: the library's power is right to half a unit, the rounding of p is taken out.
+    fn power(&self, n: u32) -> f64 {
+        self.p.powf(f64::from(n)) * (1.0 + f64::from(n) * self.correction)
+    }
 }
 
 /// A slider-crank without offset: p₁ = p₂ = p, odd orders vanish, even ones are
 /// `±n²|b_m| p^{n−1} (1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j})`.
 struct Centred {
-    rod_ratio: f64,
+    root: Root,
     reach: f64,
-    p: f64,
     fourth: f64,
 }
 
 impl Centred {
-    /// From λ and (l − r)/r.
-    fn new(rod_ratio: f64, reach: f64) -> Self {
-        let p = rod_ratio / (1.0 + ((1.0 - rod_ratio) * (1.0 + rod_ratio)).sqrt());
-        Self { rod_ratio, reach, p, fourth: p.powi(4) }
+    fn new(proportions: &Proportions) -> Self {
+        let root = Root::new(proportions.above);
+        Self { root, reach: proportions.above.high, fourth: root.p.powi(4) }
     }
 
     fn coefficient(&self, n: u32) -> f64 {
@@ -317,7 +339,7 @@ impl Centred {
             term *= next_term(j, m) * self.fourth;
             j += 1.0;
         }
-        leading(n) * accurate_power(self.rod_ratio, self.p, n - 1) * (1.0 - sum)
+        leading(n) * self.root.power(n - 1) * (1.0 - sum)
     }
 }
 
@@ -326,19 +348,16 @@ struct Offset {
     /// |e|/r, with `above` ≥ `below`; a negative offset mirrors the motion in time.
     offset: f64,
     mirrored: bool,
-    above: f64,
-    below: f64,
+    above: Double,
+    below: Double,
 }
 
 impl Offset {
     fn new(proportions: &Proportions) -> Self {
         let Proportions { offset, above, below, .. } = *proportions;
-        Self {
-            offset: offset.abs(),
-            mirrored: offset < 0.0,
-            above: above.max(below),
-            below: above.min(below),
-        }
+        let mirrored = offset < 0.0;
+        let (above, below) = if mirrored { (below, above) } else { (above, below) };
+        Self { offset: offset.abs(), mirrored, above, below }
     }
 
     fn coefficients(&self, orders: &[u32]) -> Vec<Complex64> {
@@ -359,7 +378,7 @@ impl Offset {
                 let magnitude = if by_quadrature(n) {
                     // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
                     let sign = if n % 2 == 1 { -1.0 } else { 1.0 };
-                    sign * spike_integral(self.above, self.below, self.offset, n)
+                    sign * spike_integral(self.above.high, self.below.high, self.offset, n)
                 } else {
                     let terms = series.len() - n as usize;
                     // From the smallest term up.
@@ -395,13 +414,19 @@ struct Roots {
 }
 
 impl Roots {
-    fn new(offset: f64, above: f64, below: f64) -> Self {
-        let root = |reach: f64| (reach * (2.0 + reach)).sqrt();
-        let (root_above, root_below) = (root(above), root(below));
-        let p1 = 1.0 / (1.0 + above + root_above);
-        let p2 = 1.0 / (1.0 + below + root_below);
-        let difference = -2.0 * offset * (p1 + p2) / (root_above + root_below);
-        Self { p1, p2, product: p1 * p2, difference }
+    fn new(offset: f64, above: Double, below: Double) -> Self {
+        let (first, second) = (Root::new(above), Root::new(below));
+        let (p1, p2) = (first.p, second.p);
+        let rounded = Double::product(p1, p2);
+        let correction = rounded.low + rounded.high * (first.correction + second.correction);
+        let product = rounded.high + correction;
+        // 2e/r = A − B = (p₁ − p₂)(1 − 1/p₁p₂)/2; near 1 the difference is lost, the roots are not.
+        let difference = if product < 0.5 {
+            -4.0 * offset * product / (1.0 - product)
+        } else {
+            -2.0 * offset * (p1 + p2) / (first.root + second.root)
+        };
+        Self { p1, p2, product, difference }
     }
 
     /// h₀ … h_{count − 1} of √((1 + p₁w)(1 − p₂w)): all below zero from h₁ on, since p₁ ≤ p₂, so

@@ -1,7 +1,7 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! [`error`], [`limits`], [`cancel`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
+//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
 //! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
 //! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
 //! [`extrema`] finds the peak of a sum of orders for the last three.
@@ -13,6 +13,7 @@
 pub mod angle;
 pub mod balance;
 pub mod cancel;
+pub mod double;
 pub mod engine;
 pub mod engine_file;
 pub mod error;

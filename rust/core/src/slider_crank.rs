@@ -4,6 +4,7 @@
 //! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
 //! crankpin swings after that.
 
+use crate::double::Double;
 use crate::error::{Error, Result};
 use crate::limits;
 
@@ -76,14 +77,21 @@ impl Cylinder {
     #[must_use]
     pub fn proportions(&self) -> Proportions {
         let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
-        Proportions { offset: e / r, above: ((l - r) + e) / r, below: ((l - r) - e) / r, rod: l / r }
+        let reach = Double::sum(l, -r);
+        Proportions {
+            rod: l / r,
+            offset: e / r,
+            above: reach.plus(e).over(r),
+            below: reach.plus(-e).over(r),
+        }
     }
 }
 
 /// A slider-crank in units of its crank radius.
 ///
 /// The rod's reach beyond the crank on either side is kept by itself: near the crank that cannot
-/// turn, everything depends on it, and `l/r ± e/r − 1` would lose it to rounding.
+/// turn, everything depends on it, and `l/r ± e/r − 1` would lose it to rounding. It is kept to twice
+/// the digits, since order n goes with its n-th power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proportions {
     /// l/r.
@@ -91,9 +99,9 @@ pub struct Proportions {
     /// e/r.
     pub offset: f64,
     /// (l + e − r)/r > 0.
-    pub above: f64,
+    pub above: Double,
     /// (l − e − r)/r > 0.
-    pub below: f64,
+    pub below: Double,
 }
 
 impl Proportions {
@@ -105,16 +113,15 @@ impl Proportions {
         }
         limits::length("rod_ratio", rod_ratio)?;
         limits::finite("pin_offset_ratio", offset)?;
-        // 1 − λ as an exact sum of two doubles, so that ±e/r is weighed against all of it.
-        let reach = 1.0 - rod_ratio;
-        let rest = (1.0 - reach) - rod_ratio;
-        let above = (offset.mul_add(rod_ratio, reach) + rest) / rod_ratio;
-        let below = ((-offset).mul_add(rod_ratio, reach) + rest) / rod_ratio;
-        if above.min(below) <= 0.0 {
+        let reach = Double::sum(1.0, -rod_ratio);
+        let shift = Double::product(offset, rod_ratio);
+        let above = reach.plus(shift.high).plus(shift.low).over(rod_ratio);
+        let below = reach.plus(-shift.high).plus(-shift.low).over(rod_ratio);
+        if above.high.min(below.high) <= 0.0 {
             let cure = format!(
                 "the crank cannot turn at rod_ratio = {rod_ratio}; make |pin_offset / crank_radius| \
                  less than 1/rod_ratio - 1 = {}",
-                reach / rod_ratio
+                reach.high / rod_ratio
             );
             return Err(Error::value("pin_offset_ratio", offset, cure));
         }
@@ -131,7 +138,7 @@ impl Proportions {
         let squared = cos * cos;
         let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
         let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
-        let height_squared = (self.above + to_above) * (self.below + to_below);
+        let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
         let height = height_squared.sqrt();
         let lateral = sin - self.offset;
         // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.

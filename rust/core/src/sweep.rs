@@ -11,7 +11,6 @@ use ndarray::{Array, Array2, IxDyn};
 use rayon::prelude::*;
 
 use crate::Complex64;
-use crate::angle::Angle;
 use crate::balance::{angular_speed, snapped, zero_factor};
 use crate::cancel::Cancel;
 use crate::engine::{Banks, Engine, Hold, Placement, bank_angle_in_range};
@@ -116,13 +115,19 @@ impl Sweep {
         ]
     }
 
+    /// Largest crank radius of any cylinder, m.
+    #[must_use]
+    pub fn largest_crank_radius(&self) -> f64 {
+        self.engines.iter().map(Engine::largest_crank_radius).fold(0.0, f64::max)
+    }
+
     /// Peak phasors of each order: (…, `n_orders`, components).
     pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
-        let tail = [self.orders.len(), quantity.components()];
-        self.fill(quantity, &tail, cancel, |block, out| {
-            for (channel, bound) in block.bounds.iter().enumerate() {
-                for i in 0..block.count {
-                    out[i * block.bounds.len() + channel] = snapped(block.phasor(channel, i), *bound);
+        let components = quantity.components();
+        self.fill(quantity, &[self.orders.len(), components], cancel, |block, out| {
+            for (i, row) in out.chunks_exact_mut(self.orders.len() * components).enumerate() {
+                for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
+                    phasors.copy_from_slice(&block.phasors(order, i)[..components]);
                 }
             }
         })
@@ -131,23 +136,24 @@ impl Sweep {
     /// max over θ of each order along (about) each axis: (…, `n_orders`, components).
     pub fn peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let tail = [self.orders.len(), quantity.components()];
-        self.fill(quantity, &tail, cancel, |block, out| {
-            block.magnitudes(out);
-        })
+        self.fill(
+            quantity,
+            &tail,
+            cancel,
+            #[inline(always)]
+            |block, out| block.peaks(out),
+        )
     }
 
     /// max over θ of the length of each order's vector: (…, `n_orders`).
     pub fn vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let orders = self.orders.len();
         self.fill(quantity, &[orders], cancel, |block, out| {
-            for order in 0..orders {
-                let bound = block.bounds[2 * order];
-                for i in 0..block.count {
-                    let (x, y) = (block.phasor(2 * order, i), block.phasor(2 * order + 1, i));
-                    let turned = Complex64::i() * y;
-                    let (forward, backward) = ((x + turned) * 0.5, (x - turned) * 0.5);
-                    out[i * orders + order] =
-                        snapped(forward, bound).norm() + snapped(backward, bound).norm();
+            for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                for (order, length) in row.iter_mut().enumerate() {
+                    let bound = block.bounds[order];
+                    let [forward, backward] = block.turning(order, i);
+                    *length = snapped(forward, bound).norm() + snapped(backward, bound).norm();
                 }
             }
         })
@@ -158,10 +164,9 @@ impl Sweep {
         let components = quantity.components();
         let finder = PeakFinder::new(&self.orders);
         self.fill(quantity, &[components], cancel, |block, out| {
-            for i in 0..block.count {
-                for component in 0..components {
-                    out[i * components + component] =
-                        finder.along_axis(&block.orders(component, components, i));
+            for (i, row) in out.chunks_exact_mut(components).enumerate() {
+                for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
+                    *peak = finder.along_axis(&phasors);
                 }
             }
         })
@@ -171,8 +176,9 @@ impl Sweep {
     pub fn sum_vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let finder = PeakFinder::new(&self.orders);
         self.fill(quantity, &[], cancel, |block, out| {
-            for (i, out) in out.iter_mut().enumerate().take(block.count) {
-                *out = finder.of_vector(&block.orders(0, 2, i), &block.orders(1, 2, i));
+            for (i, peak) in out.iter_mut().enumerate() {
+                let [x, y] = block.by_component(i);
+                *peak = finder.of_vector(&x, &y);
             }
         })
     }
@@ -193,13 +199,13 @@ impl Sweep {
         limits::result_size("sweep", &shape, size_of::<T>(), cure)?;
         let plan = Plan::new(self, quantity, cancel)?;
         let mut values = vec![T::default(); shape.iter().product()];
-        let [_, angles, ratios, offsets, speeds] = self.shape();
+        let [_, angles, ratios, offsets, _] = self.shape();
         let width: usize = tail.iter().product();
         let run = Run { plan: &plan, squares: &self.squares, points: ratios * offsets, width, cancel };
         if angles > 1 {
             run.over_bank_angles(self.bank_angles(), &mut values, &finish)?;
         } else {
-            run.over_other_axes(self.bank_angles(), speeds, &mut values, &finish)?;
+            run.over_other_axes(self.bank_angles(), &mut values, &finish)?;
         }
         Array::from_shape_vec(IxDyn(&shape), values)
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
@@ -263,10 +269,14 @@ fn proportions(
 /// How many functions of half the bank angle a layout sum has.
 const FUNCTIONS: usize = 4;
 
-/// A sum over cylinders as constants of those functions, for each channel (order × component).
+/// Layout sums of one order as constants of those functions: two for the part that turns with the
+/// crank and two for (the conjugate of) the part that turns against it.
+type Constants = [Complex64; FUNCTIONS];
+
+/// A sum over cylinders, order by order.
 struct Terms {
-    constants: Vec<[Complex64; FUNCTIONS]>,
-    /// Σ|terms| per channel.
+    constants: Vec<Constants>,
+    /// Σ|terms|.
     sizes: Vec<f64>,
 }
 
@@ -275,7 +285,8 @@ struct EnginePlan {
     /// Layout sums, and harmonics by (point of rod ratio and offset, order).
     groups: Vec<(Terms, Array2<Complex64>)>,
     rotating: Option<Terms>,
-    cylinders: usize,
+    /// What rounding can leave, relative to Σ|terms|.
+    zero_factors: Vec<f64>,
 }
 
 /// All that does not depend on the bank angle.
@@ -283,7 +294,7 @@ struct Plan<'a> {
     orders: &'a [u32],
     hold: Option<Hold>,
     engines: Vec<EnginePlan>,
-    components: usize,
+    quantity: Quantity,
 }
 
 impl<'a> Plan<'a> {
@@ -295,34 +306,32 @@ impl<'a> Plan<'a> {
             .map(|(engine, &reference)| EnginePlan::new(sweep, engine, reference, quantity, cancel))
             .collect::<Result<_>>()?;
         let hold = sweep.axes.bank_angle.as_ref().map(|&(_, hold)| hold);
-        Ok(Self { orders: &sweep.orders, hold, engines, components: quantity.components() })
+        Ok(Self { orders: &sweep.orders, hold, engines, quantity })
     }
 
-    fn channels(&self) -> usize {
-        self.orders.len() * self.components
-    }
-
-    /// Constants of an engine at a point, all groups together, times `scale`; and the bounds.
-    fn combined(&self, engine: usize, point: usize, scale: f64, block: &mut Block) {
+    /// Layout sums of an engine times its harmonics at a point, all groups together.
+    fn combined(&self, engine: usize, point: usize) -> Terms {
         let plan = &self.engines[engine];
-        for channel in 0..self.channels() {
-            let order = channel / self.components;
-            let (mut sum, mut size) = ([Complex64::default(); FUNCTIONS], 0.0);
+        let (mut constants, mut sizes) = (Vec::new(), Vec::new());
+        for order in 0..self.orders.len() {
+            let (mut sum, mut size) = (Constants::default(), 0.0);
             let mut add = |terms: &Terms, factor: Complex64| {
-                for (sum, constant) in sum.iter_mut().zip(&terms.constants[channel]) {
+                // The part that turns backward was conjugated, its harmonic was not.
+                for (sum, constant) in sum.iter_mut().zip(&terms.constants[order]) {
                     *sum += constant * factor;
                 }
-                size += terms.sizes[channel] * factor.norm();
+                size += terms.sizes[order] * factor.norm();
             };
             for (terms, harmonics) in &plan.groups {
-                add(terms, harmonics[[point, order]] * scale);
+                add(terms, harmonics[[point, order]]);
             }
             if let Some(terms) = &plan.rotating {
-                add(terms, Complex64::new(scale, 0.0));
+                add(terms, Complex64::new(1.0, 0.0));
             }
-            block.constants[channel] = sum;
-            block.bounds[channel] = size * zero_factor(plan.cylinders, self.orders[order]);
+            constants.push(sum);
+            sizes.push(size * plan.zero_factors[order]);
         }
+        Terms { constants, sizes }
     }
 }
 
@@ -358,7 +367,7 @@ impl EnginePlan {
                 Quantity::Torque => p.cylinder.first_order() * p.cylinder.crank_radius(),
                 _ => p.cylinder.first_order(),
             };
-            let terms = layout.terms(&members, weight, 0.5, 0.5);
+            let terms = layout.terms(&members, weight, [0.5, 0.5]);
             Ok((terms, sweep.harmonics(&cylinder, quantity, cancel)?))
         });
         let groups = groups.collect::<Result<_>>()?;
@@ -367,18 +376,19 @@ impl EnginePlan {
             .filter(|p| p.rotating_mass > 0.0 && quantity != Quantity::Torque)
             .collect();
         let rotating = (!turning.is_empty() && sweep.orders.contains(&1)).then(|| {
-            // A mass on the pin: its force is all forward.
-            let mut terms =
-                layout.terms(&turning, |p| p.rotating_mass * p.cylinder.crank_radius(), 1.0, 0.0);
-            for channel in 0..terms.constants.len() {
-                if sweep.orders[channel / quantity.components()] != 1 {
-                    terms.constants[channel] = Default::default();
-                    terms.sizes[channel] = 0.0;
+            // A mass on the pin: its force is all forward, and of order 1.
+            let weight = |p: &Placement| p.rotating_mass * p.cylinder.crank_radius();
+            let mut terms = layout.terms(&turning, weight, [1.0, 0.0]);
+            for (k, &order) in sweep.orders.iter().enumerate() {
+                if order != 1 {
+                    terms.constants[k] = Constants::default();
+                    terms.sizes[k] = 0.0;
                 }
             }
             terms
         });
-        Ok(Self { groups, rotating, cylinders: placements.len() })
+        let zero_factors = sweep.orders.iter().map(|&n| zero_factor(placements.len(), n)).collect();
+        Ok(Self { groups, rotating, zero_factors })
     }
 }
 
@@ -445,118 +455,102 @@ struct Layout<'a> {
 }
 
 impl Layout<'_> {
-    /// Σ weight·(forward·e^{i·bank} + backward·e^{−i·bank})·e^{−in·tdc} along x, and the same with
-    /// ∓i along y; for torque Σ weight·e^{−in·tdc}.
+    /// Σ weight·e^{±i·bank}·e^{−in·tdc} times the shares of force that turn with and against the
+    /// crank; for torque Σ weight·e^{−in·tdc}.
     fn terms(
         &self,
         members: &[&Placement],
         weight: impl Fn(&Placement) -> f64,
-        forward: f64,
-        backward: f64,
+        shares: [f64; 2],
     ) -> Terms {
-        let (mut constants, mut sizes) = (Vec::new(), Vec::new());
-        let i = Complex64::i();
-        for &n in self.orders {
-            let lever = |p: &Placement| match self.quantity {
-                Quantity::Moment => p.z - self.reference,
-                _ => 1.0,
-            };
-            let size: f64 = members
-                .iter()
-                .map(|p| match self.quantity {
-                    // Rounding of a lever is relative to what it is the difference of.
-                    Quantity::Moment => weight(p) * (p.z.abs() + self.reference.abs()),
-                    _ => weight(p),
-                })
-                .sum();
-            let sum = |turn: i64| self.functions(members, n, turn, |p| weight(p) * lever(p));
+        let lever = |p: &Placement| match self.quantity {
+            Quantity::Moment => (p.z - self.reference, p.z.abs() + self.reference.abs()),
+            _ => (1.0, 1.0),
+        };
+        // Rounding of a lever is relative to what it is the difference of.
+        let size: f64 = members.iter().map(|p| weight(p) * lever(p).1).sum();
+        let constants = self.orders.iter().map(|&n| {
             if self.quantity == Quantity::Torque {
-                constants.push(sum(0));
-                sizes.push(size);
-                continue;
+                let [[cos, sin]] = self.functions(members, n, [0], |p| weight(p) * lever(p).0);
+                return [cos, sin, Complex64::default(), Complex64::default()];
             }
-            let (ahead, against) = (sum(1), sum(-1));
-            let mut x = [Complex64::default(); FUNCTIONS];
-            let mut y = x;
-            for k in 0..FUNCTIONS {
-                let (ahead, against) = (ahead[k] * forward, against[k] * backward);
-                x[k] = ahead + against;
-                y[k] = -i * (ahead - against);
-            }
-            match self.quantity {
-                Quantity::Moment => constants.extend([y.map(|z| -z), x]),
-                _ => constants.extend([x, y]),
-            }
-            sizes.extend([size, size]);
-        }
-        Terms { constants, sizes }
+            let [ahead, against] =
+                self.functions(members, n, [1, -1], |p| weight(p) * lever(p).0);
+            [ahead[0] * shares[0], ahead[1] * shares[0], against[0] * shares[1], against[1] * shares[1]]
+        });
+        Terms { constants: constants.collect(), sizes: vec![size; self.orders.len()] }
     }
 
-    /// Σ weight·e^{i(turn·bank − n·tdc)} as constants of the functions of half the bank angle: slots
-    /// 0 and 1 (2 and 3 for turn < 0) are cosine and sine.
-    fn functions(
+    /// Σ weight·e^{i(turn·bank − n·tdc)} for each turn, as constants of cosine and sine of a multiple
+    /// of half the bank angle.
+    fn functions<const TURNS: usize>(
         &self,
         members: &[&Placement],
         order: u32,
-        turn: i64,
+        turns: [i64; TURNS],
         weight: impl Fn(&Placement) -> f64,
-    ) -> [Complex64; FUNCTIONS] {
+    ) -> [[Complex64; 2]; TURNS] {
         let n = i64::from(order);
-        let mut constants = [Complex64::default(); FUNCTIONS];
         let Some((banks, hold)) = self.frame else {
-            constants[0] = members
-                .iter()
-                .map(|p| p.bank.cis(turn) * p.tdc.cis(-n) * weight(p))
-                .sum();
-            return constants;
-        };
-        // With the pins held the phase turns with the bank: e^{i(turn − n)·bank} e^{in·pin}.
-        let multiple = match hold {
-            Hold::Pins => turn - n,
-            Hold::Firing => turn,
+            let mut sums = [[Complex64::default(); 2]; TURNS];
+            for p in members {
+                let term = p.tdc.cis(-n) * weight(p);
+                for (sum, &turn) in sums.iter_mut().zip(&turns) {
+                    sum[0] += term * p.bank.cis(turn);
+                }
+            }
+            return sums;
         };
         let (mut right, mut left) = (Complex64::default(), Complex64::default());
         for p in members {
+            // e^{in·pin}, or e^{−in·tdc}.
             let unit = match hold {
-                Hold::Pins => p.pin().cis(n),
+                Hold::Pins => p.bank.cis(n) * p.tdc.cis(-n),
                 Hold::Firing => p.tdc.cis(-n),
             };
             *if p.bank == banks.right { &mut right } else { &mut left } += unit * weight(p);
         }
-        let bisector: Angle = banks.bisector();
-        let middle = bisector.cis(multiple);
-        // Bores at bisector ∓ γ: e^{−i·m·γ} right + e^{i·m·γ} left.
-        let slot = if turn < 0 { 2 } else { 0 };
-        constants[slot] = middle * (right + left);
-        constants[slot + 1] = Complex64::i() * middle * (left - right);
-        constants
+        turns.map(|turn| {
+            // With the pins held the phase turns with the bank: e^{i(turn − n)·bank} e^{in·pin}.
+            let multiple = match hold {
+                Hold::Pins => turn - n,
+                Hold::Firing => turn,
+            };
+            let middle = banks.bisector().cis(multiple);
+            // Bores at bisector ∓ γ: e^{−i·m·γ} right + e^{i·m·γ} left.
+            [middle * (right + left), Complex64::i() * middle * (left - right)]
+        })
     }
 }
 
+/// Powers of `e^{iγ}` up to here come from multiplication, within the allowance of the zero bound.
+const MOST_MULTIPLIED: u32 = 16;
+
+/// One column of a block.
+type Column = [f64; BLOCK];
+
 /// Layout sums of one engine at one point, for up to [`BLOCK`] bank angles.
 struct Block {
+    quantity: Quantity,
     count: usize,
-    /// Cosine and sine of the multiples of γ, per order: [order][function][angle].
-    functions: Vec<[[f64; BLOCK]; FUNCTIONS]>,
-    constants: Vec<[Complex64; FUNCTIONS]>,
+    /// Cosine and sine of the multiples of γ, two pairs to an order.
+    functions: Vec<[Column; FUNCTIONS]>,
+    /// What rounding can leave, by order.
     bounds: Vec<f64>,
-    /// The sums: [channel][angle].
-    re: Vec<[f64; BLOCK]>,
-    im: Vec<[f64; BLOCK]>,
-    components: usize,
+    /// Real and imaginary part of what turns with the crank and of the conjugate of what turns
+    /// against it (of the torque and nothing), by order.
+    sums: Vec<[Column; FUNCTIONS]>,
 }
 
 impl Block {
     fn new(plan: &Plan) -> Self {
-        let channels = plan.channels();
+        let empty = vec![[[0.0; BLOCK]; FUNCTIONS]; plan.orders.len()];
         Self {
+            quantity: plan.quantity,
             count: 0,
-            functions: vec![[[0.0; BLOCK]; FUNCTIONS]; plan.orders.len()],
-            constants: vec![[Complex64::default(); FUNCTIONS]; channels],
-            bounds: vec![0.0; channels],
-            re: vec![[0.0; BLOCK]; channels],
-            im: vec![[0.0; BLOCK]; channels],
-            components: plan.components,
+            functions: empty.clone(),
+            bounds: vec![0.0; plan.orders.len()],
+            sums: empty,
         }
     }
 
@@ -570,79 +564,147 @@ impl Block {
             }
             return;
         };
-        let mut multiple = [0.0; BLOCK];
+        let mut half = [0.0; BLOCK];
+        for (half, angle) in half.iter_mut().zip(bank_angles) {
+            *half = 0.5 * angle;
+        }
+        let (mut sin, mut cos) = ([0.0; BLOCK], [0.0; BLOCK]);
+        sin_cos_degrees(&half, &mut sin, &mut cos);
+        // Powers are reached from the last one, orders being mostly ascending.
+        let (mut power, mut power_cos, mut power_sin) = (1, cos, sin);
         for (&order, functions) in plan.orders.iter().zip(&mut self.functions) {
-            let n = f64::from(order);
-            let turns = match (hold, plan.components) {
-                (Hold::Pins, 1) => [-n, 0.0],
-                (Hold::Pins, _) => [1.0 - n, -1.0 - n],
-                (Hold::Firing, 1) => [0.0, 0.0],
-                (Hold::Firing, _) => [1.0, -1.0],
+            let n = i64::from(order);
+            let turns = match (hold, plan.quantity) {
+                (Hold::Pins, Quantity::Torque) => [-n, 0],
+                (Hold::Pins, _) => [1 - n, -1 - n],
+                (Hold::Firing, Quantity::Torque) => [0, 0],
+                (Hold::Firing, _) => [1, -1],
             };
             for (turn, pair) in turns.into_iter().zip(functions.chunks_exact_mut(2)) {
-                for (multiple, angle) in multiple.iter_mut().zip(bank_angles) {
-                    *multiple = 0.5 * turn * angle;
+                let [out_cos, out_sin] = pair else { continue };
+                let multiple = turn.unsigned_abs() as u32;
+                let sign = if turn < 0 { -1.0 } else { 1.0 };
+                if multiple == 0 {
+                    out_cos.fill(1.0);
+                    out_sin.fill(0.0);
+                    continue;
                 }
-                let [cos, sin] = pair else { continue };
-                sin_cos_degrees(&multiple, sin, cos);
-            }
-        }
-    }
-
-    /// Four functions times four constants, for every channel and angle.
-    #[inline(always)]
-    fn evaluate(&mut self) {
-        for (channel, constants) in self.constants.iter().enumerate() {
-            let [a, b, c, d] = &self.functions[channel / self.components];
-            let [ka, kb, kc, kd] = constants;
-            let (re, im) = (&mut self.re[channel], &mut self.im[channel]);
-            for i in 0..BLOCK {
-                re[i] = a[i] * ka.re + b[i] * kb.re + (c[i] * kc.re + d[i] * kd.re);
-                im[i] = a[i] * ka.im + b[i] * kb.im + (c[i] * kc.im + d[i] * kd.im);
-            }
-        }
-    }
-
-    fn phasor(&self, channel: usize, i: usize) -> Complex64 {
-        Complex64::new(self.re[channel][i], self.im[channel][i])
-    }
-
-    /// All orders of one component at one angle.
-    fn orders(&self, component: usize, components: usize, i: usize) -> Vec<Complex64> {
-        (component..self.bounds.len())
-            .step_by(components)
-            .map(|channel| snapped(self.phasor(channel, i), self.bounds[channel]))
-            .collect()
-    }
-
-    /// Magnitudes, channels side by side: out[angle][channel].
-    #[inline(always)]
-    fn magnitudes(&self, out: &mut [f64]) {
-        let channels = self.bounds.len();
-        let mut columns = [[0.0; BLOCK]; FUNCTIONS];
-        for first in (0..channels).step_by(FUNCTIONS) {
-            let here = FUNCTIONS.min(channels - first);
-            for (k, column) in columns.iter_mut().enumerate().take(here) {
-                let (re, im) = (&self.re[first + k], &self.im[first + k]);
-                let bound = self.bounds[first + k] * self.bounds[first + k];
+                if multiple > MOST_MULTIPLIED {
+                    let multiples = half.map(|angle| angle * turn as f64);
+                    sin_cos_degrees(&multiples, out_sin, out_cos);
+                    continue;
+                }
+                if multiple < power {
+                    (power, power_cos, power_sin) = (1, cos, sin);
+                }
+                while power < multiple {
+                    for i in 0..BLOCK {
+                        let (re, im) = (power_cos[i], power_sin[i]);
+                        power_cos[i] = re * cos[i] - im * sin[i];
+                        power_sin[i] = re * sin[i] + im * cos[i];
+                    }
+                    power += 1;
+                }
+                *out_cos = power_cos;
                 for i in 0..BLOCK {
-                    let square = re[i] * re[i] + im[i] * im[i];
-                    column[i] = if square > bound { square.sqrt() } else { 0.0 };
+                    out_sin[i] = sign * power_sin[i];
                 }
             }
-            if here == FUNCTIONS && channels == FUNCTIONS {
-                // The common case in one pass: four channels, written in order.
-                let [a, b, c, d] = &columns;
-                for (i, row) in out.chunks_exact_mut(FUNCTIONS).enumerate().take(BLOCK) {
-                    (row[0], row[1], row[2], row[3]) = (a[i], b[i], c[i], d[i]);
+        }
+    }
+
+    /// Functions times constants, for every order and angle.
+    #[inline(always)]
+    fn evaluate(&mut self, terms: &Terms, scale: f64) {
+        for (order, constants) in terms.constants.iter().enumerate() {
+            self.bounds[order] = terms.sizes[order] * scale;
+            let [ka, kb, kc, kd] = constants.map(|constant| constant * scale);
+            let [a, b, c, d] = &self.functions[order];
+            let [ahead_re, ahead_im, against_re, against_im] = &mut self.sums[order];
+            for i in 0..BLOCK {
+                ahead_re[i] = a[i].mul_add(ka.re, b[i] * kb.re);
+                ahead_im[i] = a[i].mul_add(ka.im, b[i] * kb.im);
+                against_re[i] = c[i].mul_add(kc.re, d[i] * kd.re);
+                against_im[i] = c[i].mul_add(kc.im, d[i] * kd.im);
+            }
+        }
+    }
+
+    /// Forward and conjugate of backward part of force or moment (torque and nothing).
+    fn turning(&self, order: usize, i: usize) -> [Complex64; 2] {
+        let [a, b, c, d] = &self.sums[order];
+        [Complex64::new(a[i], b[i]), Complex64::new(c[i], d[i])]
+    }
+
+    /// Phasors of the components (for torque the first is it), zero where rounding is all there is.
+    fn phasors(&self, order: usize, i: usize) -> [Complex64; 2] {
+        let [ahead, against] = self.turning(order, i);
+        let (along, across) = (ahead + against, -Complex64::i() * (ahead - against));
+        // A moment is its levered force turned by a quarter.
+        let components = match self.quantity {
+            Quantity::Moment => [-across, along],
+            _ => [along, across],
+        };
+        components.map(|phasor| snapped(phasor, self.bounds[order]))
+    }
+
+    /// Phasors of all orders at one angle, component by component.
+    fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
+        let phasors: Vec<_> = (0..self.bounds.len()).map(|order| self.phasors(order, i)).collect();
+        [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
+    }
+
+    /// Magnitudes of the phasors: out[angle][order][component].
+    #[inline(always)]
+    fn peaks(&self, out: &mut [f64]) {
+        let components = self.quantity.components();
+        let width = self.bounds.len() * components;
+        // Two orders at a time, so that rows are written four numbers at once.
+        let mut columns = [[0.0; BLOCK]; 4];
+        for first in (0..self.bounds.len()).step_by(2) {
+            let orders = (self.bounds.len() - first).min(2);
+            for (order, pair) in (first..).zip(columns.chunks_exact_mut(2)).take(orders) {
+                let [along, across] = pair else { continue };
+                match self.quantity {
+                    Quantity::Moment => self.magnitudes(order, across, along),
+                    _ => self.magnitudes(order, along, across),
                 }
-            } else {
-                for (i, row) in out.chunks_exact_mut(channels).enumerate().take(BLOCK) {
-                    for k in 0..here {
-                        row[first + k] = columns[k][i];
+            }
+            let [a, b, c, d] = &columns;
+            let rows = out.chunks_exact_mut(width);
+            match (orders * components, width) {
+                (4, 4) => {
+                    let (rows, _) = out.as_chunks_mut::<4>();
+                    for (i, row) in rows.iter_mut().enumerate().take(BLOCK) {
+                        *row = [a[i], b[i], c[i], d[i]];
                     }
                 }
+                (4, _) => rows.zip(0..BLOCK).for_each(|(row, i)| {
+                    row[2 * first..2 * first + 4].copy_from_slice(&[a[i], b[i], c[i], d[i]]);
+                }),
+                (2, _) if components == 2 => rows.zip(0..BLOCK).for_each(|(row, i)| {
+                    row[2 * first..].copy_from_slice(&[a[i], b[i]]);
+                }),
+                (2, _) => rows.zip(0..BLOCK).for_each(|(row, i)| {
+                    row[first..first + 2].copy_from_slice(&[a[i], c[i]]);
+                }),
+                _ => rows.zip(0..BLOCK).for_each(|(row, i)| row[first] = a[i]),
             }
+        }
+    }
+
+    /// |forward + conj backward| and |forward − conj backward| of one order.
+    #[inline(always)]
+    fn magnitudes(&self, order: usize, along: &mut Column, across: &mut Column) {
+        let [ahead_re, ahead_im, against_re, against_im] = &self.sums[order];
+        let bound = self.bounds[order] * self.bounds[order];
+        for i in 0..BLOCK {
+            let (re, im) = (ahead_re[i] + against_re[i], ahead_im[i] + against_im[i]);
+            let square = re.mul_add(re, im * im);
+            along[i] = if square > bound { square.sqrt() } else { 0.0 };
+            let (re, im) = (ahead_re[i] - against_re[i], ahead_im[i] - against_im[i]);
+            let square = re.mul_add(re, im * im);
+            across[i] = if square > bound { square.sqrt() } else { 0.0 };
         }
     }
 }
@@ -679,6 +741,13 @@ impl Run<'_> {
             .chunks(BLOCK)
             .map(|angles| (angles, by_engine.iter_mut().filter_map(Iterator::next).collect()))
             .collect();
+        // With one point to an engine its constants serve every block.
+        let engines = 0..self.plan.engines.len();
+        let single: Vec<Terms> = if self.points == 1 {
+            engines.map(|engine| self.plan.combined(engine, 0)).collect()
+        } else {
+            Vec::new()
+        };
         let work = |block: &mut Block, (angles, outs): (&[f64], Vec<&mut [T]>)| -> Result<()> {
             vectorised(
                 #[inline(always)]
@@ -686,7 +755,12 @@ impl Run<'_> {
                     block.set_angles(self.plan, angles);
                     for (engine, out) in outs.into_iter().enumerate() {
                         self.cancel.check()?;
-                        self.engine_block(engine, block, out, finish);
+                        if let (Some(terms), [square]) = (single.get(engine), self.squares) {
+                            block.evaluate(terms, *square);
+                            finish(block, out);
+                        } else {
+                            self.engine_block(engine, block, out, finish);
+                        }
                     }
                     Ok(())
                 },
@@ -712,21 +786,13 @@ impl Run<'_> {
         T: Copy + Default + std::ops::Mul<f64, Output = T>,
     {
         let (speeds, width) = (self.squares.len(), self.width);
-        if self.points * speeds == 1 {
-            self.plan.combined(engine, 0, self.squares[0], block);
-            block.evaluate();
-            finish(block, out);
-            return;
-        }
         let mut unscaled = vec![T::default(); block.count * width];
         for point in 0..self.points {
-            self.plan.combined(engine, point, 1.0, block);
-            block.evaluate();
+            block.evaluate(&self.plan.combined(engine, point), 1.0);
             finish(block, &mut unscaled);
             for (i, values) in unscaled.chunks_exact(width).enumerate() {
                 let start = (i * self.points + point) * speeds * width;
-                let rows = &mut out[start..start + speeds * width];
-                scale(values, self.squares, rows);
+                scale(values, self.squares, &mut out[start..start + speeds * width]);
             }
         }
     }
@@ -735,14 +801,13 @@ impl Run<'_> {
     fn over_other_axes<T>(
         &self,
         bank_angles: &[f64],
-        speeds: usize,
         values: &mut [T],
         finish: &(impl Fn(&Block, &mut [T]) + Sync),
     ) -> Result<()>
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
     {
-        let width = self.width;
+        let (speeds, width) = (self.squares.len(), self.width);
         let large = values.len() >= WORTH_A_THREAD;
         let tasks: Vec<(usize, usize, &mut [T])> = values
             .chunks_mut(self.points * speeds * width)
@@ -760,8 +825,7 @@ impl Run<'_> {
             while !rest.is_empty() {
                 let (point, speed) = (at / speeds, at % speeds);
                 let here = (speeds - speed).min(rest.len() / width);
-                self.plan.combined(engine, point, 1.0, block);
-                block.evaluate();
+                block.evaluate(&self.plan.combined(engine, point), 1.0);
                 finish(block, &mut unscaled);
                 let (rows, after) = rest.split_at_mut(here * width);
                 scale(&unscaled, &self.squares[speed..speed + here], rows);

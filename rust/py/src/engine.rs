@@ -271,6 +271,11 @@ impl Engine {
     }
 
     #[getter]
+    fn largest_crank_radius(&self) -> f64 {
+        self.0.largest_crank_radius()
+    }
+
+    #[getter]
     fn middle(&self) -> f64 {
         self.0.middle()
     }

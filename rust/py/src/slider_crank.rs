@@ -5,7 +5,7 @@ use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, Parts, cylinder, frozen};
+use crate::convert::{OrRaise, Parts, cylinder};
 use crate::interrupt;
 
 /// Refuse a cylinder that makes no engine.
@@ -41,7 +41,7 @@ pub fn motion<'py>(
         }
         Ok(rows)
     })?;
-    Ok(frozen(py, rows))
+    Ok(PyArray2::from_owned_array(py, rows))
 }
 
 /// Harmonics of a cylinder's inertia force over m·r·ω².
@@ -53,7 +53,7 @@ pub fn cylinder_harmonics<'py>(
 ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
     limits::orders(&orders).or_raise()?;
     let values = harmonics::coefficients(&cylinder(parts)?.proportions(), &orders);
-    Ok(frozen(py, values.into()))
+    Ok(PyArray1::from_vec(py, values))
 }
 
 /// Harmonics of a cylinder's roll and crank torque over m·r²·ω².
@@ -66,7 +66,7 @@ pub fn cylinder_torque_harmonics<'py>(
 ) -> PyResult<(Bound<'py, PyArray1<Complex64>>, Bound<'py, PyArray1<Complex64>>)> {
     limits::orders(&orders).or_raise()?;
     let torque = harmonics::torque(&cylinder(parts)?.proportions(), &orders);
-    Ok((frozen(py, torque.roll.into()), frozen(py, torque.crank.into())))
+    Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 
 /// Harmonics without offset for many rod ratios: (n, `n_orders`).
@@ -80,7 +80,7 @@ pub fn centred_table<'py>(
     let steps = ratios.len() * orders.len();
     let table =
         interrupt::run(py, steps, |cancel| harmonics::centred_table(&ratios, &orders, cancel))?;
-    Ok(frozen(py, table))
+    Ok(PyArray2::from_owned_array(py, table))
 }
 
 /// Harmonics for many pairs of rod ratio and offset over r: (n, `n_orders`).
@@ -96,5 +96,5 @@ pub fn offset_table<'py>(
     let table = interrupt::run(py, steps, |cancel| {
         harmonics::offset_table(&ratios, &offsets, &orders, cancel)
     })?;
-    Ok(frozen(py, table))
+    Ok(PyArray2::from_owned_array(py, table))
 }

@@ -92,6 +92,11 @@ impl Sweep {
         self.0.shape()
     }
 
+    #[getter]
+    fn largest_crank_radius(&self) -> f64 {
+        self.0.largest_crank_radius()
+    }
+
     fn phasors<'py>(
         &self,
         py: Python<'py>,

@@ -1,0 +1,431 @@
+"""The command line: tables and pictures of balances and sweeps."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+import os
+import sys
+import warnings
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+import numpy as np
+
+from crankpin import _presets, _tables
+from crankpin._core import InputError, __version__
+from crankpin._engine import Engine
+from crankpin._sweep import Sweep, sweep
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from crankpin._balance import Balance
+    from crankpin._inputs import Orders, Spectrum
+
+PROG = "python -m crankpin"
+MOST_ROWS = 1_000_000
+"""Rows of a table that somebody may still want to read with a program."""
+PICTURES = (".pdf", ".png", ".svg")
+FLAGS = {
+    "bank_angle_deg": "--bank-angle",
+    "rod_ratio": "--rod-ratio",
+    "pin_offset": "--pin-offset",
+    "rpm": "--rpm",
+}
+"""What can be swept, and how it is typed."""
+COLUMNS = {
+    "bank_angle_deg": "bank angle °",
+    "rod_ratio": "rod ratio",
+    "pin_offset": "pin offset m",
+    "rpm": "rpm",
+}
+"""Swept dimension → head of its column."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit code."""
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn
+            arguments = _parser().parse_args(argv)
+            text = arguments.run(arguments)
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Who read us has read enough. Python would complain once more while it closes stdout.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + 13  # as a shell reports SIGPIPE
+    except (InputError, OSError, ImportError) as error:
+        print(f"crankpin: error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 128 + 2
+    return 0
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    print(f"crankpin: warning: {message}", file=sys.stderr)
+
+
+# --- what can be typed --------------------------------------------------------------------------
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}; see {self.prog} --help")
+
+
+def _parser() -> _Parser:
+    parser = _Parser(
+        prog=PROG,
+        description="How a reciprocating engine shakes.",
+        epilog=f"example:\n  {PROG} balance v8-crossplane --rpm 6000",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"crankpin {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    listing = _command(
+        commands, "presets", "list the engines known by name", example="presets", run=_list
+    )
+    listing.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+
+    one = _command(
+        commands,
+        "balance",
+        "peaks of force, moment and torque at one speed, order by order",
+        example="balance v6-60 --rpm 6000 --orders auto --plot v6.png",
+        run=_balance,
+    )
+    one.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    one.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
+    one.add_argument(
+        "--orders", default="1,2,4,6", help="such as 1,2,4, or auto (default: %(default)s)"
+    )
+    one.add_argument(
+        "--rtol",
+        help="with --orders auto: what may be left out, relative to m·r·ω² (default: 1e-9)",
+    )
+    _shared(one, "quantity of the picture")
+
+    many = _command(
+        commands,
+        "sweep",
+        "peaks of each order over bank angle, rod ratio, pin offset or speed",
+        example="sweep ijesc-v6 --rpm 5000 --bank-angle 10:170:10 --plot v6.png",
+        run=_sweep,
+        note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number. Write one\n"
+        "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
+        "angle goes from 10 to 170 by 10.",
+    )
+    many.add_argument(
+        "names",
+        metavar="NAME",
+        nargs="+",
+        help="presets, engine files (.toml, .json), or families of presets: ijesc-v6 stands for "
+        "all whose names begin with ijesc-v6-",
+    )
+    many.add_argument("--bank-angle", dest="bank_angle_deg", metavar="RANGE", help="degrees")
+    many.add_argument("--rod-ratio", metavar="RANGE", help="crank radius / rod length")
+    many.add_argument("--pin-offset", metavar="RANGE", help="m")
+    many.add_argument("--rpm", metavar="RANGE", default="3000", help="default: %(default)s")
+    many.add_argument(
+        "--hold",
+        choices=("pins", "firing"),
+        default="pins",
+        help="what a change of bank angle leaves as it is: the crank's pins, or the crank angles "
+        "of all top dead centres (default: %(default)s)",
+    )
+    many.add_argument("--orders", default="1,2", help="such as 1,2,4 (default: %(default)s)")
+    _shared(many, "peaks to tell")
+    return parser
+
+
+def _command(
+    commands: argparse._SubParsersAction[_Parser],
+    name: str,
+    what: str,
+    *,
+    example: str,
+    run: object,
+    note: str = "",
+) -> _Parser:
+    parser = commands.add_parser(
+        name,
+        help=what,
+        description=f"{what[0].upper()}{what[1:]}.",
+        epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _shared(parser: _Parser, quantity: str) -> None:
+    parser.add_argument(
+        "--quantity",
+        choices=("force", "moment", "torque"),
+        default="moment",
+        help=f"{quantity} (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--reference-z",
+        metavar="Z",
+        help="plane about which moments are taken, m (default: midway between first and last)",
+    )
+    parser.add_argument(
+        "--spectrum",
+        metavar="N=A,…",
+        help="one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
+        "1=9.0,2=3.75",
+    )
+    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+
+
+# --- commands -----------------------------------------------------------------------------------
+
+
+def _list(arguments: argparse.Namespace) -> str:
+    labels = list(_presets.presets().items())
+    table = _tables.Table("", ["name", "engine"], labels, np.empty((len(labels), 0)))
+    return _printed([table], csv=arguments.csv)
+
+
+def _balance(arguments: argparse.Namespace) -> str:
+    engines = _engines([arguments.name])
+    if len(engines) > 1:
+        members = ", ".join(_presets.family(arguments.name))
+        raise InputError(f"NAME = {arguments.name}: balance takes one engine of {members}")
+    (engine,) = engines.values()
+    orders: Orders = "auto" if arguments.orders == "auto" else _orders(arguments.orders)
+    if arguments.rtol is not None and orders != "auto":
+        raise InputError(f"--rtol = {arguments.rtol}: chooses orders; give --orders auto with it")
+    picture = _picture_file(arguments.plot)
+    balance = engine.balance(
+        _number("--rpm", arguments.rpm),
+        orders,
+        rtol=1e-9 if arguments.rtol is None else _number("--rtol", arguments.rtol),
+        reference_z=_plane(arguments.reference_z),
+        spectrum=_spectrum(arguments.spectrum),
+    )
+    if picture is not None:
+        figure = balance.plot(quantity=arguments.quantity).get_figure(root=True)
+        assert figure is not None  # noqa: S101 - new axes are in a figure
+        _write(figure, picture)
+    text = _printed([balance._table()], csv=arguments.csv)
+    return text if arguments.csv or orders != "auto" else text + _left_out(balance)
+
+
+def _left_out(balance: Balance) -> str:
+    force, moment = balance.error_bound
+    listed = ", ".join(map(str, balance.omitted))
+    seen = f"; looked at and left out: {listed}" if listed else ""
+    return f"All other orders add at most {force:.2g} N and {moment:.2g} N·m{seen}.\n"
+
+
+def _sweep(arguments: argparse.Namespace) -> str:
+    engines = _engines(arguments.names)
+    texts = {dim: getattr(arguments, dim) for dim in FLAGS}
+    given = {dim: _range(FLAGS[dim], text) for dim, text in texts.items() if text is not None}
+    if not any(np.ndim(values) for values in given.values()):
+        if "bank_angle_deg" not in given and all(map(_is_vee, engines.values())):
+            given["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
+        elif len(engines) == 1:
+            raise InputError(
+                "nothing to sweep: give --rod-ratio, --pin-offset, --rpm, or --bank-angle for an "
+                "engine of two banks, as START:STOP:STEP or a,b,c"
+            )
+    rows = math.prod([len(engines), *map(np.size, given.values())])
+    if rows > MOST_ROWS:
+        raise InputError(f"{rows} points to sweep: give {MOST_ROWS} at most")
+    picture = _picture_file(arguments.plot)
+    result = sweep(
+        engines if len(engines) > 1 else next(iter(engines.values())),
+        rpm=given["rpm"],
+        bank_angle_deg=given.get("bank_angle_deg"),
+        rod_ratio=given.get("rod_ratio"),
+        pin_offset=given.get("pin_offset"),
+        hold=arguments.hold if "bank_angle_deg" in given else None,
+        orders=_orders(arguments.orders),
+        reference_z=_plane(arguments.reference_z),
+        spectrum=_spectrum(arguments.spectrum),
+    )
+    tables = _tables_of(result, list(engines), arguments)
+    if picture is not None:
+        _write(result.plot(quantity=arguments.quantity), picture)
+    return _printed(tables, csv=arguments.csv)
+
+
+def _is_vee(engine: Engine) -> bool:
+    try:
+        engine.bank_angle_deg  # noqa: B018 - asks whether there is one
+    except InputError:
+        return False
+    return True
+
+
+# --- from text to values ------------------------------------------------------------------------
+
+
+def _engines(names: Sequence[str]) -> dict[str, Engine]:
+    """Return engines by their names, or by what was typed where names do not tell them apart."""
+    typed: dict[str, Engine] = {}
+    for name in names:
+        if Path(name).suffix.lower() in (".toml", ".json"):
+            typed[name] = Engine.load(name)
+        else:
+            typed |= {member: Engine.preset(member) for member in _presets.family(name)}
+    titles = [engine.name for engine in typed.values()]
+    return {
+        title if title and titles.count(title) == 1 else name: engine
+        for title, (name, engine) in zip(titles, typed.items(), strict=True)
+    }
+
+
+def _decimal(name: str, text: str) -> Decimal:
+    try:
+        number = Decimal(text.strip())
+    except InvalidOperation:
+        raise InputError(f"{name} = {text}: give a number") from None
+    # Decimals go far beyond floats; with these the arithmetic below could not overflow.
+    if not math.isfinite(float(number)):
+        raise InputError(f"{name} = {text}: give a finite number")
+    return number
+
+
+def _number(name: str, text: str) -> float:
+    return float(_decimal(name, text))
+
+
+def _range(name: str, text: str) -> float | NDArray[np.float64]:
+    """Return one number, a list of numbers, or START:STOP:STEP with the stop included."""
+    if ":" not in text:
+        numbers = [_number(name, part) for part in text.split(",")]
+        return np.array(numbers) if "," in text else numbers[0]
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise InputError(f"{name} = {text}: give START:STOP:STEP, a,b,c or one number")
+    # In decimals, so that 0.2:0.4:0.1 holds 0.3 and 0.4 as they would be typed.
+    start, stop, step = (_decimal(name, part) for part in parts)
+    if float(step) == 0.0 or (stop - start) * step < 0:
+        raise InputError(f"{name} = {text}: the step does not lead from {start} to {stop}")
+    steps = (stop - start) / step
+    if steps >= MOST_ROWS:
+        raise InputError(f"{name} = {text}: {float(steps):.3g} steps; give {MOST_ROWS} at most")
+    return np.array([float(start + k * step) for k in range(int(steps) + 1)])
+
+
+def _orders(text: str) -> list[int]:
+    try:
+        return [int(part) for part in text.split(",")]
+    except ValueError:
+        raise InputError(f"--orders = {text}: give whole numbers, such as 1,2,4") from None
+
+
+def _plane(text: str | None) -> float | None:
+    return None if text is None else _number("--reference-z", text)
+
+
+def _spectrum(text: str | None) -> Spectrum | None:
+    if text is None:
+        return None
+    spectrum: dict[int, float] = {}
+    for part in text.split(","):
+        order, _, amplitude = part.partition("=")
+        try:
+            number = int(order)
+        except ValueError:
+            number = 0
+        if not amplitude or number < 1:
+            raise InputError(f"--spectrum = {text}: give order=amplitude, such as 1=9.0,2=3.75")
+        if number in spectrum:
+            raise InputError(f"--spectrum = {text}: order {number} is given twice")
+        spectrum[number] = _number("--spectrum", amplitude)
+    return spectrum
+
+
+def _picture_file(text: str | None) -> Path | None:
+    """Return where the picture goes, before anything is worked out for it."""
+    if text is None:
+        return None
+    path = Path(text)
+    if path.suffix.lower() not in PICTURES:
+        raise InputError(f"--plot = {text}: a picture's name ends in {', '.join(PICTURES)}")
+    return path
+
+
+# --- from values to text ------------------------------------------------------------------------
+
+
+def _tables_of(
+    result: Sweep, names: list[str], arguments: argparse.Namespace
+) -> list[_tables.Table]:
+    """Return a table for each engine, or a single one with a column of engines.
+
+    For reading, engines that are swept along something else stand below each other, as in the
+    papers; a program wants a single table, and so does a comparison of engines alone.
+    """
+    quantity = arguments.quantity
+    columns = len(_tables.SYMBOLS[quantity]) * len(result.orders)
+    peaks = result.torque_peak if quantity == "torque" else getattr(result, f"{quantity}_peak_xy")
+    rows = peaks.reshape(len(result.engines), -1, columns)
+    dims = [dim for dim in result.coords if dim != "engine"]
+    swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
+    heads = [COLUMNS[dim] for dim in dims]
+    heads += [
+        f"{symbol} order {order} {_tables.UNITS[quantity]}"
+        for order in result.orders
+        for symbol in _tables.SYMBOLS[quantity]
+    ]
+    how = _how(result, arguments)
+    decimals = _tables.decimals(rows)
+    if "engine" not in result.coords or (dims and not arguments.csv):
+        return [
+            _tables.Table(f"{name}: {how}", heads, swept, each, decimals)
+            for name, each in zip(names, rows, strict=True)
+        ]
+    labels = [(name, *point) for name in names for point in swept]
+    return [
+        _tables.Table(
+            f"{how[0].upper()}{how[1:]}",
+            ["engine", *heads],
+            labels,
+            rows.reshape(-1, columns),
+            decimals,
+        )
+    ]
+
+
+def _how(result: Sweep, arguments: argparse.Namespace) -> str:
+    """Say what the table shows, and what was fixed, held or given."""
+    parts = [f"peaks of {_tables.NAMES[arguments.quantity]}"]
+    parts += [_tables.value_text(dim, value) for dim, value in result.fixed.items()]
+    if result.hold is not None:
+        parts.append(_tables.HELD[result.hold])
+    if arguments.quantity == "moment" and arguments.reference_z is not None:
+        parts.append(f"about z = {_number('', arguments.reference_z):g} m")
+    if arguments.spectrum is not None:
+        parts.append(f"spectrum {arguments.spectrum} kg·m")
+    return ", ".join(parts)
+
+
+def _printed(tables: list[_tables.Table], *, csv: bool) -> str:
+    if csv:
+        return "".join(table.csv() for table in tables)
+    return "\n\n".join(table.text() for table in tables) + "\n"
+
+
+def _write(figure: Figure, path: Path) -> None:
+    from matplotlib import pyplot as plt  # noqa: PLC0415 - matplotlib is imported when used
+
+    try:
+        figure.savefig(path, dpi=200)
+    finally:
+        plt.close(figure)

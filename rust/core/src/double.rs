@@ -1,0 +1,62 @@
+//! Numbers of twice a double's digits: the unevaluated sum of two.
+
+/// `high + low`, with `low` below half a unit in the last place of `high`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Double {
+    /// The nearest double.
+    pub high: f64,
+    /// The rest.
+    pub low: f64,
+}
+
+impl Double {
+    /// `a + b`, exactly (Knuth's two-sum).
+    #[must_use]
+    #[inline]
+    pub fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let of_b = high - a;
+        Self { high, low: (a - (high - of_b)) + (b - of_b) }
+    }
+
+    /// `a · b`, exactly.
+    #[must_use]
+    #[inline]
+    pub fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        Self { high, low: a.mul_add(b, -high) }
+    }
+
+    /// Plus a double, to twice its digits.
+    #[must_use]
+    #[inline]
+    pub fn plus(self, x: f64) -> Self {
+        let sum = Self::sum(self.high, x);
+        Self::sum(sum.high, sum.low + self.low)
+    }
+
+    /// Over a double, to twice its digits.
+    #[must_use]
+    #[inline]
+    pub fn over(self, x: f64) -> Self {
+        let quotient = self.high / x;
+        let rest = (-quotient).mul_add(x, self.high) + self.low;
+        Self::sum(quotient, rest / x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_double_loses_is_kept() {
+        assert_eq!(Double::sum(1.0, 1e-20), Double { high: 1.0, low: 1e-20 });
+        let square = Double::product(1.0 + f64::EPSILON, 1.0 + f64::EPSILON);
+        assert_eq!(square.low, f64::EPSILON * f64::EPSILON);
+        let third = Double { high: 1.0, low: 0.0 }.over(3.0);
+        let back = Double::product(third.high, 3.0).plus(3.0 * third.low);
+        // twice 53 bits, three roundings
+        assert!((back.high - 1.0).abs() + back.low.abs() < 1e-31);
+    }
+}
