@@ -89,8 +89,16 @@ impl Ellipse {
     #[must_use]
     pub fn new(forward: Complex64, backward: Complex64) -> Self {
         let (f, b) = (forward.norm(), backward.norm());
-        let tilt = if f == 0.0 || b == 0.0 { 0.0 } else { (forward * backward / (f * b)).sqrt().arg() };
-        Self { major: f + b, minor: f - b, tilt }
+        let tilt = if f == 0.0 || b == 0.0 {
+            0.0
+        } else {
+            (forward * backward / (f * b)).sqrt().arg()
+        };
+        Self {
+            major: f + b,
+            minor: f - b,
+            tilt,
+        }
     }
 }
 
@@ -144,35 +152,30 @@ fn chosen(
     spectrum: Option<&Spectrum>,
 ) -> Result<Balance> {
     if !(1e-15..1.0).contains(&rtol) {
-        return Err(Error::value("rtol", rtol, "give a number from 1e-15 to below 1"));
+        return Err(Error::value(
+            "rtol",
+            rtol,
+            "give a number from 1e-15 to below 1",
+        ));
     }
     let sums = Sums::new(engine, reference, spectrum);
     let count = engine.placements().len() as f64;
-    let candidates = match spectrum {
-        Some(spectrum) => {
-            let mut orders = spectrum.orders();
-            if !orders.contains(&1) && engine.placements().iter().any(|p| p.rotating_mass > 0.0) {
-                orders.insert(0, 1);
-            }
-            orders
-        }
-        None => {
-            let mut highest = 1;
-            for group in &sums.groups {
-                highest =
-                    highest.max(harmonics::highest_order(&group.proportions, 0.25 * rtol / count)?);
-            }
-            (1..=highest).collect()
-        }
-    };
+    let candidates = candidates(engine, &sums, 0.25 * rtol / count)?;
     let last = candidates.last().copied().unwrap_or(1);
     let whole = sums.balance(&candidates, omega);
-    let (tail_force, tail_moment) =
-        if spectrum.is_some() { (0.0, 0.0) } else { sums.tail(last, omega) };
+    let (tail_force, tail_moment) = if spectrum.is_some() {
+        (0.0, 0.0)
+    } else {
+        sums.tail(last, omega)
+    };
     let largest = engine
         .placements()
         .iter()
-        .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
+        .map(|p| {
+            p.cylinder
+                .first_order()
+                .max(p.rotating_mass * p.cylinder.crank_radius())
+        })
         .fold(0.0, f64::max);
     let allowed_force = rtol * largest * omega * omega;
     let allowed_moment = allowed_force * engine.longest_lever(reference);
@@ -180,13 +183,16 @@ fn chosen(
     let share = |size: f64, allowed: f64| if size == 0.0 { 0.0 } else { size / allowed };
     let mut by_size: Vec<usize> = (0..candidates.len()).collect();
     let weight = |&k: &usize| {
-        share(size(&whole.force, k), allowed_force).max(share(size(&whole.moment, k), allowed_moment))
+        share(size(&whole.force, k), allowed_force)
+            .max(share(size(&whole.moment, k), allowed_moment))
     };
     by_size.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
     let (mut force, mut moment, mut left_out) = (tail_force, tail_moment, 0);
     for &k in &by_size {
-        let (more_force, more_moment) =
-            (force + size(&whole.force, k), moment + size(&whole.moment, k));
+        let (more_force, more_moment) = (
+            force + size(&whole.force, k),
+            moment + size(&whole.moment, k),
+        );
         if more_force > allowed_force || more_moment > allowed_moment {
             break;
         }
@@ -204,6 +210,22 @@ fn chosen(
     Ok(balance)
 }
 
+/// Orders that may matter: those of the spectrum, or all whose harmonics are not below `tolerance`.
+fn candidates(engine: &Engine, sums: &Sums, tolerance: f64) -> Result<Vec<u32>> {
+    if let Some(spectrum) = sums.spectrum {
+        let mut orders = spectrum.orders();
+        if !orders.contains(&1) && engine.placements().iter().any(|p| p.rotating_mass > 0.0) {
+            orders.insert(0, 1);
+        }
+        return Ok(orders);
+    }
+    let mut highest = 1;
+    for group in &sums.groups {
+        highest = highest.max(harmonics::highest_order(&group.proportions, tolerance)?);
+    }
+    Ok((1..=highest).collect())
+}
+
 /// Cylinders whose slider-cranks have the same proportions, hence the same harmonics.
 pub(crate) struct Group {
     pub proportions: Proportions,
@@ -216,9 +238,15 @@ pub(crate) fn groups(cylinders: impl Iterator<Item = Cylinder>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (i, cylinder) in cylinders.enumerate() {
         let proportions = cylinder.proportions();
-        match groups.iter_mut().find(|group| group.proportions == proportions) {
+        match groups
+            .iter_mut()
+            .find(|group| group.proportions == proportions)
+        {
             Some(group) => group.members.push(i),
-            None => groups.push(Group { proportions, members: vec![i] }),
+            None => groups.push(Group {
+                proportions,
+                members: vec![i],
+            }),
         }
     }
     groups
@@ -235,7 +263,11 @@ pub(crate) fn zero_factor(count: usize, order: u32) -> f64 {
 
 /// A sum is zero where it is within what rounding can leave.
 pub(crate) fn snapped(sum: Complex64, bound: f64) -> Complex64 {
-    if sum.norm() <= bound { Complex64::default() } else { sum }
+    if sum.norm() <= bound {
+        Complex64::default()
+    } else {
+        sum
+    }
 }
 
 /// Weighted sum of unit vectors along the bores, in phase with their cylinders.
@@ -320,8 +352,11 @@ impl<'a> Sums<'a> {
         let count = orders.len();
         let mut force = empty_shake(count);
         let mut moment = empty_shake(count);
-        let harmonics: Vec<Vec<Complex64>> =
-            self.groups.iter().map(|group| self.harmonics(group, orders)).collect();
+        let harmonics: Vec<Vec<Complex64>> = self
+            .groups
+            .iter()
+            .map(|group| self.harmonics(group, orders))
+            .collect();
         for (k, &n) in orders.iter().enumerate() {
             let (mut forces, mut levered) = (Planar::default(), Planar::default());
             for (group, harmonics) in self.groups.iter().zip(&harmonics) {
@@ -340,7 +375,13 @@ impl<'a> Sums<'a> {
             store(&mut moment, k, &levered.quarter_turned(), square, factor);
         }
         let torque = self.spectrum.is_none().then(|| self.torque(orders, square));
-        Balance { orders: orders.to_vec(), omitted: Vec::new(), force, moment, torque }
+        Balance {
+            orders: orders.to_vec(),
+            omitted: Vec::new(),
+            force,
+            moment,
+            torque,
+        }
     }
 
     /// Amplitudes by which the layout sums of a group are multiplied.
@@ -356,8 +397,11 @@ impl<'a> Sums<'a> {
         for &i in &group.members {
             let placement = &self.engine.placements()[i];
             // A spectrum in kg·m already has the mass and the radius in it.
-            let weight =
-                if self.spectrum.is_some() { 1.0 } else { placement.cylinder.first_order() };
+            let weight = if self.spectrum.is_some() {
+                1.0
+            } else {
+                placement.cylinder.first_order()
+            };
             let phase = placement.tdc.cis(-i64::from(order));
             let (lever, lever_size) = self.levers[i];
             forces.add(weight, weight, self.bores[i], phase);
@@ -384,7 +428,7 @@ impl<'a> Sums<'a> {
             zero_bound: Array1::default(orders.len()),
         };
         for group in &self.groups {
-            let harmonics = harmonics::torque(&group.proportions, orders);
+            let harmonics = harmonics::torque::torque(&group.proportions, orders);
             for (k, &n) in orders.iter().enumerate() {
                 let (mut sum, mut size) = (Complex64::default(), 0.0);
                 for &i in &group.members {
@@ -395,7 +439,8 @@ impl<'a> Sums<'a> {
                 }
                 torque.roll[k] += sum * harmonics.roll[k];
                 torque.crank[k] += sum * harmonics.crank[k];
-                torque.zero_bound[k] += size * harmonics.roll[k].norm().max(harmonics.crank[k].norm());
+                torque.zero_bound[k] +=
+                    size * harmonics.roll[k].norm().max(harmonics.crank[k].norm());
             }
         }
         for (k, &n) in orders.iter().enumerate() {

@@ -87,7 +87,11 @@ impl Engine {
             placement.tdc = placement.tdc.reduced();
             placement.bank = placement.bank.reduced();
         }
-        Ok(Self { name: name.into(), source: source.into(), placements })
+        Ok(Self {
+            name: name.into(),
+            source: source.into(),
+            placements,
+        })
     }
 
     /// What people call it; may be empty.
@@ -126,13 +130,19 @@ impl Engine {
     /// Longest lever about a reference plane, m.
     #[must_use]
     pub fn longest_lever(&self, reference: f64) -> f64 {
-        self.placements.iter().map(|p| (p.z - reference).abs()).fold(0.0, f64::max)
+        self.placements
+            .iter()
+            .map(|p| (p.z - reference).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Largest crank radius of any cylinder, m.
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
-        self.placements.iter().map(|p| p.cylinder.crank_radius()).fold(0.0, f64::max)
+        self.placements
+            .iter()
+            .map(|p| p.cylinder.crank_radius())
+            .fold(0.0, f64::max)
     }
 
     /// Directions of the banks of an engine that has two.
@@ -151,11 +161,17 @@ impl Engine {
                 "the bank angle of an engine with exactly two banks can be changed",
             ));
         };
-        let (right, left) =
-            if (second - first).reduced().degrees() <= 180.0 { (first, second) } else { (second, first) };
+        let (right, left) = if (second - first).reduced().degrees() <= 180.0 {
+            (first, second)
+        } else {
+            (second, first)
+        };
         // 0° and 180° in whichever order they come: the flat engine's right bank points along +x.
         if (left - right).reduced().degrees() == 180.0 && right.degrees() >= 180.0 {
-            return Ok(Banks { right: left, left: right });
+            return Ok(Banks {
+                right: left,
+                left: right,
+            });
         }
         Ok(Banks { right, left })
     }
@@ -166,12 +182,20 @@ impl Engine {
         let banks = self.banks()?;
         let (middle, half) = (banks.bisector(), bank_angle.half());
         let placements = self.placements.iter().map(|placement| {
-            let bank = if placement.bank == banks.right { middle - half } else { middle + half };
+            let bank = if placement.bank == banks.right {
+                middle - half
+            } else {
+                middle + half
+            };
             let tdc = match hold {
                 Hold::Pins => bank - placement.pin(),
                 Hold::Firing => placement.tdc,
             };
-            Placement { bank, tdc, ..*placement }
+            Placement {
+                tdc,
+                bank,
+                ..*placement
+            }
         });
         Self::new(self.name.clone(), self.source.clone(), placements.collect())
     }
@@ -180,15 +204,25 @@ impl Engine {
     /// centre at this crank angle.
     pub fn with_first_tdc(&self, tdc: Angle) -> Result<Self> {
         let turn = tdc - self.placements[0].tdc;
-        let placements =
-            self.placements.iter().map(|p| Placement { tdc: p.tdc + turn, ..*p }).collect();
+        let placements = self
+            .placements
+            .iter()
+            .map(|p| Placement {
+                tdc: p.tdc + turn,
+                ..*p
+            })
+            .collect();
         Self::new(self.name.clone(), self.source.clone(), placements)
     }
 
     /// The same engine under another name.
     #[must_use]
     pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Self {
-        Self { name: name.into(), source: source.into(), placements: self.placements.clone() }
+        Self {
+            name: name.into(),
+            source: source.into(),
+            placements: self.placements.clone(),
+        }
     }
 }
 
@@ -197,7 +231,11 @@ pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
     if (0.0..=180.0).contains(&degrees) {
         return Ok(degrees);
     }
-    Err(Error::value("bank_angle_deg", degrees, "give degrees between 0 and 180"))
+    Err(Error::value(
+        "bank_angle_deg",
+        degrees,
+        "give degrees between 0 and 180",
+    ))
 }
 
 #[cfg(test)]

@@ -37,5 +37,5 @@ pub use spectrum::Spectrum;
 pub use sweep::Sweep;
 pub use waveform::Waveform;
 
-/// Complex numbers as nalgebra, ndarray and NumPy share them.
+/// Complex numbers as nalgebra, ndarray and `NumPy` share them.
 pub type Complex64 = nalgebra::Complex<f64>;

@@ -12,6 +12,10 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
 /// Quadrants are taken off exactly; on the ±45° that are left, minimax polynomials (fdlibm's) are
 /// within a unit in the last place.
 #[inline(always)]
+#[expect(
+    clippy::excessive_precision,
+    reason = "the coefficients as fdlibm gives them"
+)]
 pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
     const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -64,7 +68,10 @@ mod tests {
     fn agrees_with_the_library() {
         let degrees: Vec<f64> = (-40_000..40_000).map(|k| f64::from(k) * 0.037).collect();
         let (mut sin, mut cos) = (degrees.clone(), degrees.clone());
-        vectorised(#[inline(always)] || sin_cos_degrees(&degrees, &mut sin, &mut cos));
+        vectorised(
+            #[inline(always)]
+            || sin_cos_degrees(&degrees, &mut sin, &mut cos),
+        );
         for (i, &d) in degrees.iter().enumerate() {
             let unit = crate::angle::cis_degrees(d);
             // one unit in the last place of numbers below 1, twice

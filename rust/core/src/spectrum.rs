@@ -23,7 +23,11 @@ impl Spectrum {
             spectrum.insert(order, amplitude);
         }
         if spectrum.is_empty() {
-            return Err(Error::value("spectrum", "{}", "give at least one order, such as {1: 9.0}"));
+            return Err(Error::value(
+                "spectrum",
+                "{}",
+                "give at least one order, such as {1: 9.0}",
+            ));
         }
         Ok(Self(spectrum))
     }

@@ -37,6 +37,7 @@ impl<T> OrRaise<T> for core::Result<T> {
 }
 
 /// Degrees as a number, a `Fraction` or a string such as `"360/7"`.
+#[derive(Clone, Copy)]
 pub struct Angle(pub core::Angle);
 
 impl<'py> FromPyObject<'_, 'py> for Angle {
@@ -48,14 +49,19 @@ impl<'py> FromPyObject<'_, 'py> for Angle {
         }
         // Whole numbers and fractions have both; a denominator of 1 is taken with the floats.
         if let Ok(denominator) = value.getattr("denominator")
-            && let (Ok(numerator), Ok(denominator)) =
-                (value.getattr("numerator")?.extract(), denominator.extract::<i64>())
+            && let (Ok(numerator), Ok(denominator)) = (
+                value.getattr("numerator")?.extract(),
+                denominator.extract::<i64>(),
+            )
             && denominator != 1
         {
-            return core::Angle::from_degree_fraction(numerator, denominator).or_raise().map(Self);
+            return core::Angle::from_degree_fraction(numerator, denominator)
+                .or_raise()
+                .map(Self);
         }
         let degrees = value.extract::<f64>().map_err(|_| {
-            let message = format!("angle = {value:?}: give degrees as a number, Fraction or string");
+            let message =
+                format!("angle = {value:?}: give degrees as a number, Fraction or string");
             InputError::new_err(message)
         })?;
         core::Angle::from_degrees(degrees).or_raise().map(Self)
@@ -80,7 +86,7 @@ pub fn spectrum(terms: Option<Vec<(u32, Complex64)>>) -> PyResult<Option<core::S
     terms.map(core::Spectrum::new).transpose().or_raise()
 }
 
-/// A NumPy array that owns the values and cannot be written to.
+/// A `NumPy` array that owns the values and cannot be written to.
 pub fn frozen<T: Element, D: Dimension>(
     py: Python<'_>,
     values: ndarray::Array<T, D>,

@@ -33,16 +33,27 @@ pub fn run<T: Send>(
                 match receiver.recv_timeout(PATIENCE) {
                     Ok(result) => return signal.map_or_else(|| result.or_raise(), Err),
                     Err(RecvTimeoutError::Timeout) => {
-                        if let Err(raised) = Python::attach(|py| py.check_signals()) {
+                        if let Err(raised) = signals() {
                             cancel.raise();
                             signal = Some(raised);
                         }
                     }
                     Err(RecvTimeoutError::Disconnected) => {
-                        return Err(pyo3::exceptions::PyRuntimeError::new_err("worker thread died"));
+                        return Err(pyo3::exceptions::PyRuntimeError::new_err(
+                            "worker thread died",
+                        ));
                     }
                 }
             }
         })
     })
+}
+
+/// What Python's signal handlers raise, if anything.
+#[expect(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method has one lifetime only"
+)]
+fn signals() -> PyResult<()> {
+    Python::attach(|py| py.check_signals())
 }

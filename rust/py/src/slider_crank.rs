@@ -1,6 +1,7 @@
 //! One cylinder: motion and harmonics.
 
-use crankpin_core::{Complex64, angle, harmonics, limits};
+use crankpin_core::harmonics::{self, table, torque};
+use crankpin_core::{Complex64, angle, limits};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -46,11 +47,11 @@ pub fn motion<'py>(
 
 /// Harmonics of a cylinder's inertia force over m·r·ω².
 #[pyfunction]
-pub fn cylinder_harmonics<'py>(
-    py: Python<'py>,
+pub fn cylinder_harmonics(
+    py: Python<'_>,
     parts: Parts,
     orders: Vec<u32>,
-) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
     limits::orders(&orders).or_raise()?;
     let values = harmonics::coefficients(&cylinder(parts)?.proportions(), &orders);
     Ok(PyArray1::from_vec(py, values))
@@ -59,14 +60,20 @@ pub fn cylinder_harmonics<'py>(
 /// Harmonics of a cylinder's roll and crank torque over m·r²·ω².
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "a pair of arrays")]
-pub fn cylinder_torque_harmonics<'py>(
-    py: Python<'py>,
+pub fn cylinder_torque_harmonics(
+    py: Python<'_>,
     parts: Parts,
     orders: Vec<u32>,
-) -> PyResult<(Bound<'py, PyArray1<Complex64>>, Bound<'py, PyArray1<Complex64>>)> {
+) -> PyResult<(
+    Bound<'_, PyArray1<Complex64>>,
+    Bound<'_, PyArray1<Complex64>>,
+)> {
     limits::orders(&orders).or_raise()?;
-    let torque = harmonics::torque(&cylinder(parts)?.proportions(), &orders);
-    Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
+    let torque = torque::torque(&cylinder(parts)?.proportions(), &orders);
+    Ok((
+        PyArray1::from_vec(py, torque.roll),
+        PyArray1::from_vec(py, torque.crank),
+    ))
 }
 
 /// Harmonics without offset for many rod ratios: (n, `n_orders`).
@@ -78,8 +85,9 @@ pub fn centred_table<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let ratios = rod_ratios.as_slice()?.to_vec();
     let steps = ratios.len() * orders.len();
-    let table =
-        interrupt::run(py, steps, |cancel| harmonics::centred_table(&ratios, &orders, cancel))?;
+    let table = interrupt::run(py, steps, |cancel| {
+        table::centred_table(&ratios, &orders, cancel)
+    })?;
     Ok(PyArray2::from_owned_array(py, table))
 }
 
@@ -91,10 +99,13 @@ pub fn offset_table<'py>(
     offsets: PyReadonlyArray1<'py, f64>,
     orders: Vec<u32>,
 ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
-    let (ratios, offsets) = (rod_ratios.as_slice()?.to_vec(), offsets.as_slice()?.to_vec());
+    let (ratios, offsets) = (
+        rod_ratios.as_slice()?.to_vec(),
+        offsets.as_slice()?.to_vec(),
+    );
     let steps = ratios.len() * orders.len() * 32;
     let table = interrupt::run(py, steps, |cancel| {
-        harmonics::offset_table(&ratios, &offsets, &orders, cancel)
+        table::offset_table(&ratios, &offsets, &orders, cancel)
     })?;
     Ok(PyArray2::from_owned_array(py, table))
 }

@@ -1,0 +1,298 @@
+//! The slider-crank's harmonics: every order exact, for any rod ratio below 1 and any offset.
+//!
+//! The inertia force of a piston is `m r ω² Re Σ aₙ e^{in(θ − tdc)}`; this file gives `aₙ`, and
+//! the harmonics of the roll torque. With A = (l + e)/r and B = (l − e)/r the height of the rod,
+//! √((A − sin θ)(B + sin θ)), factors into
+//! `√((1 + p₁w)(1 − p₂w)) · √((1 + p₁/w)(1 − p₂/w)) / (2√(p₁p₂))` with w = i e^{iθ},
+//! p₁ = A − √(A² − 1) and p₂ = B − √(B² − 1). The first root is a power series Σ hₖwᵏ with a
+//! two-term recurrence, and the coefficient of e^{inθ} is `iⁿ Σⱼ h_{j+n} hⱼ / (2√(p₁p₂))`: sums of
+//! terms of one sign after the first, so that every order keeps its *relative* accuracy, where a
+//! transform of samples loses high orders to the rounding of the low ones.
+
+mod spike;
+pub mod table;
+pub mod torque;
+
+use self::spike::spike_integral;
+use crate::Complex64;
+use crate::double::Double;
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Proportions;
+
+/// Terms left out are below this part of the sum: under half a unit in the last place.
+const NEGLIGIBLE_LOG: f64 = 38.0;
+/// A series this long costs as much as the quadrature that replaces it near λ = 1.
+const LONGEST_SERIES: f64 = 2000.0;
+/// ... unless the order is so high that its coefficient has decayed, which the quadrature, exact
+/// relative to the spike only, would not resolve.
+const SERIES_TERMS_PER_ORDER: f64 = 4.0;
+/// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
+#[must_use]
+pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
+    if proportions.offset == 0.0 {
+        let centred = Centred::new(proportions);
+        return orders
+            .iter()
+            .map(|&n| Complex64::new(centred.coefficient(n), 0.0))
+            .collect();
+    }
+    Offset::new(proportions).coefficients(orders)
+}
+
+/// Ratio of term j + 1 to term j.
+#[inline(always)]
+fn next_term(j: f64, m: f64) -> f64 {
+    ((j - 0.5) * (j + m - 0.5)) / ((j + 1.0) * (j + m + 1.0))
+}
+
+/// `(−1)^{m+1} n² |b_m|`, n = 2m.
+fn leading(n: u32) -> f64 {
+    let m = n / 2;
+    let mut b = 0.5;
+    for k in 1..m {
+        b *= (f64::from(k) - 0.5) / f64::from(k + 1);
+    }
+    let sign = if m % 2 == 1 { 1.0 } else { -1.0 };
+    sign * f64::from(n).powi(2) * b
+}
+
+/// p = a − √(a² − 1) for a = 1 + reach.
+#[derive(Clone, Copy)]
+struct Root {
+    /// The double next to it, within a few units.
+    p: f64,
+    /// What is missing, relative to p.
+    correction: f64,
+    /// √(a² − 1).
+    height: f64,
+}
+
+impl Root {
+    fn new(reach: Double) -> Self {
+        let g = reach.high;
+        let root = (g * (2.0 + g)).sqrt();
+        let p = 1.0 / (1.0 + g + root);
+        // Residual of p² − 2(1 + g)p + 1 to twice the digits, and a step of Newton's method.
+        let (cross, square) = (Double::product(-2.0 * g, p), Double::product(p, p));
+        let residual = Double::sum(1.0, cross.high)
+            .plus(-2.0 * p)
+            .plus(square.high)
+            .plus(cross.low + square.low - 2.0 * reach.low * p);
+        Self {
+            p,
+            correction: residual.high / (2.0 * root * p),
+            height: root,
+        }
+    }
+
+    /// pⁿ: the library's power is right to half a unit, the rounding of p is taken out.
+    fn power(&self, n: u32) -> f64 {
+        self.p.powf(f64::from(n)) * (1.0 + f64::from(n) * self.correction)
+    }
+}
+
+/// A slider-crank without offset: p₁ = p₂ = p, odd orders vanish, even ones are
+/// `±n²|b_m| p^{n−1} (1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j})`.
+struct Centred {
+    root: Root,
+    reach: f64,
+    fourth: f64,
+}
+
+impl Centred {
+    fn new(proportions: &Proportions) -> Self {
+        let root = Root::new(proportions.above);
+        Self {
+            root,
+            reach: proportions.above.high,
+            fourth: root.p.powi(4),
+        }
+    }
+
+    fn coefficient(&self, n: u32) -> f64 {
+        if n % 2 == 1 {
+            return if n == 1 { 1.0 } else { 0.0 };
+        }
+        let count = (NEGLIGIBLE_LOG / -self.fourth.ln()).ceil();
+        if count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n) {
+            let reach = self.reach;
+            return spike_integral(reach, reach, 0.0, n)
+                * if n.is_multiple_of(4) { 1.0 } else { -1.0 };
+        }
+        let m = f64::from(n / 2);
+        let mut term = 0.5 * (m - 0.5) / (m + 1.0) * self.fourth;
+        let mut sum = 0.0;
+        let mut j = 1.0;
+        while term > sum * f64::EPSILON / 16.0 {
+            sum += term;
+            term *= next_term(j, m) * self.fourth;
+            j += 1.0;
+        }
+        leading(n) * self.root.power(n - 1) * (1.0 - sum)
+    }
+}
+
+/// A slider-crank with an offset: all orders, the odd ones as sines.
+struct Offset {
+    /// |e|/r, with `above` ≥ `below`; a negative offset mirrors the motion in time.
+    size: f64,
+    mirrored: bool,
+    above: Double,
+    below: Double,
+}
+
+impl Offset {
+    fn new(proportions: &Proportions) -> Self {
+        let Proportions {
+            offset,
+            above,
+            below,
+            ..
+        } = *proportions;
+        let mirrored = offset < 0.0;
+        let (above, below) = if mirrored {
+            (below, above)
+        } else {
+            (above, below)
+        };
+        Self {
+            size: offset.abs(),
+            mirrored,
+            above,
+            below,
+        }
+    }
+
+    fn coefficients(&self, orders: &[u32]) -> Vec<Complex64> {
+        let highest = orders.iter().copied().max().unwrap_or(1);
+        let roots = Roots::new(self.size, self.above, self.below);
+        let count = NEGLIGIBLE_LOG / (-2.0 * roots.p2.ln());
+        let by_quadrature =
+            |n: u32| count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n);
+        let series = if orders.iter().all(|&n| by_quadrature(n)) {
+            Vec::new()
+        } else {
+            roots.series(highest as usize + count.ceil() as usize + 1)
+        };
+        orders
+            .iter()
+            .map(|&n| {
+                let magnitude = if by_quadrature(n) {
+                    // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
+                    let sign = if n % 2 == 1 { -1.0 } else { 1.0 };
+                    sign * spike_integral(self.above.high, self.below.high, self.size, n)
+                } else {
+                    let terms = series.len() - n as usize;
+                    // From the smallest term up.
+                    let tail: f64 = (1..terms)
+                        .rev()
+                        .map(|j| series[j] * series[j + n as usize])
+                        .sum();
+                    f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
+                };
+                self.turned(n, magnitude)
+            })
+            .collect()
+    }
+
+    /// iⁿ times a real magnitude, mirrored in time where the offset is negative, plus the crank.
+    fn turned(&self, n: u32, magnitude: f64) -> Complex64 {
+        let imaginary = if self.mirrored { -magnitude } else { magnitude };
+        match n % 4 {
+            0 => Complex64::new(magnitude, 0.0),
+            1 => Complex64::new(if n == 1 { 1.0 } else { 0.0 }, imaginary),
+            2 => Complex64::new(-magnitude, 0.0),
+            _ => Complex64::new(0.0, -imaginary),
+        }
+    }
+}
+
+/// p₁, p₂ and what the recurrence needs of them.
+struct Roots {
+    p1: f64,
+    p2: f64,
+    /// p₁p₂.
+    product: f64,
+    /// p₁ − p₂, which for small offsets the difference would lose.
+    difference: f64,
+}
+
+impl Roots {
+    fn new(offset: f64, above: Double, below: Double) -> Self {
+        let (first, second) = (Root::new(above), Root::new(below));
+        let (p1, p2) = (first.p, second.p);
+        let rounded = Double::product(p1, p2);
+        let correction = rounded.low + rounded.high * (first.correction + second.correction);
+        let product = rounded.high + correction;
+        // 2e/r = A − B = (p₁ − p₂)(1 − 1/p₁p₂)/2; near 1 the difference is lost, the roots are not.
+        let difference = if product < 0.5 {
+            -4.0 * offset * product / (1.0 - product)
+        } else {
+            -2.0 * offset * (p1 + p2) / (first.height + second.height)
+        };
+        Self {
+            p1,
+            p2,
+            product,
+            difference,
+        }
+    }
+
+    /// h₀ … h_{count − 1} of √((1 + p₁w)(1 − p₂w)): all below zero from h₁ on, since p₁ ≤ p₂, so
+    /// that the recurrence adds terms of one sign.
+    fn series(&self, count: usize) -> Vec<f64> {
+        let mut h = Vec::with_capacity(count.max(2));
+        h.extend([1.0, 0.5 * self.difference]);
+        for k in 1..count.max(2) - 1 {
+            let x = k as f64;
+            let next = self.difference * (0.5 - x) * h[k] + self.product * (x - 2.0) * h[k - 1];
+            h.push(next / (x + 1.0));
+        }
+        h
+    }
+}
+
+/// Bound of `Σ_{n > highest} |aₙ|`, what orders above `highest` can add to a force over m·r·ω².
+///
+/// |hₖ| ≤ p₂ᵏ: by the generating function (2 − √(1 − x))² the binomial coefficients of the two
+/// roots convolve to 1 at most. Hence `|aₙ| ≤ n² p₂ⁿ / (√(p₁p₂) (1 − p₂²))`, summed as the second
+/// derivative of a geometric series. `None` where p₂ is so near 1 that it overflows.
+#[must_use]
+pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
+    let Offset {
+        size, above, below, ..
+    } = Offset::new(proportions);
+    let Roots { p2: p, product, .. } = Roots::new(size, above, below);
+    let first = f64::from(highest + 1);
+    let gap = 1.0 - p;
+    // Σ_{n ≥ N} n² pⁿ = p^N (N²/g + 2Np/g² + p(1 + p)/g³), g = 1 − p.
+    let sum = p.powf(first)
+        * (first * first / gap + 2.0 * first * p / (gap * gap) + p * (1.0 + p) / gap.powi(3));
+    let bound = sum / (product.sqrt() * (1.0 - p * p));
+    bound.is_finite().then_some(bound)
+}
+
+/// The lowest order above which the rest of the force is below `tolerance` times m·r·ω².
+pub fn highest_order(proportions: &Proportions, tolerance: f64) -> Result<u32> {
+    let enough = |n: u32| tail_bound(proportions, n).is_some_and(|bound| bound <= tolerance);
+    if !enough(limits::HIGHEST_ORDER) {
+        let cure = format!(
+            "more than {} orders would be needed at a rod ratio of {}; ask for exact kinematics or \
+             a larger rtol",
+            limits::HIGHEST_ORDER,
+            1.0 / proportions.rod
+        );
+        return Err(Error::value("rtol", tolerance, cure));
+    }
+    let (mut low, mut high) = (0, limits::HIGHEST_ORDER);
+    while low < high {
+        let middle = u32::midpoint(low, high);
+        if enough(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    Ok(high.max(1))
+}

@@ -1,0 +1,76 @@
+//! Harmonics near the crank that cannot turn, where a series would take too many terms.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
+
+/// `(2/π)∫₀^π −h''(φ) cos nφ dφ` with φ the crank angle from sin θ = 1.
+///
+/// Near the crank that cannot turn, h'' is a spike as narrow as √(2·reach) at either end: panels
+/// halve towards it, so that their number grows with the logarithm of its width only. Exact
+/// relative to the spike's area; orders that have decayed below it are left to the series.
+pub(super) fn spike_integral(above: f64, below: f64, offset: f64, n: u32) -> f64 {
+    let far_sign = if n % 2 == 1 { -1.0 } else { 1.0 };
+    let rod = 1.0 + 0.5 * (above + below);
+    let half = |near: f64, far: f64, offset: f64| {
+        graded_panels((2.0 * near).sqrt(), f64::from(n), |φ| {
+            let (sin, cos) = φ.sin_cos();
+            let (half_sin, half_cos) = (0.5 * φ).sin_cos();
+            let height_squared =
+                (near + 2.0 * half_sin * half_sin) * (far + 2.0 * half_cos * half_cos);
+            let lateral = cos - offset;
+            let curvature = rod * rod * sin * sin / height_squared - lateral * cos;
+            curvature / height_squared.sqrt() * (f64::from(n) * φ).cos()
+        })
+    };
+    (half(above, below, offset) + far_sign * half(below, above, -offset)) * 2.0 / PI
+}
+
+/// Integral over [0, π/2] of a function with a spike of this width at 0 and waves of order n.
+fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
+    /// Radians of a wave that one panel of [`GAUSS`] resolves to rounding.
+    const WAVE_PER_PANEL: f64 = 4.0;
+    let mut edges = vec![FRAC_PI_2];
+    while edges[edges.len() - 1] > 0.5 * width {
+        edges.push(0.5 * edges[edges.len() - 1]);
+    }
+    edges.push(0.0);
+    let mut sum = 0.0;
+    // From the spike outwards.
+    for pair in edges.windows(2).rev() {
+        let parts = (n * (pair[0] - pair[1]) / WAVE_PER_PANEL).ceil().max(1.0);
+        let half = 0.5 * (pair[0] - pair[1]) / parts;
+        for part in 0..parts as usize {
+            let middle = pair[1] + half * (2 * part + 1) as f64;
+            sum += GAUSS
+                .iter()
+                .map(|&(x, w)| w * f(half.mul_add(x, middle)))
+                .sum::<f64>()
+                * half;
+        }
+    }
+    sum
+}
+
+/// Nodes and weights of the 20-point Gauss-Legendre rule on [−1, 1].
+static GAUSS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    const COUNT: u32 = 20;
+    let legendre = |x: f64| {
+        let (mut before, mut here) = (1.0, x);
+        for k in 2..=COUNT {
+            let k = f64::from(k);
+            (before, here) = (here, ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k);
+        }
+        (here, f64::from(COUNT) * (x * here - before) / (x * x - 1.0))
+    };
+    (0..COUNT)
+        .map(|i| {
+            let mut x = (PI * (f64::from(i) + 0.75) / (f64::from(COUNT) + 0.5)).cos();
+            for _ in 0..8 {
+                let (value, slope) = legendre(x);
+                x -= value / slope;
+            }
+            let (_, slope) = legendre(x);
+            (x, 2.0 / ((1.0 - x * x) * slope * slope))
+        })
+        .collect()
+});

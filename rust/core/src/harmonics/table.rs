@@ -1,0 +1,201 @@
+//! Harmonics of many slider-cranks at once.
+
+use ndarray::{Array2, Axis, parallel::prelude::*};
+use rayon::slice::ParallelSlice;
+
+use super::{Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, next_term};
+use crate::Complex64;
+use crate::cancel::Cancel;
+use crate::error::Result;
+use crate::limits;
+use crate::simd::vectorised;
+use crate::slider_crank::Proportions;
+
+/// Up to this power repeated multiplication is within 2e-15.
+const LARGEST_PLAIN_POWER: u32 = 15;
+
+/// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
+pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
+    let mut table = checked_table::<f64>(rod_ratios.len(), orders)?;
+    let longest = Horner::tables(orders);
+    fill(&mut table, rod_ratios, cancel, |rod_ratios, rows| {
+        centred_rows(rod_ratios, orders, &longest, rows)
+    })?;
+    Ok(table)
+}
+
+/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns).
+pub fn offset_table(
+    rod_ratios: &[f64],
+    offsets: &[f64],
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<Array2<Complex64>> {
+    let mut table = checked_table::<Complex64>(rod_ratios.len(), orders)?;
+    let pairs: Vec<(f64, f64)> = rod_ratios
+        .iter()
+        .copied()
+        .zip(offsets.iter().copied())
+        .collect();
+    fill(&mut table, &pairs, cancel, |pairs, rows| {
+        for (&(rod_ratio, offset), row) in pairs.iter().zip(rows.chunks_exact_mut(orders.len())) {
+            row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
+        }
+        Ok(())
+    })?;
+    Ok(table)
+}
+
+fn checked_table<T: Clone + Default>(rows: usize, orders: &[u32]) -> Result<Array2<T>> {
+    limits::orders(orders)?;
+    let cure = "split rod_ratio into parts";
+    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)?;
+    Ok(Array2::default((rows, orders.len())))
+}
+
+/// Fill the rows of a table in parallel, chunk by chunk.
+fn fill<I: Sync, T: Send + Sync>(
+    table: &mut Array2<T>,
+    inputs: &[I],
+    cancel: &Cancel,
+    rows: impl Fn(&[I], &mut [T]) -> Result<()> + Sync,
+) -> Result<()> {
+    const CHUNK: usize = 2048;
+    if inputs.len() <= CHUNK {
+        return rows(inputs, table.as_slice_mut().unwrap_or_default());
+    }
+    table
+        .axis_chunks_iter_mut(Axis(0), CHUNK)
+        .into_par_iter()
+        .zip(inputs.par_chunks(CHUNK))
+        .try_for_each(|(mut block, inputs)| {
+            cancel.check()?;
+            rows(inputs, block.as_slice_mut().unwrap_or_default())
+        })
+}
+
+/// How many rod ratios go through a polynomial side by side.
+const LANES: usize = 16;
+
+/// The rows of a block of rod ratios, in lanes; a lane near λ = 1 goes by itself.
+fn centred_rows(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    tables: &[Horner],
+    rows: &mut [f64],
+) -> Result<()> {
+    for &rod_ratio in rod_ratios {
+        if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
+            return Proportions::new(rod_ratio, 0.0).map(drop);
+        }
+    }
+    let width = orders.len();
+    vectorised(
+        #[inline(always)]
+        || {
+            for (lanes, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
+                if lanes.len() == LANES && lanes.iter().all(|&λ| λ <= Horner::LARGEST_ROD_RATIO) {
+                    lanes_of_rows(lanes, orders, tables, rows);
+                } else {
+                    for (&λ, row) in lanes.iter().zip(rows.chunks_exact_mut(width)) {
+                        let Ok(proportions) = Proportions::new(λ, 0.0) else {
+                            continue;
+                        };
+                        let centred = Centred::new(&proportions);
+                        for (&n, value) in orders.iter().zip(row) {
+                            *value = centred.coefficient(n);
+                        }
+                    }
+                }
+            }
+        },
+    );
+    Ok(())
+}
+
+#[inline(always)]
+fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
+    let width = orders.len();
+    let mut p = [0.0; LANES];
+    for (p, &λ) in p.iter_mut().zip(rod_ratios) {
+        *p = λ / (1.0 + ((1.0 - λ) * (1.0 + λ)).sqrt());
+    }
+    let square = p.map(|p| p * p);
+    let fourth = square.map(|s| s * s);
+    let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
+    for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
+        if n == 1 || n % 2 == 1 {
+            let value = if n == 1 { 1.0 } else { 0.0 };
+            rows.iter_mut()
+                .skip(column)
+                .step_by(width)
+                .for_each(|v| *v = value);
+            continue;
+        }
+        let mut sum = [0.0; LANES];
+        for &t in table.terms[..table.needed(largest)].iter().rev() {
+            for lane in 0..LANES {
+                sum[lane] = (sum[lane] + t) * fourth[lane];
+            }
+        }
+        let mut power = p;
+        if n - 1 <= LARGEST_PLAIN_POWER {
+            for _ in 1..n / 2 {
+                for lane in 0..LANES {
+                    power[lane] *= square[lane];
+                }
+            }
+        } else {
+            for lane in 0..LANES {
+                let Ok(proportions) = Proportions::new(rod_ratios[lane], 0.0) else {
+                    continue;
+                };
+                power[lane] = Root::new(proportions.above).power(n - 1);
+            }
+        }
+        for lane in 0..LANES {
+            rows[lane * width + column] = table.leading * power[lane] * (1.0 - sum[lane]);
+        }
+    }
+}
+
+/// The polynomial in p⁴ that belongs to one even order.
+struct Horner {
+    /// `±n²·|b_m|`, with b the coefficients of √(1 − x) and n = 2m.
+    leading: f64,
+    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …
+    terms: Vec<f64>,
+}
+
+impl Horner {
+    /// Rod ratios up to here take at most as many terms as a table holds.
+    const LARGEST_ROD_RATIO: f64 = 0.9;
+    /// p⁴ there: p = 0.62678…
+    const LARGEST_FOURTH: f64 = 0.155;
+
+    fn tables(orders: &[u32]) -> Vec<Self> {
+        let count = (NEGLIGIBLE_LOG / -Self::LARGEST_FOURTH.ln()).ceil() as usize;
+        orders.iter().map(|&n| Self::new(n, count)).collect()
+    }
+
+    fn new(n: u32, count: usize) -> Self {
+        let m = f64::from(n / 2);
+        let mut term = 0.5 * (m - 0.5) / (m + 1.0);
+        let mut terms = Vec::with_capacity(count);
+        for j in 1..=count {
+            terms.push(term);
+            term *= next_term(j as f64, m);
+        }
+        Self {
+            leading: leading(n),
+            terms,
+        }
+    }
+
+    /// How many terms matter for a given p⁴.
+    #[inline(always)]
+    fn needed(&self, fourth: f64) -> usize {
+        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil();
+        (count as usize).min(self.terms.len())
+    }
+}

@@ -1,0 +1,105 @@
+//! Harmonics of the torques that one cylinder's inertia force makes, in closed form.
+
+use super::{Offset, Roots, coefficients};
+use crate::Complex64;
+use crate::slider_crank::Proportions;
+
+/// Harmonics of the torques that the inertia force makes, over m·r²·ω², as peak phasors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TorqueHarmonics {
+    /// Roll torque on the block about +z: `x''·(x' + e)` in crank radii.
+    pub roll: Vec<Complex64>,
+    /// Inertia torque on the crank: `−x''·x'`.
+    pub crank: Vec<Complex64>,
+}
+
+/// Torque harmonics of the given orders, in closed form.
+///
+/// `x'' x'` is half the derivative of `x'²`. With `x' = h' − sin θ`, `x'² = sin²θ − 2 sin θ h' + h'²`,
+/// where the middle term shifts the orders of h by one and `h'² = u²cos²θ/h²` is rational: its
+/// partial fractions in sin θ have the geometric series in p₁ and p₂ as Fourier series.
+#[must_use]
+pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
+    // Orders n − 1, n and n + 1 of the force, side by side.
+    let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
+    let force = coefficients(
+        proportions,
+        &around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(),
+    );
+    // Order n of h' from order n of the acceleration: h'ₙ = i n hₙ and aₙ = n² hₙ.
+    let slope = |index: usize| -> Complex64 {
+        let n = around[index];
+        if n == 0 {
+            return Complex64::default();
+        }
+        let of_crank = if n == 1 { 1.0 } else { 0.0 };
+        Complex64::i() * (force[index] - of_crank) / f64::from(n)
+    };
+    let rational = RationalPart::new(proportions);
+    let (mut roll, mut crank) = (Vec::new(), Vec::new());
+    for (k, &n) in orders.iter().enumerate() {
+        let shifted = Complex64::i() * (slope(3 * k) - slope(3 * k + 2));
+        let of_sine = if n == 2 { -0.5 } else { 0.0 };
+        let velocity_squared = shifted + rational.harmonic(n) + of_sine;
+        let half_derivative = Complex64::i() * velocity_squared * (0.5 * f64::from(n));
+        crank.push(-half_derivative);
+        // x'' = −Σ aₙ e^{inθ}
+        roll.push(half_derivative - force[3 * k + 1] * proportions.offset);
+    }
+    TorqueHarmonics { roll, crank }
+}
+
+/// `h'² = u²cos²θ/h²` as a Fourier series.
+struct RationalPart {
+    rod: f64,
+    offset: f64,
+    roots: Roots,
+    mirrored: bool,
+}
+
+impl RationalPart {
+    fn new(proportions: &Proportions) -> Self {
+        let Offset {
+            size,
+            mirrored,
+            above,
+            below,
+        } = Offset::new(proportions);
+        Self {
+            rod: proportions.rod,
+            offset: size,
+            roots: Roots::new(size, above, below),
+            mirrored,
+        }
+    }
+
+    /// Peak phasor of order n ≥ 1.
+    ///
+    /// h'² = −cos²θ + (l/2r)·(cos²θ/(A − sin θ) + cos²θ/(B + sin θ)), and cos²θ/(A − sin θ) =
+    /// sin θ + A − (A² − 1)/(A − sin θ), whose order n ≥ 2 is −(1 − p₁²) p₁ⁿ⁻¹ (−i)ⁿ and whose
+    /// order 1 is −i p₁²; the other fraction has p₂ and iⁿ.
+    fn harmonic(&self, n: u32) -> Complex64 {
+        let Roots {
+            p1, p2, difference, ..
+        } = self.roots;
+        let power = |p: f64, k: u32| p.powf(f64::from(k));
+        if n % 2 == 1 {
+            if self.offset == 0.0 {
+                return Complex64::default();
+            }
+            // Powers of p₂ less powers of p₁, with p₂ − p₁ taken out.
+            let spread =
+                |k: u32| -> f64 { (0..k).map(|i| power(p1, i) * power(p2, k - 1 - i)).sum() };
+            let magnitude = if n == 1 {
+                -0.5 * self.rod * difference * (p1 + p2)
+            } else {
+                0.5 * self.rod * difference * (spread(n - 1) - spread(n + 1))
+            };
+            let magnitude = if self.mirrored { -magnitude } else { magnitude };
+            return Complex64::new(0.0, if n % 4 == 1 { magnitude } else { -magnitude });
+        }
+        let sum = (1.0 - p1 * p1) * power(p1, n - 1) + (1.0 - p2 * p2) * power(p2, n - 1);
+        let fraction = 0.5 * self.rod * sum * if n.is_multiple_of(4) { -1.0 } else { 1.0 };
+        Complex64::new(if n == 2 { fraction - 0.5 } else { fraction }, 0.0)
+    }
+}

@@ -1,0 +1,305 @@
+//! Sweeps over engines, bank angle, rod ratio, pin offset and speed, without a sample of θ.
+//!
+//! One point of a sweep is a product: ω², the harmonic aₙ(λ, e) and a layout sum. With the two
+//! banks at `bisector ∓ γ` (γ half the bank angle) and the bank sums right ± left, the layout sum
+//! along (about) each axis is four functions of γ times four complex constants of the engine: with
+//! pins held, bores turn a cylinder's direction and its phase together,
+//! `Σ e^{±i·bank} e^{−in(bank − pin)}`, and the functions are cosine and sine of (n ∓ 1)γ; with the
+//! firing held they are cosine and sine of γ. The four are worked out once for all engines.
+
+mod block;
+mod harmonics;
+mod plan;
+mod run;
+
+use ndarray::{Array, IxDyn};
+
+use self::block::Block;
+use self::harmonics::proportions;
+use self::plan::Plan;
+use self::run::Run;
+use crate::Complex64;
+use crate::balance::{angular_speed, snapped};
+use crate::cancel::Cancel;
+use crate::engine::{Engine, Hold, bank_angle_in_range};
+use crate::error::{Error, Result};
+use crate::extrema::PeakFinder;
+use crate::limits;
+use crate::spectrum::Spectrum;
+
+/// What is swept; `None` leaves what each engine has.
+#[derive(Debug, Clone)]
+pub struct Axes {
+    /// Degrees between the banks, and what is held as they change.
+    pub bank_angle: Option<(Vec<f64>, Hold)>,
+    /// λ; the crank radius stays and the rod changes.
+    pub rod_ratio: Option<Vec<f64>>,
+    /// Pin offset of every cylinder, m.
+    pub pin_offset: Option<Vec<f64>>,
+    /// Speeds.
+    pub rpm: Vec<f64>,
+}
+
+/// What is asked of each point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Shaking force along x and y.
+    Force,
+    /// Rocking moment about x and y.
+    Moment,
+    /// Roll torque on the block.
+    Torque,
+}
+
+/// Engines and axes, checked; values are worked out when they are asked for.
+#[derive(Debug)]
+pub struct Sweep {
+    engines: Vec<Engine>,
+    axes: Axes,
+    orders: Vec<u32>,
+    references: Vec<f64>,
+    spectrum: Option<Spectrum>,
+    /// ω² of each speed.
+    squares: Vec<f64>,
+}
+
+/// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
+pub type Values<T> = Array<T, IxDyn>;
+
+impl Sweep {
+    /// Check everything that can be wrong.
+    pub fn new(
+        engines: Vec<Engine>,
+        axes: Axes,
+        orders: Vec<u32>,
+        reference_z: Option<f64>,
+        spectrum: Option<Spectrum>,
+    ) -> Result<Self> {
+        limits::orders(&orders)?;
+        not_empty("engines", engines.len())?;
+        not_empty("rpm", axes.rpm.len())?;
+        let squares = axes
+            .rpm
+            .iter()
+            .map(|&rpm| angular_speed(rpm).map(|omega| omega * omega));
+        let squares = squares.collect::<Result<_>>()?;
+        if let Some((angles, _)) = &axes.bank_angle {
+            not_empty("bank_angle_deg", angles.len())?;
+            angles
+                .iter()
+                .try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            engines
+                .iter()
+                .try_for_each(|engine| engine.banks().map(drop))?;
+        }
+        for (name, values) in [
+            ("rod_ratio", &axes.rod_ratio),
+            ("pin_offset", &axes.pin_offset),
+        ] {
+            let Some(values) = values else { continue };
+            not_empty(name, values.len())?;
+            if spectrum.is_some() {
+                let cure = "a spectrum stands in for the slider-crank: leave out one of the two";
+                return Err(Error::value(name, "swept together with a spectrum", cure));
+            }
+        }
+        let references = engines.iter().map(|engine| engine.reference(reference_z));
+        let references = references.collect::<Result<_>>()?;
+        let sweep = Self {
+            engines,
+            axes,
+            orders,
+            references,
+            spectrum,
+            squares,
+        };
+        sweep.check_geometry()?;
+        Ok(sweep)
+    }
+
+    /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed.
+    #[must_use]
+    pub fn shape(&self) -> [usize; 5] {
+        let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
+        [
+            self.engines.len(),
+            self.axes
+                .bank_angle
+                .as_ref()
+                .map_or(1, |(angles, _)| angles.len()),
+            length(&self.axes.rod_ratio),
+            length(&self.axes.pin_offset),
+            self.squares.len(),
+        ]
+    }
+
+    /// Largest crank radius of any cylinder, m.
+    #[must_use]
+    pub fn largest_crank_radius(&self) -> f64 {
+        self.engines
+            .iter()
+            .map(Engine::largest_crank_radius)
+            .fold(0.0, f64::max)
+    }
+
+    /// Peak phasors of each order: (…, `n_orders`, components).
+    pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
+        let components = quantity.components();
+        self.fill(
+            quantity,
+            &[self.orders.len(), components],
+            cancel,
+            |block, out| {
+                for (i, row) in out
+                    .chunks_exact_mut(self.orders.len() * components)
+                    .enumerate()
+                {
+                    for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
+                        phasors.copy_from_slice(&block.phasors(order, i)[..components]);
+                    }
+                }
+            },
+        )
+    }
+
+    /// max over θ of each order along (about) each axis: (…, `n_orders`, components).
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "only a closure is inlined"
+    )]
+    pub fn peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
+        let tail = [self.orders.len(), quantity.components()];
+        self.fill(
+            quantity,
+            &tail,
+            cancel,
+            #[inline(always)]
+            |block, out| block.peaks(out),
+        )
+    }
+
+    /// max over θ of the length of each order's vector: (…, `n_orders`).
+    pub fn vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
+        let orders = self.orders.len();
+        self.fill(quantity, &[orders], cancel, |block, out| {
+            for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                for (order, length) in row.iter_mut().enumerate() {
+                    let bound = block.bounds[order];
+                    let [forward, backward] = block.turning(order, i);
+                    *length = snapped(forward, bound).norm() + snapped(backward, bound).norm();
+                }
+            }
+        })
+    }
+
+    /// max over θ of the sum of orders along (about) each axis: (…, components).
+    pub fn sum_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
+        let components = quantity.components();
+        let finder = PeakFinder::new(&self.orders);
+        self.fill(quantity, &[components], cancel, |block, out| {
+            for (i, row) in out.chunks_exact_mut(components).enumerate() {
+                for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
+                    *peak = finder.along_axis(&phasors);
+                }
+            }
+        })
+    }
+
+    /// max over θ of the length of the sum of orders: (…).
+    pub fn sum_vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
+        let finder = PeakFinder::new(&self.orders);
+        self.fill(quantity, &[], cancel, |block, out| {
+            for (i, peak) in out.iter_mut().enumerate() {
+                let [x, y] = block.by_component(i);
+                *peak = finder.of_vector(&x, &y);
+            }
+        })
+    }
+
+    /// Work out every point: layout sums block by block, handed to `finish`, times ω².
+    fn fill<T>(
+        &self,
+        quantity: Quantity,
+        tail: &[usize],
+        cancel: &Cancel,
+        finish: impl Fn(&Block, &mut [T]) + Sync,
+    ) -> Result<Values<T>>
+    where
+        T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
+    {
+        let shape = [&self.shape()[..], tail].concat();
+        let cure = "sweep one axis in parts";
+        limits::result_size("sweep", &shape, size_of::<T>(), cure)?;
+        let plan = Plan::new(self, quantity, cancel)?;
+        let mut values = vec![T::default(); shape.iter().product()];
+        let [_, angles, ratios, offsets, _] = self.shape();
+        let width: usize = tail.iter().product();
+        let run = Run {
+            plan: &plan,
+            squares: &self.squares,
+            points: ratios * offsets,
+            width,
+            cancel,
+        };
+        if angles > 1 {
+            run.over_bank_angles(self.bank_angles(), &mut values, &finish)?;
+        } else {
+            run.over_other_axes(self.bank_angles(), &mut values, &finish)?;
+        }
+        Array::from_shape_vec(IxDyn(&shape), values)
+            .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
+    }
+
+    fn bank_angles(&self) -> &[f64] {
+        self.axes
+            .bank_angle
+            .as_ref()
+            .map_or(&[0.0], |(angles, _)| angles)
+    }
+
+    /// Every slider-crank of the sweep can turn: it is enough to look at the largest values.
+    fn check_geometry(&self) -> Result<()> {
+        let ends = |values: &Option<Vec<f64>>| -> Vec<Option<f64>> {
+            values.as_ref().map_or(vec![None], |values| {
+                values.iter().copied().map(Some).collect()
+            })
+        };
+        let (ratios, offsets) = (ends(&self.axes.rod_ratio), ends(&self.axes.pin_offset));
+        let size = offsets
+            .iter()
+            .flatten()
+            .fold(None, |largest: Option<f64>, &offset| {
+                // NaN is kept, so that it is found below.
+                Some(largest.map_or(offset, |l| if l.abs() >= offset.abs() { l } else { offset }))
+            });
+        for cylinder in self
+            .engines
+            .iter()
+            .flat_map(Engine::placements)
+            .map(|p| p.cylinder)
+        {
+            for &ratio in &ratios {
+                proportions(&cylinder, ratio, size)?;
+            }
+            for &offset in &offsets {
+                proportions(&cylinder, ratios[0], offset)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Quantity {
+    /// x and y, or z alone.
+    #[must_use]
+    pub fn components(self) -> usize {
+        if self == Self::Torque { 1 } else { 2 }
+    }
+}
+
+fn not_empty(argument: &str, length: usize) -> Result<()> {
+    if length > 0 {
+        return Ok(());
+    }
+    Err(Error::value(argument, "[]", "give at least one value"))
+}
