@@ -227,7 +227,10 @@ def _left_out(balance: Balance) -> str:
     force, moment = balance.error_bound
     listed = ", ".join(map(str, balance.omitted))
     seen = f"; looked at and left out: {listed}" if listed else ""
-    return f"All other orders add at most {force:.2g} N and {moment:.2g} N·m{seen}.\n"
+    return (
+        f"All other orders add at most {force:.2g} N to the force and {moment:.2g} N·m to the "
+        f"rocking moment{seen}.\n"
+    )
 
 
 def _sweep(arguments: argparse.Namespace) -> str:
@@ -257,7 +260,7 @@ def _sweep(arguments: argparse.Namespace) -> str:
         reference_z=_plane(arguments.reference_z),
         spectrum=_spectrum(arguments.spectrum),
     )
-    tables = _tables_of(result, list(engines), arguments)
+    tables = _tables_of(result, arguments)
     if picture is not None:
         _write(result.plot(quantity=arguments.quantity), picture)
     return _printed(tables, csv=arguments.csv)
@@ -364,9 +367,7 @@ def _picture_file(text: str | None) -> Path | None:
 # --- from values to text ------------------------------------------------------------------------
 
 
-def _tables_of(
-    result: Sweep, names: list[str], arguments: argparse.Namespace
-) -> list[_tables.Table]:
+def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[_tables.Table]:
     """Return a table for each engine, or a single one with a column of engines.
 
     For reading, engines that are swept along something else stand below each other, as in the
@@ -389,9 +390,9 @@ def _tables_of(
     if "engine" not in result.coords or (dims and not arguments.csv):
         return [
             _tables.Table(f"{name}: {how}", heads, swept, each, decimals)
-            for name, each in zip(names, rows, strict=True)
+            for name, each in zip(_tables.engine_names(result), rows, strict=True)
         ]
-    labels = [(name, *point) for name in names for point in swept]
+    labels = [(name, *point) for name in result.coords["engine"] for point in swept]
     return [
         _tables.Table(
             f"{how[0].upper()}{how[1:]}",

@@ -61,7 +61,7 @@ NARROW = 4.6
 def balance(balance: Balance, ax: Axes | None, quantity: str) -> Axes:
     """Draw the peaks of each order as bars, one for each axis."""
     kind = _checked(quantity)
-    peaks = np.abs(getattr(balance, kind)).reshape(len(balance.orders), -1)
+    peaks = np.abs(_by_axis(getattr(balance, kind), kind))
     ax = _given_or_new(ax)
     places = np.arange(len(balance.orders))
     count = peaks.shape[1]
@@ -91,7 +91,7 @@ def balance(balance: Balance, ax: Axes | None, quantity: str) -> Axes:
 def waveform(waveform: Waveform, ax: Axes | None, quantity: str) -> Axes:
     """Draw a quantity over crank angle, one curve for each axis."""
     kind = _checked(quantity)
-    values = getattr(waveform, kind).reshape(len(waveform.theta_deg), -1)
+    values = _by_axis(getattr(waveform, kind), kind)
     ax = _given_or_new(ax)
     ax.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
     for k, (name, colour) in enumerate(zip(AXES[kind], COLOURS, strict=False)):
@@ -155,9 +155,7 @@ def sweep(sweep: Sweep, quantity: Quantity, x: str | None) -> Figure:
     x = _along_x(sweep, x)
     others = [dim for dim in dims if dim != x]
     peaks = getattr(sweep, "torque_peak" if kind == "torque" else f"{kind}_peak_xy")
-    if kind == "torque":
-        peaks = peaks[..., np.newaxis]
-    peaks = np.moveaxis(peaks, dims.index(x), 0)
+    peaks = np.moveaxis(_by_axis(peaks, kind), dims.index(x), 0)
     words = _words(sweep)
     curves = _curves(sweep, others)
     figure, panels = _panels(sweep, kind, x)
@@ -231,10 +229,10 @@ def _words(sweep: Sweep) -> _Words:
     parts = [_tables.value_text(dim, value) for dim, value in sweep.fixed.items()]
     if sweep.hold is not None:
         parts.append(_tables.HELD[sweep.hold])
-    full = sweep.coords.get("engine")
-    if full is None:
-        return _Words([], "", _name(sweep.engines[0]), parts)
-    names, shared = _short_names([str(name) for name in full])
+    full = _tables.engine_names(sweep)
+    if "engine" not in sweep.coords:
+        return _Words([], "", full[0], parts)
+    names, shared = _short_names(full)
     title, _, common = shared.rpartition(", ")
     if not title:
         title, common = common, ""
@@ -426,6 +424,10 @@ def _checked(quantity: str) -> Quantity:
     if quantity not in AXES:
         raise InputError(f'quantity = {quantity!r}: give "force", "moment" or "torque"')
     return quantity  # type: ignore[return-value]
+
+
+def _by_axis(values: NDArray[Any], kind: Quantity) -> NDArray[Any]:
+    return values[..., np.newaxis] if kind == "torque" else values
 
 
 def _name(engine: Engine) -> str:

@@ -267,9 +267,9 @@ CATALOGUE: tuple[Preset, ...] = (
     Preset(
         "i3",
         "Inline-3",
-        "throws 0-240-120, even firing 1-2-3",
+        "throws 0-120-240, even firing 1-2-3",
         FIRING_ORDERS + PARTS_NOMINAL,
-        _inline([0, 240, 120]),
+        _inline([0, 120, 240]),
     ),
     Preset(
         "i4",
@@ -288,9 +288,9 @@ CATALOGUE: tuple[Preset, ...] = (
     Preset(
         "i6",
         "Inline-6",
-        "throws 0-120-240-240-120-0, even firing 1-5-3-6-2-4",
+        "throws 0-240-120-120-240-0, even firing 1-5-3-6-2-4",
         FIRING_ORDERS + PARTS_NOMINAL,
-        _inline([0, 120, 240, 240, 120, 0]),
+        _inline([0, 240, 120, 120, 240, 0]),
     ),
     # flat
     Preset(
@@ -333,8 +333,8 @@ CATALOGUE: tuple[Preset, ...] = (
         "v4-90-360",
         "V4 90°, 360° crank",
         "90° V4, shared pins 0-0, firing intervals 90-270; Honda VF750S, RC30",
-        "Cycle News 57/29, 2020, p. 77 (VF750S); F1technical forum on the cranks of 90° V4s (RC30); "
-        "side of cylinder 1 nominal" + PARTS_NOMINAL,
+        "Cycle News 57/29, 2020, p. 77 (VF750S); F1technical forum on the cranks of 90° V4s "
+        "(RC30); side of cylinder 1 nominal" + PARTS_NOMINAL,
         _vee(90, [0, 0]),
     ),
     Preset(
@@ -512,8 +512,8 @@ CATALOGUE: tuple[Preset, ...] = (
         "W16 90°",
         "two VR8 at 90°, eight shared pins, even firing; Bugatti Veyron",
         'Wikipedia, "Bugatti W16 engine" (15°, 90°, stroke 86 mm); firing order as commonly '
-        "listed, 1-14-9-4-7-12-15-6-13-8-3-16-11-2-5-10; bore offset 12.5 mm, rods, sides, mass and "
-        "spacing nominal",
+        "listed, 1-14-9-4-7-12-15-6-13-8-3-16-11-2-5-10; bore offset 12.5 mm, rods, sides, "
+        "mass and spacing nominal",
         _staggered(
             [1, 14, 9, 4, 7, 12, 15, 6, 13, 8, 3, 16, 11, 2, 5, 10],
             groups_deg=[45, 135],

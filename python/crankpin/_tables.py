@@ -8,6 +8,7 @@ import html
 import importlib
 import io
 import math
+import re
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
+    from crankpin._sweep import Sweep
 
 Label: TypeAlias = "str | Sequence[str | float]"
 """What stands before a row's numbers: a text, or several texts and numbers, a column each."""
@@ -68,6 +71,24 @@ def value_text(dimension: str, value: float) -> str:
     """Return a swept quantity with its value: ``bank angle 60°``, ``5000 rpm``."""
     name, unit = SWEPT[dimension]
     return f"{name} {value:.10g}{unit}".strip()
+
+
+def engine_names(sweep: Sweep) -> list[str]:
+    """Return what a sweep's engines are called.
+
+    Where bank angle is swept, a name that tells the angle which the engine had before, such as
+    "V6 60°", goes without it.
+    """
+    given = sweep.coords.get("engine")
+    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
+    if given is not None:
+        names = [str(name) for name in given]
+    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed}:
+        return names
+    pairs = zip(names, sweep.engines, strict=True)
+    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
+    told_apart = all(without) and len(set(without)) == len(names)
+    return without if told_apart else names
 
 
 @dataclasses.dataclass(frozen=True)

@@ -47,11 +47,7 @@ impl Angle {
     pub fn from_degree_fraction(numerator: i64, denominator: i64) -> Result<Self> {
         if denominator == 0 {
             let value = format!("{numerator}/0");
-            return Err(Error::value(
-                "angle",
-                value,
-                "the denominator must not be 0",
-            ));
+            return Err(Error::value("angle", value, "the denominator must not be 0"));
         }
         match turns(i128::from(numerator), i128::from(denominator) * 360) {
             Some(angle) if angle.degrees().abs() <= LARGEST_ANGLE => Ok(angle),
@@ -114,11 +110,7 @@ impl Angle {
                 let product = degrees * n as f64;
                 let rest = degrees.mul_add(n as f64, -product);
                 let base = cis_degrees(product);
-                if rest == 0.0 {
-                    base
-                } else {
-                    base * cis_degrees(rest)
-                }
+                if rest == 0.0 { base } else { base * cis_degrees(rest) }
             }
         }
     }
@@ -154,16 +146,10 @@ fn rotate(radians: f64, quarters: i64) -> Complex64 {
 
 /// The reduced fraction of a turn, where its denominator is small enough to be added to others.
 fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
-    let (numerator, denominator) = if denominator < 0 {
-        (-numerator, -denominator)
-    } else {
-        (numerator, denominator)
-    };
+    let (numerator, denominator) =
+        if denominator < 0 { (-numerator, -denominator) } else { (numerator, denominator) };
     // Nearly always both fit in 64 bits, where division is many times faster.
-    let divisor = match (
-        u64::try_from(numerator.unsigned_abs()),
-        u64::try_from(denominator),
-    ) {
+    let divisor = match (u64::try_from(numerator.unsigned_abs()), u64::try_from(denominator)) {
         (Ok(a), Ok(b)) => greatest_common_divisor(a, b).into(),
         _ => greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs()),
     };
@@ -316,15 +302,7 @@ mod tests {
         for bad in [f64::NAN, f64::INFINITY, 1e300] {
             assert!(Angle::from_degrees(bad).is_err());
         }
-        for bad in [
-            "",
-            "x",
-            "1/0",
-            "1/x",
-            "nan",
-            "1e400",
-            "99999999999999999999/7",
-        ] {
+        for bad in ["", "x", "1/0", "1/x", "nan", "1e400", "99999999999999999999/7"] {
             assert!(bad.parse::<Angle>().is_err(), "{bad}");
         }
     }

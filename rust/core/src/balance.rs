@@ -89,16 +89,9 @@ impl Ellipse {
     #[must_use]
     pub fn new(forward: Complex64, backward: Complex64) -> Self {
         let (f, b) = (forward.norm(), backward.norm());
-        let tilt = if f == 0.0 || b == 0.0 {
-            0.0
-        } else {
-            (forward * backward / (f * b)).sqrt().arg()
-        };
-        Self {
-            major: f + b,
-            minor: f - b,
-            tilt,
-        }
+        let tilt =
+            if f == 0.0 || b == 0.0 { 0.0 } else { (forward * backward / (f * b)).sqrt().arg() };
+        Self { major: f + b, minor: f - b, tilt }
     }
 }
 
@@ -152,30 +145,19 @@ fn chosen(
     spectrum: Option<&Spectrum>,
 ) -> Result<Balance> {
     if !(1e-15..1.0).contains(&rtol) {
-        return Err(Error::value(
-            "rtol",
-            rtol,
-            "give a number from 1e-15 to below 1",
-        ));
+        return Err(Error::value("rtol", rtol, "give a number from 1e-15 to below 1"));
     }
     let sums = Sums::new(engine, reference, spectrum);
     let count = engine.placements().len() as f64;
     let candidates = candidates(engine, &sums, 0.25 * rtol / count)?;
     let last = candidates.last().copied().unwrap_or(1);
     let whole = sums.balance(&candidates, omega);
-    let (tail_force, tail_moment) = if spectrum.is_some() {
-        (0.0, 0.0)
-    } else {
-        sums.tail(last, omega)
-    };
+    let (tail_force, tail_moment) =
+        if spectrum.is_some() { (0.0, 0.0) } else { sums.tail(last, omega) };
     let largest = engine
         .placements()
         .iter()
-        .map(|p| {
-            p.cylinder
-                .first_order()
-                .max(p.rotating_mass * p.cylinder.crank_radius())
-        })
+        .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
         .fold(0.0, f64::max);
     let allowed_force = rtol * largest * omega * omega;
     let allowed_moment = allowed_force * engine.longest_lever(reference);
@@ -189,10 +171,8 @@ fn chosen(
     by_size.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
     let (mut force, mut moment, mut left_out) = (tail_force, tail_moment, 0);
     for &k in &by_size {
-        let (more_force, more_moment) = (
-            force + size(&whole.force, k),
-            moment + size(&whole.moment, k),
-        );
+        let (more_force, more_moment) =
+            (force + size(&whole.force, k), moment + size(&whole.moment, k));
         if more_force > allowed_force || more_moment > allowed_moment {
             break;
         }
@@ -238,15 +218,9 @@ pub(crate) fn groups(cylinders: impl Iterator<Item = Cylinder>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (i, cylinder) in cylinders.enumerate() {
         let proportions = cylinder.proportions();
-        match groups
-            .iter_mut()
-            .find(|group| group.proportions == proportions)
-        {
+        match groups.iter_mut().find(|group| group.proportions == proportions) {
             Some(group) => group.members.push(i),
-            None => groups.push(Group {
-                proportions,
-                members: vec![i],
-            }),
+            None => groups.push(Group { proportions, members: vec![i] }),
         }
     }
     groups
@@ -263,11 +237,7 @@ pub(crate) fn zero_factor(count: usize, order: u32) -> f64 {
 
 /// A sum is zero where it is within what rounding can leave.
 pub(crate) fn snapped(sum: Complex64, bound: f64) -> Complex64 {
-    if sum.norm() <= bound {
-        Complex64::default()
-    } else {
-        sum
-    }
+    if sum.norm() <= bound { Complex64::default() } else { sum }
 }
 
 /// Weighted sum of unit vectors along the bores, in phase with their cylinders.
@@ -352,11 +322,8 @@ impl<'a> Sums<'a> {
         let count = orders.len();
         let mut force = empty_shake(count);
         let mut moment = empty_shake(count);
-        let harmonics: Vec<Vec<Complex64>> = self
-            .groups
-            .iter()
-            .map(|group| self.harmonics(group, orders))
-            .collect();
+        let harmonics: Vec<Vec<Complex64>> =
+            self.groups.iter().map(|group| self.harmonics(group, orders)).collect();
         for (k, &n) in orders.iter().enumerate() {
             let (mut forces, mut levered) = (Planar::default(), Planar::default());
             for (group, harmonics) in self.groups.iter().zip(&harmonics) {
@@ -375,13 +342,7 @@ impl<'a> Sums<'a> {
             store(&mut moment, k, &levered.quarter_turned(), square, factor);
         }
         let torque = self.spectrum.is_none().then(|| self.torque(orders, square));
-        Balance {
-            orders: orders.to_vec(),
-            omitted: Vec::new(),
-            force,
-            moment,
-            torque,
-        }
+        Balance { orders: orders.to_vec(), omitted: Vec::new(), force, moment, torque }
     }
 
     /// Amplitudes by which the layout sums of a group are multiplied.
@@ -397,11 +358,8 @@ impl<'a> Sums<'a> {
         for &i in &group.members {
             let placement = &self.engine.placements()[i];
             // A spectrum in kg·m already has the mass and the radius in it.
-            let weight = if self.spectrum.is_some() {
-                1.0
-            } else {
-                placement.cylinder.first_order()
-            };
+            let weight =
+                if self.spectrum.is_some() { 1.0 } else { placement.cylinder.first_order() };
             let phase = placement.tdc.cis(-i64::from(order));
             let (lever, lever_size) = self.levers[i];
             forces.add(weight, weight, self.bores[i], phase);

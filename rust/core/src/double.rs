@@ -16,10 +16,7 @@ impl Double {
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
-        Self {
-            high,
-            low: (a - (high - of_b)) + (b - of_b),
-        }
+        Self { high, low: (a - (high - of_b)) + (b - of_b) }
     }
 
     /// `a · b`, exactly.
@@ -27,10 +24,7 @@ impl Double {
     #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         let high = a * b;
-        Self {
-            high,
-            low: a.mul_add(b, -high),
-        }
+        Self { high, low: a.mul_add(b, -high) }
     }
 
     /// Plus a double, to twice its digits.
@@ -57,20 +51,10 @@ mod tests {
 
     #[test]
     fn what_a_double_loses_is_kept() {
-        assert_eq!(
-            Double::sum(1.0, 1e-20),
-            Double {
-                high: 1.0,
-                low: 1e-20
-            }
-        );
+        assert_eq!(Double::sum(1.0, 1e-20), Double { high: 1.0, low: 1e-20 });
         let square = Double::product(1.0 + f64::EPSILON, 1.0 + f64::EPSILON);
         assert_eq!(square.low, f64::EPSILON * f64::EPSILON);
-        let third = Double {
-            high: 1.0,
-            low: 0.0,
-        }
-        .over(3.0);
+        let third = Double { high: 1.0, low: 0.0 }.over(3.0);
         let back = Double::product(third.high, 3.0).plus(3.0 * third.low);
         // twice 53 bits, three roundings
         assert!((back.high - 1.0).abs() + back.low.abs() < 1e-31);

@@ -87,11 +87,7 @@ impl Engine {
             placement.tdc = placement.tdc.reduced();
             placement.bank = placement.bank.reduced();
         }
-        Ok(Self {
-            name: name.into(),
-            source: source.into(),
-            placements,
-        })
+        Ok(Self { name: name.into(), source: source.into(), placements })
     }
 
     /// What people call it; may be empty.
@@ -115,10 +111,12 @@ impl Engine {
     /// z midway between the first and the last cylinder: the default reference plane.
     #[must_use]
     pub fn middle(&self) -> f64 {
-        let (first, last) = self.placements.iter().fold(
-            (f64::INFINITY, f64::NEG_INFINITY),
-            |(first, last), placement| (first.min(placement.z), last.max(placement.z)),
-        );
+        let (first, last) = self
+            .placements
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(first, last), placement| {
+                (first.min(placement.z), last.max(placement.z))
+            });
         f64::midpoint(first, last)
     }
 
@@ -130,19 +128,13 @@ impl Engine {
     /// Longest lever about a reference plane, m.
     #[must_use]
     pub fn longest_lever(&self, reference: f64) -> f64 {
-        self.placements
-            .iter()
-            .map(|p| (p.z - reference).abs())
-            .fold(0.0, f64::max)
+        self.placements.iter().map(|p| (p.z - reference).abs()).fold(0.0, f64::max)
     }
 
     /// Largest crank radius of any cylinder, m.
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
-        self.placements
-            .iter()
-            .map(|p| p.cylinder.crank_radius())
-            .fold(0.0, f64::max)
+        self.placements.iter().map(|p| p.cylinder.crank_radius()).fold(0.0, f64::max)
     }
 
     /// Directions of the banks of an engine that has two.
@@ -168,10 +160,7 @@ impl Engine {
         };
         // 0° and 180° in whichever order they come: the flat engine's right bank points along +x.
         if (left - right).reduced().degrees() == 180.0 && right.degrees() >= 180.0 {
-            return Ok(Banks {
-                right: left,
-                left: right,
-            });
+            return Ok(Banks { right: left, left: right });
         }
         Ok(Banks { right, left })
     }
@@ -182,20 +171,12 @@ impl Engine {
         let banks = self.banks()?;
         let (middle, half) = (banks.bisector(), bank_angle.half());
         let placements = self.placements.iter().map(|placement| {
-            let bank = if placement.bank == banks.right {
-                middle - half
-            } else {
-                middle + half
-            };
+            let bank = if placement.bank == banks.right { middle - half } else { middle + half };
             let tdc = match hold {
                 Hold::Pins => bank - placement.pin(),
                 Hold::Firing => placement.tdc,
             };
-            Placement {
-                tdc,
-                bank,
-                ..*placement
-            }
+            Placement { tdc, bank, ..*placement }
         });
         Self::new(self.name.clone(), self.source.clone(), placements.collect())
     }
@@ -204,25 +185,15 @@ impl Engine {
     /// centre at this crank angle.
     pub fn with_first_tdc(&self, tdc: Angle) -> Result<Self> {
         let turn = tdc - self.placements[0].tdc;
-        let placements = self
-            .placements
-            .iter()
-            .map(|p| Placement {
-                tdc: p.tdc + turn,
-                ..*p
-            })
-            .collect();
+        let placements =
+            self.placements.iter().map(|p| Placement { tdc: p.tdc + turn, ..*p }).collect();
         Self::new(self.name.clone(), self.source.clone(), placements)
     }
 
     /// The same engine under another name.
     #[must_use]
     pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            source: source.into(),
-            placements: self.placements.clone(),
-        }
+        Self { name: name.into(), source: source.into(), placements: self.placements.clone() }
     }
 }
 
@@ -231,11 +202,7 @@ pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
     if (0.0..=180.0).contains(&degrees) {
         return Ok(degrees);
     }
-    Err(Error::value(
-        "bank_angle_deg",
-        degrees,
-        "give degrees between 0 and 180",
-    ))
+    Err(Error::value("bank_angle_deg", degrees, "give degrees between 0 and 180"))
 }
 
 #[cfg(test)]

@@ -82,12 +82,7 @@ impl Parts {
     }
 
     fn cylinder(&self) -> Result<Cylinder> {
-        Cylinder::new(
-            self.crank_radius,
-            self.rod_length,
-            self.reciprocating_mass,
-            self.pin_offset,
-        )
+        Cylinder::new(self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)
     }
 }
 
@@ -152,35 +147,25 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 /// Engine from TOML.
 pub fn from_toml(text: &str) -> Result<Engine> {
     sized("TOML", text)?;
-    toml::from_str::<EngineFile>(text)
-        .map_err(|e| unreadable("TOML", &e))?
-        .engine()
+    toml::from_str::<EngineFile>(text).map_err(|e| unreadable("TOML", &e))?.engine()
 }
 
 /// Engine from JSON.
 pub fn from_json(text: &str) -> Result<Engine> {
     sized("JSON", text)?;
-    serde_json::from_str::<EngineFile>(text)
-        .map_err(|e| unreadable("JSON", &e))?
-        .engine()
+    serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
 }
 
 fn sized(format: &'static str, text: &str) -> Result<()> {
     if text.len() <= LONGEST_TEXT {
         return Ok(());
     }
-    let reason = format!(
-        "{} bytes long; an engine file has at most {LONGEST_TEXT}",
-        text.len()
-    );
+    let reason = format!("{} bytes long; an engine file has at most {LONGEST_TEXT}", text.len());
     Err(Error::File { format, reason })
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
-    Error::File {
-        format,
-        reason: error.to_string().trim_end().to_owned(),
-    }
+    Error::File { format, reason: error.to_string().trim_end().to_owned() }
 }
 
 #[cfg(test)]
@@ -191,14 +176,7 @@ mod tests {
     fn engines() -> impl Strategy<Value = Engine> {
         let cylinder = (1e-3..1.0, 1.01..9.0, 0.0..1e3, -0.009..0.009)
             .prop_map(|(r, l, m, e)| Cylinder::new(r, r * l, m, r * e).unwrap());
-        let place = (
-            cylinder,
-            -720.0..720.0,
-            -720_i64..720,
-            1_i64..40,
-            -9.0..9.0,
-            0.0..9.0,
-        );
+        let place = (cylinder, -720.0..720.0, -720_i64..720, 1_i64..40, -9.0..9.0, 0.0..9.0);
         let place = place.prop_map(|(cylinder, tdc, bank, parts, z, rotating_mass)| Placement {
             cylinder,
             tdc: Angle::from_degrees(tdc).unwrap(),

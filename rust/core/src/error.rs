@@ -92,15 +92,9 @@ impl Error {
     #[must_use]
     pub fn within(self, place: &str) -> Self {
         match self {
-            Self::Value {
-                argument,
-                value,
-                cure,
-            } => Self::Value {
-                argument: format!("{place}{argument}"),
-                value,
-                cure,
-            },
+            Self::Value { argument, value, cure } => {
+                Self::Value { argument: format!("{place}{argument}"), value, cure }
+            }
             other => other,
         }
     }

@@ -31,10 +31,7 @@ impl PeakFinder {
     /// For sums of these orders.
     #[must_use]
     pub fn new(orders: &[u32]) -> Self {
-        let divisor = orders
-            .iter()
-            .fold(0, |a, &b| greatest_common_divisor(a, b))
-            .max(1);
+        let divisor = orders.iter().fold(0, |a, &b| greatest_common_divisor(a, b)).max(1);
         let waves: Vec<u32> = orders.iter().map(|n| n / divisor).collect();
         let degree = waves.iter().copied().max().unwrap_or(1) as usize;
         Self {
@@ -57,11 +54,7 @@ impl PeakFinder {
     #[must_use]
     pub fn of_vector(&self, x: &[Complex64], y: &[Complex64]) -> f64 {
         // Scaled so that squares neither overflow nor vanish.
-        let scale = x
-            .iter()
-            .chain(y)
-            .map(|z| z.re.abs().max(z.im.abs()))
-            .fold(0.0, f64::max);
+        let scale = x.iter().chain(y).map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
         if scale == 0.0 {
             return 0.0;
         }
@@ -89,11 +82,7 @@ impl PeakFinder {
             if wave < at {
                 (power, at) = (Complex64::new(1.0, 0.0), 0);
             }
-            power *= if wave - at == 1 {
-                unit
-            } else {
-                unit.powu(wave - at)
-            };
+            power *= if wave - at == 1 { unit } else { unit.powu(wave - at) };
             at = wave;
             let n = f64::from(wave);
             let term = phasor * power;
@@ -109,10 +98,7 @@ impl PeakFinder {
         let jets: Vec<Jet> = grid.iter().map(|&unit| at(unit)).collect();
         let step = TAU / grid.len() as f64;
         let degree = (grid.len() / POINTS_PER_WAVE) as f64;
-        let highest = jets
-            .iter()
-            .map(|jet| jet[0])
-            .fold(f64::NEG_INFINITY, f64::max);
+        let highest = jets.iter().map(|jet| jet[0]).fold(f64::NEG_INFINITY, f64::max);
         let size = jets.iter().map(|jet| jet[0].abs()).fold(0.0, f64::max);
         if size == 0.0 {
             return 0.0;
@@ -124,12 +110,8 @@ impl PeakFinder {
         let mut rest = Vec::new();
         for (k, jet) in jets.iter().enumerate() {
             let next = &jets[(k + 1) % jets.len()];
-            let interval = Interval {
-                from: k as f64 * step,
-                width: step,
-                ends: [*jet, *next],
-                halvings: 0,
-            };
+            let interval =
+                Interval { from: k as f64 * step, width: step, ends: [*jet, *next], halvings: 0 };
             if interval.rises_then_falls() {
                 // Within a step of its peak the polynomial falls by less than 1 − cos(nh).
                 if jet[0].max(next[0]) >= best - ceiling * (1.0 - (degree * step).cos()) {
@@ -174,18 +156,8 @@ impl Interval {
         let middle = at(Complex64::cis(self.from + width));
         let halvings = self.halvings + 1;
         [
-            Self {
-                from: self.from,
-                width,
-                ends: [self.ends[0], middle],
-                halvings,
-            },
-            Self {
-                from: self.from + width,
-                width,
-                ends: [middle, self.ends[1]],
-                halvings,
-            },
+            Self { from: self.from, width, ends: [self.ends[0], middle], halvings },
+            Self { from: self.from + width, width, ends: [middle, self.ends[1]], halvings },
         ]
     }
 
@@ -204,11 +176,8 @@ impl Interval {
                 high = here;
             }
             let newton = here - slope / bend;
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                f64::midpoint(low, high)
-            };
+            let next =
+                if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
             // The value has no slope here: 1e-9 rad off it is right to rounding.
             if slope == 0.0 || (next - here).abs() < 1e-9 * self.width {
                 break;
@@ -220,9 +189,7 @@ impl Interval {
 }
 
 fn circle(points: usize) -> Vec<Complex64> {
-    (0..points)
-        .map(|k| Complex64::cis(k as f64 * TAU / points as f64))
-        .collect()
+    (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect()
 }
 
 fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
@@ -264,10 +231,7 @@ mod tests {
         let phasors = [Complex64::new(1.0, 0.0), Complex64::new(-0.25, 0.0)];
         // its largest magnitude is at θ = π
         assert!((finder.along_axis(&phasors) - 1.25).abs() < 1e-15);
-        let quartic = [
-            Complex64::new(4.0 / 3.0, 0.0),
-            Complex64::new(-1.0 / 3.0, 0.0),
-        ];
+        let quartic = [Complex64::new(4.0 / 3.0, 0.0), Complex64::new(-1.0 / 3.0, 0.0)];
         assert!((finder.of_vector(&quartic, &[Complex64::default(); 2]) - 5.0 / 3.0).abs() < 1e-14);
     }
 

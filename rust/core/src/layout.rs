@@ -55,21 +55,10 @@ impl Inline {
         limits::finite("spacing", self.spacing)?;
         let upright = Angle::Turns(1, 4);
         let masses = per_throw(&self.rotating_mass, self.throws.len())?;
-        let placements = self
-            .throws
-            .iter()
-            .zip(masses)
-            .enumerate()
-            .map(|(i, (&throw, mass))| {
-                let z = i as f64 * self.spacing;
-                Placement {
-                    cylinder,
-                    tdc: upright - throw,
-                    bank: upright,
-                    z,
-                    rotating_mass: mass,
-                }
-            });
+        let placements = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
+            let z = i as f64 * self.spacing;
+            Placement { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
+        });
         Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc)
     }
 }
@@ -103,11 +92,7 @@ impl Vee {
         let masses = per_throw(&self.rotating_mass, self.throws.len())?;
         let seats = self.seats(2 * self.throws.len())?;
         let placements = seats.iter().map(|seat| {
-            let split = if seat.side == Side::Left {
-                self.pin_split
-            } else {
-                Angle::ZERO
-            };
+            let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
             let pin = self.throws[seat.throw] + split;
             seat.placement(cylinder, seat.bank - pin, 0.5 * masses[seat.throw])
         });
@@ -134,12 +119,7 @@ impl Vee {
                 Side::Right => (upright - half, 0.0),
                 Side::Left => (upright + half, self.bank_stagger),
             };
-            Seat {
-                throw,
-                side,
-                bank,
-                z: throw as f64 * self.spacing + stagger,
-            }
+            Seat { throw, side, bank, z: throw as f64 * self.spacing + stagger }
         };
         Ok((0..cylinders).map(seat).collect())
     }
@@ -154,13 +134,7 @@ struct Seat {
 
 impl Seat {
     fn placement(&self, cylinder: Cylinder, tdc: Angle, rotating_mass: f64) -> Placement {
-        Placement {
-            cylinder,
-            tdc,
-            bank: self.bank,
-            z: self.z,
-            rotating_mass,
-        }
+        Placement { cylinder, tdc, bank: self.bank, z: self.z, rotating_mass }
     }
 }
 
@@ -197,15 +171,8 @@ impl FiringOrder {
     /// An upright inline engine that fires so, at equal intervals of a four-stroke.
     pub fn inline(&self, cylinder: Cylinder, layout: &Inline) -> Result<Engine> {
         let ranks = self.ranks();
-        let throws = ranks
-            .iter()
-            .map(|&rank| -part(rank, 720, self.0.len()))
-            .collect();
-        Inline {
-            throws,
-            ..layout.clone()
-        }
-        .engine(cylinder)
+        let throws = ranks.iter().map(|&rank| -part(rank, 720, self.0.len())).collect();
+        Inline { throws, ..layout.clone() }.engine(cylinder)
     }
 
     /// A vee that fires so; `layout.throws` and `layout.pin_split` are not asked.
@@ -214,11 +181,7 @@ impl FiringOrder {
         if count % 2 == 1 {
             let cure = "a vee has an even number of cylinders; leave out bank_angle_deg for an \
                         inline engine";
-            return Err(Error::value(
-                "firing_order",
-                format!("of {count} cylinders"),
-                cure,
-            ));
+            return Err(Error::value("firing_order", format!("of {count} cylinders"), cure));
         }
         let ranks = self.ranks();
         let seats = layout.seats(count)?;
@@ -306,11 +269,7 @@ mod tests {
 
     fn pins(engine: &Engine) -> Vec<f64> {
         let first = engine.placements()[0].pin();
-        engine
-            .placements()
-            .iter()
-            .map(|p| (p.pin() - first).reduced().degrees())
-            .collect()
+        engine.placements().iter().map(|p| (p.pin() - first).reduced().degrees()).collect()
     }
 
     #[test]
@@ -318,10 +277,7 @@ mod tests {
         let order: FiringOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
         let layout = vee(90.0, Numbering::Alternating, Side::Left);
         let engine = order.vee(cylinder(), FiringRule::Even, &layout).unwrap();
-        assert_eq!(
-            pins(&engine),
-            [0.0, 0.0, 90.0, 90.0, 270.0, 270.0, 180.0, 180.0]
-        );
+        assert_eq!(pins(&engine), [0.0, 0.0, 90.0, 90.0, 270.0, 270.0, 180.0, 180.0]);
     }
 
     #[test]

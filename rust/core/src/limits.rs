@@ -32,11 +32,7 @@ pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
     if value >= 0.0 {
         return finite(argument, value);
     }
-    Err(Error::value(
-        argument,
-        value,
-        "give a number that is zero or more",
-    ))
+    Err(Error::value(argument, value, "give a number that is zero or more"))
 }
 
 /// A length that is more than zero.
@@ -60,20 +56,12 @@ pub fn order(value: u32) -> Result<u32> {
 /// Distinct orders, at least one, each in range.
 pub fn orders(values: &[u32]) -> Result<()> {
     if values.is_empty() {
-        return Err(Error::value(
-            "orders",
-            "[]",
-            "give at least one order, such as [1, 2]",
-        ));
+        return Err(Error::value("orders", "[]", "give at least one order, such as [1, 2]"));
     }
     let mut seen = values.to_vec();
     seen.sort_unstable();
     if let Some(pair) = seen.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(Error::value(
-            "orders",
-            pair[0],
-            "is given twice; give each order once",
-        ));
+        return Err(Error::value("orders", pair[0], "is given twice; give each order once"));
     }
     values.iter().try_for_each(|&n| order(n).map(drop))
 }
@@ -85,16 +73,10 @@ pub fn result_size(
     size: usize,
     cure: &'static str,
 ) -> Result<()> {
-    let bytes = lengths.iter().fold(size as u128, |bytes, &length| {
-        bytes.saturating_mul(length as u128)
-    });
+    let bytes =
+        lengths.iter().fold(size as u128, |bytes, &length| bytes.saturating_mul(length as u128));
     if bytes <= LARGEST_RESULT {
         return Ok(());
     }
-    Err(Error::TooLarge {
-        argument: argument.to_owned(),
-        bytes,
-        limit: LARGEST_RESULT,
-        cure,
-    })
+    Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
 }

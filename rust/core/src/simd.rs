@@ -12,10 +12,7 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
 /// Quadrants are taken off exactly; on the ±45° that are left, minimax polynomials (fdlibm's) are
 /// within a unit in the last place.
 #[inline(always)]
-#[expect(
-    clippy::excessive_precision,
-    reason = "the coefficients as fdlibm gives them"
-)]
+#[expect(clippy::excessive_precision, reason = "the coefficients as fdlibm gives them")]
 pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
     const ROUND: f64 = 6_755_399_441_055_744.0;

@@ -29,20 +29,10 @@ impl Cylinder {
         limits::length("rod_length", rod_length)?;
         limits::not_negative("reciprocating_mass", reciprocating_mass)?;
         limits::finite("pin_offset", pin_offset)?;
-        let cylinder = Self {
-            crank_radius,
-            rod_length,
-            reciprocating_mass,
-            pin_offset,
-        };
+        let cylinder = Self { crank_radius, rod_length, reciprocating_mass, pin_offset };
         let reach = rod_length - pin_offset.abs();
         if crank_radius >= reach {
-            return Err(Error::CannotTurn {
-                crank_radius,
-                rod_length,
-                pin_offset,
-                reach,
-            });
+            return Err(Error::CannotTurn { crank_radius, rod_length, pin_offset, reach });
         }
         Ok(cylinder)
     }
@@ -86,12 +76,7 @@ impl Cylinder {
     /// The proportions that fix the motion.
     #[must_use]
     pub fn proportions(&self) -> Proportions {
-        let Self {
-            crank_radius: r,
-            rod_length: l,
-            pin_offset: e,
-            ..
-        } = *self;
+        let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
         let reach = Double::sum(l, -r);
         Proportions {
             rod: l / r,
@@ -140,12 +125,7 @@ impl Proportions {
             );
             return Err(Error::value("pin_offset_ratio", offset, cure));
         }
-        Ok(Self {
-            rod: 1.0 / rod_ratio,
-            offset,
-            above,
-            below,
-        })
+        Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
     }
 
     /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank

@@ -173,9 +173,7 @@ impl Rows {
             pair.column_mut(1).assign(&Array1::from(y));
             pair
         };
-        let has_torque = balance
-            .as_ref()
-            .is_none_or(|balance| balance.torque.is_some());
+        let has_torque = balance.as_ref().is_none_or(|balance| balance.torque.is_some());
         Waveform {
             force: pair(force_x, force_y),
             moment: pair(moment_x, moment_y),
@@ -196,11 +194,7 @@ fn in_blocks(
     limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), cure)?;
     let block = |thetas: &[f64]| -> Result<Rows> {
         cancel.check()?;
-        let mut units = Units {
-            cos: [1.0; BLOCK],
-            sin: [0.0; BLOCK],
-            count: thetas.len(),
-        };
+        let mut units = Units { cos: [1.0; BLOCK], sin: [0.0; BLOCK], count: thetas.len() };
         for (i, &θ) in thetas.iter().enumerate() {
             if !θ.is_finite() || θ.abs() > LARGEST_ANGLE {
                 let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
@@ -209,30 +203,17 @@ fn in_blocks(
             let unit = cis_degrees(θ);
             (units.cos[i], units.sin[i]) = (unit.re, unit.im);
         }
-        let mut rows = Rows {
-            columns: std::array::from_fn(|_| vec![0.0; BLOCK]),
-        };
+        let mut rows = Rows { columns: std::array::from_fn(|_| vec![0.0; BLOCK]) };
         add(&units, &mut rows);
-        rows.columns
-            .iter_mut()
-            .for_each(|column| column.truncate(thetas.len()));
+        rows.columns.iter_mut().for_each(|column| column.truncate(thetas.len()));
         Ok(rows)
     };
     let blocks: Vec<Rows> = if theta_deg.len() <= 4 * BLOCK {
         theta_deg.chunks(BLOCK).map(block).collect::<Result<_>>()?
     } else {
-        theta_deg
-            .par_chunks(BLOCK)
-            .map(block)
-            .collect::<Result<_>>()?
+        theta_deg.par_chunks(BLOCK).map(block).collect::<Result<_>>()?
     };
-    let join = |column: usize| {
-        blocks
-            .iter()
-            .flat_map(|b| b.columns[column].iter().copied())
-            .collect()
-    };
-    Ok(Rows {
-        columns: std::array::from_fn(join),
-    })
+    let join =
+        |column: usize| blocks.iter().flat_map(|b| b.columns[column].iter().copied()).collect();
+    Ok(Rows { columns: std::array::from_fn(join) })
 }

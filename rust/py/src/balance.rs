@@ -32,23 +32,15 @@ pub fn balance(
 ) -> PyResult<Balance> {
     let orders = self::orders(orders, rtol);
     let spectrum = self::spectrum(spectrum)?;
-    core::balance::balance(
-        &engine.get().0,
-        rpm,
-        &orders,
-        reference_z,
-        spectrum.as_ref(),
-    )
-    .or_raise()
-    .map(Balance)
+    core::balance::balance(&engine.get().0, rpm, &orders, reference_z, spectrum.as_ref())
+        .or_raise()
+        .map(Balance)
 }
 
 /// Half axes and tilt (radians) of the ellipses of forward and backward parts.
 #[pyfunction]
 pub fn ellipse(parts: Vec<(Complex64, Complex64)>) -> Vec<(f64, f64, f64)> {
-    let axes = parts
-        .into_iter()
-        .map(|(forward, backward)| Ellipse::new(forward, backward));
+    let axes = parts.into_iter().map(|(forward, backward)| Ellipse::new(forward, backward));
     axes.map(|e| (e.major, e.minor, e.tilt)).collect()
 }
 
@@ -149,8 +141,6 @@ impl Balance {
     }
 
     fn torque_sum_peak(&self) -> PyResult<f64> {
-        Ok(self
-            .finder()
-            .along_axis(self.torque()?.roll.as_slice().unwrap_or_default()))
+        Ok(self.finder().along_axis(self.torque()?.roll.as_slice().unwrap_or_default()))
     }
 }

@@ -49,15 +49,11 @@ impl<'py> FromPyObject<'_, 'py> for Angle {
         }
         // Whole numbers and fractions have both; a denominator of 1 is taken with the floats.
         if let Ok(denominator) = value.getattr("denominator")
-            && let (Ok(numerator), Ok(denominator)) = (
-                value.getattr("numerator")?.extract(),
-                denominator.extract::<i64>(),
-            )
+            && let (Ok(numerator), Ok(denominator)) =
+                (value.getattr("numerator")?.extract(), denominator.extract::<i64>())
             && denominator != 1
         {
-            return core::Angle::from_degree_fraction(numerator, denominator)
-                .or_raise()
-                .map(Self);
+            return core::Angle::from_degree_fraction(numerator, denominator).or_raise().map(Self);
         }
         let degrees = value.extract::<f64>().map_err(|_| {
             let message =

@@ -26,25 +26,14 @@ where
     if let Some((_, chosen)) = choices.iter().find(|(name, _)| *name == value) {
         return Ok(*chosen);
     }
-    let names: Vec<String> = choices
-        .iter()
-        .map(|(name, _)| format!("\"{name}\""))
-        .collect();
+    let names: Vec<String> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
     let cure = format!("give {}", names.join(" or "));
-    Err(python_error(Error::value(
-        argument,
-        format!("\"{value}\""),
-        cure,
-    )))
+    Err(python_error(Error::value(argument, format!("\"{value}\""), cure)))
 }
 
 /// What a change of bank angle holds.
 pub fn hold(value: &str) -> PyResult<Hold> {
-    choice(
-        "hold",
-        value,
-        &[("pins", Hold::Pins), ("firing", Hold::Firing)],
-    )
+    choice("hold", value, &[("pins", Hold::Pins), ("firing", Hold::Firing)])
 }
 
 fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
@@ -66,14 +55,7 @@ impl Engine {
         py: Python<'py>,
         value: impl Fn(&Placement) -> f64,
     ) -> Bound<'py, PyArray1<f64>> {
-        frozen(
-            py,
-            self.0
-                .placements()
-                .iter()
-                .map(value)
-                .collect::<Array1<f64>>(),
-        )
+        frozen(py, self.0.placements().iter().map(value).collect::<Array1<f64>>())
     }
 }
 
@@ -94,10 +76,7 @@ struct VeeLayout {
 
 impl VeeLayout {
     fn vee(self) -> PyResult<Vee> {
-        let numberings = [
-            ("alternating", Numbering::Alternating),
-            ("by-bank", Numbering::ByBank),
-        ];
+        let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
         Ok(Vee {
             bank_angle: self.bank_angle.0,
             throws: angles(self.throws),
@@ -163,24 +142,12 @@ impl Engine {
             }
             (None, Some(pins)) => {
                 same_length("pin_deg", pins.len(), count)?;
-                angles(pins)
-                    .into_iter()
-                    .zip(&banks)
-                    .map(|(pin, &bank)| bank - pin)
-                    .collect()
+                angles(pins).into_iter().zip(&banks).map(|(pin, &bank)| bank - pin).collect()
             }
             (tdcs, _) => {
-                let given = if tdcs.is_some() {
-                    "both given"
-                } else {
-                    "neither given"
-                };
+                let given = if tdcs.is_some() { "both given" } else { "neither given" };
                 let cure = "give either the crank angles of top dead centre or the pins' angles";
-                return Err(python_error(Error::value(
-                    "tdc_deg and pin_deg",
-                    given,
-                    cure,
-                )));
+                return Err(python_error(Error::value("tdc_deg and pin_deg", given, cure)));
             }
         };
         let mut placements = Vec::with_capacity(count);
@@ -193,18 +160,12 @@ impl Engine {
                 rotating_mass: rotating_mass[i],
             });
         }
-        core::Engine::new(name, source, placements)
-            .or_raise()
-            .map(Self)
+        core::Engine::new(name, source, placements).or_raise().map(Self)
     }
 
     #[staticmethod]
     fn inline(parts: Parts, layout: InlineLayout) -> PyResult<Self> {
-        layout
-            .inline()
-            .engine(cylinder(parts)?)
-            .or_raise()
-            .map(Self)
+        layout.inline().engine(cylinder(parts)?).or_raise().map(Self)
     }
 
     #[staticmethod]
@@ -219,10 +180,7 @@ impl Engine {
         layout: InlineLayout,
     ) -> PyResult<Self> {
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        order
-            .inline(cylinder(parts)?, &layout.inline())
-            .or_raise()
-            .map(Self)
+        order.inline(cylinder(parts)?, &layout.inline()).or_raise().map(Self)
     }
 
     #[staticmethod]
@@ -233,15 +191,9 @@ impl Engine {
         layout: VeeLayout,
     ) -> PyResult<Self> {
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        let rule = choice(
-            "rule",
-            rule,
-            &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)],
-        )?;
-        order
-            .vee(cylinder(parts)?, rule, &layout.vee()?)
-            .or_raise()
-            .map(Self)
+        let rule =
+            choice("rule", rule, &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)])?;
+        order.vee(cylinder(parts)?, rule, &layout.vee()?).or_raise().map(Self)
     }
 
     #[staticmethod]
@@ -275,18 +227,9 @@ impl Engine {
     #[getter]
     fn cylinders(&self) -> Vec<Parts> {
         let parts = |c: core::Cylinder| {
-            (
-                c.crank_radius(),
-                c.rod_length(),
-                c.reciprocating_mass(),
-                c.pin_offset(),
-            )
+            (c.crank_radius(), c.rod_length(), c.reciprocating_mass(), c.pin_offset())
         };
-        self.0
-            .placements()
-            .iter()
-            .map(|p| parts(p.cylinder))
-            .collect()
+        self.0.placements().iter().map(|p| parts(p.cylinder)).collect()
     }
 
     #[getter]
@@ -318,11 +261,7 @@ impl Engine {
     #[getter]
     fn exact_angles(&self) -> (Vec<String>, Vec<String>) {
         let text = |angle: fn(&Placement) -> core::Angle| {
-            self.0
-                .placements()
-                .iter()
-                .map(|p| angle(p).to_string())
-                .collect()
+            self.0.placements().iter().map(|p| angle(p).to_string()).collect()
         };
         (text(|p| p.tdc), text(|p| p.bank))
     }
@@ -343,10 +282,7 @@ impl Engine {
     }
 
     fn with_bank_angle(&self, bank_angle: Angle, held: &str) -> PyResult<Self> {
-        self.0
-            .with_bank_angle(bank_angle.0, hold(held)?)
-            .or_raise()
-            .map(Self)
+        self.0.with_bank_angle(bank_angle.0, hold(held)?).or_raise().map(Self)
     }
 
     fn with_first_tdc(&self, tdc: Angle) -> PyResult<Self> {
@@ -361,12 +297,7 @@ impl Engine {
         let mut hasher = DefaultHasher::new();
         for p in self.0.placements() {
             // Adding 0.0 makes −0.0, which equals 0.0, hash like it.
-            let figures = [
-                p.tdc.degrees(),
-                p.bank.degrees(),
-                p.z,
-                p.cylinder.crank_radius(),
-            ];
+            let figures = [p.tdc.degrees(), p.bank.degrees(), p.z, p.cylinder.crank_radius()];
             figures.map(|x| (x + 0.0).to_bits()).hash(&mut hasher);
         }
         hasher.finish()
@@ -376,9 +307,6 @@ impl Engine {
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let json = slf.get().to_json()?;
-        Ok((
-            slf.get_type().getattr("from_json")?,
-            PyTuple::new(slf.py(), [json])?,
-        ))
+        Ok((slf.get_type().getattr("from_json")?, PyTuple::new(slf.py(), [json])?))
     }
 }

@@ -50,10 +50,7 @@ pub fn run<T: Send>(
 }
 
 /// What Python's signal handlers raise, if anything.
-#[expect(
-    clippy::redundant_closure_for_method_calls,
-    reason = "the method has one lifetime only"
-)]
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the method has one lifetime only")]
 fn signals() -> PyResult<()> {
     Python::attach(|py| py.check_signals())
 }

@@ -3,10 +3,7 @@
 //! `crankpin._core` is private; people import `crankpin`, whose classes wrap what is here and carry
 //! the documentation.
 
-#![expect(
-    clippy::needless_pass_by_value,
-    reason = "PyO3 hands arguments over by value"
-)]
+#![expect(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 use pyo3::prelude::*;
 
@@ -29,10 +26,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::motion, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::cylinder_harmonics, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        slider_crank::cylinder_torque_harmonics,
-        module
-    )?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::cylinder_torque_harmonics, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::centred_table, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::offset_table, module)?)?;
     module.add_function(wrap_pyfunction!(balance::balance, module)?)?;

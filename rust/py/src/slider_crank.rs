@@ -64,16 +64,10 @@ pub fn cylinder_torque_harmonics(
     py: Python<'_>,
     parts: Parts,
     orders: Vec<u32>,
-) -> PyResult<(
-    Bound<'_, PyArray1<Complex64>>,
-    Bound<'_, PyArray1<Complex64>>,
-)> {
+) -> PyResult<(Bound<'_, PyArray1<Complex64>>, Bound<'_, PyArray1<Complex64>>)> {
     limits::orders(&orders).or_raise()?;
     let torque = torque::torque(&cylinder(parts)?.proportions(), &orders);
-    Ok((
-        PyArray1::from_vec(py, torque.roll),
-        PyArray1::from_vec(py, torque.crank),
-    ))
+    Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 
 /// Harmonics without offset for many rod ratios: (n, `n_orders`).
@@ -85,9 +79,7 @@ pub fn centred_table<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let ratios = rod_ratios.as_slice()?.to_vec();
     let steps = ratios.len() * orders.len();
-    let table = interrupt::run(py, steps, |cancel| {
-        table::centred_table(&ratios, &orders, cancel)
-    })?;
+    let table = interrupt::run(py, steps, |cancel| table::centred_table(&ratios, &orders, cancel))?;
     Ok(PyArray2::from_owned_array(py, table))
 }
 
@@ -99,10 +91,7 @@ pub fn offset_table<'py>(
     offsets: PyReadonlyArray1<'py, f64>,
     orders: Vec<u32>,
 ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
-    let (ratios, offsets) = (
-        rod_ratios.as_slice()?.to_vec(),
-        offsets.as_slice()?.to_vec(),
-    );
+    let (ratios, offsets) = (rod_ratios.as_slice()?.to_vec(), offsets.as_slice()?.to_vec());
     let steps = ratios.len() * orders.len() * 32;
     let table = interrupt::run(py, steps, |cancel| {
         table::offset_table(&ratios, &offsets, &orders, cancel)

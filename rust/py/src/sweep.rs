@@ -37,11 +37,7 @@ impl Sweep {
         steps_each: usize,
         work: impl FnOnce(&core::Sweep, &Cancel) -> core::Result<Values<T>> + Send,
     ) -> PyResult<Bound<'py, PyArray<T, IxDyn>>> {
-        let points = self
-            .0
-            .shape()
-            .iter()
-            .fold(1_usize, |size, &n| size.saturating_mul(n));
+        let points = self.0.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
         let steps = points.saturating_mul(steps_each);
         let values = interrupt::run(py, steps, |cancel| work(&self.0, cancel))?;
         Ok(frozen(py, values))
@@ -51,10 +47,7 @@ impl Sweep {
 #[pymethods]
 impl Sweep {
     #[new]
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "the wrapper in Python has defaults for them"
-    )]
+    #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
     fn new(
         engines: Vec<Engine>,
         bank_angle_deg: Option<PyReadonlyArray1<'_, f64>>,
@@ -67,9 +60,7 @@ impl Sweep {
         spectrum: Option<Vec<(u32, Complex64)>>,
     ) -> PyResult<Self> {
         let list = |values: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
-            Ok(values
-                .map(|values| values.as_slice().map(<[f64]>::to_vec))
-                .transpose()?)
+            Ok(values.map(|values| values.as_slice().map(<[f64]>::to_vec)).transpose()?)
         };
         let bank_angle = match (list(bank_angle_deg)?, held) {
             (Some(angles), Some(held)) => Some((angles, hold(held)?)),
@@ -92,9 +83,7 @@ impl Sweep {
         };
         let engines = engines.into_iter().map(|engine| engine.0).collect();
         let spectrum = self::spectrum(spectrum)?;
-        core::Sweep::new(engines, axes, orders, reference_z, spectrum)
-            .or_raise()
-            .map(Self)
+        core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise().map(Self)
     }
 
     /// Lengths of engine, bank angle, rod ratio, pin offset, speed.
@@ -133,9 +122,7 @@ impl Sweep {
 
     fn sum_peaks<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let quantity = quantity(name)?;
-        self.values(py, PEAK_STEPS, |sweep, cancel| {
-            sweep.sum_peaks(quantity, cancel)
-        })
+        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_peaks(quantity, cancel))
     }
 
     fn sum_vector_peaks<'py>(
@@ -144,8 +131,6 @@ impl Sweep {
         name: &str,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let quantity = quantity(name)?;
-        self.values(py, PEAK_STEPS, |sweep, cancel| {
-            sweep.sum_vector_peaks(quantity, cancel)
-        })
+        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_vector_peaks(quantity, cancel))
     }
 }

@@ -21,10 +21,7 @@ type Parts<'py> = (
 
 /// From exact kinematics, or (`summed`) as a sum of orders.
 #[pyfunction]
-#[expect(
-    clippy::too_many_arguments,
-    reason = "the wrapper in Python has defaults for them"
-)]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn waveform<'py>(
     py: Python<'py>,
     engine: &Bound<'py, Engine>,
@@ -39,10 +36,7 @@ pub fn waveform<'py>(
     let engine = &engine.get().0;
     let thetas = theta_deg.as_slice()?.to_vec();
     let spectrum = self::spectrum(spectrum)?;
-    let steps = thetas
-        .len()
-        .saturating_mul(engine.placements().len())
-        .saturating_mul(8);
+    let steps = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
     let waveform = interrupt::run(py, steps, |cancel| {
         if !summed {
             return core::waveform::exact(engine, rpm, &thetas, reference_z, cancel);

@@ -32,10 +32,7 @@ const SERIES_TERMS_PER_ORDER: f64 = 4.0;
 pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
     if proportions.offset == 0.0 {
         let centred = Centred::new(proportions);
-        return orders
-            .iter()
-            .map(|&n| Complex64::new(centred.coefficient(n), 0.0))
-            .collect();
+        return orders.iter().map(|&n| Complex64::new(centred.coefficient(n), 0.0)).collect();
     }
     Offset::new(proportions).coefficients(orders)
 }
@@ -79,11 +76,7 @@ impl Root {
             .plus(-2.0 * p)
             .plus(square.high)
             .plus(cross.low + square.low - 2.0 * reach.low * p);
-        Self {
-            p,
-            correction: residual.high / (2.0 * root * p),
-            height: root,
-        }
+        Self { p, correction: residual.high / (2.0 * root * p), height: root }
     }
 
     /// pⁿ: the library's power is right to half a unit, the rounding of p is taken out.
@@ -103,11 +96,7 @@ struct Centred {
 impl Centred {
     fn new(proportions: &Proportions) -> Self {
         let root = Root::new(proportions.above);
-        Self {
-            root,
-            reach: proportions.above.high,
-            fourth: root.p.powi(4),
-        }
+        Self { root, reach: proportions.above.high, fourth: root.p.powi(4) }
     }
 
     fn coefficient(&self, n: u32) -> f64 {
@@ -144,24 +133,10 @@ struct Offset {
 
 impl Offset {
     fn new(proportions: &Proportions) -> Self {
-        let Proportions {
-            offset,
-            above,
-            below,
-            ..
-        } = *proportions;
+        let Proportions { offset, above, below, .. } = *proportions;
         let mirrored = offset < 0.0;
-        let (above, below) = if mirrored {
-            (below, above)
-        } else {
-            (above, below)
-        };
-        Self {
-            size: offset.abs(),
-            mirrored,
-            above,
-            below,
-        }
+        let (above, below) = if mirrored { (below, above) } else { (above, below) };
+        Self { size: offset.abs(), mirrored, above, below }
     }
 
     fn coefficients(&self, orders: &[u32]) -> Vec<Complex64> {
@@ -185,10 +160,8 @@ impl Offset {
                 } else {
                     let terms = series.len() - n as usize;
                     // From the smallest term up.
-                    let tail: f64 = (1..terms)
-                        .rev()
-                        .map(|j| series[j] * series[j + n as usize])
-                        .sum();
+                    let tail: f64 =
+                        (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
                     f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
                 };
                 self.turned(n, magnitude)
@@ -231,12 +204,7 @@ impl Roots {
         } else {
             -2.0 * offset * (p1 + p2) / (first.height + second.height)
         };
-        Self {
-            p1,
-            p2,
-            product,
-            difference,
-        }
+        Self { p1, p2, product, difference }
     }
 
     /// h₀ … h_{count − 1} of √((1 + p₁w)(1 − p₂w)): all below zero from h₁ on, since p₁ ≤ p₂, so
@@ -260,9 +228,7 @@ impl Roots {
 /// derivative of a geometric series. `None` where p₂ is so near 1 that it overflows.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
-    let Offset {
-        size, above, below, ..
-    } = Offset::new(proportions);
+    let Offset { size, above, below, .. } = Offset::new(proportions);
     let Roots { p2: p, product, .. } = Roots::new(size, above, below);
     let first = f64::from(highest + 1);
     let gap = 1.0 - p;

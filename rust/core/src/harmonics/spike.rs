@@ -41,11 +41,7 @@ fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
         let half = 0.5 * (pair[0] - pair[1]) / parts;
         for part in 0..parts as usize {
             let middle = pair[1] + half * (2 * part + 1) as f64;
-            sum += GAUSS
-                .iter()
-                .map(|&(x, w)| w * f(half.mul_add(x, middle)))
-                .sum::<f64>()
-                * half;
+            sum += GAUSS.iter().map(|&(x, w)| w * f(half.mul_add(x, middle))).sum::<f64>() * half;
         }
     }
     sum

@@ -32,11 +32,7 @@ pub fn offset_table(
     cancel: &Cancel,
 ) -> Result<Array2<Complex64>> {
     let mut table = checked_table::<Complex64>(rod_ratios.len(), orders)?;
-    let pairs: Vec<(f64, f64)> = rod_ratios
-        .iter()
-        .copied()
-        .zip(offsets.iter().copied())
-        .collect();
+    let pairs: Vec<(f64, f64)> = rod_ratios.iter().copied().zip(offsets.iter().copied()).collect();
     fill(&mut table, &pairs, cancel, |pairs, rows| {
         for (&(rod_ratio, offset), row) in pairs.iter().zip(rows.chunks_exact_mut(orders.len())) {
             row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
@@ -126,10 +122,7 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
     for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
         if n == 1 || n % 2 == 1 {
             let value = if n == 1 { 1.0 } else { 0.0 };
-            rows.iter_mut()
-                .skip(column)
-                .step_by(width)
-                .for_each(|v| *v = value);
+            rows.iter_mut().skip(column).step_by(width).for_each(|v| *v = value);
             continue;
         }
         let mut sum = [0.0; LANES];
@@ -186,10 +179,7 @@ impl Horner {
             terms.push(term);
             term *= next_term(j as f64, m);
         }
-        Self {
-            leading: leading(n),
-            terms,
-        }
+        Self { leading: leading(n), terms }
     }
 
     /// How many terms matter for a given p⁴.

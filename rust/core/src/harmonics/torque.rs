@@ -22,10 +22,7 @@ pub struct TorqueHarmonics {
 pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
-    let force = coefficients(
-        proportions,
-        &around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(),
-    );
+    let force = coefficients(proportions, &around.iter().map(|&n| n.max(1)).collect::<Vec<_>>());
     // Order n of h' from order n of the acceleration: h'ₙ = i n hₙ and aₙ = n² hₙ.
     let slope = |index: usize| -> Complex64 {
         let n = around[index];
@@ -59,18 +56,8 @@ struct RationalPart {
 
 impl RationalPart {
     fn new(proportions: &Proportions) -> Self {
-        let Offset {
-            size,
-            mirrored,
-            above,
-            below,
-        } = Offset::new(proportions);
-        Self {
-            rod: proportions.rod,
-            offset: size,
-            roots: Roots::new(size, above, below),
-            mirrored,
-        }
+        let Offset { size, mirrored, above, below } = Offset::new(proportions);
+        Self { rod: proportions.rod, offset: size, roots: Roots::new(size, above, below), mirrored }
     }
 
     /// Peak phasor of order n ≥ 1.
@@ -79,9 +66,7 @@ impl RationalPart {
     /// sin θ + A − (A² − 1)/(A − sin θ), whose order n ≥ 2 is −(1 − p₁²) p₁ⁿ⁻¹ (−i)ⁿ and whose
     /// order 1 is −i p₁²; the other fraction has p₂ and iⁿ.
     fn harmonic(&self, n: u32) -> Complex64 {
-        let Roots {
-            p1, p2, difference, ..
-        } = self.roots;
+        let Roots { p1, p2, difference, .. } = self.roots;
         let power = |p: f64, k: u32| p.powf(f64::from(k));
         if n % 2 == 1 {
             if self.offset == 0.0 {

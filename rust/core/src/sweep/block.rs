@@ -136,9 +136,7 @@ impl Block {
 
     /// Phasors of all orders at one angle, component by component.
     pub fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
-        let phasors: Vec<_> = (0..self.bounds.len())
-            .map(|order| self.phasors(order, i))
-            .collect();
+        let phasors: Vec<_> = (0..self.bounds.len()).map(|order| self.phasors(order, i)).collect();
         [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
     }
 

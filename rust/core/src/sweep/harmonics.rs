@@ -58,10 +58,7 @@ impl Sweep {
         let points = ratios.len() * offsets.len();
         let row = |point: usize| -> Result<Vec<Complex64>> {
             cancel.check()?;
-            let (ratio, offset) = (
-                ratios[point / offsets.len()],
-                offsets[point % offsets.len()],
-            );
+            let (ratio, offset) = (ratios[point / offsets.len()], offsets[point % offsets.len()]);
             let proportions = proportions(cylinder, ratio, offset)?;
             Ok(match quantity {
                 Quantity::Torque => torque::torque(&proportions, &self.orders).roll,
@@ -71,14 +68,9 @@ impl Sweep {
         if points == 1 {
             return row(0).map(|row| one_row(&row));
         }
-        let rows: Vec<Vec<Complex64>> = (0..points)
-            .into_par_iter()
-            .map(row)
-            .collect::<Result<_>>()?;
-        Ok(Array2::from_shape_fn(
-            (points, self.orders.len()),
-            |(point, order)| rows[point][order],
-        ))
+        let rows: Vec<Vec<Complex64>> =
+            (0..points).into_par_iter().map(row).collect::<Result<_>>()?;
+        Ok(Array2::from_shape_fn((points, self.orders.len()), |(point, order)| rows[point][order]))
     }
 }
 

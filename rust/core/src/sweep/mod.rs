@@ -78,24 +78,14 @@ impl Sweep {
         limits::orders(&orders)?;
         not_empty("engines", engines.len())?;
         not_empty("rpm", axes.rpm.len())?;
-        let squares = axes
-            .rpm
-            .iter()
-            .map(|&rpm| angular_speed(rpm).map(|omega| omega * omega));
+        let squares = axes.rpm.iter().map(|&rpm| angular_speed(rpm).map(|omega| omega * omega));
         let squares = squares.collect::<Result<_>>()?;
         if let Some((angles, _)) = &axes.bank_angle {
             not_empty("bank_angle_deg", angles.len())?;
-            angles
-                .iter()
-                .try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
-            engines
-                .iter()
-                .try_for_each(|engine| engine.banks().map(drop))?;
+            angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
         }
-        for (name, values) in [
-            ("rod_ratio", &axes.rod_ratio),
-            ("pin_offset", &axes.pin_offset),
-        ] {
+        for (name, values) in [("rod_ratio", &axes.rod_ratio), ("pin_offset", &axes.pin_offset)] {
             let Some(values) = values else { continue };
             not_empty(name, values.len())?;
             if spectrum.is_some() {
@@ -105,14 +95,7 @@ impl Sweep {
         }
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         let references = references.collect::<Result<_>>()?;
-        let sweep = Self {
-            engines,
-            axes,
-            orders,
-            references,
-            spectrum,
-            squares,
-        };
+        let sweep = Self { engines, axes, orders, references, spectrum, squares };
         sweep.check_geometry()?;
         Ok(sweep)
     }
@@ -123,10 +106,7 @@ impl Sweep {
         let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
         [
             self.engines.len(),
-            self.axes
-                .bank_angle
-                .as_ref()
-                .map_or(1, |(angles, _)| angles.len()),
+            self.axes.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len()),
             length(&self.axes.rod_ratio),
             length(&self.axes.pin_offset),
             self.squares.len(),
@@ -136,37 +116,23 @@ impl Sweep {
     /// Largest crank radius of any cylinder, m.
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
-        self.engines
-            .iter()
-            .map(Engine::largest_crank_radius)
-            .fold(0.0, f64::max)
+        self.engines.iter().map(Engine::largest_crank_radius).fold(0.0, f64::max)
     }
 
     /// Peak phasors of each order: (…, `n_orders`, components).
     pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
         let components = quantity.components();
-        self.fill(
-            quantity,
-            &[self.orders.len(), components],
-            cancel,
-            |block, out| {
-                for (i, row) in out
-                    .chunks_exact_mut(self.orders.len() * components)
-                    .enumerate()
-                {
-                    for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
-                        phasors.copy_from_slice(&block.phasors(order, i)[..components]);
-                    }
+        self.fill(quantity, &[self.orders.len(), components], cancel, |block, out| {
+            for (i, row) in out.chunks_exact_mut(self.orders.len() * components).enumerate() {
+                for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
+                    phasors.copy_from_slice(&block.phasors(order, i)[..components]);
                 }
-            },
-        )
+            }
+        })
     }
 
     /// max over θ of each order along (about) each axis: (…, `n_orders`, components).
-    #[expect(
-        clippy::redundant_closure_for_method_calls,
-        reason = "only a closure is inlined"
-    )]
+    #[expect(clippy::redundant_closure_for_method_calls, reason = "only a closure is inlined")]
     pub fn peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let tail = [self.orders.len(), quantity.components()];
         self.fill(
@@ -234,13 +200,7 @@ impl Sweep {
         let mut values = vec![T::default(); shape.iter().product()];
         let [_, angles, ratios, offsets, _] = self.shape();
         let width: usize = tail.iter().product();
-        let run = Run {
-            plan: &plan,
-            squares: &self.squares,
-            points: ratios * offsets,
-            width,
-            cancel,
-        };
+        let run = Run::new(&plan, &self.squares, ratios * offsets, width, cancel);
         if angles > 1 {
             run.over_bank_angles(self.bank_angles(), &mut values, &finish)?;
         } else {
@@ -251,33 +211,20 @@ impl Sweep {
     }
 
     fn bank_angles(&self) -> &[f64] {
-        self.axes
-            .bank_angle
-            .as_ref()
-            .map_or(&[0.0], |(angles, _)| angles)
+        self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
 
     /// Every slider-crank of the sweep can turn: it is enough to look at the largest values.
     fn check_geometry(&self) -> Result<()> {
         let ends = |values: &Option<Vec<f64>>| -> Vec<Option<f64>> {
-            values.as_ref().map_or(vec![None], |values| {
-                values.iter().copied().map(Some).collect()
-            })
+            values.as_ref().map_or(vec![None], |values| values.iter().copied().map(Some).collect())
         };
         let (ratios, offsets) = (ends(&self.axes.rod_ratio), ends(&self.axes.pin_offset));
-        let size = offsets
-            .iter()
-            .flatten()
-            .fold(None, |largest: Option<f64>, &offset| {
-                // NaN is kept, so that it is found below.
-                Some(largest.map_or(offset, |l| if l.abs() >= offset.abs() { l } else { offset }))
-            });
-        for cylinder in self
-            .engines
-            .iter()
-            .flat_map(Engine::placements)
-            .map(|p| p.cylinder)
-        {
+        let size = offsets.iter().flatten().fold(None, |largest: Option<f64>, &offset| {
+            // NaN is kept, so that it is found below.
+            Some(largest.map_or(offset, |l| if l.abs() >= offset.abs() { l } else { offset }))
+        });
+        for cylinder in self.engines.iter().flat_map(Engine::placements).map(|p| p.cylinder) {
             for &ratio in &ratios {
                 proportions(&cylinder, ratio, size)?;
             }

@@ -50,12 +50,7 @@ impl<'a> Plan<'a> {
             .map(|(engine, &reference)| EnginePlan::new(sweep, engine, reference, quantity, cancel))
             .collect::<Result<_>>()?;
         let hold = sweep.axes.bank_angle.as_ref().map(|&(_, hold)| hold);
-        Ok(Self {
-            orders: &sweep.orders,
-            hold,
-            engines,
-            quantity,
-        })
+        Ok(Self { orders: &sweep.orders, hold, engines, quantity })
     }
 
     /// Layout sums of an engine times its harmonics at a point, all groups together.
@@ -94,15 +89,8 @@ impl EnginePlan {
     ) -> Result<Self> {
         let placements = engine.placements();
         let hold = sweep.axes.bank_angle.as_ref().map(|&(_, hold)| hold);
-        let frame = hold
-            .map(|hold| engine.banks().map(|banks| (banks, hold)))
-            .transpose()?;
-        let layout = Layout {
-            reference,
-            orders: &sweep.orders,
-            frame,
-            quantity,
-        };
+        let frame = hold.map(|hold| engine.banks().map(|banks| (banks, hold))).transpose()?;
+        let layout = Layout { reference, orders: &sweep.orders, frame, quantity };
         let mut groups: Vec<(Cylinder, Vec<&Placement>)> = Vec::new();
         for placement in placements {
             let cylinder = placement.cylinder;
@@ -143,16 +131,8 @@ impl EnginePlan {
             }
             terms
         });
-        let zero_factors = sweep
-            .orders
-            .iter()
-            .map(|&n| zero_factor(placements.len(), n))
-            .collect();
-        Ok(Self {
-            groups,
-            rotating,
-            zero_factors,
-        })
+        let zero_factors = sweep.orders.iter().map(|&n| zero_factor(placements.len(), n)).collect();
+        Ok(Self { groups, rotating, zero_factors })
     }
 }
 
@@ -193,10 +173,7 @@ impl Layout<'_> {
                 against[1] * shares[1],
             ]
         });
-        Terms {
-            constants: constants.collect(),
-            sizes: vec![size; self.orders.len()],
-        }
+        Terms { constants: constants.collect(), sizes: vec![size; self.orders.len()] }
     }
 
     /// Σ weight·e^{i(turn·bank − n·tdc)} for each turn, as constants of cosine and sine of a multiple
@@ -226,11 +203,7 @@ impl Layout<'_> {
                 Hold::Pins => p.bank.cis(n) * p.tdc.cis(-n),
                 Hold::Firing => p.tdc.cis(-n),
             };
-            *if p.bank == banks.right {
-                &mut right
-            } else {
-                &mut left
-            } += unit * weight(p);
+            *if p.bank == banks.right { &mut right } else { &mut left } += unit * weight(p);
         }
         turns.map(|turn| {
             // With the pins held the phase turns with the bank: e^{i(turn − n)·bank} e^{in·pin}.
@@ -240,10 +213,7 @@ impl Layout<'_> {
             };
             let middle = banks.bisector().cis(multiple);
             // Bores at bisector ∓ γ: e^{−i·m·γ} right + e^{i·m·γ} left.
-            [
-                middle * (right + left),
-                Complex64::i() * middle * (left - right),
-            ]
+            [middle * (right + left), Complex64::i() * middle * (left - right)]
         })
     }
 }

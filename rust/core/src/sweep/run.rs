@@ -15,16 +15,33 @@ const WORTH_A_THREAD: usize = 1 << 14;
 
 /// One pass over all points.
 pub(super) struct Run<'a> {
-    pub plan: &'a Plan<'a>,
-    pub squares: &'a [f64],
+    plan: &'a Plan<'a>,
+    /// ω² of each speed, less `folded`.
+    squares: &'a [f64],
+    /// ω² of a single speed: it goes into the constants, before magnitudes are taken.
+    folded: f64,
     /// Points of rod ratio and pin offset.
-    pub points: usize,
+    points: usize,
     /// Numbers to a point and speed.
-    pub width: usize,
-    pub cancel: &'a Cancel,
+    width: usize,
+    cancel: &'a Cancel,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    pub fn new(
+        plan: &'a Plan<'a>,
+        squares: &'a [f64],
+        points: usize,
+        width: usize,
+        cancel: &'a Cancel,
+    ) -> Self {
+        let (squares, folded) = match squares {
+            [square] => (&[1.0][..], *square),
+            _ => (squares, 1.0),
+        };
+        Self { plan, squares, folded, points, width, cancel }
+    }
+
     /// Blocks of bank angles, each for all engines, in parallel.
     pub fn over_bank_angles<T>(
         &self,
@@ -43,19 +60,12 @@ impl Run<'_> {
             .collect();
         let tasks: Vec<(&[f64], Vec<&mut [T]>)> = bank_angles
             .chunks(BLOCK)
-            .map(|angles| {
-                (
-                    angles,
-                    by_engine.iter_mut().filter_map(Iterator::next).collect(),
-                )
-            })
+            .map(|angles| (angles, by_engine.iter_mut().filter_map(Iterator::next).collect()))
             .collect();
         // With one point to an engine its constants serve every block.
         let engines = 0..self.plan.engines.len();
         let single: Vec<Terms> = if self.points == 1 {
-            engines
-                .map(|engine| self.plan.combined(engine, 0))
-                .collect()
+            engines.map(|engine| self.plan.combined(engine, 0)).collect()
         } else {
             Vec::new()
         };
@@ -66,8 +76,8 @@ impl Run<'_> {
                     block.set_angles(self.plan, angles);
                     for (engine, out) in outs.into_iter().enumerate() {
                         self.cancel.check()?;
-                        if let (Some(terms), [square]) = (single.get(engine), self.squares) {
-                            block.evaluate(terms, *square);
+                        if let (Some(terms), 1) = (single.get(engine), self.squares.len()) {
+                            block.evaluate(terms, self.folded);
                             finish(block, out);
                         } else {
                             self.engine_block(engine, block, out, finish);
@@ -78,14 +88,10 @@ impl Run<'_> {
             )
         };
         if large {
-            tasks
-                .into_par_iter()
-                .try_for_each_init(|| Block::new(self.plan), work)
+            tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work)
         } else {
             let mut block = Block::new(self.plan);
-            tasks
-                .into_iter()
-                .try_for_each(|task| work(&mut block, task))
+            tasks.into_iter().try_for_each(|task| work(&mut block, task))
         }
     }
 
@@ -103,15 +109,11 @@ impl Run<'_> {
         let (speeds, width) = (self.squares.len(), self.width);
         let mut unscaled = vec![T::default(); block.count * width];
         for point in 0..self.points {
-            block.evaluate(&self.plan.combined(engine, point), 1.0);
+            block.evaluate(&self.plan.combined(engine, point), self.folded);
             finish(block, &mut unscaled);
             for (i, values) in unscaled.chunks_exact(width).enumerate() {
                 let start = (i * self.points + point) * speeds * width;
-                scale(
-                    values,
-                    self.squares,
-                    &mut out[start..start + speeds * width],
-                );
+                scale(values, self.squares, &mut out[start..start + speeds * width]);
             }
         }
     }
@@ -145,7 +147,7 @@ impl Run<'_> {
                 while !rest.is_empty() {
                     let (point, speed) = (at / speeds, at % speeds);
                     let here = (speeds - speed).min(rest.len() / width);
-                    block.evaluate(&self.plan.combined(engine, point), 1.0);
+                    block.evaluate(&self.plan.combined(engine, point), self.folded);
                     finish(block, &mut unscaled);
                     let (rows, after) = rest.split_at_mut(here * width);
                     scale(&unscaled, &self.squares[speed..speed + here], rows);
@@ -154,14 +156,10 @@ impl Run<'_> {
                 Ok(())
             };
         if large {
-            tasks
-                .into_par_iter()
-                .try_for_each_init(|| Block::new(self.plan), work)
+            tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work)
         } else {
             let mut block = Block::new(self.plan);
-            tasks
-                .into_iter()
-                .try_for_each(|task| work(&mut block, task))
+            tasks.into_iter().try_for_each(|task| work(&mut block, task))
         }
     }
 }

@@ -1,0 +1,364 @@
+//! Laws that hold for any engine.
+
+use std::f64::consts::TAU;
+
+use crankpin_core::angle::cis_degrees;
+use crankpin_core::balance::{Shake, balance};
+use crankpin_core::harmonics;
+use crankpin_core::sweep::{Axes, Quantity};
+use crankpin_core::{
+    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Sweep, waveform,
+};
+use proptest::prelude::*;
+
+const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
+
+/// Moving parts of a usual engine, offset or not.
+fn cylinders(offset: bool) -> impl Strategy<Value = Cylinder> {
+    (0.02..0.2, 1.8..6.0, 0.1..3.0, -0.5..0.5_f64).prop_map(move |(r, l, m, e)| {
+        let pin_offset = if offset { r * e } else { 0.0 };
+        Cylinder::new(r, r * l, m, pin_offset).unwrap()
+    })
+}
+
+/// Angles that are parts of a turn, and angles that are not.
+fn angles() -> impl Strategy<Value = Angle> {
+    prop_oneof![
+        (0_i64..24).prop_map(|k| Angle::from_degree_fraction(15 * k, 1).unwrap()),
+        (0_i64..7).prop_map(|k| Angle::from_degree_fraction(360 * k, 7).unwrap()),
+        (0.0..360.0).prop_map(|d| Angle::from_degrees(d).unwrap()),
+    ]
+}
+
+fn placements(offset: bool) -> impl Strategy<Value = Placement> {
+    (cylinders(offset), angles(), angles(), -0.5..0.5, 0.0..2.0).prop_map(
+        |(cylinder, tdc, bank, z, rotating_mass)| Placement {
+            cylinder,
+            tdc,
+            bank,
+            z,
+            rotating_mass,
+        },
+    )
+}
+
+fn engines(offset: bool) -> impl Strategy<Value = Engine> {
+    proptest::collection::vec(placements(offset), 1..9)
+        .prop_map(|placements| Engine::new("", "", placements).unwrap())
+}
+
+/// Vees whose cylinders stand in two banks.
+fn vees() -> impl Strategy<Value = Engine> {
+    let cylinder = cylinders(true);
+    let rest =
+        proptest::collection::vec((cylinder, angles(), -0.5..0.5, 0.0..2.0, any::<bool>()), 0..7);
+    (placements(true), placements(true), rest, 20.0..160.0).prop_map(|(a, b, rest, angle)| {
+        let right = Angle::from_degrees(90.0 - 0.5 * angle).unwrap();
+        let left = Angle::from_degrees(90.0 + 0.5 * angle).unwrap();
+        let mut placements = vec![Placement { bank: right, ..a }, Placement { bank: left, ..b }];
+        placements.extend(rest.into_iter().map(|(cylinder, tdc, z, rotating_mass, on_left)| {
+            let bank = if on_left { left } else { right };
+            Placement { cylinder, tdc, bank, z, rotating_mass }
+        }));
+        Engine::new("", "", placements).unwrap()
+    })
+}
+
+fn changed(engine: &Engine, change: impl Fn(&Placement) -> Placement) -> Engine {
+    Engine::new("", "", engine.placements().iter().map(change).collect()).unwrap()
+}
+
+fn of(engine: &Engine) -> Balance {
+    balance(engine, 3000.0, &Orders::Given(ORDERS.to_vec()), Some(0.0), None).unwrap()
+}
+
+/// Size that rounding is relative to: Σ m r ω² (1 + |z|).
+fn size(engine: &Engine) -> f64 {
+    let omega = 3000.0 * TAU / 60.0;
+    let each = |p: &Placement| {
+        (p.cylinder.first_order() + p.rotating_mass * p.cylinder.crank_radius()) * (1.0 + p.z.abs())
+    };
+    engine.placements().iter().map(each).sum::<f64>() * omega * omega
+}
+
+/// Equal to rounding: phases of order 9 of angles to 1024° are good to 9·1.1e-13·π/180 = 2e-14, of
+/// which a sum of nine terms is allowed ten.
+#[track_caller]
+fn same(a: Complex64, b: Complex64, size: f64) {
+    assert!((a - b).norm() <= 2e-13 * size, "{a} is not {b} (of {size})");
+}
+
+fn each(shake: &Shake) -> impl Iterator<Item = (Complex64, Complex64)> + '_ {
+    shake.forward.iter().copied().zip(shake.backward.iter().copied())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn force_goes_with_mass_radius_and_speed_squared(engine in engines(true), factor in 0.1..9.0_f64) {
+        let scaled = changed(&engine, |p| {
+            let c = p.cylinder;
+            let cylinder = Cylinder::new(
+                c.crank_radius() * factor,
+                c.rod_length() * factor,
+                c.reciprocating_mass() * factor,
+                c.pin_offset() * factor,
+            ).unwrap();
+            Placement { cylinder, rotating_mass: p.rotating_mass * factor, ..*p }
+        });
+        let before = of(&engine);
+        let after = balance(
+            &scaled, 3000.0 * factor, &Orders::Given(ORDERS.to_vec()), Some(0.0), None,
+        ).unwrap();
+        let power = factor.powi(4);
+        for (a, b) in before.force.xy.iter().zip(&after.force.xy) {
+            same(*a * power, *b, size(&engine) * power);
+        }
+        let (a, b) = (before.torque.unwrap(), after.torque.unwrap());
+        for (a, b) in a.roll.iter().zip(&b.roll) {
+            same(*a * power * factor, *b, size(&engine) * power * factor);
+        }
+    }
+
+    #[test]
+    fn turning_the_engine_turns_the_result(engine in engines(true), by in angles()) {
+        let turned = changed(&engine, |p| Placement { bank: p.bank + by, ..*p });
+        let (before, after) = (of(&engine), of(&turned));
+        for (a, b) in [(&before.force, &after.force), (&before.moment, &after.moment)] {
+            for ((f, g), (f2, g2)) in each(a).zip(each(b)) {
+                same(f * by.cis(1), f2, size(&engine));
+                same(g * by.cis(1), g2, size(&engine));
+            }
+        }
+    }
+
+    #[test]
+    fn turning_the_crank_turns_the_phase(engine in engines(true), by in angles()) {
+        let turned = changed(&engine, |p| Placement { tdc: p.tdc + by, ..*p });
+        let (before, after) = (of(&engine), of(&turned));
+        for (k, &n) in ORDERS.iter().enumerate() {
+            let phase = by.cis(-i64::from(n));
+            same(before.force.forward[k] * phase, after.force.forward[k], size(&engine));
+            same(before.force.backward[k] * phase.conj(), after.force.backward[k], size(&engine));
+            let (a, b) = (before.torque.as_ref().unwrap(), after.torque.as_ref().unwrap());
+            same(a.roll[k] * phase, b.roll[k], size(&engine));
+        }
+    }
+
+    #[test]
+    fn relabelling_changes_nothing(engine in engines(true), by in 0_usize..8) {
+        let mut placements = engine.placements().to_vec();
+        let count = placements.len();
+        placements.rotate_left(by % count);
+        placements.reverse();
+        let (before, after) = (of(&engine), of(&Engine::new("", "", placements).unwrap()));
+        for (a, b) in before.moment.xy.iter().zip(&after.moment.xy) {
+            same(*a, *b, size(&engine));
+        }
+    }
+
+    #[test]
+    fn moving_the_plane_adds_force_times_distance(engine in engines(true), by in -1.0..1.0) {
+        let orders = Orders::Given(ORDERS.to_vec());
+        let here = of(&engine);
+        let there = balance(&engine, 3000.0, &orders, Some(by), None).unwrap();
+        for k in 0..ORDERS.len() {
+            let [x, y] = [here.force.xy[[k, 0]], here.force.xy[[k, 1]]];
+            same(here.moment.xy[[k, 0]] + y * by, there.moment.xy[[k, 0]], 2.0 * size(&engine));
+            same(here.moment.xy[[k, 1]] - x * by, there.moment.xy[[k, 1]], 2.0 * size(&engine));
+        }
+    }
+
+    #[test]
+    fn a_mirror_swaps_and_conjugates(engine in engines(true)) {
+        let upright = Angle::from_degrees(180.0).unwrap();
+        // Without rotating mass: a mirrored pin would turn the other way.
+        let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
+        let mirrored = changed(&engine, |p| Placement { bank: upright - p.bank, ..*p });
+        for ((f, b), (f2, b2)) in each(&of(&engine).force).zip(each(&of(&mirrored).force)) {
+            same(-b.conj(), f2, size(&engine));
+            same(-f.conj(), b2, size(&engine));
+        }
+        for ((f, b), (f2, b2)) in each(&of(&engine).moment).zip(each(&of(&mirrored).moment)) {
+            same(b.conj(), f2, size(&engine));
+            same(f.conj(), b2, size(&engine));
+        }
+    }
+
+    #[test]
+    fn reversing_the_crank_swaps_forward_and_backward(engine in engines(false)) {
+        let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
+        let reversed = changed(&engine, |p| Placement { tdc: -p.tdc, ..*p });
+        for ((f, b), (f2, b2)) in each(&of(&engine).force).zip(each(&of(&reversed).force)) {
+            same(b, f2, size(&engine));
+            same(f, b2, size(&engine));
+        }
+    }
+
+    #[test]
+    fn boxer_pairs_cancel(cylinder in cylinders(true), tdc in angles(), bank in angles(), mass in 0.0..2.0) {
+        let half = Angle::from_degrees(180.0).unwrap();
+        let place = |bank| Placement { cylinder, tdc, bank, z: 0.1, rotating_mass: mass };
+        let engine = Engine::new("", "", vec![place(bank), place(bank + half)]).unwrap();
+        let balance = of(&engine);
+        prop_assert!(balance.force.xy.iter().all(|z| *z == Complex64::default()));
+        prop_assert!(balance.moment.xy.iter().all(|z| *z == Complex64::default()));
+    }
+
+    #[test]
+    fn rotating_mass_is_all_forward(engine in engines(true)) {
+        let without = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
+        let (with, without) = (of(&engine), of(&without));
+        for (a, b) in with.force.backward.iter().zip(&without.force.backward) {
+            same(*a, *b, size(&engine));
+        }
+        let omega = 3000.0 * TAU / 60.0;
+        let turning: Complex64 = engine
+            .placements()
+            .iter()
+            .map(|p| p.pin().cis(1) * p.rotating_mass * p.cylinder.crank_radius() * omega * omega)
+            .sum();
+        same(with.force.forward[0] - without.force.forward[0], turning, size(&engine));
+    }
+
+    #[test]
+    fn orders_and_kinematics_agree_and_keep_their_energy(engine in engines(true)) {
+        let thetas: Vec<f64> = (0..256).map(|k| f64::from(k) * 360.0 / 256.0).collect();
+        let cancel = Cancel::new();
+        let exact = waveform::exact(&engine, 3000.0, &thetas, Some(0.0), &cancel).unwrap();
+        let all = Orders::Given((1..=120).collect());
+        let summed =
+            waveform::from_orders(&engine, 3000.0, &thetas, &all, Some(0.0), None, &cancel).unwrap();
+        // λ ≤ 1/1.8 and e ≤ r/2: order 120 is below 1e-20; 120 powers of e^{iθ} lose 120 roundings.
+        let tolerance = 1e-12 * size(&engine);
+        for (a, b) in exact.force.iter().zip(&summed.force) {
+            prop_assert!((a - b).abs() <= tolerance);
+        }
+        for (a, b) in exact.moment.iter().zip(&summed.moment) {
+            prop_assert!((a - b).abs() <= tolerance);
+        }
+        for (a, b) in exact.torque.unwrap().iter().zip(&summed.torque.unwrap()) {
+            prop_assert!((a - b).abs() <= tolerance);
+        }
+        for (a, b) in exact.crank_torque.unwrap().iter().zip(&summed.crank_torque.unwrap()) {
+            prop_assert!((a - b).abs() <= tolerance);
+        }
+        // Parseval: the mean square of x + iy is the sum of |forward|² + |backward|².
+        let mean: f64 = exact.force.iter().map(|x| x * x).sum::<f64>() / 256.0;
+        let parts = summed.balance.unwrap();
+        let total: f64 = each(&parts.force).map(|(f, b)| f.norm_sqr() + b.norm_sqr()).sum();
+        prop_assert!((mean - total).abs() <= 1e-12 * size(&engine).powi(2));
+    }
+
+    #[test]
+    fn chosen_orders_keep_their_promise(engine in engines(true), digits in 2_i32..13) {
+        let rtol = 10_f64.powi(-digits);
+        let thetas: Vec<f64> = (0..90).map(|k| f64::from(k) * 4.0).collect();
+        let cancel = Cancel::new();
+        let exact = waveform::exact(&engine, 3000.0, &thetas, Some(0.0), &cancel).unwrap();
+        let orders = Orders::Auto { rtol };
+        let summed =
+            waveform::from_orders(&engine, 3000.0, &thetas, &orders, Some(0.0), None, &cancel).unwrap();
+        let chosen = summed.balance.unwrap();
+        let rounding = 1e-13 * size(&engine);
+        for (a, b, bound) in [
+            (&exact.force, &summed.force, chosen.force.error_bound),
+            (&exact.moment, &summed.moment, chosen.moment.error_bound),
+        ] {
+            for (a, b) in a.rows().into_iter().zip(b.rows()) {
+                prop_assert!((a[0] - b[0]).hypot(a[1] - b[1]) <= bound + rounding);
+            }
+        }
+        let largest = engine
+            .placements()
+            .iter()
+            .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
+            .fold(0.0, f64::max);
+        let omega = 3000.0 * TAU / 60.0;
+        prop_assert!(chosen.force.error_bound <= rtol * largest * omega * omega);
+    }
+
+    #[test]
+    fn the_tail_bound_holds(cylinder in cylinders(true), highest in 1_u32..12) {
+        let proportions = cylinder.proportions();
+        let orders: Vec<u32> = (highest + 1..=200).collect();
+        let tail: f64 =
+            harmonics::coefficients(&proportions, &orders).iter().map(|a| a.norm()).sum();
+        prop_assert!(tail <= harmonics::tail_bound(&proportions, highest).unwrap());
+    }
+
+    #[test]
+    fn a_sweep_is_a_loop_over_engines(
+        engine in vees(), angles in proptest::collection::vec(0.0..180.0, 1..5), firing in any::<bool>(),
+        ratio in 0.1..0.5, offset in -0.01..0.01, rpm in 100.0..9000.0,
+    ) {
+        let hold = if firing { Hold::Firing } else { Hold::Pins };
+        let axes = Axes {
+            bank_angle: Some((angles.clone(), hold)),
+            rod_ratio: Some(vec![0.5 * ratio, ratio]),
+            pin_offset: Some(vec![offset, 0.0, -offset]),
+            rpm: vec![rpm, 3000.0],
+        };
+        let cancel = Cancel::new();
+        let sweep = Sweep::new(vec![engine.clone()], axes, ORDERS.to_vec(), Some(0.1), None).unwrap();
+        let force = sweep.phasors(Quantity::Force, &cancel).unwrap();
+        let moment = sweep.phasors(Quantity::Moment, &cancel).unwrap();
+        let torque = sweep.phasors(Quantity::Torque, &cancel).unwrap();
+        let peaks = sweep.peaks(Quantity::Moment, &cancel).unwrap();
+        let vectors = sweep.vector_peaks(Quantity::Force, &cancel).unwrap();
+        for (i, &angle) in angles.iter().enumerate() {
+            let there = engine.with_bank_angle(Angle::from_degrees(angle).unwrap(), hold).unwrap();
+            let there = changed(&there, |p| {
+                let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
+                Placement { cylinder: Cylinder::new(r, r / ratio, m, -offset).unwrap(), ..*p }
+            });
+            let orders = Orders::Given(ORDERS.to_vec());
+            let alone = balance(&there, 3000.0, &orders, Some(0.1), None).unwrap();
+            let size = 2.0 * size(&there);
+            for k in 0..ORDERS.len() {
+                for axis in 0..2 {
+                    same(force[[0, i, 1, 2, 1, k, axis]], alone.force.xy[[k, axis]], size);
+                    let phasor = alone.moment.xy[[k, axis]];
+                    same(moment[[0, i, 1, 2, 1, k, axis]], phasor, size);
+                    let peak = peaks[[0, i, 1, 2, 1, k, axis]];
+                    same(peak.into(), phasor.norm().into(), size);
+                }
+                same(torque[[0, i, 1, 2, 1, k, 0]], alone.torque.as_ref().unwrap().roll[k], size);
+                let longest = alone.force.forward[k].norm() + alone.force.backward[k].norm();
+                same(vectors[[0, i, 1, 2, 1, k]].into(), longest.into(), size);
+            }
+        }
+    }
+
+    #[test]
+    fn long_and_short_axes_agree(engine in vees(), split in 1_usize..40) {
+        // The same angles in one sweep of many blocks and in two.
+        let angles: Vec<f64> = (0..150).map(|k| f64::from(k) * 1.2).collect();
+        let sweep = |angles: &[f64]| {
+            let axes = Axes {
+                bank_angle: Some((angles.to_vec(), Hold::Pins)),
+                rod_ratio: None,
+                pin_offset: None,
+                rpm: vec![3000.0],
+            };
+            let engines = vec![engine.clone(), engine.clone()];
+            let sweep = Sweep::new(engines, axes, vec![1, 2, 4], None, None).unwrap();
+            sweep.sum_peaks(Quantity::Moment, &Cancel::new()).unwrap()
+        };
+        let whole = sweep(&angles);
+        let (first, last) = (sweep(&angles[..split]), sweep(&angles[split..]));
+        for i in 0..150 {
+            let part = if i < split { first[[1, i, 0, 0, 0, 1]] } else { last[[1, i - split, 0, 0, 0, 1]] };
+            prop_assert_eq!(whole[[1, i, 0, 0, 0, 1]], part);
+        }
+    }
+}
+
+#[test]
+fn degrees_of_the_circle_are_exact() {
+    for quarter in 0..8 {
+        let unit = cis_degrees(90.0 * f64::from(quarter));
+        assert_eq!(unit.re * unit.im, 0.0);
+    }
+}

@@ -1,0 +1,507 @@
+"""Does the command line print the library's numbers, and say in a line what was wrong?"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import crankpin as cp
+import matplotlib as mpl
+import numpy as np
+import pytest
+from crankpin import _cli
+from crankpin._cli import main
+from matplotlib import pyplot as plt
+
+DATA = Path(__file__).parent / "data"
+IJESC = [
+    "ijesc-v6-1-3-5-2-4-6",
+    "ijesc-v6-1-4-5-2-3-6",
+    "ijesc-v6-1-6-5-4-3-2",
+    "ijesc-v6-1-5-3-6-2-4",
+]
+IJESC_SPECTRUM = {1: 1.487 * 0.045, 2: 1.487 * 0.045**2 / 0.158}
+BANK_ANGLES = np.arange(10.0, 171.0, 10.0)
+CAPTURE = pytest.CaptureFixture[str]
+
+
+def printed(capsys: CAPTURE, *argv: str) -> str:
+    """What a run that succeeds prints."""
+    assert main(argv) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+def refused(capsys: CAPTURE, *argv: str) -> str:
+    """What a run that fails says, one line."""
+    assert main(argv) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    (line,) = err.splitlines()
+    start = "crankpin: error: "
+    assert line.startswith(start)
+    return line.removeprefix(start)
+
+
+def numbers(text: str, labels: int = 1) -> tuple[list[str], list[list[str]], np.ndarray]:
+    """Head, labels and numbers of a CSV text."""
+    head, *rows = csv.reader(io.StringIO(text))
+    return head, [row[:labels] for row in rows], np.array([row[labels:] for row in rows], float)
+
+
+@pytest.fixture(autouse=True)
+def _agg() -> None:
+    mpl.use("agg")
+
+
+# --- presets ------------------------------------------------------------------------------------
+
+
+def test_presets_lists_all(capsys: CAPTURE) -> None:
+    lines = printed(capsys, "presets").splitlines()
+    assert lines[0].split() == ["name", "engine"]
+    told = dict(line.split(maxsplit=1) for line in lines[1:])
+    assert told == cp.presets()
+    head, *rows = csv.reader(io.StringIO(printed(capsys, "presets", "--csv")))
+    assert head == ["name", "engine"]
+    assert dict(rows) == cp.presets()
+
+
+# --- balance ------------------------------------------------------------------------------------
+
+
+def test_balance_csv_is_the_library_s_numbers(capsys: CAPTURE) -> None:
+    b = cp.Engine.preset("v6-60").balance(4321.0, orders=(1, 2, 4))
+    head, orders, values = numbers(
+        printed(capsys, "balance", "v6-60", "--rpm", "4321", "--orders", "1,2,4", "--csv")
+    )
+    assert head == ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m", "|M_z| N·m"]
+    assert orders == [["1"], ["2"], ["4"]]
+    expected = np.hstack([b.force_peak_xy, b.moment_peak_xy, b.torque_peak[:, None]])
+    np.testing.assert_array_equal(values, expected)
+    assert values.any()
+
+
+def test_balance_prints_what_python_prints(capsys: CAPTURE) -> None:
+    text = printed(capsys, "balance", "v8-crossplane")
+    assert text == repr(cp.Engine.preset("v8-crossplane").balance(3000)) + "\n"
+
+
+@pytest.mark.parametrize("suffix", [".toml", ".json"])
+def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str) -> None:
+    file = tmp_path / f"engine{suffix}"
+    cp.Engine.preset("i5").save(file)
+    assert printed(capsys, "balance", str(file)) == printed(capsys, "balance", "i5")
+
+
+def test_balance_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
+    text = printed(capsys, "balance", "i4", "--orders", "auto", "--rtol", "1e-3")
+    b = cp.Engine.preset("i4").balance(3000, "auto", rtol=1e-3)
+    *table, note = text.splitlines()
+    assert "\n".join(table) == repr(b)
+    assert f"at most {b.error_bound.force:.2g} N to the force" in note
+    assert f"{b.error_bound.moment:.2g} N·m to the rocking moment" in note
+    assert f"left out: {', '.join(map(str, b.omitted))}." in note
+    assert b.omitted
+    assert "left out" not in printed(capsys, "balance", "i4", "--orders", "auto", "--csv")
+
+
+def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
+    argv = ["balance", "i3-ebook", "--rpm", "10", "--orders", "1,2", "--csv"]
+    argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
+    head, _, values = numbers(printed(capsys, *argv))
+    b = cp.Engine.preset("i3-ebook").balance(
+        10, (1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
+    )
+    assert len(head) == 5  # a spectrum tells nothing of torque
+    np.testing.assert_array_equal(values, np.hstack([b.force_peak_xy, b.moment_peak_xy]))
+
+
+def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
+    argv = ["balance", "i4", "--orders", "2", "--csv"]
+    _, _, middle = numbers(printed(capsys, *argv))
+    _, _, front = numbers(printed(capsys, *argv, "--reference-z", "0"))
+    assert middle[0, 2] == 0.0
+    assert (
+        front[0, 2] == cp.Engine.preset("i4").balance(3000, 2, reference_z=0.0).moment_peak_xy[0, 0]
+    )
+    assert front[0, 2] > 0.0
+
+
+# --- sweep --------------------------------------------------------------------------------------
+
+
+def test_sweep_of_a_family_is_the_library_s_numbers(capsys: CAPTURE) -> None:
+    text = printed(capsys, "sweep", "ijesc-v6", "--rpm", "5000", "--csv")
+    head, labels, values = numbers(text, labels=2)
+    engines = [cp.Engine.preset(name) for name in IJESC]
+    s = cp.sweep(engines, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="pins", orders=[1, 2])
+    assert head == [
+        "engine",
+        "bank angle °",
+        "|M_x| order 1 N·m",
+        "|M_y| order 1 N·m",
+        "|M_x| order 2 N·m",
+        "|M_y| order 2 N·m",
+    ]
+    np.testing.assert_array_equal(values.reshape(4, 17, 2, 2), s.moment_peak_xy)
+    assert labels == [[engine.name, str(angle)] for engine in engines for angle in BANK_ANGLES]
+
+
+def test_sweep_prints_the_tables_of_the_ijesc_paper(capsys: CAPTURE) -> None:
+    """Tables I to IV, where they have no misprint: to the second decimal, one table each."""
+    spectrum = ",".join(f"{order}={amplitude!r}" for order, amplitude in IJESC_SPECTRUM.items())
+    text = printed(capsys, "sweep", "ijesc-v6", "--rpm", "5000", "--spectrum", spectrum)
+    tables = text.split("\n\n")
+    assert len(tables) == 4
+    ours = {}
+    for name, table in zip(IJESC, tables, strict=True):
+        title, _, *rows = table.splitlines()
+        assert name.removeprefix("ijesc-v6-") in title
+        assert "peaks of rocking moment, 5000 rpm, pins held" in title
+        assert "60°" not in title  # the angle that the engine had before the sweep
+        for angle, *peaks in (line.split() for line in rows):
+            ours[name.removeprefix("ijesc-v6-"), angle] = peaks
+    with (DATA / "v6_moment_tables.csv").open(newline="") as file:
+        paper = [row for row in csv.DictReader(file) if not row["erratum"]]
+    assert len(ours) == 68
+    assert len(paper) > 60
+    for row in paper:
+        read = np.array(ours[row["firing_order"], row["bank_angle_deg"]], dtype=float)
+        expected = [float(row[column]) for column in ("m_px", "m_py", "m_sx", "m_sy")]
+        # Half a unit of the second decimal in the paper and in our table, and rounding of both.
+        np.testing.assert_allclose(read, expected, rtol=0, atol=0.010001)
+
+
+def test_sweep_holds_pins_unless_told_otherwise(capsys: CAPTURE) -> None:
+    v6 = cp.Engine.preset("v6-60")
+    argv = ["sweep", "v6-60", "--bank-angle", "60:90:15", "--orders", "1"]
+    for hold, more in (
+        ("pins", []),
+        ("pins", ["--hold", "pins"]),
+        ("firing", ["--hold", "firing"]),
+    ):
+        text = printed(capsys, *argv, *more)
+        words = {"pins": "pins held", "firing": "top dead centres held"}[hold]
+        assert f"{words} as the bank angle changes" in text.splitlines()[0]
+        _, _, values = numbers(printed(capsys, *argv, *more, "--csv"))
+        s = cp.sweep(v6, rpm=3000, bank_angle_deg=[60, 75, 90], hold=hold, orders=[1])  # type: ignore[arg-type]
+        np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+
+
+@pytest.mark.parametrize("quantity", ["force", "moment", "torque"])
+def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
+    argv = ["sweep", "i4", "--rod-ratio", "0.2:0.4:0.1", "--pin-offset=-0.002,0.002"]
+    argv += ["--rpm", "1000,2000", "--orders", "2,3", "--quantity", quantity]
+    head, labels, values = numbers(printed(capsys, *argv, "--csv"), labels=3)
+    s = cp.sweep(
+        cp.Engine.preset("i4"),
+        rpm=[1000, 2000],
+        rod_ratio=[0.2, 0.3, 0.4],
+        pin_offset=[-0.002, 0.002],
+        orders=[2, 3],
+    )
+    peaks = s.torque_peak if quantity == "torque" else getattr(s, f"{quantity}_peak_xy")
+    np.testing.assert_array_equal(values, peaks.reshape(12, -1))
+    assert values.any() == (quantity != "moment")  # an inline-4 has no rocking moment
+    assert head[:3] == ["rod ratio", "pin offset m", "rpm"]
+    assert labels[:3] == [
+        ["0.2", "-0.002", "1000.0"],
+        ["0.2", "-0.002", "2000.0"],
+        ["0.2", "0.002", "1000.0"],
+    ]
+    first = {
+        "force": "|F_x| order 2 N",
+        "moment": "|M_x| order 2 N·m",
+        "torque": "|M_z| order 2 N·m",
+    }
+    assert head[3] == first[quantity]
+    assert "held" not in printed(capsys, *argv)
+
+
+def test_engines_alone_are_compared_in_one_table(capsys: CAPTURE) -> None:
+    argv = ["sweep", "i4", "v6-60", "--orders", "2", "--quantity", "force"]
+    title, head, *rows = printed(capsys, *argv).splitlines()
+    assert title == "Peaks of shaking force, 3000 rpm"
+    assert head.split() == ["engine", "|F_x|", "order", "2", "N", "|F_y|", "order", "2", "N"]
+    assert [re.split(r"\s{2,}", row)[0] for row in rows] == [
+        cp.Engine.preset("i4").name,
+        cp.Engine.preset("v6-60").name,
+    ]
+    _, _, values = numbers(printed(capsys, *argv, "--csv"))
+    expected = [
+        cp.Engine.preset(name).balance(3000, 2).force_peak_xy[0] for name in ("i4", "v6-60")
+    ]
+    np.testing.assert_array_equal(values, expected)
+
+
+def test_engines_of_one_name_are_told_apart_by_what_was_typed(
+    capsys: CAPTURE, tmp_path: Path
+) -> None:
+    files = [str(tmp_path / f"{k}.toml") for k in (1, 2)]
+    for file, spacing in zip(files, (0.1, 0.2), strict=True):
+        cp.Engine.preset("i3", spacing=spacing).save(file)
+    _, labels, values = numbers(printed(capsys, "sweep", *files, "--orders", "1", "--csv"))
+    assert [label for (label,) in labels] == files
+    np.testing.assert_allclose(values[1], 2 * values[0], rtol=1e-15)
+
+
+def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
+    argv = ["sweep", "i4", "--rpm", "1000,2000", "--orders", "2", "--reference-z", "0.05"]
+    assert ", about z = 0.05 m" in printed(capsys, *argv).splitlines()[0]
+    _, _, values = numbers(printed(capsys, *argv, "--csv"))
+    s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2], reference_z=0.05)
+    np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+    assert values[:, 0].all()
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("60", 60.0),
+        (" 0.3 ", 0.3),
+        ("60,75", [60.0, 75.0]),
+        ("60,", None),
+        ("10:170:80", [10.0, 90.0, 170.0]),
+        ("0.2:0.4:0.1", [0.2, 0.3, 0.4]),  # in floats 0.2 + 0.1 is 0.30000000000000004
+        ("0:1:0.4", [0.0, 0.4, 0.8]),
+        ("90:60:-15", [90.0, 75.0, 60.0]),
+        ("60:60:1", [60.0]),
+        ("-1e-3:1e-3:1e-3", [-0.001, 0.0, 0.001]),
+        ("1:2", None),
+        ("1:2:3:4", None),
+        ("1:2:0", None),
+        ("1:2:-1", None),
+        ("1:2:1e-400", None),
+        ("1:inf:1", None),
+        ("nan:2:1", None),
+        ("1e999999999:2:1", None),
+        ("a", None),
+        ("", None),
+    ],
+)
+def test_ranges(text: str, values: float | list[float] | None) -> None:
+    if values is None:
+        with pytest.raises(cp.InputError, match=r"^--x = "):
+            _cli._range("--x", text)
+    else:
+        result = _cli._range("--x", text)
+        assert np.ndim(result) == np.ndim(values)
+        np.testing.assert_array_equal(result, values)
+
+
+# --- pictures -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"),
+    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")],
+)
+@pytest.mark.parametrize("argv", [["balance", "v6-60"], ["sweep", "ijesc-v6"]], ids=lambda a: a[0])
+def test_pictures_are_written_and_closed(
+    capsys: CAPTURE, tmp_path: Path, argv: list[str], suffix: str, start: bytes
+) -> None:
+    file = tmp_path / f"picture{suffix}"
+    before = plt.get_fignums()
+    assert printed(capsys, *argv, "--plot", str(file)) == printed(capsys, *argv)
+    assert file.read_bytes().startswith(start)
+    assert plt.get_fignums() == before
+
+
+def test_a_picture_shows_the_quantity_asked_for(capsys: CAPTURE, tmp_path: Path) -> None:
+    file = tmp_path / "picture.svg"
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        printed(
+            capsys,
+            "sweep",
+            "i4",
+            "--rpm",
+            "1000:3000:500",
+            "--quantity",
+            "force",
+            "--plot",
+            str(file),
+        )
+    assert "peak, N<" in file.read_text(encoding="utf-8")
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        printed(capsys, "balance", "i4", "--quantity", "torque", "--plot", str(file))
+    assert "peak roll torque, N·m" in file.read_text(encoding="utf-8")
+
+
+def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_path: Path) -> None:
+    before = plt.get_fignums()
+    missing = tmp_path / "missing" / "picture.png"
+    assert str(missing) in refused(capsys, "sweep", "ijesc-v6", "--plot", str(missing))
+    assert plt.get_fignums() == before
+
+
+# --- what goes wrong ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("argv", "said"),
+    [
+        ("balance v8-crosplane", "v8-crossplane"),
+        ("balance ijesc-v6", "balance takes one engine of ijesc-v6-1-3-5-2-4-6, "),
+        ("balance missing.toml", "missing.toml"),
+        ("balance i4 --rpm fast", "--rpm = fast: give a number"),
+        ("balance i4 --rpm inf", "--rpm = inf: give a finite number"),
+        ("balance i4 --rpm 1e999999999", "give a finite number"),
+        ("balance i4 --rpm -5", "rpm"),
+        ("balance i4 --orders 1,x", "--orders = 1,x: give whole numbers"),
+        ("balance i4 --orders 1.5", "--orders = 1.5"),
+        ("balance i4 --orders 0", "orders"),
+        ("balance i4 --rtol 1e-3", "--rtol = 1e-3"),
+        ("balance i4 --reference-z front", "--reference-z = front"),
+        ("balance i4 --spectrum 9.0", "--spectrum = 9.0: give order=amplitude"),
+        ("balance i4 --spectrum 1=9.0,1=8.0", "order 1 is given twice"),
+        ("balance i4 --spectrum 0=9.0", "--spectrum = 0=9.0"),
+        ("balance i4 --spectrum 1=much", "give a number"),
+        ("balance i4 --plot picture.bmp", "a picture's name ends in .pdf, .png, .svg"),
+        ("balance i4 --quantity torque --spectrum 1=9.0 --plot picture.png", "torque"),
+        ("sweep i4", "nothing to sweep"),
+        ("sweep i4 --rpm 2000", "nothing to sweep"),
+        ("sweep i4 --bank-angle 10:170:10", "bank"),
+        ("sweep v6-60 --bank-angle 0:180:1e-12", "1.8e+14 steps; give 1000000 at most"),
+        ("sweep v6-60 --bank-angle 0:180:0.1 --rpm 1:1000:1", "1801000 points to sweep"),
+        ("sweep v6-60 --bank-angle 10:170:-10", "the step does not lead from 10 to 170"),
+        ("sweep v6-60 --bank-angle 10:170", "give START:STOP:STEP"),
+        ("sweep v6-60 --bank-angle 10:190:10", "bank_angle"),
+        ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "rod_ratio"),
+        ("sweep v6-60 --hold nothing", "--hold"),
+        ("sweep v6-60 --orders auto", "--orders = auto"),
+        ("sweep", "NAME"),
+        ("presets v6-60", "unrecognized arguments: v6-60"),
+        ("shake", "invalid choice: 'shake'"),
+        ("", "COMMAND"),
+    ],
+)
+def test_errors_are_one_line(
+    capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, argv: str, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert said in refused(capsys, *argv.split())
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.filterwarnings("default")
+def test_warnings_are_one_line(capsys: CAPTURE) -> None:
+    assert main(["balance", "i4-ebook", "--rpm", "3000"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith(cp.Engine.preset("i4-ebook").name)
+    (line,) = err.splitlines()
+    assert line.startswith("crankpin: warning: mean piston speed")
+
+
+def test_other_errors_are_ours_and_stay_visible(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(cp.Engine, "balance", broken)
+    with pytest.raises(ZeroDivisionError):
+        main(["balance", "i4"])
+
+
+def test_interrupt_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: CAPTURE) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cp.Engine, "balance", interrupted)
+    assert main(["balance", "i4"]) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+# --- help ---------------------------------------------------------------------------------------
+
+
+def test_version(capsys: CAPTURE) -> None:
+    with pytest.raises(SystemExit, match=r"^0$"):
+        main(["--version"])
+    assert capsys.readouterr().out == f"crankpin {cp.__version__}\n"
+
+
+@pytest.mark.parametrize("command", [[], ["presets"], ["balance"], ["sweep"]])
+def test_examples_of_help_run(
+    capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]
+) -> None:
+    with pytest.raises(SystemExit, match=r"^0$"):
+        main([*command, "--help"])
+    (example,) = re.findall(r"example:\n  python -m crankpin (.*)\n", capsys.readouterr().out)
+    monkeypatch.chdir(tmp_path)
+    assert printed(capsys, *example.split())
+    pictures = re.findall(r"--plot (\S+)", example)
+    assert [file.name for file in tmp_path.iterdir()] == pictures
+
+
+# --- as a program -------------------------------------------------------------------------------
+
+
+def program(*argv: str, **environment: str) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(  # noqa: S603 - our own program
+        [sys.executable, "-m", "crankpin", *argv],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=os.environ | environment,
+    )
+
+
+def test_runs_as_a_module(capsys: CAPTURE, tmp_path: Path) -> None:
+    file = tmp_path / "v6.png"
+    argv = ["sweep", "v6-60", "--plot", str(file)]
+    with program(*argv, PYTHONUTF8="1", MPLBACKEND="tkagg") as run:  # no window is asked for
+        out, err = run.communicate()
+    assert (run.returncode, err) == (0, b"")
+    assert out.decode().replace("\r\n", "\n") == printed(capsys, *argv)
+    assert file.read_bytes().startswith(b"\x89PNG")
+
+
+def test_exit_code_of_errors() -> None:
+    with program("balance", "no-such-engine") as run:
+        out, err = run.communicate()
+    assert run.returncode == 2
+    assert out == b""
+    assert err.startswith(b"crankpin: error: ")
+    assert b"Traceback" not in err
+
+
+def test_terminals_without_the_letters_are_served() -> None:
+    with program("balance", "i4", PYTHONIOENCODING="ascii", PYTHONUTF8="0") as run:
+        out, err = run.communicate()
+    assert (run.returncode, err) == (0, b"")
+    assert b"N?m" in out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
+def test_broken_pipe_is_quiet() -> None:
+    # More than any pipe holds.
+    with program("sweep", "v6-60", "--bank-angle", "0:180:0.01", "--csv") as run:
+        assert run.stdout is not None
+        assert run.stderr is not None
+        assert run.stdout.readline().startswith(b"bank angle")
+        run.stdout.close()
+        assert run.stderr.read() == b""
+        assert run.wait(60) == 141
+
+
+@pytest.mark.parametrize("argv", ["balance i4 --plot x.png", "sweep v6-60 --plot x.png"])
+def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
+    tmp_path: Path, argv: str
+) -> None:
+    code = (
+        "import sys; sys.modules['matplotlib'] = None\n"
+        "from crankpin._cli import main\n"
+        f"assert main({argv.split()[:2]!r}) == 0\n"
+        f"sys.exit(main({argv.split()!r}))"
+    )
+    run = subprocess.run(  # noqa: S603 - our own program
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, check=False
+    )
+    assert run.returncode == 2
+    expected = b'crankpin: error: matplotlib is not installed: pip install "crankpin[plot]"'
+    assert run.stderr.splitlines() == [expected]

@@ -1,0 +1,608 @@
+"""Do the objects keep what they promise: frozen, read-only, copied, written and read back?
+
+And do the examples in the docstrings say the truth, and does ``import crankpin`` leave the libraries
+that draw and tabulate alone?
+"""
+
+from __future__ import annotations
+
+import copy
+import doctest
+import inspect
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import crankpin as cp
+
+CYLINDER = cp.Cylinder(0.045, 0.158, 1.487, pin_offset=0.001)
+V6 = cp.Engine.vee(
+    CYLINDER,
+    bank_angle_deg=60,
+    throws_deg=[0, 120, 240],
+    spacing=0.13,
+    rotating_mass=0.8,
+    name="V6",
+    source="a test",
+)
+ODD = cp.Engine.from_lists(
+    [CYLINDER, CYLINDER.replace(reciprocating_mass=1.5), CYLINDER],
+    tdc_deg=["360/7", Fraction(1, 3), 51.4],
+    bank_deg=[Fraction(-720, 11), "-1/1000000", 0.1],
+    z=[0.0, 0.1, 1.0 / 3.0],
+    rotating_mass=[0.0, 0.1, 5e-324],
+    name='quotes " and \\ and\nlines, Ω',
+)
+SPECTRUM = {1: 0.5, 2: 0.1 + 0.05j}
+THETA = np.arange(0.0, 720.0, 10.0)
+
+
+def balance(**options: Any) -> cp.Balance:
+    return V6.balance(**{"rpm": 5000, "orders": [1, 2, 6]} | options)
+
+
+def waveform(**options: Any) -> cp.Waveform:
+    return V6.waveform(**{"rpm": 5000, "theta_deg": THETA} | options)
+
+
+def sweep(**options: Any) -> cp.Sweep:
+    given: dict[str, Any] = {"rpm": [3000, 5000], "bank_angle_deg": [60, 75, 90], "hold": "pins"}
+    return cp.sweep({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
+
+
+OBJECTS: dict[str, Any] = {
+    "Cylinder": CYLINDER,
+    "Engine": V6,
+    "Engine of odd angles": ODD,
+    "Balance": balance(),
+    "Balance, auto": balance(orders="auto"),
+    "Balance of a spectrum": balance(spectrum=SPECTRUM),
+    "OrderBalance": balance().order(1),
+    "Ellipse": balance().order(1).moment_ellipse,
+    "ErrorBound": balance().error_bound,
+    "Waveform": waveform(),
+    "Waveform, auto": waveform(orders="auto"),
+    "Sweep": sweep(),
+    "Sweep of one": cp.sweep(V6, rpm=5000),
+}
+every_object = pytest.mark.parametrize("name", OBJECTS)
+
+
+def figures(value: Any) -> dict[str, Any]:
+    """Public figures of an object, by name; without those that a spectrum leaves unknown."""
+    found = {}
+    for name in dir(value):
+        if name.startswith("_") or callable(getattr(type(value), name, None)):
+            continue
+        try:
+            found[name] = getattr(value, name)
+        except cp.InputError:
+            continue
+    return found
+
+
+def assert_same(one: Any, other: Any) -> None:
+    """Equal to the last bit, arrays and all."""
+    assert type(one) is type(other)
+    if isinstance(one, np.ndarray):
+        np.testing.assert_array_equal(one, other)
+    elif isinstance(one, (tuple, list)):
+        assert len(one) == len(other)
+        for a, b in zip(one, other, strict=True):
+            assert_same(a, b)
+    elif isinstance(one, dict):
+        assert list(one) == list(other)
+        for key in one:
+            assert_same(one[key], other[key])
+    elif isinstance(one, (cp.OrderBalance, cp.Waveform, cp.Sweep)):
+        assert_same(figures(one), figures(other))
+    else:
+        assert one == other
+
+
+def arrays(value: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Public arrays of an object."""
+    for name, figure in figures(value).items():
+        listed = figure.values() if isinstance(figure, dict) else [figure]
+        listed = figure if isinstance(figure, tuple) else listed
+        for each in listed:
+            if isinstance(each, np.ndarray):
+                yield name, each
+
+
+# --- frozen -------------------------------------------------------------------------------------
+
+
+@every_object
+def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
+    value = OBJECTS[name]
+    for attribute in [*figures(value), "new"]:
+        # A NamedTuple and a dataclass with slots raise what Python has them raise.
+        with pytest.raises((AttributeError, TypeError)):
+            setattr(value, attribute, 0)
+        with pytest.raises((AttributeError, TypeError)):
+            delattr(value, attribute)
+
+
+@every_object
+def test_arrays_are_read_only(name: str) -> None:
+    found = list(arrays(OBJECTS[name]))
+    assert found or name in {"Cylinder", "Ellipse", "ErrorBound"}
+    for attribute, array in found:
+        assert not array.flags.writeable, attribute
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+def test_given_arrays_are_copied() -> None:
+    """What is changed afterwards outside changes nothing inside; what was given stays writable."""
+    z, theta, rpm = np.array([0.0, 0.1]), np.array([0.0, 90.0]), np.array([1000.0, 2000.0])
+    spectrum = dict(SPECTRUM)
+    engine = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, 180], bank_deg=[90, 90], z=z)
+    w, s = engine.waveform(1000, theta), cp.sweep(engine, rpm=rpm, orders=[1])
+    b = engine.balance(1000, [1], spectrum=spectrum)
+    first = [engine.z.copy(), w.theta_deg.copy(), s.moment.copy()]
+    for array in (z, theta, rpm):
+        array[:] = 7.0
+    spectrum[1] = 9.0
+    assert_same([engine.z, w.theta_deg, s.moment], first)
+    assert b.spectrum == SPECTRUM
+    np.testing.assert_array_equal(s.coords["rpm"], [1000.0, 2000.0])
+
+
+# --- copies -------------------------------------------------------------------------------------
+
+COPIES: dict[str, Callable[[Any], Any]] = {
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+    **{
+        f"pickle {protocol}": lambda value, protocol=protocol: pickle.loads(  # noqa: S301
+            pickle.dumps(value, protocol)
+        )
+        for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1)
+    },
+}
+
+
+@pytest.mark.parametrize("how", COPIES)
+@every_object
+def test_copies_are_equal_and_frozen(name: str, how: str) -> None:
+    value = OBJECTS[name]
+    copied = COPIES[how](value)
+    assert_same(figures(copied), figures(value))
+    assert repr(copied) == repr(value)
+    for attribute, array in arrays(copied):
+        assert not array.flags.writeable, attribute
+    with pytest.raises((AttributeError, TypeError)):
+        copied.new = 0
+
+
+@pytest.mark.parametrize("name", [name for name in OBJECTS if name.startswith(("C", "E", "B"))])
+def test_copies_compare_and_hash_equal(name: str) -> None:
+    value = OBJECTS[name]
+    for copied in (how(value) for how in COPIES.values()):
+        assert copied == value
+        assert hash(copied) == hash(value)
+
+
+def test_what_was_left_out_is_pickled_with_the_rest() -> None:
+    auto = balance(orders="auto", rtol=1e-3)
+    assert auto.omitted
+    assert auto.error_bound.moment > 0.0
+    for how in COPIES.values():
+        copied = how(auto)
+        assert copied.omitted == auto.omitted
+        assert copied.error_bound == auto.error_bound
+
+
+def test_a_large_engine_is_pickled_like_any_other() -> None:
+    """A thousand cylinders, every one with parts of its own and angles of many digits."""
+    count = 1000
+    rng = np.random.default_rng(1)
+    engine = cp.Engine.from_lists(
+        [CYLINDER.replace(reciprocating_mass=float(mass)) for mass in rng.random(count)],
+        tdc_deg=rng.random(count) * 360.0,
+        bank_deg=rng.random(count) * 360.0,
+        z=rng.random(count),
+        rotating_mass=rng.random(count),
+        name="x" * 1_200_000,
+    )
+    assert pickle.loads(pickle.dumps(engine)) == engine  # noqa: S301
+
+
+# --- equality and hash --------------------------------------------------------------------------
+
+CHANGES: dict[str, dict[str, Any]] = {
+    "cylinder": {"cylinder": CYLINDER.replace(rod_length=0.16)},
+    "tdc_deg": {"tdc_deg": [1, 60, 240, 300, 120, 180]},
+    "pin_deg": {"pin_deg": [0] * 6},
+    "bank_deg": {"bank_deg": [60, 121] * 3},
+    "z": {"z": [0, 0, 0.13, 0.13, 0.26, 0.27]},
+    "rotating_mass": {"rotating_mass": 0.9},
+    "name": {"name": "another"},
+    "source": {"source": "elsewhere"},
+}
+
+
+def test_equal_engines_have_equal_figures_and_hashes() -> None:
+    again = cp.Engine.from_lists(
+        CYLINDER,
+        tdc_deg=V6.tdc_deg + 360.0,
+        bank_deg=V6.bank_deg - 360.0,
+        z=V6.z,
+        rotating_mass=V6.rotating_mass,
+        name="V6",
+        source="a test",
+    )
+    assert again == V6
+    assert hash(again) == hash(V6)
+    assert len({again, V6}) == 1
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_replace_changes_one_thing(name: str) -> None:
+    before = figures(V6)
+    changed = V6.replace(**CHANGES[name])
+    assert changed != V6
+    assert not changed == V6  # noqa: SIM201 - the other operator
+    assert_same(figures(V6), before)
+    affected = {"cylinder": {"cylinders"}, "tdc_deg": {"tdc_deg", "pin_deg"}}
+    affected |= {"pin_deg": {"tdc_deg", "pin_deg"}, "z": {"z", "reference_z"}}
+    # With other bores and the same top dead centres the crankpins are elsewhere.
+    affected |= {"bank_deg": {"bank_deg", "pin_deg", "bank_angle_deg"}}
+    after = figures(changed)
+    for figure in before.keys() & after.keys() - affected.get(name, {name}):
+        assert_same(after[figure], before[figure])
+    assert changed.replace(**undo(name)) == V6
+
+
+def undo(name: str) -> dict[str, Any]:
+    """The change back."""
+    if name == "cylinder":
+        return {"cylinder": V6.cylinders}
+    return {name: getattr(V6, name)}
+
+
+def test_replace_of_nothing_is_equal_even_for_odd_angles() -> None:
+    assert ODD.replace() == ODD
+    assert V6.replace() == V6
+    assert CYLINDER.replace() == CYLINDER
+
+
+def test_a_cylinder_is_compared_by_its_figures() -> None:
+    assert cp.Cylinder(1, 2, 7) == cp.Cylinder(1.0, 2.0, 7.0, 0.0)
+    assert hash(cp.Cylinder(1, 2, 7)) == hash(cp.Cylinder(1.0, 2.0, 7.0, -0.0))
+    assert CYLINDER.replace(pin_offset=0.0) != CYLINDER
+    assert CYLINDER.stroke == 0.09
+    assert CYLINDER.rod_ratio == 0.045 / 0.158
+
+
+def test_balances_are_compared_by_what_was_asked() -> None:
+    assert balance() == balance()
+    assert hash(balance()) == hash(balance())
+    for other in (
+        balance(rpm=5001),
+        balance(orders=[1, 2]),
+        balance(reference_z=0.0),
+        balance(spectrum=SPECTRUM),
+        V6.replace(name="another").balance(5000, [1, 2, 6]),
+    ):
+        assert other != balance()
+
+
+def test_nothing_equals_something_else() -> None:
+    for value in OBJECTS.values():
+        for other in (None, 0, "V6", object()):
+            assert value != other
+            assert not value == other  # noqa: SIM201 - the other operator
+
+
+def test_zero_has_one_sign_for_equality_and_hash() -> None:
+    one, other = (
+        cp.Engine.from_lists(CYLINDER, tdc_deg=[0.0], bank_deg=[90], z=[zero]) for zero in (0.0, -0.0)
+    )
+    assert one == other
+    assert hash(one) == hash(other)
+
+
+# --- files --------------------------------------------------------------------------------------
+
+
+def rng_engine(number: int) -> cp.Engine:
+    """Figures with all their digits."""
+    rng = np.random.default_rng(number)
+    count = int(rng.integers(1, 9))
+    return cp.Engine.from_lists(
+        [cp.Cylinder(*(rng.random(3) * [0.1, 1.0, 2.0] + [0.0, 0.2, 0.0])) for _ in range(count)],
+        tdc_deg=[f"{n}/{d}" for n, d in rng.integers(1, 10**6, (count, 2))],
+        bank_deg=(rng.random(count) * 720.0 - 360.0).tolist(),
+        z=rng.standard_normal(count),
+        rotating_mass=rng.random(count),
+    )
+
+
+FILED = {"V6": V6, "odd": ODD, **{f"random {k}": rng_engine(k) for k in range(20)}}
+
+
+@pytest.mark.parametrize("name", FILED)
+def test_texts_read_back_as_the_same_engine(name: str, tmp_path: Path) -> None:
+    engine = FILED[name]
+    toml, json = engine.to_toml(), engine.to_json()
+    for read in (cp.Engine.from_toml(toml), cp.Engine.from_json(json)):
+        assert read == engine
+        assert_same(figures(read), figures(engine))
+    assert cp.Engine.from_json(json).to_toml() == toml
+    for suffix in (".toml", ".json", ".TOML"):
+        path = tmp_path / f"engine{suffix}"
+        engine.save(path)
+        assert cp.Engine.load(path) == engine
+        assert cp.Engine.load(str(path)) == engine
+
+
+@pytest.mark.parametrize("angle", ["360/7", Fraction(1, 3), Fraction(360, 999_999), "-1/3", 1e-17, 7.3])
+def test_angles_survive_files_and_copies_exactly(angle: Any) -> None:
+    """Sums that vanish are exact zeros only while the angle is the fraction that was given."""
+    count = Fraction(360) / Fraction(angle) if not isinstance(angle, float) else Fraction(0)
+    engine = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, angle], bank_deg=[90, 90], z=[0, 0.1])
+    for back in (
+        cp.Engine.from_toml(engine.to_toml()),
+        cp.Engine.from_json(engine.to_json()),
+        pickle.loads(pickle.dumps(engine)),  # noqa: S301
+        engine.replace(name="x").replace(name=""),
+        engine.with_first_tdc("1/11").with_first_tdc(0),
+    ):
+        assert back == engine
+        assert back.to_toml() == engine.to_toml()
+    if count.denominator == 1 and 1 < count <= 100:
+        step = Fraction(angle)
+        wheel = cp.Engine.from_lists(
+            CYLINDER,
+            tdc_deg=[step * k for k in range(int(count))],
+            bank_deg=[90] * int(count),
+            z=[0.1 * k for k in range(int(count))],
+        )
+        again = cp.Engine.from_toml(wheel.to_toml())
+        assert not again.balance(1000, [1, 2]).force.any()
+
+
+def test_a_file_names_its_schema() -> None:
+    assert V6.to_toml().startswith("schema = 1\n")
+    assert '"schema": 1' in V6.to_json()
+
+
+# --- what people see ----------------------------------------------------------------------------
+
+
+class Cells(HTMLParser):
+    """Counts rows and cells, and sees that what is opened is closed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.count: dict[str, int] = {}
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.open.append(tag)
+        self.count[tag] = self.count.get(tag, 0) + 1
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+@every_object
+def test_repr_is_short_and_names_the_kind(name: str) -> None:
+    text = repr(OBJECTS[name])
+    assert text.isprintable() or "\n" in text
+    assert len(text) < 1000
+    if not name.startswith("Balance"):  # a table under a title
+        assert name.split()[0].rstrip(",") in text
+
+
+def test_a_balance_is_shown_as_a_table() -> None:
+    lines = repr(balance()).splitlines()
+    assert "V6" in lines[0]
+    assert "5000 rpm" in lines[0]
+    assert [line.split()[0] for line in lines[1:]] == ["order", "1", "2", "6"]
+    assert all(len(line) <= 100 for line in lines)
+    assert len({len(line) for line in lines[1:]}) == 1
+    known = repr(balance(spectrum=SPECTRUM))
+    assert "M_z" in repr(balance())
+    assert "M_z" not in known
+
+
+def test_a_balance_is_shown_as_html_in_notebooks() -> None:
+    parser = Cells()
+    parser.feed(balance()._repr_html_())
+    parser.close()
+    assert not parser.open
+    assert parser.count["table"] == 1
+    assert parser.count["tr"] == 4
+    assert parser.count.get("th", 0) + parser.count["td"] == 4 * 6
+    html = V6.replace(name="<b>&").balance(1000)._repr_html_()
+    assert "<b>" not in html
+    assert "&lt;b&gt;&amp;" in html
+
+
+# --- tables of other libraries ------------------------------------------------------------------
+
+
+def test_balance_to_pandas() -> None:
+    frame = balance().to_pandas()
+    assert isinstance(frame, pd.DataFrame)
+    assert frame.shape == (3, 5)
+    assert frame.index.name == "order"
+    assert list(frame.index) == [1, 2, 6]
+    assert list(frame.columns) == ["force_x", "force_y", "moment_x", "moment_y", "torque"]
+    np.testing.assert_array_equal(frame["moment_y"], balance().moment[:, 1])
+    assert "torque" not in balance(spectrum=SPECTRUM).to_pandas()
+
+
+def test_waveform_to_pandas() -> None:
+    frame = waveform().to_pandas()
+    assert frame.shape == (len(THETA), 6)
+    assert frame.index.name == "theta_deg"
+    np.testing.assert_array_equal(frame["crank_torque"], waveform().crank_torque)
+    assert waveform(orders=[1], spectrum=SPECTRUM).to_pandas().shape == (len(THETA), 4)
+
+
+def test_sweep_to_pandas() -> None:
+    frame = sweep().to_pandas("force")
+    assert frame.shape == (2 * 3 * 2, 4)
+    assert list(frame.index.names) == ["engine", "bank_angle_deg", "rpm"]
+    assert list(frame.columns.names) == ["order", "axis"]
+    np.testing.assert_array_equal(
+        frame.loc[("again", 75.0, 5000.0)].to_numpy(), sweep().force_peak_xy[1, 1, 1].ravel()
+    )
+    torque = sweep().to_pandas("torque")
+    assert torque.shape == (12, 2)
+    np.testing.assert_array_equal(torque.to_numpy().ravel(), sweep().torque_peak.ravel())
+    assert cp.sweep(V6, rpm=5000, orders=[1]).to_pandas().shape == (1, 2)
+
+
+UNITS = {"force": "N", "moment": "N m", "torque": "N m", "crank_torque": "N m", "theta_deg": "degree"}
+UNITS |= {"order": "1/rev", "bank_angle_deg": "degree", "rpm": "1/min", "rod_ratio": "1"}
+UNITS |= {"pin_offset": "m"}
+
+
+def assert_units(dataset: xr.Dataset) -> None:
+    for name, variable in dataset.variables.items():
+        if name in {"axis", "engine"}:
+            continue
+        quantity = str(name).split("_peak")[0].removesuffix("_sum")
+        assert variable.attrs["units"] == UNITS[quantity], name
+
+
+def test_balance_to_xarray() -> None:
+    dataset = balance().to_xarray()
+    assert dataset["moment"].dims == ("order", "axis")
+    assert dataset["torque"].dims == ("order",)
+    assert dataset.attrs["rpm"] == 5000
+    assert dataset.attrs["engine"] == "V6"
+    assert dataset.attrs["reference_z"] == balance().reference_z == pytest.approx(0.13)
+    assert dataset["force"].sel(order=6, axis="y").item() == balance().force[2, 1]
+    assert_units(dataset)
+    assert "torque" not in balance(spectrum=SPECTRUM).to_xarray()
+
+
+def test_waveform_to_xarray() -> None:
+    dataset = waveform().to_xarray()
+    assert dict(dataset.sizes) == {"theta_deg": len(THETA), "axis": 2}
+    assert dataset["moment"].sel(axis="x", theta_deg=90.0).item() == waveform().moment[9, 0]
+    assert_units(dataset)
+
+
+def test_sweep_to_xarray() -> None:
+    dataset = sweep().to_xarray("force", "moment", "torque")
+    swept = ("engine", "bank_angle_deg", "rpm")
+    assert dataset["moment"].dims == (*swept, "order", "axis") == sweep().dims()
+    assert dataset["torque"].dims == (*swept, "order") == sweep().dims("torque")
+    assert dataset["moment_sum_peak_xy"].dims == (*swept, "axis")
+    assert dataset["torque_sum_peak"].dims == swept
+    assert list(dataset["engine"].values) == ["even", "again"]
+    at = {"engine": "again", "bank_angle_deg": 90.0, "rpm": 3000.0, "order": 2, "axis": "y"}
+    assert dataset["moment"].sel(at).item() == sweep().moment[1, 2, 0, 1, 1]
+    assert dataset.attrs["hold"] == "pins"
+    assert_units(dataset)
+    other = cp.sweep(V6, rpm=5000, rod_ratio=[0.2, 0.3], pin_offset=[0.0, 0.001]).to_xarray()
+    assert other["force"].dims == ("rod_ratio", "pin_offset", "order", "axis")
+    assert other.attrs["rpm"] == 5000
+    assert_units(other)
+
+
+def test_shapes_of_a_sweep() -> None:
+    s = sweep()
+    assert s.force.shape == s.moment.shape == (2, 3, 2, 2, 2)
+    assert s.torque.shape == s.torque_peak.shape == s.force_peak_vector.shape == (2, 3, 2, 2)
+    assert s.moment_sum_peak_xy.shape == (2, 3, 2, 2)
+    assert s.moment_sum_peak_vector.shape == s.torque_sum_peak.shape == (2, 3, 2)
+    assert cp.sweep(V6, rpm=5000, orders=1).force.shape == (1, 2)
+    assert cp.sweep([V6], rpm=5000, orders=1).force.shape == (1, 1, 2)
+
+
+# --- import, warnings, examples -----------------------------------------------------------------
+
+
+def run(code: str) -> str:
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)  # noqa: S603
+    return done.stdout.strip()
+
+
+def test_import_leaves_drawing_and_tables_alone() -> None:
+    heavy = {"matplotlib", "pandas", "xarray", "IPython", "scipy"}
+    code = "import sys, crankpin as cp; "
+    use = "cp.Engine.inline(cp.Cylinder(1, 2, 7), throws_deg=[0], spacing=1).balance(10).__repr__(); "
+    for script in (code, code + use):
+        loaded = run(script + "print(*{name.partition('.')[0] for name in sys.modules})").split()
+        assert not heavy & set(loaded)
+        assert "numpy" in loaded
+
+
+def test_import_takes_little_longer_than_that_of_numpy() -> None:
+    code = "import time, numpy; t = time.perf_counter(); import crankpin; print(time.perf_counter() - t)"
+    # Some 20 ms here; ten times that on a machine that has other things to do. The best of three.
+    assert min(float(run(code)) for _ in range(3)) < 0.2
+
+
+def test_a_piston_faster_than_any_engines_warns_of_units() -> None:
+    """Mean speed 4 r rpm/60: 60 m/s at r = 45 mm is 20000 rpm."""
+    calls: list[Callable[[float], Any]] = [
+        lambda rpm: V6.balance(rpm),
+        lambda rpm: V6.waveform(rpm, [0.0]),
+        lambda rpm: cp.sweep(V6, rpm=[rpm, 10.0]),
+        lambda rpm: cp.sweep([V6, V6], rpm=rpm),
+    ]
+    for call in calls:
+        call(19_999.0)  # warnings are errors here
+        with pytest.warns(UserWarning, match="mean piston speed is 60 m/s.*millimetres"):
+            call(20_100.0)
+    millimetres = cp.Engine.inline(cp.Cylinder(45, 158, 1.487), throws_deg=[0], spacing=130)
+    with pytest.warns(UserWarning, match="millimetres") as caught:
+        millimetres.balance(5000)
+    assert caught[0].filename == __file__  # it points at who typed it
+
+
+def documented() -> dict[str, str]:
+    """Docstrings with examples of everything public, by name."""
+    found = {"crankpin": inspect.getdoc(cp) or ""}
+    for name in cp.__all__:
+        value = getattr(cp, name)
+        if isinstance(value, str):
+            continue
+        found[name] = inspect.getdoc(value) or ""
+        if inspect.isclass(value):
+            own = (each for each in dir(value) if not each.startswith("_"))
+            found |= {f"{name}.{each}": inspect.getdoc(getattr(value, each)) or "" for each in own}
+    return found
+
+
+EXAMPLES = {name: text for name, text in documented().items() if ">>>" in text}
+
+
+def test_every_public_object_is_documented_and_the_main_ones_by_example() -> None:
+    bare = [name for name, text in documented().items() if not text]
+    fields = {field for kind in (cp.Cylinder, cp.OrderBalance) for field in kind.__annotations__}
+    assert {name for name in bare if name.rpartition(".")[2] not in fields} == set()
+    for name in ("Cylinder", "Engine", "Engine.vee", "Engine.balance", "sweep", "Sweep", "Balance"):
+        assert name in EXAMPLES
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_docstring_examples(name: str) -> None:
+    if ".preset(" in EXAMPLES[name] and not cp.presets():
+        pytest.skip("there are no presets yet")
+    report: list[str] = []
+    test = doctest.DocTestParser().get_doctest(EXAMPLES[name], {}, name, None, None)
+    result = doctest.DocTestRunner(verbose=False).run(test, out=report.append)
+    assert result.attempted > 0
+    assert result.failed == 0, "".join(report)

@@ -1,0 +1,875 @@
+"""Does input that makes no engine give an error that helps, and no input anything worse?
+
+The first part holds each argument to its promise: an ``InputError`` that names the argument, its
+value and a cure. The second part calls every public function, method and constructor with hostile
+values in place of one to three arguments: each call must return finite figures or raise TypeError,
+ValueError (InputError is one), OSError or ImportError, within seconds. A panic of the compiled core
+is none of these, nor is MemoryError.
+
+By default that takes a few seconds, the same calls each time. ``CRANKPIN_FUZZ_SECONDS=600 pytest
+tests/test_robustness.py -k fuzz`` goes on with other calls, a seed after the other, for as long;
+a failure prints the call, which fails by itself.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import inspect
+import itertools
+import json
+import math
+import os
+import subprocess
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, example, given, seed, settings
+from hypothesis import strategies as st
+
+import crankpin as cp
+
+os.environ.setdefault("MPLBACKEND", "Agg")
+
+NAN, INF = math.nan, math.inf
+CYLINDER = cp.Cylinder(0.05, 0.15, 0.5)
+V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.1)
+I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="four")
+
+
+def cylinder(**changes: Any) -> cp.Cylinder:
+    return cp.Cylinder(
+        **{"crank_radius": 0.05, "rod_length": 0.15, "reciprocating_mass": 0.5} | changes
+    )
+
+
+def lists(**changes: Any) -> cp.Engine:
+    given_: dict[str, Any] = {
+        "cylinder": CYLINDER,
+        "tdc_deg": [0, 90],
+        "bank_deg": [90, 90],
+        "z": [0, 0.1],
+    }
+    return cp.Engine.from_lists(**given_ | changes)
+
+
+def vee(**changes: Any) -> cp.Engine:
+    given_: dict[str, Any] = {"bank_angle_deg": 60, "throws_deg": [0, 120], "spacing": 0.1}
+    return cp.Engine.vee(CYLINDER, **given_ | changes)
+
+
+def firing(**changes: Any) -> cp.Engine:
+    given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90, "spacing": 0.1}
+    return cp.Engine.from_firing_order(CYLINDER, **given_ | changes)
+
+
+def inline(**changes: Any) -> cp.Engine:
+    return cp.Engine.inline(CYLINDER, **{"throws_deg": [0, 180], "spacing": 0.1} | changes)
+
+
+def balance(**changes: Any) -> cp.Balance:
+    return V6.balance(**{"rpm": 1000} | changes)
+
+
+def waveform(**changes: Any) -> cp.Waveform:
+    return V6.waveform(**{"rpm": 1000, "theta_deg": [0.0, 1.0]} | changes)
+
+
+def swept(**changes: Any) -> cp.Sweep:
+    given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
+    return cp.sweep(V6, **given_ | changes)
+
+
+def proportions(**changes: Any) -> cp.Sweep:
+    return swept(bank_angle_deg=None, hold=None, **changes)
+
+
+def harmonics(**changes: Any) -> Any:
+    return cp.slider_crank_harmonics(**{"rod_ratio": 0.3, "orders": [1, 2]} | changes)
+
+
+# --- errors that help ---------------------------------------------------------------------------
+
+# For each: function, argument, its bad value, how the message writes that value.
+NOT_NUMBERS = [(NAN, "NaN"), (INF, "inf"), (-INF, "-inf"), (None, "None"), ("wide", "wide"), (1j, "1j")]
+BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
+    *((cylinder, name, *bad) for name in ("crank_radius", "rod_length") for bad in NOT_NUMBERS),
+    *((cylinder, name, *bad) for name in ("reciprocating_mass", "pin_offset") for bad in NOT_NUMBERS),
+    (cylinder, "crank_radius", 0.0, "0"),
+    (cylinder, "crank_radius", -0.05, "-0.05"),
+    (cylinder, "crank_radius", 5e-324, "5e-324"),
+    (cylinder, "crank_radius", 0.15, "0.15"),  # r = l
+    (cylinder, "crank_radius", 0.2, "0.2"),  # r > l
+    (cylinder, "rod_length", -0.15, "-0.15"),
+    (cylinder, "pin_offset", 0.1, "0.1"),  # r = l - e
+    (cylinder, "pin_offset", -0.2, "-0.2"),
+    (cylinder, "reciprocating_mass", -0.5, "-0.5"),
+    (cylinder, "reciprocating_mass", 10**400, "1000"),
+    (lists, "z", [0.0], "1 entries"),
+    (lists, "z", [0.0, NAN], "NaN"),
+    (lists, "z", [0.0, INF], "inf"),
+    (lists, "z", [[0.0, 0.1]], "(1, 2)"),
+    (lists, "z", [[0.0], [0.0, 0.1]], "[[0.0], [0.0, 0.1]]"),
+    (lists, "z", np.array([0.0, 1j]), "1"),
+    (lists, "z", "ab", "ab"),
+    (lists, "z", None, "None"),
+    (lists, "tdc_deg", [0.0], "1 entries"),
+    (lists, "tdc_deg", [0.0, NAN], "NaN"),
+    (lists, "tdc_deg", [0.0, "1/0"], "1/0"),
+    (lists, "tdc_deg", [0.0, "north"], "north"),
+    (lists, "tdc_deg", [0.0, None], "None"),
+    (lists, "tdc_deg", [0.0, 10**400], "1000"),
+    (lists, "tdc_deg", 90, "90"),
+    (lists, "tdc_deg", None, "neither given"),
+    (lists, "pin_deg", [0, 0], "both given"),
+    (lists, "bank_deg", [90.0, INF], "inf"),
+    (lists, "bank_deg", "90", "90"),
+    (lists, "bank_deg", [90] * 3, "3"),
+    (lists, "bank_deg", None, "None"),
+    (lists, "rotating_mass", -1.0, "-1"),
+    (lists, "rotating_mass", [1.0], "1 entries"),
+    (lists, "rotating_mass", [1.0, NAN], "NaN"),
+    (lists, "cylinder", [CYLINDER] * 3, "3 entries"),
+    (lists, "cylinder", 0.05, "0.05"),
+    (lists, "cylinder", [None, CYLINDER], "None"),
+    (vee, "bank_angle_deg", -60, "-60"),
+    (vee, "bank_angle_deg", 200, "200"),
+    (vee, "bank_angle_deg", NAN, "NaN"),
+    (vee, "bank_angle_deg", None, "None"),
+    (vee, "pin_split_deg", NAN, "NaN"),
+    (vee, "first_tdc_deg", INF, "inf"),
+    (vee, "throws_deg", 120, "120"),
+    (vee, "throws_deg", [0.0, NAN], "NaN"),
+    (vee, "spacing", NAN, "NaN"),
+    (vee, "spacing", None, "None"),
+    (vee, "bank_stagger", INF, "inf"),
+    (vee, "rotating_mass", [1.0, 1.0, 1.0], "3 entries"),
+    (vee, "rotating_mass", -1.0, "-1"),
+    (vee, "numbering", "by bank", "by bank"),
+    (vee, "numbering", None, "None"),
+    (vee, "odd_bank", "Left", "Left"),
+    (vee, "odd_bank", 1, "1"),
+    (inline, "throws_deg", "0-180", "0-180"),
+    (inline, "first_tdc_deg", "late", "late"),
+    (inline, "spacing", INF, "inf"),
+    (firing, "firing_order", "1-2-2-4", "1-2-2-4"),
+    (firing, "firing_order", "1-2-3", "3 cylinders"),
+    (firing, "firing_order", [1, 2, 3, 5], "1-2-3-5"),
+    (firing, "firing_order", "1;2", "1;2"),
+    (firing, "firing_order", 1342, "1342"),
+    (firing, "firing_order", None, "None"),
+    (firing, "rule", "uneven", "uneven"),
+    (firing, "rule", None, "None"),
+    (firing, "bank_angle_deg", "wide", "wide"),
+    (V6.with_bank_angle, "hold", "crank", "crank"),
+    (V6.with_bank_angle, "hold", None, "None"),
+    (balance, "rpm", NAN, "NaN"),
+    (balance, "rpm", -1.0, "-1"),
+    (balance, "rpm", INF, "inf"),
+    (balance, "rpm", None, "None"),
+    (balance, "rpm", [1.0, 2.0], "[1.0, 2.0]"),
+    (balance, "orders", 0, "0"),
+    (balance, "orders", [], "[]"),
+    (balance, "orders", [1, 1], "1"),
+    (balance, "orders", [1.5], "1.5"),
+    (balance, "orders", -2, "-2"),
+    (balance, "orders", 10**30, "10000000"),
+    (balance, "orders", 20_000, "20000"),
+    (balance, "orders", "all", "all"),
+    (balance, "orders", None, "None"),
+    (balance, "reference_z", NAN, "NaN"),
+    (balance, "reference_z", INF, "inf"),
+    (balance, "reference_z", "middle", "middle"),
+    (balance, "spectrum", {}, "{}"),
+    (balance, "spectrum", {1: NAN}, "NaN"),
+    (balance, "spectrum", {1: None}, "None"),
+    (balance, "spectrum", {1: 10**400}, "1000"),
+    (balance, "spectrum", {0: 1.0}, "0"),
+    (balance, "spectrum", {"one": 1.0}, "one"),
+    (balance, "spectrum", [9.0], "9.0"),
+    (waveform, "rpm", NAN, "NaN"),
+    (waveform, "theta_deg", [0.0, NAN], "NaN"),
+    (waveform, "theta_deg", [-INF], "-inf"),
+    (waveform, "theta_deg", [[0.0, 1.0]], "(1, 2)"),
+    (waveform, "theta_deg", "all", "all"),
+    (waveform, "theta_deg", [0.0, 1j], "1j"),
+    (waveform, "theta_deg", np.array([0.0, 1j]), "1"),
+    (waveform, "orders", [0], "0"),
+    (waveform, "orders", "some", "some"),
+    (swept, "rpm", None, "None"),
+    (swept, "rpm", [], "[]"),
+    (swept, "rpm", NAN, "NaN"),
+    (swept, "rpm", [[1.0]], "(1, 1)"),
+    (swept, "bank_angle_deg", [60, NAN], "NaN"),
+    (swept, "bank_angle_deg", [60, 190], "190"),
+    (swept, "bank_angle_deg", None, ""),
+    (swept, "hold", None, "None"),
+    (swept, "hold", "banks", "banks"),
+    (swept, "hold", 3, "3"),
+    (swept, "orders", "auto", "auto"),
+    (swept, "orders", [2, 2], "2"),
+    (swept, "reference_z", NAN, "NaN"),
+    (swept, "reference_z", "middle", "middle"),
+    (proportions, "rod_ratio", [0.3, 1.0], "1"),
+    (proportions, "rod_ratio", [0.0], "0"),
+    (proportions, "rod_ratio", NAN, "NaN"),
+    (proportions, "pin_offset", [0.0, 0.1], "0.1"),
+    (proportions, "pin_offset", NAN, "NaN"),
+    (harmonics, "rod_ratio", 1.0, "1"),
+    (harmonics, "rod_ratio", -0.3, "-0.3"),
+    (harmonics, "rod_ratio", NAN, "NaN"),
+    (harmonics, "rod_ratio", "short", "short"),
+    (harmonics, "rod_ratio", [[0.1], [0.1, 0.2]], "[[0.1], [0.1, 0.2]]"),
+    (harmonics, "orders", "auto", "auto"),
+    (harmonics, "orders", [0], "0"),
+    (harmonics, "pin_offset_ratio", 2.5, "2.5"),
+    (harmonics, "pin_offset_ratio", INF, "inf"),
+    (harmonics, "pin_offset_ratio", "left", "left"),
+    (CYLINDER.position, "theta_deg", NAN, "NaN"),
+    (CYLINDER.position, "theta_deg", "top", "top"),
+    (CYLINDER.position, "theta_deg", [[0], [0, 1]], "[[0], [0, 1]]"),
+    (CYLINDER.harmonics, "orders", "auto", "auto"),
+    (CYLINDER.torque_harmonics, "orders", [0], "0"),
+    (CYLINDER.replace, "rod_length", 0.01, "0.01"),
+    (cp.Engine.preset, "name", "v8-crosplane", "v8-crosplane"),
+    (cp.Engine.preset, "name", None, "None"),
+    (cp.Engine.load, "path", "engine.yaml", "engine.yaml"),
+    (I4.save, "path", "engine", "engine"),
+    (balance().order, "order", 3, "3"),
+    (balance().order, "order", None, "None"),
+    (swept().dims, "quantity", "power", "power"),
+    (swept().to_pandas, "quantity", "power", "power"),
+]
+CURE = 12  # letters at least, after the last thing that is wrong
+
+
+def bad_name(case: tuple[Callable[..., Any], str, Any, str]) -> str:
+    return f"{case[0].__qualname__}, {case[1]} = {case[3] or case[2]}"
+
+
+@pytest.mark.parametrize("case", BAD, ids=bad_name)
+def test_a_bad_argument_is_named_with_its_value_and_a_cure(
+    case: tuple[Callable[..., Any], str, Any, str],
+) -> None:
+    call, argument, value, shown = case
+    arguments = {argument: value}
+    if call == V6.with_bank_angle:
+        arguments["bank_angle_deg"] = 90
+    with pytest.raises(cp.InputError) as caught:
+        call(**arguments)
+    message = str(caught.value)
+    assert argument in message
+    assert shown in message
+    assert len(message) < 500  # a huge value is cut
+    cure = max(message.split(":")[-1], message.split(";")[-1], key=len)
+    assert sum(letter.isalpha() for letter in cure) >= CURE
+
+
+@pytest.mark.parametrize("rpm", [NAN, INF, -1.0, None, 1e300])
+@pytest.mark.parametrize("motion", ["velocity", "acceleration"])
+def test_speed_of_a_piston_needs_a_crank_speed(motion: str, rpm: Any) -> None:
+    with pytest.raises(cp.InputError, match="rpm"):
+        getattr(CYLINDER, motion)([0.0, 30.0], rpm)
+
+
+@pytest.mark.parametrize("rtol", [0.0, -1e-6, 1.0, NAN, INF, None, "low"])
+def test_auto_needs_a_tolerance(rtol: Any) -> None:
+    for call in (balance, waveform):
+        with pytest.raises(cp.InputError, match="rtol"):
+            call(orders="auto", rtol=rtol)
+
+
+@pytest.mark.parametrize(
+    ("call", "arguments", "words"),
+    [
+        (firing, {"bank_angle_deg": None, "rule": "x"}, ["rule", "x"]),
+        (swept, {"bank_angle_deg": None}, ["hold", "bank_angle_deg"]),
+        (swept, {"rod_ratio": [0.3], "spectrum": {1: 1.0}}, ["rod_ratio", "spectrum"]),
+        (waveform, {"spectrum": {1: 1.0}}, ["orders", "spectrum"]),
+        (I4.with_bank_angle, {"bank_angle_deg": 90, "hold": "pins"}, ["bank_angle_deg", "two banks"]),
+        (I4.balance, {"rpm": 1e31}, ["rpm", "1e31"]),
+        (harmonics, {"rod_ratio": [0.1, 0.2], "pin_offset_ratio": [0, 0, 0]}, ["rod_ratio", "(3,)"]),
+        (cp.Engine, {"core": None}, ["Engine", "from_lists"]),
+        (CYLINDER.replace, {"bore": 0.08}, ["bore"]),
+        (cp.Engine.preset, {"name": "v8-crosplane"}, ["v8-crossplane"]),
+    ],
+)
+def test_arguments_that_do_not_go_together(
+    call: Callable[..., Any], arguments: dict[str, Any], words: list[str]
+) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        call(**arguments)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_torque_of_a_spectrum_is_not_known() -> None:
+    spectrum = {1: 1.0}
+    for result in (
+        balance(orders=[1], spectrum=spectrum),
+        waveform(orders=[1], spectrum=spectrum),
+        swept(orders=[1], spectrum=spectrum),
+    ):
+        with pytest.raises(cp.InputError, match="spectrum"):
+            _ = result.torque
+
+
+def test_engines_of_a_sweep() -> None:
+    for engines in (None, [], [None], {"a": None}, "v6", 3):
+        with pytest.raises(cp.InputError, match="engines"):
+            cp.sweep(engines, rpm=1000)  # type: ignore[arg-type]
+
+
+def test_an_input_error_is_a_value_error() -> None:
+    assert issubclass(cp.InputError, ValueError)
+
+
+# --- too large for any memory -------------------------------------------------------------------
+
+
+def endless(value: float, *shape: int) -> Any:
+    """An array that takes eight bytes, whatever its shape."""
+    return np.broadcast_to(np.float64(value), shape)
+
+
+TOO_LARGE: list[tuple[Callable[[], Any], str]] = [
+    (lambda: waveform(theta_deg=endless(1.0, 10**12)), "theta_deg"),
+    (lambda: waveform(theta_deg=endless(1.0, 10**12), orders=[1]), "theta_deg"),
+    (lambda: CYLINDER.position(endless(1.0, 10**6, 10**6)), "theta_deg"),
+    (lambda: CYLINDER.acceleration(endless(1.0, 10**12), 1000), "theta_deg"),
+    (lambda: harmonics(rod_ratio=endless(0.3, 10**12)), "rod_ratio"),
+    (lambda: harmonics(rod_ratio=endless(0.3, 10**12), pin_offset_ratio=0.0), "rod_ratio"),
+    (lambda: harmonics(rod_ratio=endless(0.3, 10**6, 1), pin_offset_ratio=endless(0.1, 10**6)), ""),
+    (lambda: swept(rpm=endless(1.0, 10**12)), "rpm"),
+    (lambda: swept(rpm=endless(1.0, 10**5), bank_angle_deg=endless(1.0, 10**5)).moment, "1e5 x 1e5"),
+    (lambda: proportions(rod_ratio=endless(0.3, 10**5), rpm=endless(1.0, 10**5)).force_peak_xy, ""),
+    (lambda: proportions(rod_ratio=endless(0.3, 10**5), rpm=endless(1.0, 10**5)).torque_sum_peak, ""),
+    (lambda: proportions(rod_ratio=endless(0.3, 10**5), pin_offset=endless(0, 10**5)).moment, ""),
+    (lambda: lists(z=endless(0.0, 10**12)), "z"),
+    (lambda: lists(rotating_mass=endless(0.0, 10**12)), "rotating_mass"),
+    (lambda: harmonics(orders=list(range(1, 10_001)), rod_ratio=endless(0.3, 10**6)), ""),
+]
+
+
+@pytest.mark.parametrize("index", range(len(TOO_LARGE)))
+def test_what_no_memory_holds_is_refused(index: int) -> None:
+    call, argument = TOO_LARGE[index]
+    with pytest.raises(cp.InputError) as caught:
+        call()
+    if " " not in argument:
+        assert argument in str(caught.value)
+
+
+WITHOUT_END = {
+    "orders": "I4.balance(1000, itertools.count(1))",
+    "orders of a waveform": "I4.waveform(1000, [0.0], itertools.count(1))",
+    "orders of a sweep": "cp.sweep(I4, rpm=1000, orders=itertools.count(1))",
+    "many orders": "I4.balance(1000, range(1, 10**12))",
+    "harmonics": "cp.slider_crank_harmonics(0.3, itertools.count(1))",
+    "throws": "cp.Engine.inline(C, throws_deg=itertools.repeat(0.0), spacing=0.1)",
+    "top dead centres": "I4.replace(tdc_deg=itertools.count(0))",
+    "bores": "I4.replace(bank_deg=np.broadcast_to(90.0, 10**12))",
+    "firing order": "cp.Engine.from_firing_order(C, itertools.count(1), spacing=0.1)",
+    "engines": "cp.sweep(itertools.repeat(I4), rpm=1000)",
+}
+LIMITED = """
+import itertools, resource
+import numpy as np
+import crankpin as cp
+resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+C = cp.Cylinder(0.05, 0.15, 0.5)
+I4 = cp.Engine.inline(C, throws_deg=[0, 180, 180, 0], spacing=0.1)
+try:
+    {call}
+except cp.InputError as error:
+    print("refused:", error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits memory by resource.setrlimit")
+@pytest.mark.parametrize("name", WITHOUT_END)
+def test_what_has_no_end_is_refused(name: str) -> None:
+    """In a process of its own, with 2 GiB: one that goes on would take this one with it."""
+    script = LIMITED.format(call=WITHOUT_END[name])
+    command = [sys.executable, "-c", script]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)  # noqa: S603
+    except subprocess.TimeoutExpired:
+        pytest.fail(f"{WITHOUT_END[name]} goes on for ever")
+    assert done.stdout.startswith("refused:"), done.stderr[-500:]
+
+
+# --- files --------------------------------------------------------------------------------------
+
+TOML, JSON = I4.to_toml(), I4.to_json()
+DOCUMENT: dict[str, Any] = json.loads(JSON)
+
+
+def changed(*path: str | int, value: Any) -> str:
+    """The JSON text with one entry replaced."""
+    document = json.loads(JSON)
+    place = document
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return json.dumps(document)
+
+
+BAD_JSON = {
+    "nothing": "",
+    "no object": "[]",
+    "null": "null",
+    "deep lists": "[" * 200_000,
+    "deep objects": '{"a":' * 200_000,
+    "deep inside": JSON.replace("0.0", "[" * 5000 + "]" * 5000, 1),
+    "huge": JSON[:-2] + ' "' + "x" * 3_000_000 + '": 1}',
+    "huge blanks": " " * 3_000_000 + JSON,
+    "cut": JSON[: len(JSON) // 2],
+    "rubbish behind": JSON + "}",
+    "nan": JSON.replace("0.05", "NaN"),
+    "infinite": JSON.replace("0.05", "1e999"),
+    "nul": "\0" + JSON,
+    "schema 2": changed("schema", value=2),
+    "schema text": changed("schema", value="1"),
+    "schema negative": changed("schema", value=-1),
+    "unknown key": changed("bore", value=0.08),
+    "unknown key of a cylinder": changed("cylinder", "bore", value=0.08),
+    "unknown key of a place": changed("placements", 0, "pin", value=1),
+    "radius text": changed("cylinder", "crank_radius", value="0.05"),
+    "radius null": changed("cylinder", "crank_radius", value=None),
+    "radius too long": changed("cylinder", "crank_radius", value=0.15),
+    "mass negative": changed("cylinder", "reciprocating_mass", value=-1),
+    "no cylinder": changed("cylinder", value=None),
+    "no places": changed("placements", value=[]),
+    "places of numbers": changed("placements", value=[1, 2]),
+    "too many places": changed("placements", value=DOCUMENT["placements"] * 300),
+    "angle a list": changed("placements", 0, "tdc_deg", value=[0]),
+    "angle over zero": changed("placements", 0, "tdc_deg", value="1/0"),
+    "angle huge": changed("placements", 0, "tdc_deg", value="9" * 100_000 + "/7"),
+    "z huge": changed("placements", 0, "z", value=1e300),
+    "name a number": changed("name", value=1),
+}
+BAD_TOML = {
+    "nothing": "",
+    "prose": "an inline four",
+    "deep lists": "a = " + "[" * 200_000,
+    "deep tables": "a = " + "{b=" * 200_000,
+    "deep keys": "a" + ".a" * 200_000 + " = 1",
+    "huge": TOML + "# " + "x" * 3_000_000,
+    "cut": TOML[: TOML.index("rod_length")],
+    "nan": TOML.replace("0.05", "nan"),
+    "infinite": TOML.replace("0.05", "inf"),
+    "schema 2": TOML.replace("schema = 1", "schema = 2"),
+    "no schema": TOML.replace("schema = 1", ""),
+    "unknown key": "bore = 0.08\n" + TOML,
+    "twice": TOML.replace("rod_length", "crank_radius"),
+    "date": TOML.replace("0.05", "2017-04-01"),
+    "integer too long": TOML.replace("0.05", "9" * 1000),
+    "radius text": TOML.replace("0.05", '"0.05"'),
+    "angle of words": TOML.replace("tdc_deg = 180.0", 'tdc_deg = "half a turn"'),
+    "nul": TOML + "\0",
+}
+
+
+@pytest.mark.parametrize("name", BAD_JSON)
+def test_json_that_describes_no_engine(name: str) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        cp.Engine.from_json(BAD_JSON[name])
+    assert 10 < len(str(caught.value)) < 1000
+
+
+@pytest.mark.parametrize("name", BAD_TOML)
+def test_toml_that_describes_no_engine(name: str) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        cp.Engine.from_toml(BAD_TOML[name])
+    assert 10 < len(str(caught.value)) < 1000
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (BAD_JSON["schema 2"], ["schema", "2"]),
+        (BAD_JSON["unknown key of a place"], ["pin"]),
+        (BAD_JSON["mass negative"], ["cylinder.reciprocating_mass", "-1"]),
+        (BAD_JSON["angle over zero"], ["placements[0].tdc_deg", "1/0"]),
+        (BAD_JSON["z huge"], ["z", "1e300"]),
+        (BAD_JSON["radius text"], ["JSON", "line 4"]),
+    ],
+)
+def test_an_error_in_a_file_says_where(text: str, words: list[str]) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        cp.Engine.from_json(text)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_files_that_cannot_be_read(tmp_path: Path) -> None:
+    (tmp_path / "latin.toml").write_bytes(b'name = "\xe9"')
+    (tmp_path / "folder.json").mkdir()
+    with pytest.raises(cp.InputError, match="UTF-8"):
+        cp.Engine.load(tmp_path / "latin.toml")
+    for name in ("absent.toml", "folder.json"):
+        with pytest.raises(OSError, match=name.split(".")[0]):
+            cp.Engine.load(tmp_path / name)
+    with pytest.raises(OSError, match="absent"):
+        I4.save(tmp_path / "absent" / "engine.toml")
+
+
+# --- anything at all ----------------------------------------------------------------------------
+
+SECONDS = float(os.environ.get("CRANKPIN_FUZZ_SECONDS", "0"))
+PATIENCE = 5.0  # seconds to a call: the longest honest one takes a twentieth of one
+ALLOWED = (TypeError, ValueError, OSError, ImportError)
+SLOW = {"plot", "view", "save_html"}  # pictures: fewer calls
+
+
+def nested(depth: int) -> list[Any]:
+    value: list[Any] = [0.0]
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+class Silent:
+    """An object of no use to anyone."""
+
+
+HOSTILE: list[Any] = [
+    *(None, True, False, ..., NotImplemented, Silent(), Silent, len, CYLINDER, V6),
+    *(0, -1, 1, 2**31, 2**32, 2**63, 2**64, -(2**63), 10**30, 10**400, -(10**400), 10**5000),
+    *(0.0, -0.0, 1e-320, 5e-324, 1e-300, 1e-30, 1e30, 1e31, 1e154, 1e300, NAN, INF, -INF),
+    *(0.5, 1.0 - 1e-16, 360.0, 1e12, 179.99999999999997, np.float32(0.1), np.longdouble(0.1)),
+    *(1j, complex(NAN, INF), Fraction(1, 3), Fraction(1, 10**400), Fraction(10**400, 7)),
+    *(np.float64(NAN), np.int8(-1), np.uint64(2**64 - 1), np.complex128(1j), np.bool_(True)),
+    *("", "auto", "pins", "1", "360/7", "1/0", "0/0", "-1/-3", "nan", "inf", "1e400", "x" * 10_000),
+    *("\0", "\ud800", "💥", "9" * 10_000, "1-2", "1-2-3-4", "-", "1--2", "engine.toml", "engine.json"),
+    *(b"", b"\xff", bytearray(b"ab"), memoryview(b"ab"), range(3), range(0), slice(0)),
+    *([], (), {}, set(), [None], ["a"], [[]], [[1.0], [1.0, 2.0]], nested(3), nested(70), nested(3000)),
+    *([NAN], [INF], [0.0], [-1.0], [1e30], [1e300], [10**400], [1j], [0.1, "0.2"], [Fraction(1, 3)]),
+    *([1], [1, 2], [1, 1], [2**32], [10_000], [10_001], list(range(1, 200)), [CYLINDER], [V6, I4], [V6, None]),
+    *({1: 1.0}, {1: NAN}, {1: None}, {10_000: 1.0}, {"a": 1}, {2: 1e300}, {-1: 1}, {1.5: 1}, {"v6": V6}),
+    *({1: 10**400}, {None: None}, {1: 1e30, 2: 1e-320}),
+    *(np.array([]), np.zeros((0, 3)), np.zeros((2, 2)), np.array(1.0), np.array(NAN), np.arange(5)),
+    *(np.array([None]), np.array(["a"]), np.array([b"1"]), np.array([1j]), np.array([object()])),
+    *(np.array([1.0, NAN]), np.array([1e300, -1e300]), np.ones(3, dtype=np.float16), np.array([True])),
+    *(np.ones(3, dtype=">f8"), np.arange(6.0)[::-2], np.zeros(2, dtype=[("a", "f8")]), np.zeros((1,) * 40)),
+    *(np.array(["2017-04-01"], dtype="M8[D]"), np.array([1], dtype="m8[s]"), np.ma.masked_all(2)),
+    *(np.broadcast_to(1.0, (3,)), np.matrix([[1.0, 2.0]]) if hasattr(np, "matrix") else None),
+]
+
+LEAVES: st.SearchStrategy[Any] = st.one_of(
+    st.sampled_from(HOSTILE),
+    st.floats(),
+    st.integers(),
+    st.text(max_size=5),  # too short for a name of a file to be written
+    st.binary(max_size=5),
+    st.fractions(),
+    st.complex_numbers(),
+)
+VALUES: st.SearchStrategy[Any] = st.one_of(
+    LEAVES,
+    st.lists(LEAVES, max_size=4),
+    st.dictionaries(st.integers(-1, 5), LEAVES, max_size=3),
+    st.lists(st.floats(), max_size=6).map(np.array),
+)
+
+SOUND: dict[str, list[Any]] = {
+    "ax": [None],
+    "backward_force": [1j],
+    "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
+    "bank_deg": [[60, 120], [90, 90, 90]],
+    "cylinder": [CYLINDER],
+    "crank_radius": [0.05],
+    "engine": [V6],
+    "engines": [V6, I4, [V6, I4], {"a": V6}],
+    "firing_order": ["1-3-4-2", [1, 2, 3, 4]],
+    "hold": ["pins", "firing"],
+    "name": ["v6-60", "i4", "a name"],
+    "order": [1, 2],
+    "orders": [1, [1, 2], [1, 2, 4, 6]],
+    "path": ["engine.toml"],
+    "pin_deg": [[0, 180]],
+    "quantity": ["force", "moment", "torque"],
+    "reciprocating_mass": [0.5],
+    "rod_length": [0.15],
+    "rod_ratio": [0.3, [0.2, 0.3]],
+    "rpm": [1000, [1000.0, 2000.0]],
+    "spacing": [0.1],
+    "spectrum": [{1: 1.0, 2: 0.3}],
+    "tdc_deg": [[0, 90], ["360/7", Fraction(1, 3)]],
+    "text": [TOML, JSON],
+    "theta_deg": [[0.0, 90.0], 30.0],
+    "throws_deg": [[0, 120, 240], [0]],
+    "x": ["rpm"],
+    "z": [[0.0, 0.1]],
+}
+
+SUBJECTS: dict[str, Any] = {
+    "Cylinder": cp.Cylinder,
+    "Engine": cp.Engine,
+    "Balance": cp.Balance,
+    "Waveform": cp.Waveform,
+    "Sweep": cp.Sweep,
+    "cylinder": CYLINDER,
+    "v6": V6,
+    "i4": I4,
+    "balance": V6.balance(1000),
+    "balance of a spectrum": V6.balance(1000, [1], spectrum={1: 1.0}),
+    "balance, auto": V6.balance(1000, "auto"),
+    "waveform": V6.waveform(1000, [0.0, 1.0]),
+    "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
+    "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
+    "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
+    "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
+}
+PLAIN = {"Ellipse", "ErrorBound", "OrderBalance", "InputError"}  # take anything, and hold it
+
+
+class Target(NamedTuple):
+    """Something public that can be called."""
+
+    label: str
+    function: Callable[..., Any]
+    parameters: tuple[inspect.Parameter, ...]
+
+
+def target(label: str, function: Callable[..., Any]) -> Target:
+    return Target(label, function, tuple(inspect.signature(function).parameters.values()))
+
+
+def targets() -> Iterator[Target]:
+    """Every public function, constructor and method."""
+    for name in cp.__all__:
+        value = getattr(cp, name)
+        if callable(value) and name not in PLAIN:
+            yield target(name, value)
+    for label, subject in SUBJECTS.items():
+        for name in dir(type(subject) if not isinstance(subject, type) else subject):
+            of_class = isinstance(subject, type)
+            static = inspect.getattr_static(subject if of_class else type(subject), name)
+            if name.startswith("_") or of_class != isinstance(static, classmethod | staticmethod):
+                continue
+            if callable(static) or of_class:
+                yield target(f"{label}.{name}", getattr(subject, name))
+
+
+TARGETS = [each for each in targets() if each.label.rpartition(".")[2] not in SLOW]
+PICTURES = [each for each in targets() if each.label.rpartition(".")[2] in SLOW]
+MAP = dict[str, Any]
+
+
+class Call(NamedTuple):
+    """A target and what it is called with."""
+
+    target: Target
+    arguments: MAP
+
+    def __repr__(self) -> str:
+        listed = ", ".join(f"{name}={value!r:.200}" for name, value in self.arguments.items())
+        return f"{self.target.label}({listed})"
+
+
+@st.composite
+def calls(draw: st.DrawFn, among: list[Target]) -> Call:
+    """A call with up to three arguments bad and the others good or left out."""
+    chosen = draw(st.sampled_from(among))
+    parameters = [p for p in chosen.parameters if p.kind is not p.VAR_KEYWORD]
+    count = draw(st.integers(1, 3))
+    bad = {draw(st.integers(0, max(len(parameters) - 1, 0))) for _ in range(count)}
+    arguments = {}
+    for k, parameter in enumerate(parameters):
+        if k in bad:
+            arguments[parameter.name] = draw(VALUES)
+        elif parameter.default is parameter.empty or draw(st.booleans()):
+            if parameter.name in SOUND:
+                arguments[parameter.name] = draw(st.sampled_from(SOUND[parameter.name]))
+            elif parameter.default is parameter.empty:
+                arguments[parameter.name] = draw(VALUES)
+    return Call(chosen, arguments)
+
+
+def invoke(call: Call) -> Any:
+    """Call, the var-positional argument unpacked."""
+    positional: list[Any] = []
+    named = dict(call.arguments)
+    for parameter in call.target.parameters:
+        if parameter.kind is parameter.VAR_POSITIONAL:
+            values = named.pop(parameter.name, ())
+            positional += values if isinstance(values, list | tuple) else [values]
+        elif parameter.kind is parameter.POSITIONAL_ONLY and parameter.name in named:
+            positional.append(named.pop(parameter.name))
+    return call.target.function(*positional, **named)
+
+
+def assert_finite(value: Any) -> None:
+    if isinstance(value, float | complex | np.ndarray | np.generic):
+        array = np.asarray(value)
+        if array.dtype.kind in "fc":
+            assert np.isfinite(array).all()
+    elif isinstance(value, tuple):
+        for each in value:
+            assert_finite(each)
+
+
+RESULTS = {
+    cp.Cylinder: ["crank_radius", "rod_length", "reciprocating_mass", "pin_offset", "rod_ratio"],
+    cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
+    cp.Balance: ["force", "moment", "torque", "crank_torque", "force_peak_vector", "error_bound"],
+    cp.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
+    cp.Sweep: ["force", "moment_peak_xy", "torque", "force_sum_peak_vector"],
+}
+
+
+def assert_sound(value: Any) -> None:
+    """Figures that come back are finite, and so are those of a result."""
+    assert_finite(value)
+    for name in RESULTS.get(type(value), []):
+        unknown = name.endswith("torque") and getattr(value, "spectrum", 1) is not None
+        try:
+            assert_finite(getattr(value, name))
+        except cp.InputError:
+            assert unknown or isinstance(value, cp.Sweep), name
+    if isinstance(value, cp.Engine):
+        assert cp.Engine.from_json(value.to_json()) == value
+        assert repr(value)
+
+
+def check(call: Call) -> None:
+    """Nothing but a sound result or an allowed error comes of it, and soon."""
+    start = time.monotonic()
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        try:
+            assert_sound(invoke(call))
+        except ALLOWED:
+            pass
+        except AssertionError:
+            raise
+        except BaseException as error:
+            if isinstance(error, KeyboardInterrupt | SystemExit):
+                raise
+            pytest.fail(f"{call!r} raised {type(error).__name__}: {str(error)[:300]}")
+    assert time.monotonic() - start < PATIENCE
+
+
+def close_pictures() -> None:
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")
+
+
+def hostile(examples: int) -> settings:
+    return settings(
+        max_examples=examples,
+        deadline=None,
+        derandomize=SECONDS == 0,
+        database=None,
+        report_multiple_bugs=True,
+        suppress_health_check=list(HealthCheck),
+    )
+
+
+@pytest.fixture(autouse=True)
+def somewhere_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Files are written where it does no harm; a call that hangs says where."""
+    monkeypatch.chdir(tmp_path)
+    faulthandler.dump_traceback_later(SECONDS + 300.0, exit=True)
+    yield
+    faulthandler.cancel_dump_traceback_later()
+
+
+def test_fuzz_reaches_the_whole_public_surface() -> None:
+    labels = {each.label for each in TARGETS + PICTURES}
+    for name in cp.__all__:
+        assert name in labels | PLAIN | {"__version__"}
+    for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.order", "i4.save"):
+        assert label in labels
+
+
+@hostile(1200)
+@given(calls(TARGETS))
+def test_fuzz_calls(call: Call) -> None:
+    check(call)
+
+
+@hostile(40)
+@given(calls(PICTURES or TARGETS))
+def test_fuzz_pictures(call: Call) -> None:
+    check(call)
+    close_pictures()
+
+
+@pytest.mark.parametrize("each", TARGETS, ids=lambda each: each.label)
+def test_fuzz_one_argument_at_a_time(each: Target) -> None:
+    """Each argument in turn is each of the hostile values, the others being good."""
+    for parameter in each.parameters:
+        if parameter.kind is parameter.VAR_KEYWORD:
+            continue
+        needed = [p for p in each.parameters if p.default is p.empty and p is not parameter]
+        others = {p.name: SOUND[p.name][0] for p in needed if p.name in SOUND}
+        for value in HOSTILE:
+            check(Call(each, others | {parameter.name: value}))
+
+
+@pytest.mark.parametrize("label", SUBJECTS)
+def test_properties_give_figures_or_say_why_not(label: str) -> None:
+    subject = SUBJECTS[label]
+    if isinstance(subject, type):
+        return
+    for name in dir(subject):
+        if not name.startswith("_") and not callable(getattr(type(subject), name, None)):
+            try:
+                assert_finite(getattr(subject, name))
+            except cp.InputError as error:
+                assert len(str(error)) > CURE  # noqa: PT017 - either is right
+
+
+@st.composite
+def damaged(draw: st.DrawFn, text: str) -> str:
+    """An engine file with a piece of it replaced."""
+    start = draw(st.integers(0, len(text)))
+    end = draw(st.integers(start, min(len(text), start + 40)))
+    piece = draw(
+        st.one_of(
+            st.text(max_size=20),
+            st.sampled_from(["", "nan", "1e999", "-", "[[", "}}", '"', "9" * 500, "null", "\n"]),
+            st.integers(0, len(text) - 10).map(lambda k: text[k : k + 10]),
+        )
+    )
+    return text[:start] + piece + text[end:]
+
+
+@hostile(400)
+@given(damaged(TOML), damaged(JSON))
+@example("\ufeff" + TOML, "\ufeff" + JSON)
+def test_fuzz_files(toml: str, json_: str) -> None:
+    for read, text in ((cp.Engine.from_toml, toml), (cp.Engine.from_json, json_)):
+        try:
+            engine = read(text)
+        except ValueError:
+            continue
+        assert_sound(engine)
+        assert read(engine.to_toml() if read == cp.Engine.from_toml else engine.to_json()) == engine
+
+
+@pytest.mark.skipif(SECONDS == 0, reason="CRANKPIN_FUZZ_SECONDS is not set")
+def test_fuzz_for_a_while() -> None:
+    """Other calls, a seed after the other, until the time is up."""
+    end = time.monotonic() + SECONDS
+    for number in itertools.count():
+        if time.monotonic() > end:
+            return
+
+        @seed(number)
+        @settings(hostile(1000), derandomize=False)
+        @given(calls(TARGETS))
+        def more(call: Call) -> None:
+            if time.monotonic() < end:
+                check(call)
+
+        more()
