@@ -442,19 +442,23 @@ def test_examples_of_help_run(
 # --- as a program -------------------------------------------------------------------------------
 
 
+# Python holds back what it prints, unless told otherwise as in many a container.
+BUFFERED = {"PYTHONUNBUFFERED": ""}
+
+
 def program(*argv: str, **environment: str) -> subprocess.Popen[bytes]:
     return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-m", "crankpin", *argv],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        env=os.environ | environment,
+        env=os.environ | BUFFERED | environment,
     )
 
 
 def test_runs_as_a_module(capsys: CAPTURE, tmp_path: Path) -> None:
     file = tmp_path / "v6.png"
     argv = ["sweep", "v6-60", "--plot", str(file)]
-    with program(*argv, PYTHONUTF8="1", MPLBACKEND="tkagg") as run:  # no window is asked for
+    with program(*argv, PYTHONUTF8="1", MPLBACKEND="module://no_window") as run:
         out, err = run.communicate()
     assert (run.returncode, err) == (0, b"")
     assert out.decode().replace("\r\n", "\n") == printed(capsys, *argv)
@@ -478,15 +482,32 @@ def test_terminals_without_the_letters_are_served() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
-def test_broken_pipe_is_quiet() -> None:
-    # More than any pipe holds.
-    with program("sweep", "v6-60", "--bank-angle", "0:180:0.01", "--csv") as run:
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_broken_pipe_is_quiet(unbuffered: str) -> None:
+    argv = ["sweep", "v6-60", "--bank-angle", "0:180:0.01", "--csv"]  # more than any pipe holds
+    with program(*argv, PYTHONUNBUFFERED=unbuffered) as run:
         assert run.stdout is not None
         assert run.stderr is not None
         assert run.stdout.readline().startswith(b"bank angle")
         run.stdout.close()
         assert run.stderr.read() == b""
         assert run.wait(60) == 141
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
+def test_pipe_that_is_broken_from_the_start_is_quiet() -> None:
+    """A table so short that it is written no earlier than at the end."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    run = subprocess.run(
+        [sys.executable, "-m", "crankpin", "balance", "i4"],
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        env=os.environ | BUFFERED,
+        check=False,
+    )
+    os.close(writing)
+    assert (run.returncode, run.stderr) == (141, b"")
 
 
 @pytest.mark.parametrize("argv", ["balance i4 --plot x.png", "sweep v6-60 --plot x.png"])

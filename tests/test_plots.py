@@ -280,9 +280,13 @@ def test_sweep_says_what_firing_holds_and_keeps_its_legend_off_the_panels() -> N
     assert "top dead centres held" in figure.get_suptitle()
     rendered(figure)
     legend = figure.legends[0].get_window_extent()
+    (title,) = figure.texts
     for ax in figure.axes:
-        assert not legend.overlaps(ax.get_window_extent())
-        assert figure.bbox.y1 >= ax.get_tightbbox().y1  # type: ignore[union-attr]
+        box = ax.get_tightbbox()
+        assert box is not None
+        assert not box.overlaps(legend)
+        assert not box.overlaps(title.get_window_extent())
+    assert not legend.overlaps(title.get_window_extent())
     assert legend.x0 >= 0
     assert legend.x1 <= figure.bbox.x1
 
@@ -401,15 +405,15 @@ def test_one_point_is_marked() -> None:
 
 
 def test_a_sweep_figure_is_shown_once_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The inline backend shows open figures when a cell ends; a closed one is shown as a value."""
+    """As a cell's value; what pyplot's inline backend finds open it would show again."""
     figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot()
-    with pytest.raises(NotImplementedError):  # not inline: IPython goes on to show the value
+    with pytest.raises(NotImplementedError):  # by which IPython goes on to show a picture
         figure._ipython_display_()  # type: ignore[attr-defined]
+    assert len(plt.get_fignums()) == 1  # windows stay open
     monkeypatch.setattr(mpl, "get_backend", lambda: "module://matplotlib_inline.backend_inline")
-    figure._ipython_display_()  # type: ignore[attr-defined]
-    plt.close(figure)
     with pytest.raises(NotImplementedError):
         figure._ipython_display_()  # type: ignore[attr-defined]
+    assert plt.get_fignums() == []
 
 
 def test_figures_pickle() -> None:

@@ -13,7 +13,6 @@ from pathlib import Path
 import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
-
 from rederivation import (
     crossplane,
     ebook,

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from typing import Literal
 
+import crankpin as cp
 import numpy as np
 import pytest
-
-import crankpin as cp
 from rederivation import crossplane, ebook
 
 RPM = 3000.0
@@ -120,16 +119,12 @@ def test_odd_bank_right_needs_other_pins_and_its_couple_turns_backward() -> None
 
 def test_pins_of_the_ebook_leave_a_second_order_couple() -> None:
     """Pins at 0, 90, 180, 270: the same forces, but 2 sqrt 2 at order 1 and a couple at order 2."""
-    v8 = cp.Engine.vee(
-        CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 180, 270], spacing=SPACING
-    )
+    v8 = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 180, 270], spacing=SPACING)
     b = v8.balance(RPM, (1, 2))
     assert not b.force.any()
     (a2,) = cp.slider_crank_harmonics(CYLINDER.rod_ratio, 2)
     expected = [[8**0.5] * 2, [0.0, 8**0.5 * a2]]
-    np.testing.assert_allclose(
-        b.moment_peak_xy / (ONE * SPACING), expected, rtol=0, atol=ROUNDING
-    )
+    np.testing.assert_allclose(b.moment_peak_xy / (ONE * SPACING), expected, rtol=0, atol=ROUNDING)
     layout = ebook.V_ENGINES["v8_cross_plane"]
     sums = np.abs([ebook.phasor_moment_sum_2d(layout, n) for n in (1, 2)])[:, ::-1]
     np.testing.assert_allclose(np.array(expected) / [[1.0], [a2]], sums, rtol=0, atol=ROUNDING)

@@ -1,10 +1,10 @@
 """Does the library give the e-book's tables, and what do its wrong rows have instead?
 
-The books turn rotating and rod masses into forces along the bore: nine kilograms act at first order
-and seven above it. Given as a spectrum (kg m, at a crank radius of one metre) any layout of theirs
-gives their figures. Their phases enter as exp(+j n phi), the engine turns clockwise in their picture
-with x to the right and y up; ours turns counter-clockwise, so that phasors are conjugate and
-sizes equal. What they call "pitch" is the size of our yaw, and the reverse.
+The books turn rotating and rod masses into forces along the bore: nine kilograms act at first
+order and seven above it. Given as a spectrum (kg m, at a crank radius of one metre) any layout of
+theirs gives their figures. Their phases enter as exp(+j n phi), the engine turns clockwise in their
+picture with x to the right and y up; ours turns counter-clockwise, so that phasors are conjugate
+and sizes equal. What they call "pitch" is the size of our yaw, and the reverse.
 """
 
 from __future__ import annotations
@@ -13,11 +13,10 @@ import csv
 from fractions import Fraction
 from pathlib import Path
 
+import crankpin as cp
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-
-import crankpin as cp
 from rederivation import ebook
 
 Array = NDArray[np.float64]
@@ -47,7 +46,9 @@ def half_digit(decimals: int) -> float:
     return 0.5000005 * 10.0**-decimals
 
 
-def engine(layout: ebook.Layout, *, rotating_mass: float = 0.0, mirrored: bool = False) -> cp.Engine:
+def engine(
+    layout: ebook.Layout, *, rotating_mass: float = 0.0, mirrored: bool = False
+) -> cp.Engine:
     """The engine of three lists; mirrored, phases are leads."""
     sign = -1.0 if mirrored else 1.0
     return cp.Engine.from_lists(
@@ -317,7 +318,9 @@ def test_turning_masses_change_no_order_but_the_first(name: str) -> None:
     )
 
 
-@pytest.mark.parametrize("layout", [ebook.V_ENGINES["v8_cross_plane"], BUILT], ids=["book", "built"])
+@pytest.mark.parametrize(
+    "layout", [ebook.V_ENGINES["v8_cross_plane"], BUILT], ids=["book", "built"]
+)
 def test_a_90_degree_v_has_eleven_kilograms_a_pin_where_the_book_has_nine(
     layout: ebook.Layout,
 ) -> None:

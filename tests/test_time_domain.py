@@ -11,17 +11,18 @@ the square root loses digits).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+import crankpin as cp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-
-import crankpin as cp
 from rederivation import kinematics, time_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 Array = NDArray[np.float64]
 
@@ -305,7 +306,7 @@ def test_orders_left_out_stay_within_their_bound(case: Case, rtol: float) -> Non
 LOOP = 1e-13
 
 
-def assert_alike(found: Array, expected: Array, scale: float) -> None:
+def assert_alike(found: NDArray[Any], expected: NDArray[Any] | float, scale: float) -> None:
     np.testing.assert_allclose(found, expected, rtol=0, atol=LOOP * scale + 1e-300)
 
 
@@ -351,8 +352,9 @@ def test_sweep_over_proportions_is_a_loop_of_balances(
     offset_too = changed.replace(
         cylinder=[part.replace(pin_offset=pin_offset) for part in changed.cylinders]
     )
+    offsets = [0.0, pin_offset]
     s = cp.sweep(
-        changed, rpm=case.rpm, rod_ratio=[rod_ratio], pin_offset=[0.0, pin_offset], orders=ORDERS[:4]
+        changed, rpm=case.rpm, rod_ratio=[rod_ratio], pin_offset=offsets, orders=ORDERS[:4]
     )
     for k, expected in enumerate((changed, offset_too)):
         b = expected.balance(case.rpm, ORDERS[:4])

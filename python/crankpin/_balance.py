@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin import _core, _tables
+from crankpin import _core, _inputs, _tables
 from crankpin._frozen import Frozen
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._engine import Engine
-    from crankpin._inputs import Spectrum
+    from crankpin._inputs import Orders, Spectrum
 
 
 class Ellipse(NamedTuple):
@@ -39,9 +42,11 @@ class ErrorBound(NamedTuple):
     """N."""
     moment: float
     """N·m."""
+    torque: float | None
+    """N·m; None where a spectrum of forces was given, which tells nothing of it."""
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class OrderBalance:
     """One order of a :class:`Balance`; complex peak phasors."""
 
@@ -56,6 +61,26 @@ class OrderBalance:
     backward_moment: complex
     force_ellipse: Ellipse
     moment_ellipse: Ellipse
+
+    def __post_init__(self) -> None:
+        for array in (self.force, self.moment):
+            array.setflags(write=False)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        values = (getattr(self, field.name) for field in dataclasses.fields(self))
+        return (OrderBalance, tuple(values))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, OrderBalance):
+            return NotImplemented
+        pairs = (
+            (getattr(self, field.name), getattr(other, field.name))
+            for field in dataclasses.fields(self)
+        )
+        return all(np.array_equal(mine, theirs) for mine, theirs in pairs)
+
+    def __hash__(self) -> int:
+        return hash((self.order, self.forward_force, self.forward_moment))
 
 
 class Balance(Frozen):
@@ -97,12 +122,19 @@ class Balance(Frozen):
         rpm: float,
         reference_z: float | None,
         spectrum: Spectrum | None,
+        how: Mapping[str, float],
     ) -> None:
-        plane = engine.reference_z if reference_z is None else float(reference_z)
-        frozen = None if spectrum is None else dict(spectrum)
-        self._set(_core=core, engine=engine, rpm=rpm, reference_z=plane, spectrum=frozen)
+        if not isinstance(core, _core.Balance):
+            raise _core.InputError(f"Balance({_inputs.shorten(core)}): use Engine.balance")
+        plane = engine.reference_z if reference_z is None else reference_z
+        frozen = None if spectrum is None else MappingProxyType(dict(spectrum))
+        self._set(
+            _core=core, engine=engine, rpm=rpm, reference_z=plane, spectrum=frozen, _how=dict(how)
+        )
 
     _core: _core.Balance
+    _how: dict[str, float]
+    """The tolerance by which orders were chosen, if they were."""
 
     # --- phasors --------------------------------------------------------------------------------
 
@@ -119,7 +151,7 @@ class Balance(Frozen):
     @property
     def error_bound(self) -> ErrorBound:
         """With ``orders="auto"``: what all orders left out can add at any crank angle."""
-        return ErrorBound(self._core.error_bound("force"), self._core.error_bound("moment"))
+        return error_bound(self._core, torque_known=self.spectrum is None)
 
     @cached_property
     def force(self) -> NDArray[np.complex128]:
@@ -181,20 +213,20 @@ class Balance(Frozen):
 
     # --- peaks ----------------------------------------------------------------------------------
 
-    @property
+    @cached_property
     def force_peak_xy(self) -> NDArray[np.float64]:
         """Largest force of each order along x and along y, N: (n_orders, 2)."""
-        return np.abs(self.force)
+        return _read_only(np.abs(self.force))
 
-    @property
+    @cached_property
     def moment_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment of each order about x and about y, N·m: (n_orders, 2)."""
-        return np.abs(self.moment)
+        return _read_only(np.abs(self.moment))
 
-    @property
+    @cached_property
     def torque_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of each order, N·m: (n_orders,)."""
-        return np.abs(self.torque)
+        return _read_only(np.abs(self.torque))
 
     @cached_property
     def force_ellipse(self) -> Ellipse:
@@ -249,14 +281,16 @@ class Balance(Frozen):
         InputError
             If the order was not asked for.
         """
-        if order not in self.orders:
+        if not isinstance(order, (int, np.integer)) or order not in self.orders:
             listed = ", ".join(map(str, self.orders))
-            raise _core.InputError(f"order = {order}: this balance has orders {listed}")
+            raise _core.InputError(
+                f"order = {_inputs.shorten(order)}: this balance has orders {listed}"
+            )
         k = self.orders.index(order)
         return OrderBalance(
-            order=order,
-            force=self.force[k],
-            moment=self.moment[k],
+            order=int(order),
+            force=self.force[k].copy(),
+            moment=self.moment[k].copy(),
             forward_force=complex(self.forward_force[k]),
             backward_force=complex(self.backward_force[k]),
             forward_moment=complex(self.forward_moment[k]),
@@ -278,11 +312,14 @@ class Balance(Frozen):
         }
         if self.spectrum is None:
             columns["torque"] = self.torque
-        return pandas.DataFrame(columns, index=pandas.Index(self.orders, name="order"))
+        table: pd.DataFrame = pandas.DataFrame(
+            columns, index=pandas.Index(self.orders, name="order")
+        )
+        return table
 
     def to_xarray(self) -> xr.Dataset:
         """Return the complex peak phasors with named dimensions and units (needs xarray)."""
-        variables = {
+        variables: dict[str, Any] = {
             "force": (("order", "axis"), self.force, {"units": "N"}),
             "moment": (("order", "axis"), self.moment, {"units": "N m"}),
         }
@@ -293,7 +330,8 @@ class Balance(Frozen):
             "axis": ("axis", ["x", "y"]),
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
-        return _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        return dataset
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
         """Draw the peaks of each order along (about) x and y as bars; return the axes.
@@ -303,7 +341,7 @@ class Balance(Frozen):
         ax
             Axes to draw on; by default new ones.
         quantity
-            ``"force"`` or ``"moment"``.
+            ``"force"``, ``"moment"`` or ``"torque"``.
         """
         from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
 
@@ -330,33 +368,39 @@ class Balance(Frozen):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Balance):
             return NotImplemented
-        return self._inputs() == other._inputs()
+        return self._key() == other._key()
 
     def __hash__(self) -> int:
-        return hash((self.engine, self.rpm, self.orders, self.reference_z))
+        return hash(self._key()[:4])
 
-    def _inputs(self) -> tuple[Any, ...]:
-        return (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum, self.omitted)
+    def _key(self) -> tuple[Any, ...]:
+        return (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum, self._how)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        state = {"omitted": self.omitted}
-        return (_again, (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum), state)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self._set(**state)
+        orders = "auto" if self._how else self.orders
+        spectrum = None if self.spectrum is None else dict(self.spectrum)
+        how = self._how | {"reference_z": self.reference_z}
+        return (_again, (self.engine, self.rpm, orders, spectrum, how))
 
 
 def _again(
-    engine: Engine,
-    rpm: float,
-    orders: tuple[int, ...],
-    reference_z: float,
-    spectrum: Spectrum | None,
+    engine: Engine, rpm: float, orders: Orders, spectrum: Spectrum | None, how: dict[str, Any]
 ) -> Balance:
-    return engine.balance(rpm, orders, reference_z=reference_z, spectrum=spectrum)
+    return engine.balance(rpm, orders, spectrum=spectrum, **how)
+
+
+def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
+    """Return what the orders left out can add."""
+    force, moment = core.error_bound("force"), core.error_bound("moment")
+    return ErrorBound(force, moment, core.error_bound("torque") if torque_known else None)
 
 
 def _ellipse(forward: NDArray[np.complex128], backward: NDArray[np.complex128]) -> Ellipse:
     axes = np.array(_core.ellipse(list(zip(forward.tolist(), backward.tolist(), strict=True))))
-    major, minor, tilt = axes.reshape(-1, 3).T
-    return Ellipse(major, minor, np.degrees(tilt))
+    major, minor, tilt = axes.reshape(-1, 3).T.copy()
+    return Ellipse(_read_only(major), _read_only(minor), _read_only(np.degrees(tilt)))
+
+
+def _read_only(values: NDArray[Any]) -> NDArray[Any]:
+    values.setflags(write=False)
+    return values

@@ -55,7 +55,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             warnings.showwarning = _warn
             arguments = _parser().parse_args(argv)
             text = arguments.run(arguments)
-        sys.stdout.write(text)
+        # Line by line: a pipe that breaks within a single long write can go unnoticed.
+        sys.stdout.writelines(text.splitlines(keepends=True))
         sys.stdout.flush()
     except BrokenPipeError:
         # Who read us has read enough. Python would complain once more while it closes stdout.
@@ -224,12 +225,13 @@ def _balance(arguments: argparse.Namespace) -> str:
 
 
 def _left_out(balance: Balance) -> str:
-    force, moment = balance.error_bound
+    force, moment, torque = balance.error_bound
     listed = ", ".join(map(str, balance.omitted))
     seen = f"; looked at and left out: {listed}" if listed else ""
+    roll = "" if torque is None else f" and {torque:.2g} N·m to the roll torque"
     return (
-        f"All other orders add at most {force:.2g} N to the force and {moment:.2g} N·m to the "
-        f"rocking moment{seen}.\n"
+        f"All other orders add at most {force:.2g} N to the force, {moment:.2g} N·m to the "
+        f"rocking moment{roll}{seen}.\n"
     )
 
 

@@ -116,10 +116,10 @@ class Cylinder:
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Cylinder(0.05, 0.15, 0.5).velocity(90, rpm=6000).round(3)
-        array(-31.416)
+        >>> float(cp.Cylinder(0.05, 0.15, 0.5).velocity(90, rpm=6000).round(3))
+        -31.416
         """
-        return self._motion(theta_deg, 1) * angular_speed(rpm)
+        return self._motion(theta_deg, 1) * _inputs.angular_speed(rpm)
 
     def acceleration(self, theta_deg: ArrayLike, rpm: float) -> NDArray[np.float64]:
         """Return the piston's acceleration along the bore, away from the crank, m/s².
@@ -136,10 +136,10 @@ class Cylinder:
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Cylinder(0.05, 0.15, 0.5).acceleration(0, rpm=6000).round(1)
-        array(-26318.9)
+        >>> float(cp.Cylinder(0.05, 0.15, 0.5).acceleration(0, rpm=6000).round(1))
+        -26318.9
         """
-        return self._motion(theta_deg, 2) * angular_speed(rpm) ** 2
+        return self._motion(theta_deg, 2) * _inputs.angular_speed(rpm) ** 2
 
     def harmonics(self, orders: Orders) -> NDArray[np.complex128]:
         """Return the harmonics aₙ of the inertia force, exact, complex, (n_orders,).
@@ -150,9 +150,9 @@ class Cylinder:
         --------
         >>> import crankpin as cp
         >>> cp.Cylinder(1, 2, 7).harmonics([1, 2, 4]).real.round(9)
-        array([ 1.        ,  0.535552857, -0.038426149])
+        array([ 1.        ,  0.53555286, -0.03842615])
         """
-        return _core.cylinder_harmonics(self._parts, explicit(orders))
+        return _core.cylinder_harmonics(self._parts, _inputs.explicit_orders(orders))
 
     def torque_harmonics(self, orders: Orders) -> tuple[NDArray[np.complex128], ...]:
         """Return the harmonics of roll torque and crank torque over m·r²·ω², each (n_orders,).
@@ -165,28 +165,14 @@ class Cylinder:
         --------
         >>> import crankpin as cp
         >>> roll, crank = cp.Cylinder(0.05, 0.15, 0.5).torque_harmonics([1, 2])
-        >>> abs(roll + crank).max()
+        >>> float(abs(roll + crank).max())
         0.0
         """
-        return _core.cylinder_torque_harmonics(self._parts, explicit(orders))
+        return _core.cylinder_torque_harmonics(self._parts, _inputs.explicit_orders(orders))
 
     def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
-        shape = np.shape(theta_deg)
-        flat = _inputs.vector("theta_deg", np.ravel(theta_deg))
-        return _core.motion(self._parts, flat)[:, column].reshape(shape)
-
-
-def angular_speed(rpm: float) -> float:
-    """Return ω in rad/s."""
-    return 2.0 * np.pi * _inputs.number("rpm", rpm) / 60.0
-
-
-def explicit(orders: Orders) -> list[int]:
-    """Return a list of orders; here none can be chosen."""
-    listed = _inputs.orders(orders)
-    if listed is None:
-        raise _core.InputError('orders = "auto": give whole numbers here, such as [1, 2]')
-    return listed
+        theta = _inputs.array("theta_deg", theta_deg)
+        return _core.motion(self._parts, theta.ravel())[:, column].reshape(theta.shape)
 
 
 @overload
@@ -200,7 +186,7 @@ def slider_crank_harmonics(
 def slider_crank_harmonics(
     rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike | None = None
 ) -> NDArray[Any]:
-    """Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
+    r"""Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
 
     The force along the bore is ``m r ω² Re Σ aₙ exp(in(θ − tdc))``; a₁ = 1 and a₂ ≈ λ. Every order
     has full relative accuracy: the coefficients come from the factors of
@@ -218,7 +204,7 @@ def slider_crank_harmonics(
 
     Returns
     -------
-    array of shape (\\*broadcast shape, n_orders)
+    array of shape (\*broadcast shape, n_orders)
         float64 without ``pin_offset_ratio``, complex128 with it.
 
     Raises
@@ -230,22 +216,20 @@ def slider_crank_harmonics(
     --------
     >>> import crankpin as cp
     >>> cp.slider_crank_harmonics(0.5, [1, 2, 3, 4]).round(9)
-    array([ 1.        ,  0.535552857,  0.        , -0.038426149])
+    array([ 1.        ,  0.53555286,  0.        , -0.03842615])
     >>> cp.slider_crank_harmonics([0.25, 0.3], orders=2).shape
     (2, 1)
     """
-    listed = explicit(orders)
+    listed = _inputs.explicit_orders(orders)
+    ratios = _inputs.array("rod_ratio", rod_ratio)
     if pin_offset_ratio is None:
-        shape = np.shape(rod_ratio)
-        flat = _inputs.vector("rod_ratio", rod_ratio if len(shape) < 2 else np.ravel(rod_ratio))
-        return _core.centred_table(flat, listed).reshape(*shape, len(listed))
+        return _core.centred_table(ratios.ravel(), listed).reshape(*ratios.shape, len(listed))
+    offsets = _inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
-        ratios, offsets = np.broadcast_arrays(rod_ratio, pin_offset_ratio)
-    except ValueError as error:
+        shape = np.broadcast_shapes(ratios.shape, offsets.shape)
+    except (ValueError, RuntimeError) as error:
         raise _core.InputError(f"rod_ratio and pin_offset_ratio: {error}") from None
-    table = _core.offset_table(
-        _inputs.vector("rod_ratio", np.ravel(ratios)),
-        _inputs.vector("pin_offset_ratio", np.ravel(offsets)),
-        listed,
-    )
-    return table.reshape(*ratios.shape, len(listed))
+    # Nothing is copied until its size is known to be small enough.
+    ratios = _inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
+    offsets = _inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
+    return _core.offset_table(ratios.ravel(), offsets.ravel(), listed).reshape(*shape, len(listed))

@@ -26,6 +26,9 @@ Side: TypeAlias = Literal["right", "left"]
 FiringRule: TypeAlias = Literal["even", "ijesc"]
 
 
+_CoreEngine: TypeAlias = _core.Engine
+
+
 class Engine(Frozen):
     """Cylinders at their places on one crankshaft: three lists.
 
@@ -46,14 +49,16 @@ class Engine(Frozen):
     array([  0.,  60., 240., 300., 120., 180.])
     """
 
-    _core: _core.Engine
+    _core: _CoreEngine
 
-    def __init__(self, core: _core.Engine) -> None:
+    def __init__(self, core: _CoreEngine, name: str = "", source: str = "") -> None:
         if not isinstance(core, _core.Engine):
             raise InputError(
                 f"Engine({_inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
                 ".boxer, .from_firing_order, .preset or .load"
             )
+        if name != "" or source != "":
+            core = core.named(_inputs.text("name", name), _inputs.text("source", source))
         self._set(_core=core)
 
     # --- builders -------------------------------------------------------------------------------
@@ -117,10 +122,10 @@ class Engine(Frozen):
             banks,
             _inputs.vector("z", z).tolist(),
             _inputs.per_item("rotating_mass", rotating_mass, len(banks)),
-            str(name),
-            str(source),
+            "",
+            "",
         )
-        return cls(core)
+        return cls(core, name, source)
 
     @classmethod
     def inline(
@@ -159,10 +164,10 @@ class Engine(Frozen):
         >>> i4 = cp.Engine.inline(cylinder, throws_deg=[0, 180, 180, 0], spacing=0.09)
         >>> abs(i4.balance(rpm=6000, orders=[1, 2]).force).round(0)
         array([[    0.,     0.],
-               [    0., 12353.]])
+               [    0., 12359.]])
         """
         layout = _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg)
-        return cls(_core.Engine.inline(_parts(cylinder), layout).named(str(name), str(source)))
+        return cls(_core.Engine.inline(_parts(cylinder), layout), name, source)
 
     @classmethod
     def vee(
@@ -196,7 +201,7 @@ class Engine(Frozen):
             Distance between neighbouring throws, m.
         pin_split_deg
             Left pin minus right pin, in the direction of rotation; 0 for shared pins. Even firing
-            needs bank angle − firing interval with its sign turned: −60 for a 60° V6, −30 for a 90° V6.
+            needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
         bank_stagger
             How far the left bank stands behind the right, towards the flywheel, m.
         numbering
@@ -232,11 +237,16 @@ class Engine(Frozen):
             rotating_mass=rotating_mass,
             first_tdc_deg=first_tdc_deg,
         )
-        return cls(_core.Engine.vee(_parts(cylinder), layout).named(str(name), str(source)))
+        return cls(_core.Engine.vee(_parts(cylinder), layout), name, source)
 
     @classmethod
     def flat(
-        cls, cylinder: Cylinder, *, throws_deg: Angles, spacing: float, **options: Any  # noqa: ANN401
+        cls,
+        cylinder: Cylinder,
+        *,
+        throws_deg: Angles,
+        spacing: float,
+        **options: Any,  # noqa: ANN401
     ) -> Engine:
         """Return a flat engine whose opposed cylinders share a crankpin: a 180° vee.
 
@@ -255,7 +265,12 @@ class Engine(Frozen):
 
     @classmethod
     def boxer(
-        cls, cylinder: Cylinder, *, throws_deg: Angles, spacing: float, **options: Any  # noqa: ANN401
+        cls,
+        cylinder: Cylinder,
+        *,
+        throws_deg: Angles,
+        spacing: float,
+        **options: Any,  # noqa: ANN401
     ) -> Engine:
         """Return a boxer: opposed pistons move in mirror image, on pins half a turn apart.
 
@@ -332,16 +347,15 @@ class Engine(Frozen):
         >>> (v8.pin_deg - v8.pin_deg[0])[::2] % 360
         array([  0.,  90., 270., 180.])
         """
-        if isinstance(firing_order, str):
-            text = firing_order
-        elif isinstance(firing_order, Iterable):
-            text = "-".join(str(number) for number in firing_order)
-        else:
+        text = firing_order
+        if not isinstance(text, str):
             cure = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
-            raise InputError(f"firing_order = {_inputs.shorten(firing_order)}: {cure}")
+            numbers = _inputs.items("firing_order", firing_order, cure)
+            text = "-".join(_inputs.shorten(number) for number in numbers)
+        rule_text = _inputs.text("rule", rule, 'give "even" or "ijesc"')
         if bank_angle_deg is None:
             inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)
-            core = _core.Engine.inline_from_firing_order(_parts(cylinder), text, inline)
+            core = _core.Engine.inline_from_firing_order(_parts(cylinder), text, rule_text, inline)
         else:
             vee = _vee_layout(
                 bank_angle_deg=bank_angle_deg,
@@ -354,8 +368,8 @@ class Engine(Frozen):
                 rotating_mass=rotating_mass,
                 first_tdc_deg=first_tdc_deg,
             )
-            core = _core.Engine.vee_from_firing_order(_parts(cylinder), text, rule, vee)
-        return cls(core.named(str(name), str(source)))
+            core = _core.Engine.vee_from_firing_order(_parts(cylinder), text, rule_text, vee)
+        return cls(core, name, source)
 
     @classmethod
     def preset(
@@ -476,7 +490,7 @@ class Engine(Frozen):
 
     @property
     def tdc_deg(self) -> NDArray[np.float64]:
-        """Crank angles at which each crankpin points along its bore, in [0, 360): (n_cylinders,)."""
+        """Crank angles at which crankpins point along their bores, in [0, 360): (n_cylinders,)."""
         return self._core.tdc_deg
 
     @property
@@ -581,11 +595,14 @@ class Engine(Frozen):
         >>> v6.bank_angle_deg
         90.0
         """
-        return Engine(self._core.with_bank_angle(bank_angle_deg, hold))
+        held = _inputs.text("hold", hold, 'give "pins" or "firing"')
+        return Engine(
+            self._core.with_bank_angle(_inputs.angle("bank_angle_deg", bank_angle_deg), held)
+        )
 
     def with_first_tdc(self, tdc_deg: Angle) -> Engine:
         """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle."""
-        return Engine(self._core.with_first_tdc(tdc_deg))
+        return Engine(self._core.with_first_tdc(_inputs.angle("tdc_deg", tdc_deg)))
 
     # --- how it shakes --------------------------------------------------------------------------
 
@@ -608,7 +625,8 @@ class Engine(Frozen):
             Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol``.
         rtol
             For ``"auto"``: what may be left out, relative to the largest m·r·ω² of any cylinder
-            (times the longest lever, for moments).
+            (its reciprocating or its rotating mass), times the longest lever for moments and the
+            crank radius for torque.
         reference_z
             Plane about which moments are taken, m; by default midway between the first and the last
             cylinder. It matters where a force is left.
@@ -636,16 +654,14 @@ class Engine(Frozen):
         array([0.+0.j, 0.+0.j])
         """
         rpm = _inputs.number("rpm", rpm)
-        core = _core.balance(
-            self._core,
-            rpm,
-            _inputs.orders(orders),
-            _inputs.number("rtol", rtol),
-            reference_z,
-            _inputs.spectrum(spectrum),
-        )
-        self._warn_of_units(rpm)
-        return Balance(core, self, rpm, reference_z, spectrum)
+        wanted = _inputs.orders(orders)
+        rtol = _inputs.number("rtol", rtol)
+        plane = _inputs.optional_number("reference_z", reference_z)
+        pairs = _inputs.spectrum(spectrum)
+        core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs)
+        _inputs.warn_of_units(self._mean_piston_speed(rpm))
+        how = {"rtol": rtol} if wanted is None else {}
+        return Balance(core, self, rpm, plane, None if pairs is None else dict(pairs), how)
 
     def waveform(
         self,
@@ -699,28 +715,31 @@ class Engine(Frozen):
             orders is not None,
             None if orders is None else _inputs.orders(orders),
             _inputs.number("rtol", rtol),
-            reference_z,
+            _inputs.optional_number("reference_z", reference_z),
             _inputs.spectrum(spectrum),
         )
-        self._warn_of_units(rpm)
+        _inputs.warn_of_units(self._mean_piston_speed(rpm))
         return Waveform(self, rpm, theta, waveform)
 
-    def _warn_of_units(self, rpm: float) -> None:
-        _inputs.warn_of_units(self._core.largest_crank_radius, rpm)
+    def _mean_piston_speed(self, rpm: float) -> float:
+        return 4.0 * self._core.largest_crank_radius * rpm / 60.0
 
 
 def _parts(cylinder: Cylinder) -> tuple[float, float, float, float]:
     if not isinstance(cylinder, Cylinder):
         raise InputError(f"cylinder = {_inputs.shorten(cylinder)}: give a crankpin.Cylinder")
-    return cylinder._parts  # noqa: SLF001 - the two are one package
+    return cylinder._parts
 
 
 def _each(
     cylinder: Cylinder | Sequence[Cylinder], count: int
 ) -> list[tuple[float, float, float, float]]:
-    if isinstance(cylinder, Sequence):
-        return [_parts(each) for each in cylinder]
-    return [_parts(cylinder)] * count
+    if isinstance(cylinder, Cylinder):
+        return [_parts(cylinder)] * count
+    listed = _inputs.items(
+        "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
+    )
+    return [_parts(each) for each in listed]
 
 
 def _inline_layout(
@@ -730,7 +749,7 @@ def _inline_layout(
         "throws": _inputs.angles("throws_deg", throws_deg),
         "spacing": _inputs.number("spacing", spacing),
         "rotating_mass": _inputs.vector("rotating_mass", rotating_mass).tolist(),
-        "first_tdc": first_tdc_deg,
+        "first_tdc": _inputs.angle("first_tdc_deg", first_tdc_deg),
     }
 
 
@@ -747,9 +766,9 @@ def _vee_layout(
     first_tdc_deg: Angle,
 ) -> dict[str, Any]:
     return _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg) | {
-        "bank_angle": bank_angle_deg,
-        "pin_split": pin_split_deg,
+        "bank_angle": _inputs.angle("bank_angle_deg", bank_angle_deg),
+        "pin_split": _inputs.angle("pin_split_deg", pin_split_deg),
         "bank_stagger": _inputs.number("bank_stagger", bank_stagger),
-        "numbering": str(numbering),
-        "odd_bank": str(odd_bank),
+        "numbering": _inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
+        "odd_bank": _inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
     }

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import operator
+import reprlib
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
@@ -10,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 
 if TYPE_CHECKING:
@@ -26,25 +30,56 @@ Spectrum: TypeAlias = Mapping[int, complex]
 FASTEST_PISTON = 60.0
 """Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
 
+MOST_NUMBERS = 2**27
+"""Numbers in an array that is taken: a gibibyte."""
+
+MOST_ITEMS = 10_000
+"""Items in a list that is taken one by one, such as orders; an endless one is refused."""
+
+
+# --- numbers ------------------------------------------------------------------------------------
+
+
+def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return an array of floats of any shape; without a copy where it is one already."""
+    try:
+        if isinstance(values, np.ma.MaskedArray):
+            raise TypeError("masked values are no numbers: fill them first")
+        found = np.asarray(values)
+        if found.dtype.kind not in "fiub":
+            if found.dtype.kind != "O":
+                raise TypeError(f"{found.dtype} is no real number")
+            # Fractions and the like, each by its own conversion.
+            found = np.array([float(value) for value in found.ravel()]).reshape(found.shape)
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
+        raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
+    if found.size > MOST_NUMBERS:
+        limit = f"more than the limit of {MOST_NUMBERS}; split it into parts"
+        raise InputError(f"{name} has {found.size} numbers, {limit}")
+    return np.asarray(found, dtype=np.float64)
+
 
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a contiguous one-dimensional array of floats; a scalar becomes a single value."""
-    try:
-        # At least one dimension: a scalar becomes a single value.
-        array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
-    if array.ndim > 1:
-        raise InputError(f"{name} has shape {array.shape}: give one dimension")
-    return array
+    found = array(name, values)
+    if found.ndim > 1:
+        raise InputError(f"{name} has shape {found.shape}: give one dimension")
+    return np.ascontiguousarray(found)
 
 
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return a float."""
     try:
+        if np.iscomplexobj(value) or value is np.ma.masked:
+            raise TypeError("it is complex or masked")
         return float(value)
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InputError(f"{name} = {shorten(value)}: give a number ({error})") from None
+
+
+def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as above
+    """Return a float, or None for None."""
+    return None if value is None else number(name, value)
 
 
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
@@ -53,56 +88,121 @@ def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     return listed if np.ndim(values) else listed * count
 
 
-def angles(name: str, values: Angles) -> list[Any]:
+def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() takes
+    """Return ω in rad/s."""
+    return _core.angular_speed(number("rpm", rpm))
+
+
+# --- words --------------------------------------------------------------------------------------
+
+
+def text(name: str, value: object, cure: str = "give text") -> str:
+    """Return a string."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} = {shorten(value)}: {cure}")
+    return value
+
+
+def one_of(name: str, value: object, choices: Iterable[str]) -> str:
+    """Return one of a few words."""
+    listed = list(choices)
+    if not isinstance(value, str) or value not in listed:
+        cure = " or ".join(f'"{choice}"' for choice in listed)
+        raise InputError(f"{name} = {shorten(value)}: give {cure}")
+    return value
+
+
+# --- lists --------------------------------------------------------------------------------------
+
+
+def items(name: str, values: object, cure: str) -> list[Any]:
+    """Return a list of what an iterable gives, unless it gives too much."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise InputError(f"{name} = {shorten(values)}: {cure}")
+    try:
+        listed = list(itertools.islice(values, MOST_ITEMS + 1))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} = {shorten(values)}: {cure} ({error})") from None
+    if len(listed) > MOST_ITEMS:
+        raise InputError(f"{name} has more than {MOST_ITEMS} entries: {cure}")
+    return listed
+
+
+def angle(name: str, value: object) -> str:
+    """Return text that reads back as exactly this angle."""
+    if isinstance(value, Fraction):
+        value = f"{value.numerator}/{value.denominator}"
+    return _core.exact_angle(name, value if isinstance(value, str) else number(name, value))
+
+
+def angles(name: str, values: object) -> list[str]:
     """Return a list of angles."""
-    if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{name} = {shorten(values)}: give a list of degrees")
-    return list(values)
+    listed = items(name, values, "give a list of degrees")
+    return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
 
 
-def orders(values: Orders) -> list[int] | None:
+def orders(values: object, name: str = "orders") -> list[int] | None:
     """Return a list of orders, or None for ``"auto"``."""
+    cure = "orders are whole multiples of crank speed, such as [1, 2]"
     if isinstance(values, str):
         if values == "auto":
             return None
-        raise InputError(f'orders = "{values}": give whole numbers, or "auto"')
-    listed = values if isinstance(values, Iterable) else [values]
+        raise InputError(f'{name} = {shorten(values)}: {cure}, or "auto"')
+    listed = items(name, values if isinstance(values, Iterable) else [values], cure)
     try:
         result = [operator.index(order) for order in listed]
     except TypeError:
-        cure = "orders are whole multiples of crank speed, such as [1, 2]"
-        raise InputError(f"orders = {shorten(values)}: {cure}") from None
+        raise InputError(f"{name} = {shorten(values)}: {cure}") from None
     for order in result:
         if not 1 <= order < 2**32:
-            raise InputError(f"orders = {order}: orders are whole multiples of crank speed, 1 or more")
+            raise InputError(f"{name} = {shorten(order)}: {cure}")
     return result
 
 
-def spectrum(values: Spectrum | None) -> list[tuple[int, complex]] | None:
+def explicit_orders(values: object, name: str = "orders") -> list[int]:
+    """Return a list of orders where none can be chosen."""
+    listed = orders(values, name)
+    if listed is None:
+        raise InputError('orders = "auto": give whole numbers here, such as [1, 2]')
+    return listed
+
+
+def spectrum(values: object) -> list[tuple[int, complex]] | None:
     """Return (order, amplitude) pairs."""
     if values is None:
         return None
+    cure = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
     if not isinstance(values, Mapping):
-        raise InputError(f"spectrum = {shorten(values)}: give a mapping, such as {{1: 9.0, 2: 3.7}}")
+        raise InputError(f"spectrum = {shorten(values)}: {cure}")
+    listed = explicit_orders(values, "spectrum")
     try:
-        listed = orders(values) or []
         return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
-    except (TypeError, ValueError) as error:
-        raise InputError(f"spectrum = {shorten(values)}: {error}") from None
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"spectrum = {shorten(values)}: {cure} ({error})") from None
 
 
-def warn_of_units(crank_radius: float, rpm: float) -> None:
-    """Warn where a piston would be faster than in any engine."""
-    mean_speed = 4.0 * crank_radius * rpm / 60.0
-    if mean_speed > FASTEST_PISTON:
+# --- messages -----------------------------------------------------------------------------------
+
+
+def warn_of_units(mean_piston_speed: float) -> None:
+    """Warn the caller's caller where a piston would be faster, in m/s, than in any engine."""
+    if mean_piston_speed > FASTEST_PISTON and math.isfinite(mean_piston_speed):
         warnings.warn(
-            f"mean piston speed is {mean_speed:.0f} m/s, more than any engine's ({FASTEST_PISTON:.0f}): "
-            "were lengths given in millimetres? They are metres here, and masses kilograms.",
+            f"mean piston speed is {mean_piston_speed:.0f} m/s, more than any engine's "
+            f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
+            "masses kilograms.",
             stacklevel=3,
         )
 
 
+_SHORT = reprlib.Repr()
+_SHORT.maxother = _SHORT.maxstring = 60
+
+
 def shorten(value: object) -> str:
-    """Return a value as text of readable length."""
-    text = repr(value)
-    return text if len(text) <= 80 else text[:79] + "…"
+    """Return a value as text of readable length, whatever its own repr does."""
+    try:
+        short = _SHORT.repr(value)
+    except Exception:
+        short = f"<{type(value).__name__}>"
+    return short if len(short) <= 80 else short[:79] + "…"

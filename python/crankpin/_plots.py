@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from crankpin import _tables
+from crankpin import _inputs, _tables
 from crankpin._core import InputError
 
 try:
     import matplotlib as mpl
     from matplotlib import pyplot as plt
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
     from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
@@ -26,7 +27,6 @@ except ImportError as error:
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._balance import Balance
@@ -128,14 +128,14 @@ def _summed(waveform: Waveform, kind: Quantity) -> str:
 class _Grid(Figure):
     """A figure that a notebook shows once.
 
-    pyplot's inline backend shows open figures when a cell ends, and a figure that is the cell's
-    value would be shown again.
+    pyplot's inline backend shows figures that are open when a cell ends; a figure that is the
+    cell's value has been shown by then, and is closed.
     """
 
     def _ipython_display_(self) -> None:
-        shown_anyway = "inline" in mpl.get_backend() and plt.fignum_exists(self.number)
-        if not shown_anyway:
-            raise NotImplementedError  # by which IPython goes on to its other ways of showing
+        if "inline" in mpl.get_backend():
+            plt.close(self)
+        raise NotImplementedError  # by which IPython goes on to its other ways of showing
 
 
 class _Curve(NamedTuple):
@@ -178,6 +178,7 @@ def sweep(sweep: Sweep, quantity: Quantity, x: str | None) -> Figure:
             panels[row, 0].set_ylabel(unit)
     for ax in panels[-1] if x != "engine" else []:
         _label_x(ax, x, np.asarray(sweep.coords[x]))
+    figure.align_ylabels()
     _explain(figure, panels, sweep, others, curves, words)
     return figure
 
@@ -282,6 +283,7 @@ def _lines(
 ) -> None:
     in_order = np.argsort(x, kind="stable")
     few = len(curves) <= len(COLOURS)
+    plain = not any(curve.dashed_by for curve in curves)
     near = 0.004 * float(peaks.max(initial=0.0))  # about half a line's width
     drawn: list[NDArray[np.float64]] = []
     for curve in curves:
@@ -291,8 +293,9 @@ def _lines(
             style |= {"marker": "o", "markersize": 3.2}
         if few and any(bool((abs(heights - other) <= near).all()) for other in drawn):
             # Lets the curve below be seen.
-            style |= {"linestyle": (0, (3, 3)), "marker": ""} if "linestyle" not in style else {}
-            style["linewidth"] *= 0.8
+            if plain:
+                style |= {"linestyle": (0, (3, 3)), "marker": ""}
+            style["linewidth"] *= 0.7
         drawn.append(heights)
         ax.plot(x[in_order], heights, clip_on=False, zorder=3, **style)
     _dress(ax)
@@ -325,7 +328,7 @@ def _label_x(ax: Axes, x: str, values: NDArray[np.float64]) -> None:
     else:
         ax.set_xlabel(_dimension(x, unit=True))
         ax.xaxis.set_major_locator(MaxNLocator(7, steps=STEPS))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _number(value)))
+        ax.xaxis.set_major_formatter(FuncFormatter(_plain))
         _span(ax, values)
 
 
@@ -436,6 +439,8 @@ def _name(engine: Engine) -> str:
 
 def _given_or_new(ax: Axes | None) -> Axes:
     if ax is not None:
+        if not isinstance(ax, Axes):
+            raise InputError(f"ax = {_inputs.shorten(ax)}: give matplotlib axes")
         return ax
     return plt.subplots(figsize=(7.2, 4.2), layout="constrained")[1]
 
@@ -449,7 +454,7 @@ def _dress(ax: Axes, along: Literal["x", "y"] = "y") -> None:
     ax.tick_params(color="#999999")
     axis = ax.yaxis if along == "y" else ax.xaxis
     axis.set_major_locator(MaxNLocator(5, steps=STEPS))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: _number(value)))
+    axis.set_major_formatter(FuncFormatter(_plain))
 
 
 def _from_zero(ax: Axes, largest: float, along: Literal["x", "y"] = "y") -> None:
@@ -472,7 +477,7 @@ def _degrees(ax: Axes, values: NDArray[np.float64]) -> None:
         if 3 * step <= span <= widest:
             ax.xaxis.set_major_locator(MultipleLocator(step))
             break
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{_number(value)}°"))
+    ax.xaxis.set_major_formatter(FuncFormatter(_in_degrees))
 
 
 def _span(ax: Axes, values: NDArray[np.float64]) -> float:
@@ -497,6 +502,14 @@ def _entitle(ax: Axes, title: str, subtitle: str) -> None:
                 frameon=False,
                 borderaxespad=0.1,
             )
+
+
+def _plain(value: float, _: object = None) -> str:
+    return _number(value)
+
+
+def _in_degrees(value: float, _: object = None) -> str:
+    return f"{_number(value)}°"
 
 
 def _number(value: float) -> str:

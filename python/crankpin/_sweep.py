@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core, _inputs, _tables
-from crankpin._cylinder import explicit
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
 
@@ -52,8 +51,8 @@ def sweep(
 ) -> Sweep:
     """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
 
-    No crank angle is sampled: each point is a layout sum times a harmonic. Every array argument is a
-    dimension of the result; a scalar is not. Values are worked out when they are asked for.
+    No crank angle is sampled: each point is a layout sum times a harmonic. Every array argument is
+    a dimension of the result; a scalar is not. Values are worked out when they are asked for.
 
     Parameters
     ----------
@@ -89,7 +88,8 @@ def sweep(
     >>> import numpy as np
     >>> import crankpin as cp
     >>> v6 = cp.Engine.preset("v6-60")
-    >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=np.arange(10, 180, 10), hold="pins", orders=[1, 2])
+    >>> angles = np.arange(10, 180, 10)
+    >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=angles, hold="pins", orders=[1, 2])
     >>> s.dims("moment")
     ('bank_angle_deg', 'order', 'axis')
     >>> s.moment.shape
@@ -102,32 +102,26 @@ def sweep(
         "pin_offset": pin_offset,
         "rpm": rpm,
     }
-    axes: dict[str, NDArray[np.float64]] = {}
-    swept: dict[str, NDArray[np.float64] | list[str]] = {} if names is None else {"engine": names}
-    fixed: dict[str, float] = {}
-    for name, values in given.items():
-        if values is None:
-            continue
-        axes[name] = axis = _inputs.vector(name, values)
-        if np.ndim(values):
-            swept[name] = _read_only(axis)
-        else:
-            fixed[name] = float(axis[0])
-    wanted = explicit(orders)
+    ranks = {name: np.ndim(values) for name, values in given.items() if values is not None}
+    axes = [
+        None if values is None or name == "rpm" else _inputs.vector(name, values)
+        for name, values in given.items()
+    ]
     core = _core.Sweep(
-        [engine._core for engine in listed],  # noqa: SLF001 - the two are one package
-        axes.get("bank_angle_deg"),
-        hold,
-        axes.get("rod_ratio"),
-        axes.get("pin_offset"),
-        axes["rpm"],
-        wanted,
-        reference_z,
+        [engine._core for engine in listed],
+        axes[0],
+        None if hold is None else _inputs.text("hold", hold, 'give "pins" or "firing"'),
+        axes[1],
+        axes[2],
+        _inputs.vector("rpm", rpm),
+        _inputs.explicit_orders(orders),
+        _inputs.optional_number("reference_z", reference_z),
         _inputs.spectrum(spectrum),
+        [names is not None, *(ranks.get(name, 0) > 0 for name in given)],
     )
-    _inputs.warn_of_units(core.largest_crank_radius, float(axes["rpm"].max()))
-    arguments = {"reference_z": reference_z, "spectrum": spectrum, "orders": tuple(wanted)}
-    return Sweep(core, tuple(listed), swept, fixed, hold, arguments)
+    _inputs.warn_of_units(core.mean_piston_speed)
+    arguments = {"hold": hold, "reference_z": reference_z, "spectrum": spectrum}
+    return Sweep(core, listed, names, ranks, arguments)
 
 
 class Sweep(Frozen):
@@ -149,116 +143,130 @@ class Sweep(Frozen):
 
     engines: tuple[Engine, ...]
     """The engines."""
-    orders: tuple[int, ...]
-    """Multiples of crank speed."""
-    coords: Mapping[str, NDArray[np.float64] | list[str]]
-    """Swept dimension → its values, in the order of the result's dimensions."""
-    fixed: Mapping[str, float]
-    """What was given as a single value."""
-    hold: Hold | None
-    """What a change of bank angle leaves as it is."""
 
     def __init__(
         self,
         core: _core.Sweep,
-        engines: tuple[Engine, ...],
-        swept: dict[str, NDArray[np.float64] | list[str]],
-        fixed: dict[str, float],
-        hold: Hold | None,
+        engines: list[Engine],
+        names: Sequence[str] | None,
+        ranks: dict[str, int],
         arguments: dict[str, Any],
     ) -> None:
+        if not isinstance(core, _core.Sweep):
+            raise _core.InputError(f"Sweep({_inputs.shorten(core)}): use crankpin.sweep")
         self._set(
-            _core=core,
-            engines=engines,
-            coords=MappingProxyType(swept),
-            orders=arguments["orders"],
-            fixed=MappingProxyType(fixed),
-            hold=hold,
-            _arguments=arguments,
-            _swept_shape=tuple([len(values) for values in swept.values()]),
+            _core=core, engines=tuple(engines), _names=names, _ranks=ranks, _arguments=arguments
         )
 
     _core: _core.Sweep
+    _names: Sequence[str] | None
+    """Names of the engines where there may be several."""
+    _ranks: dict[str, int]
+    """Quantity → 1 where it is swept, 0 where it was given as a single value."""
     _arguments: dict[str, Any]
-    _swept_shape: tuple[int, ...]
+
+    @property
+    def hold(self) -> Hold | None:
+        """What a change of bank angle leaves as it is."""
+        hold: Hold | None = self._arguments["hold"]
+        return hold
+
+    @cached_property
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed."""
+        return tuple(self._core.orders)
+
+    @cached_property
+    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+        """Swept dimension → its values, in the order of the result's dimensions."""
+        coords: dict[str, NDArray[np.float64] | list[str]] = {}
+        if self._names is not None:
+            coords["engine"] = _told_apart(self._names)
+        coords |= {name: self._core.axis(name) for name, rank in self._ranks.items() if rank}
+        return MappingProxyType(coords)
+
+    @cached_property
+    def fixed(self) -> Mapping[str, float]:
+        """What was given as a single value."""
+        fixed = {
+            name: float(self._core.axis(name)[0]) for name, rank in self._ranks.items() if not rank
+        }
+        return MappingProxyType(fixed)
 
     def dims(self, quantity: Quantity = "moment") -> tuple[str, ...]:
         """Return the names of a quantity's dimensions."""
-        return (*self.coords, *_ORDER_DIMS[quantity])
+        return (*self.coords, *_ORDER_DIMS[_inputs.one_of("quantity", quantity, _ORDER_DIMS)])
 
     # --- phasors --------------------------------------------------------------------------------
 
     @cached_property
     def force(self) -> NDArray[np.complex128]:
         """Peak phasors of the shaking force along x and y, N: (…, n_orders, 2)."""
-        return self._shaped(self._core.phasors("force"), 2)
+        return self._core.phasors("force")
 
     @cached_property
     def moment(self) -> NDArray[np.complex128]:
         """Peak phasors of the rocking moment about x and y, N·m: (…, n_orders, 2)."""
-        return self._shaped(self._core.phasors("moment"), 2)
+        return self._core.phasors("moment")
 
     @cached_property
     def torque(self) -> NDArray[np.complex128]:
         """Peak phasors of the roll torque on the block, N·m: (…, n_orders)."""
-        return self._shaped(self._core.phasors("torque")[..., 0], 1)
+        return self._core.phasors("torque")
 
     # --- peaks of each order --------------------------------------------------------------------
 
     @cached_property
     def force_peak_xy(self) -> NDArray[np.float64]:
         """Largest force of each order along x and along y, N: (…, n_orders, 2)."""
-        return self._shaped(self._core.peaks("force"), 2)
+        return self._core.peaks("force")
 
     @cached_property
     def moment_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment of each order about x and about y, N·m: (…, n_orders, 2)."""
-        return self._shaped(self._core.peaks("moment"), 2)
+        return self._core.peaks("moment")
 
     @cached_property
     def torque_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of each order, N·m: (…, n_orders)."""
-        return self._shaped(self._core.peaks("torque")[..., 0], 1)
+        return self._core.peaks("torque")
 
     @cached_property
     def force_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of each order, N: (…, n_orders)."""
-        return self._shaped(self._core.vector_peaks("force"), 1)
+        return self._core.vector_peaks("force")
 
     @cached_property
     def moment_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of each order, N·m: (…, n_orders)."""
-        return self._shaped(self._core.vector_peaks("moment"), 1)
+        return self._core.vector_peaks("moment")
 
     # --- peaks of the sum of orders -------------------------------------------------------------
 
     @cached_property
     def force_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest force along x and along y of all orders together, N: (…, 2); true extrema."""
-        return self._shaped(self._core.sum_peaks("force"), 1)
+        return self._core.sum_peaks("force")
 
     @cached_property
     def moment_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment about x and y of all orders together, N·m: (…, 2); true extrema."""
-        return self._shaped(self._core.sum_peaks("moment"), 1)
+        return self._core.sum_peaks("moment")
 
     @cached_property
     def torque_sum_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of all orders together, N·m: (…); true extrema."""
-        return self._shaped(self._core.sum_peaks("torque")[..., 0], 0)
+        return self._core.sum_peaks("torque")
 
     @cached_property
     def force_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of all orders together, N: (…); true extrema."""
-        return self._shaped(self._core.sum_vector_peaks("force"), 0)
+        return self._core.sum_vector_peaks("force")
 
     @cached_property
     def moment_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of all orders together, N·m: (…); true extrema."""
-        return self._shaped(self._core.sum_vector_peaks("moment"), 0)
-
-    def _shaped(self, values: NDArray[Any], kept: int) -> NDArray[Any]:
-        return values.reshape(self._swept_shape + values.shape[values.ndim - kept :])
+        return self._core.sum_vector_peaks("moment")
 
     # --- tables and pictures --------------------------------------------------------------------
 
@@ -277,14 +285,17 @@ class Sweep(Frozen):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
-        variables = {}
+        variables: dict[str, Any] = {}
         for quantity in quantities or ("force", "moment"):
-            dims, attributes = self.dims(quantity), {"units": UNITS[quantity]}
+            dims, units = self.dims(quantity), {"units": UNITS[quantity]}
             suffix = "" if quantity == "torque" else "_xy"
             summed = tuple(dim for dim in dims if dim != "order")
-            variables[quantity] = (dims, getattr(self, quantity), attributes)
-            for name, of in ((f"{quantity}_peak{suffix}", dims), (f"{quantity}_sum_peak{suffix}", summed)):
-                variables[name] = (of, getattr(self, name), attributes)
+            variables[quantity] = (dims, getattr(self, quantity), units)
+            for name, of in (
+                (f"{quantity}_peak{suffix}", dims),
+                (f"{quantity}_sum_peak{suffix}", summed),
+            ):
+                variables[name] = (of, getattr(self, name), units)
         coords: dict[str, Any] = {
             name: (name, values, {"units": UNITS[name]} if name in UNITS else {})
             for name, values in self.coords.items()
@@ -292,8 +303,9 @@ class Sweep(Frozen):
         coords["order"] = ("order", list(self.orders), {"units": UNITS["order"]})
         if any(quantity != "torque" for quantity in quantities or ("force",)):
             coords["axis"] = ("axis", ["x", "y"])
-        attributes = dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
-        return _tables.xarray().Dataset(variables, coords, attributes)
+        attributes: dict[str, Any] = dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
+        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        return dataset
 
     def to_pandas(self, quantity: Quantity = "moment") -> pd.DataFrame:
         """Return the peaks of each order as a table, one row a swept point (needs pandas).
@@ -312,12 +324,17 @@ class Sweep(Frozen):
         axes = ["z"] if quantity == "torque" else ["x", "y"]
         columns = pandas.MultiIndex.from_product([self.orders, axes], names=["order", "axis"])
         if self.coords:
-            index = pandas.MultiIndex.from_product(list(self.coords.values()), names=list(self.coords))
+            index = pandas.MultiIndex.from_product(
+                list(self.coords.values()), names=list(self.coords)
+            )
             if len(self.coords) == 1:
                 index = index.get_level_values(0)
         else:
             index = None
-        return pandas.DataFrame(peaks.reshape(-1, len(columns)), index=index, columns=columns)
+        table: pd.DataFrame = pandas.DataFrame(
+            peaks.reshape(-1, len(columns)), index=index, columns=columns
+        )
+        return table
 
     def plot(self, *, quantity: Quantity = "moment", x: str | None = None) -> Figure:
         """Draw the peaks of each order over a swept quantity; return the figure.
@@ -336,14 +353,19 @@ class Sweep(Frozen):
         return _plots.sweep(self, quantity, x)
 
     def _peaks(self, quantity: Quantity) -> NDArray[np.float64]:
+        _inputs.one_of("quantity", quantity, _ORDER_DIMS)
         name = "torque_peak" if quantity == "torque" else f"{quantity}_peak_xy"
         return getattr(self, name)  # type: ignore[no-any-return]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        axes = {name: values for name, values in self.coords.items() if name != "engine"}
-        names = self.coords.get("engine")
-        arguments = self._arguments | dict(self.fixed) | axes | {"hold": self.hold}
-        return (_again, (self.engines, names, arguments))
+        axes = {
+            name: self._core.axis(name) if rank else float(self._core.axis(name)[0])
+            for name, rank in self._ranks.items()
+        }
+        return (
+            _again,
+            (self.engines, self._names, self._arguments | axes | {"orders": self.orders}),
+        )
 
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
@@ -358,36 +380,35 @@ _ORDER_DIMS: dict[str, tuple[str, ...]] = {
 }
 
 
-def _again(engines: tuple[Engine, ...], names: list[str] | None, arguments: dict[str, Any]) -> Sweep:
+def _again(
+    engines: tuple[Engine, ...], names: Sequence[str] | None, arguments: dict[str, Any]
+) -> Sweep:
     if names is None:
         return sweep(engines[0], **arguments)
-    return sweep(dict(zip(names, engines, strict=True)), **arguments)
+    again = sweep(engines, **arguments)
+    again._set(_names=names)
+    return again
 
 
-def _listed(engines: Engines) -> tuple[list[Engine], list[str] | None]:
+def _listed(engines: Engines) -> tuple[list[Engine], Sequence[str] | None]:
     """Return the engines, and their names where there may be several."""
     if isinstance(engines, Engine):
         return [engines], None
-    names: list[str] | None = None
-    if isinstance(engines, Mapping):
-        names, engines = [str(name) for name in engines], list(engines.values())
-    listed = list(engines) if isinstance(engines, Iterable) else [engines]
-    for engine in listed:
+    names: Sequence[str] | None = None
+    if not isinstance(engines, (list, tuple)):
+        if isinstance(engines, Mapping):
+            names, engines = [str(name) for name in engines], engines.values()
+        engines = _inputs.items("engines", engines, "give crankpin.Engine objects")
+    for engine in engines:
         if not isinstance(engine, Engine):
-            raise _core.InputError(f"engines = {_inputs.shorten(engine)}: give crankpin.Engine objects")
-    return listed, _names(listed) if names is None else names
+            raise _core.InputError(
+                f"engines = {_inputs.shorten(engine)}: give crankpin.Engine objects"
+            )
+    return list(engines), [engine.name for engine in engines] if names is None else names
 
 
-def _names(engines: list[Engine]) -> list[str]:
-    """Name engines by their names where these tell them apart, else by number."""
-    names = [engine.name for engine in engines]
+def _told_apart(names: Sequence[str]) -> list[str]:
+    """Return names, numbered where they do not tell the engines apart."""
     if "" not in names and len(set(names)) == len(names):
-        return names
+        return list(names)
     return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
-
-
-def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a copy: the caller's own array stays writable."""
-    values = values.copy()
-    values.setflags(write=False)
-    return values

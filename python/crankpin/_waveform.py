@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _tables
-from crankpin._balance import ErrorBound
+from crankpin import _inputs, _tables
+from crankpin._balance import ErrorBound, error_bound
 from crankpin._core import InputError
 from crankpin._frozen import Frozen
 
@@ -56,10 +56,13 @@ class Waveform(Frozen):
     def __init__(
         self, engine: Engine, rpm: float, theta_deg: NDArray[np.float64], parts: _core.WaveformParts
     ) -> None:
+        if not isinstance(parts, tuple):
+            raise InputError(f"Waveform({_inputs.shorten(parts)}): use Engine.waveform")
         force, moment, torque, crank_torque, balance = parts
         theta = theta_deg.copy()
-        theta.flags.writeable = False
-        none = ErrorBound(0.0, 0.0)
+        theta.setflags(write=False)
+        known = torque is not None
+        exact = ErrorBound(0.0, 0.0, 0.0)
         self._set(
             engine=engine,
             rpm=rpm,
@@ -70,9 +73,7 @@ class Waveform(Frozen):
             _crank_torque=crank_torque,
             orders=None if balance is None else tuple(balance.orders),
             omitted=() if balance is None else tuple(balance.omitted),
-            error_bound=none
-            if balance is None
-            else ErrorBound(balance.error_bound("force"), balance.error_bound("moment")),
+            error_bound=exact if balance is None else error_bound(balance, torque_known=known),
         )
 
     _torque: NDArray[np.float64] | None
@@ -102,7 +103,9 @@ class Waveform(Frozen):
         }
         if self._torque is not None:
             columns |= {"torque": self._torque, "crank_torque": self.crank_torque}
-        return pandas.DataFrame(columns, index=pandas.Index(self.theta_deg, name="theta_deg"))
+        index = pandas.Index(self.theta_deg, name="theta_deg")
+        table: pd.DataFrame = pandas.DataFrame(columns, index=index)
+        return table
 
     def to_xarray(self) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray)."""
@@ -118,7 +121,8 @@ class Waveform(Frozen):
             "axis": ("axis", ["x", "y"]),
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        return _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        return dataset
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
         """Draw a quantity over crank angle; return the axes.
@@ -136,7 +140,8 @@ class Waveform(Frozen):
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"
-        return f"<Waveform of {self.engine!r} at {self.rpm:g} rpm, {len(self.theta_deg)} angles, {how}>"
+        count = len(self.theta_deg)
+        return f"<Waveform of {self.engine!r} at {self.rpm:g} rpm, {count} angles, {how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, (self.__dict__,))
@@ -146,12 +151,14 @@ def _again(state: dict[str, Any]) -> Waveform:
     waveform = Waveform.__new__(Waveform)
     for value in state.values():
         if isinstance(value, np.ndarray):
-            value.flags.writeable = False
-    waveform._set(**state)  # noqa: SLF001 - its own constructor
+            value.setflags(write=False)
+    waveform._set(**state)
     return waveform
 
 
 def _known(torque: NDArray[np.float64] | None) -> NDArray[np.float64]:
     if torque is None:
-        raise InputError("spectrum = given: a spectrum of forces tells nothing of torque; leave it out")
+        raise InputError(
+            "spectrum = given: a spectrum of forces tells nothing of torque; leave it out"
+        )
     return torque

@@ -38,7 +38,7 @@ impl Angle {
     pub fn from_degrees(degrees: f64) -> Result<Self> {
         if !degrees.is_finite() || degrees.abs() > LARGEST_ANGLE {
             let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-            return Err(Error::value("angle", degrees, cure));
+            return Err(Error::figure("angle", degrees, cure));
         }
         Ok(recognise(degrees).unwrap_or(Self::Degrees(degrees)))
     }
@@ -75,8 +75,8 @@ impl Angle {
             }
             Self::Degrees(degrees) => {
                 let rest = degrees.rem_euclid(360.0);
-                // -1e-20 rounds up to a whole turn.
-                Self::Degrees(if rest >= 360.0 { 0.0 } else { rest })
+                // Less whole turns it may be a part of one after all; -1e-20 rounds up to one.
+                recognise(rest).map_or(Self::Degrees(rest), Self::reduced)
             }
         }
     }

@@ -24,7 +24,7 @@ pub enum Orders {
     /// These.
     Given(Vec<u32>),
     /// The fewest that leave out at most this part of the largest m·r·ω² of a cylinder (times the
-    /// longest lever, for moments).
+    /// longest lever, for moments, and the crank radius, for torque).
     Auto {
         /// Relative tolerance.
         rtol: f64,
@@ -56,6 +56,8 @@ pub struct Torque {
     pub crank: Array1<Complex64>,
     /// What rounding can leave of a sum that vanishes.
     pub zero_bound: Array1<f64>,
+    /// What the orders left out can add to either torque at any crank angle.
+    pub error_bound: f64,
 }
 
 /// How an engine shakes at one speed.
@@ -109,6 +111,15 @@ impl Shake {
     }
 }
 
+impl Balance {
+    /// Length of force and moment and size of the larger torque of the k-th order.
+    fn sizes(&self, k: usize) -> [f64; 3] {
+        let length = |shake: &Shake| shake.forward[k].norm() + shake.backward[k].norm();
+        let torque = self.torque.as_ref().map_or(0.0, |t| t.roll[k].norm().max(t.crank[k].norm()));
+        [length(&self.force), length(&self.moment), torque]
+    }
+}
+
 /// Angular speed in rad/s.
 pub fn angular_speed(rpm: f64) -> Result<f64> {
     Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)
@@ -145,38 +156,32 @@ fn chosen(
     spectrum: Option<&Spectrum>,
 ) -> Result<Balance> {
     if !(1e-15..1.0).contains(&rtol) {
-        return Err(Error::value("rtol", rtol, "give a number from 1e-15 to below 1"));
+        return Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"));
     }
     let sums = Sums::new(engine, reference, spectrum);
     let count = engine.placements().len() as f64;
     let candidates = candidates(engine, &sums, 0.25 * rtol / count)?;
     let last = candidates.last().copied().unwrap_or(1);
     let whole = sums.balance(&candidates, omega);
-    let (tail_force, tail_moment) =
-        if spectrum.is_some() { (0.0, 0.0) } else { sums.tail(last, omega) };
-    let largest = engine
-        .placements()
-        .iter()
-        .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
-        .fold(0.0, f64::max);
-    let allowed_force = rtol * largest * omega * omega;
-    let allowed_moment = allowed_force * engine.longest_lever(reference);
-    let size = |shake: &Shake, k: usize| shake.forward[k].norm() + shake.backward[k].norm();
-    let share = |size: f64, allowed: f64| if size == 0.0 { 0.0 } else { size / allowed };
-    let mut by_size: Vec<usize> = (0..candidates.len()).collect();
+    let tail = if spectrum.is_some() { [0.0; 3] } else { sums.tail(last, omega) };
+    let allowed = sums.largest(reference).map(|largest| rtol * largest * omega * omega);
+    // Each candidate's share of force, moment and torque.
+    let sizes: Vec<[f64; 3]> = (0..candidates.len()).map(|k| whole.sizes(k)).collect();
     let weight = |&k: &usize| {
-        share(size(&whole.force, k), allowed_force)
-            .max(share(size(&whole.moment, k), allowed_moment))
+        let shares = sizes[k].iter().zip(&allowed);
+        shares
+            .map(|(&size, &allowed)| if size == 0.0 { 0.0 } else { size / allowed })
+            .fold(0.0, f64::max)
     };
+    let mut by_size: Vec<usize> = (0..candidates.len()).collect();
     by_size.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
-    let (mut force, mut moment, mut left_out) = (tail_force, tail_moment, 0);
+    let (mut bounds, mut left_out) = (tail, 0);
     for &k in &by_size {
-        let (more_force, more_moment) =
-            (force + size(&whole.force, k), moment + size(&whole.moment, k));
-        if more_force > allowed_force || more_moment > allowed_moment {
+        let more: [f64; 3] = std::array::from_fn(|i| bounds[i] + sizes[k][i]);
+        if more.iter().zip(&allowed).any(|(more, allowed)| more > allowed) {
             break;
         }
-        (force, moment, left_out) = (more_force, more_moment, left_out + 1);
+        (bounds, left_out) = (more, left_out + 1);
     }
     let pick = |indices: &[usize]| {
         let mut picked: Vec<u32> = indices.iter().map(|&k| candidates[k]).collect();
@@ -185,8 +190,10 @@ fn chosen(
     };
     let mut balance = sums.balance(&pick(&by_size[left_out..]), omega);
     balance.omitted = pick(&by_size[..left_out]);
-    balance.force.error_bound = force;
-    balance.moment.error_bound = moment;
+    [balance.force.error_bound, balance.moment.error_bound] = [bounds[0], bounds[1]];
+    if let Some(torque) = &mut balance.torque {
+        torque.error_bound = bounds[2];
+    }
     Ok(balance)
 }
 
@@ -384,6 +391,7 @@ impl<'a> Sums<'a> {
             roll: Array1::default(orders.len()),
             crank: Array1::default(orders.len()),
             zero_bound: Array1::default(orders.len()),
+            error_bound: 0.0,
         };
         for group in &self.groups {
             let harmonics = harmonics::torque::torque(&group.proportions, orders);
@@ -409,18 +417,35 @@ impl<'a> Sums<'a> {
         torque
     }
 
-    /// What orders above `highest` can add to force and moment.
-    fn tail(&self, highest: u32, omega: f64) -> (f64, f64) {
-        let (mut force, mut moment) = (0.0, 0.0);
-        for group in &self.groups {
-            let bound = harmonics::tail_bound(&group.proportions, highest).unwrap_or(f64::INFINITY);
-            for &i in &group.members {
-                let each = self.engine.placements()[i].cylinder.first_order() * bound;
-                force += each;
-                moment += each * self.levers[i].0.abs();
+    /// What orders above `highest` can add to force, moment and torque.
+    fn tail(&self, highest: u32, omega: f64) -> [f64; 3] {
+        let mut tail = [0.0; 3];
+        for Group { proportions, members } in &self.groups {
+            let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY) * omega * omega;
+            let force = known(harmonics::tail_bound(proportions, highest));
+            let torque = known(harmonics::torque::tail_bound(proportions, highest));
+            for &i in members {
+                let cylinder = self.engine.placements()[i].cylinder;
+                let first_order = cylinder.first_order();
+                tail[0] += first_order * force;
+                tail[1] += first_order * force * self.levers[i].0.abs();
+                tail[2] += first_order * cylinder.crank_radius() * torque;
             }
         }
-        (force * omega * omega, moment * omega * omega)
+        tail
+    }
+
+    /// Largest m·r of a cylinder, times the longest lever, times its crank radius.
+    fn largest(&self, reference: f64) -> [f64; 3] {
+        let mut largest = [0.0_f64; 3];
+        for p in self.engine.placements() {
+            let radius = p.cylinder.crank_radius();
+            let force = p.cylinder.first_order().max(p.rotating_mass * radius);
+            largest[0] = largest[0].max(force);
+            largest[2] = largest[2].max(force * radius);
+        }
+        largest[1] = largest[0] * self.engine.longest_lever(reference);
+        largest
     }
 }
 

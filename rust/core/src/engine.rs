@@ -81,13 +81,20 @@ impl Engine {
             let cure = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
             return Err(Error::value("number of cylinders", count, cure));
         }
+        let (name, source) = (name.into(), source.into());
+        for (argument, text) in [("name", &name), ("source", &source)] {
+            if text.len() > limits::LONGEST_NAME {
+                let cure = format!("give {} bytes at most", limits::LONGEST_NAME);
+                return Err(Error::value(argument, text, cure));
+            }
+        }
         for (i, placement) in placements.iter_mut().enumerate() {
             limits::finite(&format!("z[{i}]"), placement.z)?;
             limits::not_negative(&format!("rotating_mass[{i}]"), placement.rotating_mass)?;
             placement.tdc = placement.tdc.reduced();
             placement.bank = placement.bank.reduced();
         }
-        Ok(Self { name: name.into(), source: source.into(), placements })
+        Ok(Self { name, source, placements })
     }
 
     /// What people call it; may be empty.
@@ -191,9 +198,8 @@ impl Engine {
     }
 
     /// The same engine under another name.
-    #[must_use]
-    pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Self {
-        Self { name: name.into(), source: source.into(), placements: self.placements.clone() }
+    pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Result<Self> {
+        Self::new(name, source, self.placements.clone())
     }
 }
 
@@ -202,7 +208,7 @@ pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
     if (0.0..=180.0).contains(&degrees) {
         return Ok(degrees);
     }
-    Err(Error::value("bank_angle_deg", degrees, "give degrees between 0 and 180"))
+    Err(Error::figure("bank_angle_deg", degrees, "give degrees between 0 and 180"))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::angle::Angle;
 use crate::engine::{Engine, Placement};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, shorten};
 use crate::slider_crank::Cylinder;
 
 /// Version of the schema that this file reads and writes.
@@ -147,7 +147,17 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 /// Engine from TOML.
 pub fn from_toml(text: &str) -> Result<Engine> {
     sized("TOML", text)?;
-    toml::from_str::<EngineFile>(text).map_err(|e| unreadable("TOML", &e))?.engine()
+    toml::from_str::<EngineFile>(text)
+        .map_err(|error| {
+            let end = error.span().map_or(0, |span| span.start.min(text.len()));
+            let line = text.get(..end).map_or(0, |before| before.matches('\n').count()) + 1;
+            // The parser's own display quotes the whole line, however long.
+            Error::File {
+                format: "TOML",
+                reason: format!("line {line}: {}", shorten(error.message())),
+            }
+        })?
+        .engine()
 }
 
 /// Engine from JSON.
@@ -165,7 +175,7 @@ fn sized(format: &'static str, text: &str) -> Result<()> {
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
-    Error::File { format, reason: error.to_string().trim_end().to_owned() }
+    Error::File { format, reason: shorten(error.to_string().trim_end()) }
 }
 
 #[cfg(test)]

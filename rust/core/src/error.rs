@@ -20,8 +20,8 @@ pub enum Error {
     },
     /// A crank that cannot turn: the rod does not reach.
     #[error(
-        "crank_radius = {crank_radius}, rod_length = {rod_length}, pin_offset = {pin_offset}: the \
-         crank cannot turn; make crank_radius less than rod_length - |pin_offset| = {reach}"
+        "crank_radius = {crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}: the \
+         crank cannot turn; make crank_radius less than rod_length - |pin_offset| = {reach:?}"
     )]
     CannotTurn {
         /// Crank radius, m.
@@ -88,6 +88,22 @@ impl Error {
         }
     }
 
+    /// A figure that cannot be used, with the cure; very large and small ones as powers of ten.
+    pub fn figure(argument: impl Into<String>, value: f64, cure: impl Into<String>) -> Self {
+        Self::value(argument, format!("{value:?}"), cure)
+    }
+
+    /// The same error under the name by which the caller knows the argument.
+    #[must_use]
+    pub fn named(self, argument: &str) -> Self {
+        match self {
+            Self::Value { value, cure, .. } => {
+                Self::Value { argument: argument.to_owned(), value, cure }
+            }
+            other => other,
+        }
+    }
+
     /// The same error about an argument that is part of a larger one (`cylinders[3].z`).
     #[must_use]
     pub fn within(self, place: &str) -> Self {
@@ -101,8 +117,8 @@ impl Error {
 }
 
 /// Long values (a whole file, a huge list) are cut, so that the message stays readable.
-fn shorten(text: &str) -> String {
-    const LONGEST: usize = 80;
+pub(crate) fn shorten(text: &str) -> String {
+    const LONGEST: usize = 160;
     if text.chars().count() <= LONGEST {
         return text.to_owned();
     }

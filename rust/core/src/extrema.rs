@@ -103,9 +103,11 @@ impl PeakFinder {
         if size == 0.0 {
             return 0.0;
         }
-        // A peak stands within half a step of a point with cos(nh/2) of its height (M. Riesz).
-        let ceiling = size / (0.5 * degree * step).cos();
-        let hidden = |width: f64| (width * degree).powi(3) / 12.0 * ceiling;
+        // A polynomial falls from its peak by 1 − cos of its largest excursion at most (M. Riesz); less
+        // a constant its excursion is half of what lies between its extremes.
+        let lowest = jets.iter().map(|jet| jet[0]).fold(f64::INFINITY, f64::min);
+        let excursion = (highest - lowest) / (degree * step).cos();
+        let hidden = |width: f64| (width * degree).powi(3) / 12.0 * excursion;
         let mut best = highest;
         let mut rest = Vec::new();
         for (k, jet) in jets.iter().enumerate() {
@@ -114,7 +116,7 @@ impl PeakFinder {
                 Interval { from: k as f64 * step, width: step, ends: [*jet, *next], halvings: 0 };
             if interval.rises_then_falls() {
                 // Within a step of its peak the polynomial falls by less than 1 − cos(nh).
-                if jet[0].max(next[0]) >= best - ceiling * (1.0 - (degree * step).cos()) {
+                if jet[0].max(next[0]) >= best - excursion * (1.0 - (degree * step).cos()) {
                     best = best.max(interval.polish(at));
                 }
             } else {
@@ -123,7 +125,8 @@ impl PeakFinder {
         }
         while let Some(interval) = rest.pop() {
             let could_be = interval.ends[0][0].max(interval.ends[1][0]) + hidden(interval.width);
-            if could_be <= best || interval.halvings == MOST_HALVINGS {
+            let negligible = hidden(interval.width) <= 0.25 * f64::EPSILON * size;
+            if could_be <= best || negligible || interval.halvings == MOST_HALVINGS {
                 continue;
             }
             for half in interval.halve(at) {

@@ -231,6 +231,9 @@ fn part(index: usize, degrees: i64, count: usize) -> Angle {
 
 /// One mass for each throw: a single one stands for all.
 fn per_throw(masses: &[f64], throws: usize) -> Result<Vec<f64>> {
+    for (i, &mass) in masses.iter().enumerate() {
+        limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
+    }
     match masses {
         [] => Ok(vec![0.0; throws]),
         [mass] => Ok(vec![*mass; throws]),
@@ -238,7 +241,7 @@ fn per_throw(masses: &[f64], throws: usize) -> Result<Vec<f64>> {
         _ => Err(Error::Length {
             argument: "rotating_mass".into(),
             found: masses.len(),
-            reference: "throws".into(),
+            reference: "throws_deg".into(),
             expected: throws,
             item: "throw",
         }),

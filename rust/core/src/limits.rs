@@ -10,6 +10,8 @@ pub const LARGEST: f64 = 1e30;
 pub const SMALLEST_LENGTH: f64 = 1e-30;
 /// Most cylinders in an engine.
 pub const MOST_CYLINDERS: usize = 1000;
+/// Longest name and source of an engine, bytes: files and copies go through a text of limited size.
+pub const LONGEST_NAME: usize = 10_000;
 /// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.
 pub const HIGHEST_ORDER: u32 = 10_000;
 /// Largest result, in bytes, that one call returns.
@@ -20,7 +22,7 @@ pub fn finite(argument: &str, value: f64) -> Result<f64> {
     if value.is_finite() && value.abs() <= LARGEST {
         return Ok(value);
     }
-    Err(Error::value(
+    Err(Error::figure(
         argument,
         value,
         format!("give a finite number of magnitude {LARGEST:e} at most"),
@@ -32,7 +34,7 @@ pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
     if value >= 0.0 {
         return finite(argument, value);
     }
-    Err(Error::value(argument, value, "give a number that is zero or more"))
+    Err(Error::figure(argument, value, "give a number that is zero or more"))
 }
 
 /// A length that is more than zero.
@@ -41,7 +43,7 @@ pub fn length(argument: &str, value: f64) -> Result<f64> {
         return Ok(value);
     }
     let cure = format!("give metres, between {SMALLEST_LENGTH:e} and {LARGEST:e}");
-    Err(Error::value(argument, value, cure))
+    Err(Error::figure(argument, value, cure))
 }
 
 /// An order between 1 and [`HIGHEST_ORDER`].

@@ -109,7 +109,7 @@ impl Proportions {
     pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
         if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
             let cure = "give crank radius over rod length, more than 0 and less than 1";
-            return Err(Error::value("rod_ratio", rod_ratio, cure));
+            return Err(Error::figure("rod_ratio", rod_ratio, cure));
         }
         limits::length("rod_ratio", rod_ratio)?;
         limits::finite("pin_offset_ratio", offset)?;
@@ -119,11 +119,11 @@ impl Proportions {
         let below = reach.plus(-shift.high).plus(-shift.low).over(rod_ratio);
         if above.high.min(below.high) <= 0.0 {
             let cure = format!(
-                "the crank cannot turn at rod_ratio = {rod_ratio}; make |pin_offset / crank_radius| \
-                 less than 1/rod_ratio - 1 = {}",
+                "the crank cannot turn at rod_ratio = {rod_ratio:?}; make |pin_offset / crank_radius| \
+                 less than 1/rod_ratio - 1 = {:?}",
                 reach.high / rod_ratio
             );
-            return Err(Error::value("pin_offset_ratio", offset, cure));
+            return Err(Error::figure("pin_offset_ratio", offset, cure));
         }
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
     }

@@ -198,7 +198,7 @@ fn in_blocks(
         for (i, &θ) in thetas.iter().enumerate() {
             if !θ.is_finite() || θ.abs() > LARGEST_ANGLE {
                 let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-                return Err(Error::value("theta_deg", θ, cure));
+                return Err(Error::figure("theta_deg", θ, cure));
             }
             let unit = cis_degrees(θ);
             (units.cos[i], units.sin[i]) = (unit.re, unit.im);

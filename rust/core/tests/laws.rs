@@ -301,7 +301,7 @@ proptest! {
             rpm: vec![rpm, 3000.0],
         };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone()], axes, ORDERS.to_vec(), Some(0.1), None).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, ORDERS.to_vec(), Some(0.1), None).unwrap();
         let force = sweep.phasors(Quantity::Force, &cancel).unwrap();
         let moment = sweep.phasors(Quantity::Moment, &cancel).unwrap();
         let torque = sweep.phasors(Quantity::Torque, &cancel).unwrap();
@@ -324,9 +324,29 @@ proptest! {
                     let peak = peaks[[0, i, 1, 2, 1, k, axis]];
                     same(peak.into(), phasor.norm().into(), size);
                 }
-                same(torque[[0, i, 1, 2, 1, k, 0]], alone.torque.as_ref().unwrap().roll[k], size);
+                same(torque[[0, i, 1, 2, 1, k]], alone.torque.as_ref().unwrap().roll[k], size);
                 let longest = alone.force.forward[k].norm() + alone.force.backward[k].norm();
                 same(vectors[[0, i, 1, 2, 1, k]].into(), longest.into(), size);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_over_speed_and_rods_is_a_loop(engine in engines(true), ratio in 0.1..0.5) {
+        let rpm = vec![0.0, 1000.0, 3000.0];
+        let axes = Axes { bank_angle: None, rod_ratio: Some(vec![ratio]), pin_offset: None, rpm };
+        let engine = changed(&engine, |p| {
+            let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
+            Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
+        });
+        let engines = vec![engine.clone().into()];
+        let sweep = Sweep::new(engines, axes, ORDERS.to_vec(), Some(0.0), None).unwrap();
+        let moment = sweep.phasors(Quantity::Moment, &Cancel::new()).unwrap();
+        let alone = of(&engine);
+        for k in 0..ORDERS.len() {
+            for axis in 0..2 {
+                same(moment[[0, 0, 0, 0, 2, k, axis]], alone.moment.xy[[k, axis]], size(&engine));
+                prop_assert_eq!(moment[[0, 0, 0, 0, 0, k, axis]], Complex64::default());
             }
         }
     }
@@ -342,7 +362,7 @@ proptest! {
                 pin_offset: None,
                 rpm: vec![3000.0],
             };
-            let engines = vec![engine.clone(), engine.clone()];
+            let engines = vec![engine.clone().into(), engine.clone().into()];
             let sweep = Sweep::new(engines, axes, vec![1, 2, 4], None, None).unwrap();
             sweep.sum_peaks(Quantity::Moment, &Cancel::new()).unwrap()
         };

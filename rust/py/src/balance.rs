@@ -37,6 +37,12 @@ pub fn balance(
         .map(Balance)
 }
 
+/// ω in rad/s.
+#[pyfunction]
+pub fn angular_speed(rpm: f64) -> PyResult<f64> {
+    core::balance::angular_speed(rpm).or_raise()
+}
+
 /// Half axes and tilt (radians) of the ellipses of forward and backward parts.
 #[pyfunction]
 pub fn ellipse(parts: Vec<(Complex64, Complex64)>) -> Vec<(f64, f64, f64)> {
@@ -116,6 +122,9 @@ impl Balance {
     }
 
     fn error_bound(&self, quantity: &str) -> PyResult<f64> {
+        if quantity == "torque" {
+            return Ok(self.torque()?.error_bound);
+        }
         Ok(self.shake(quantity)?.error_bound)
     }
 

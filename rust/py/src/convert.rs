@@ -6,7 +6,6 @@ use ndarray::Dimension;
 use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyString;
 
 pyo3::create_exception!(
     crankpin,
@@ -36,7 +35,7 @@ impl<T> OrRaise<T> for core::Result<T> {
     }
 }
 
-/// Degrees as a number, a `Fraction` or a string such as `"360/7"`.
+/// Degrees as text, a number or a fraction: what [`exact_angle`] gives.
 #[derive(Clone, Copy)]
 pub struct Angle(pub core::Angle);
 
@@ -44,24 +43,27 @@ impl<'py> FromPyObject<'_, 'py> for Angle {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(text) = value.cast::<PyString>() {
-            return text.to_str()?.parse().or_raise().map(Self);
-        }
-        // Whole numbers and fractions have both; a denominator of 1 is taken with the floats.
-        if let Ok(denominator) = value.getattr("denominator")
-            && let (Ok(numerator), Ok(denominator)) =
-                (value.getattr("numerator")?.extract(), denominator.extract::<i64>())
-            && denominator != 1
-        {
-            return core::Angle::from_degree_fraction(numerator, denominator).or_raise().map(Self);
-        }
-        let degrees = value.extract::<f64>().map_err(|_| {
-            let message =
-                format!("angle = {value:?}: give degrees as a number, Fraction or string");
-            InputError::new_err(message)
-        })?;
-        core::Angle::from_degrees(degrees).or_raise().map(Self)
+        value.extract::<&str>()?.parse().or_raise().map(Self)
     }
+}
+
+/// Text that reads back as exactly this angle; `argument` is what errors call it.
+#[pyfunction]
+pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
+    let angle = match degrees {
+        Degrees::Number(degrees) => core::Angle::from_degrees(degrees),
+        Degrees::Text(text) => text.parse(),
+    };
+    angle.map(|angle| angle.to_string()).map_err(|error| error.named(argument)).or_raise()
+}
+
+/// Degrees as people give them.
+#[derive(FromPyObject)]
+pub enum Degrees {
+    /// A number.
+    Number(f64),
+    /// Decimals or a fraction.
+    Text(String),
 }
 
 /// The core's angles.

@@ -1,6 +1,7 @@
 //! Engines: lists, builders, files.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Arc;
 
 use crankpin_core as core;
 use crankpin_core::engine::{Hold, Placement};
@@ -16,7 +17,13 @@ use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_err
 /// An engine of the core.
 #[pyclass(frozen, eq, module = "crankpin._core", from_py_object)]
 #[derive(Clone, PartialEq)]
-pub struct Engine(pub core::Engine);
+pub struct Engine(pub Arc<core::Engine>);
+
+impl From<core::Engine> for Engine {
+    fn from(engine: core::Engine) -> Self {
+        Self(Arc::new(engine))
+    }
+}
 
 /// One of a few words.
 fn choice<T>(argument: &str, value: &str, choices: &[(&str, T)]) -> PyResult<T>
@@ -34,6 +41,10 @@ where
 /// What a change of bank angle holds.
 pub fn hold(value: &str) -> PyResult<Hold> {
     choice("hold", value, &[("pins", Hold::Pins), ("firing", Hold::Firing)])
+}
+
+fn firing_rule(value: &str) -> PyResult<FiringRule> {
+    choice("rule", value, &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)])
 }
 
 fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
@@ -59,9 +70,15 @@ impl Engine {
     }
 }
 
+/// An entry of a layout, with the error that its own conversion raises.
+fn entry<T>(layout: &Bound<'_, PyAny>, name: &str) -> PyResult<T>
+where
+    T: for<'a, 'py> FromPyObject<'a, 'py, Error = PyErr>,
+{
+    layout.get_item(name)?.extract()
+}
+
 /// Where the cylinders of a vee sit and how they are numbered.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
 struct VeeLayout {
     bank_angle: Angle,
     throws: Vec<Angle>,
@@ -72,6 +89,24 @@ struct VeeLayout {
     numbering: String,
     odd_bank: String,
     first_tdc: Angle,
+}
+
+impl<'py> FromPyObject<'_, 'py> for VeeLayout {
+    type Error = PyErr;
+
+    fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self {
+            bank_angle: entry(&layout, "bank_angle")?,
+            throws: entry(&layout, "throws")?,
+            spacing: entry(&layout, "spacing")?,
+            pin_split: entry(&layout, "pin_split")?,
+            bank_stagger: entry(&layout, "bank_stagger")?,
+            rotating_mass: entry(&layout, "rotating_mass")?,
+            numbering: entry(&layout, "numbering")?,
+            odd_bank: entry(&layout, "odd_bank")?,
+            first_tdc: entry(&layout, "first_tdc")?,
+        })
+    }
 }
 
 impl VeeLayout {
@@ -96,13 +131,24 @@ impl VeeLayout {
 }
 
 /// Where the cylinders of an inline engine sit.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
 struct InlineLayout {
     throws: Vec<Angle>,
     spacing: f64,
     rotating_mass: Vec<f64>,
     first_tdc: Angle,
+}
+
+impl<'py> FromPyObject<'_, 'py> for InlineLayout {
+    type Error = PyErr;
+
+    fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self {
+            throws: entry(&layout, "throws")?,
+            spacing: entry(&layout, "spacing")?,
+            rotating_mass: entry(&layout, "rotating_mass")?,
+            first_tdc: entry(&layout, "first_tdc")?,
+        })
+    }
 }
 
 impl InlineLayout {
@@ -160,27 +206,30 @@ impl Engine {
                 rotating_mass: rotating_mass[i],
             });
         }
-        core::Engine::new(name, source, placements).or_raise().map(Self)
+        core::Engine::new(name, source, placements).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn inline(parts: Parts, layout: InlineLayout) -> PyResult<Self> {
-        layout.inline().engine(cylinder(parts)?).or_raise().map(Self)
+        layout.inline().engine(cylinder(parts)?).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn vee(parts: Parts, layout: VeeLayout) -> PyResult<Self> {
-        layout.vee()?.engine(cylinder(parts)?).or_raise().map(Self)
+        layout.vee()?.engine(cylinder(parts)?).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn inline_from_firing_order(
         parts: Parts,
         firing_order: &str,
+        rule: &str,
         layout: InlineLayout,
     ) -> PyResult<Self> {
+        // One bank has the same crank by either rule.
+        firing_rule(rule)?;
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        order.inline(cylinder(parts)?, &layout.inline()).or_raise().map(Self)
+        order.inline(cylinder(parts)?, &layout.inline()).or_raise().map(Self::from)
     }
 
     #[staticmethod]
@@ -191,19 +240,18 @@ impl Engine {
         layout: VeeLayout,
     ) -> PyResult<Self> {
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        let rule =
-            choice("rule", rule, &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)])?;
-        order.vee(cylinder(parts)?, rule, &layout.vee()?).or_raise().map(Self)
+        let rule = firing_rule(rule)?;
+        order.vee(cylinder(parts)?, rule, &layout.vee()?).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn from_toml(text: &str) -> PyResult<Self> {
-        engine_file::from_toml(text).or_raise().map(Self)
+        engine_file::from_toml(text).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
-        engine_file::from_json(text).or_raise().map(Self)
+        engine_file::from_json(text).or_raise().map(Self::from)
     }
 
     fn to_toml(&self) -> PyResult<String> {
@@ -282,15 +330,15 @@ impl Engine {
     }
 
     fn with_bank_angle(&self, bank_angle: Angle, held: &str) -> PyResult<Self> {
-        self.0.with_bank_angle(bank_angle.0, hold(held)?).or_raise().map(Self)
+        self.0.with_bank_angle(bank_angle.0, hold(held)?).or_raise().map(Self::from)
     }
 
     fn with_first_tdc(&self, tdc: Angle) -> PyResult<Self> {
-        self.0.with_first_tdc(tdc.0).or_raise().map(Self)
+        self.0.with_first_tdc(tdc.0).or_raise().map(Self::from)
     }
 
-    fn named(&self, name: String, source: String) -> Self {
-        Self(self.0.named(name, source))
+    fn named(&self, name: String, source: String) -> PyResult<Self> {
+        self.0.named(name, source).or_raise().map(Self::from)
     }
 
     fn __hash__(&self) -> u64 {

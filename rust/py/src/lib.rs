@@ -23,6 +23,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<engine::Engine>()?;
     module.add_class::<balance::Balance>()?;
     module.add_class::<sweep::Sweep>()?;
+    module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
+    module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::motion, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::cylinder_harmonics, module)?)?;

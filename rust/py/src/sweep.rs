@@ -3,8 +3,8 @@
 use crankpin_core as core;
 use crankpin_core::sweep::{Axes, Quantity, Values};
 use crankpin_core::{Cancel, Complex64, Error};
-use ndarray::IxDyn;
-use numpy::{PyArray, PyArrayDyn, PyReadonlyArray1};
+use ndarray::{Array1, IxDyn};
+use numpy::{PyArray, PyArray1, PyArrayDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, frozen, python_error, spectrum};
@@ -13,7 +13,11 @@ use crate::interrupt;
 
 /// Engines and axes, checked.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Sweep(core::Sweep);
+pub struct Sweep {
+    sweep: core::Sweep,
+    /// Which of engine, bank angle, rod ratio, pin offset and speed are dimensions of the result.
+    swept: [bool; 5],
+}
 
 fn quantity(name: &str) -> PyResult<Quantity> {
     match name {
@@ -37,9 +41,20 @@ impl Sweep {
         steps_each: usize,
         work: impl FnOnce(&core::Sweep, &Cancel) -> core::Result<Values<T>> + Send,
     ) -> PyResult<Bound<'py, PyArray<T, IxDyn>>> {
-        let points = self.0.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
+        let points = self.sweep.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
         let steps = points.saturating_mul(steps_each);
-        let values = interrupt::run(py, steps, |cancel| work(&self.0, cancel))?;
+        let values = interrupt::run(py, steps, |cancel| work(&self.sweep, cancel))?;
+        let kept = |axis: usize| self.swept.get(axis).copied().unwrap_or(true);
+        let shape: Vec<usize> = values
+            .shape()
+            .iter()
+            .enumerate()
+            .filter(|&(axis, _)| kept(axis))
+            .map(|(_, &n)| n)
+            .collect();
+        let values = values.into_shape_with_order(IxDyn(&shape)).map_err(|error| {
+            python_error(Error::value("sweep", format!("{shape:?}"), error.to_string()))
+        })?;
         Ok(frozen(py, values))
     }
 }
@@ -58,6 +73,7 @@ impl Sweep {
         orders: Vec<u32>,
         reference_z: Option<f64>,
         spectrum: Option<Vec<(u32, Complex64)>>,
+        swept: [bool; 5],
     ) -> PyResult<Self> {
         let list = |values: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
             Ok(values.map(|values| values.as_slice().map(<[f64]>::to_vec)).transpose()?)
@@ -83,18 +99,40 @@ impl Sweep {
         };
         let engines = engines.into_iter().map(|engine| engine.0).collect();
         let spectrum = self::spectrum(spectrum)?;
-        core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise().map(Self)
+        let sweep = core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise()?;
+        Ok(Self { sweep, swept })
     }
 
     /// Lengths of engine, bank angle, rod ratio, pin offset, speed.
     #[getter]
     fn shape(&self) -> [usize; 5] {
-        self.0.shape()
+        self.sweep.shape()
     }
 
     #[getter]
-    fn largest_crank_radius(&self) -> f64 {
-        self.0.largest_crank_radius()
+    fn orders(&self) -> Vec<u32> {
+        self.sweep.orders().to_vec()
+    }
+
+    #[getter]
+    fn mean_piston_speed(&self) -> f64 {
+        self.sweep.mean_piston_speed()
+    }
+
+    /// Values of an axis.
+    fn axis<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let axes = self.sweep.axes();
+        let values = match name {
+            "bank_angle_deg" => axes.bank_angle.as_ref().map(|(angles, _)| angles),
+            "rod_ratio" => axes.rod_ratio.as_ref(),
+            "pin_offset" => axes.pin_offset.as_ref(),
+            "rpm" => Some(&axes.rpm),
+            _ => None,
+        };
+        let values = values.ok_or_else(|| {
+            python_error(Error::value("axis", name, "give a quantity that is swept"))
+        })?;
+        Ok(frozen(py, Array1::from(values.clone())))
     }
 
     fn phasors<'py>(

@@ -239,9 +239,13 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
     bound.is_finite().then_some(bound)
 }
 
-/// The lowest order above which the rest of the force is below `tolerance` times m·r·ω².
+/// The lowest order above which the rest of the force is below `tolerance` times m·r·ω² and that of
+/// the torque below `tolerance` times m·r²·ω².
 pub fn highest_order(proportions: &Proportions, tolerance: f64) -> Result<u32> {
-    let enough = |n: u32| tail_bound(proportions, n).is_some_and(|bound| bound <= tolerance);
+    let enough = |n: u32| {
+        let within = |bound: Option<f64>| bound.is_some_and(|bound| bound <= tolerance);
+        within(tail_bound(proportions, n)) && within(torque::tail_bound(proportions, n))
+    };
     if !enough(limits::HIGHEST_ORDER) {
         let cure = format!(
             "more than {} orders would be needed at a rod ratio of {}; ask for exact kinematics or \
@@ -249,7 +253,7 @@ pub fn highest_order(proportions: &Proportions, tolerance: f64) -> Result<u32> {
             limits::HIGHEST_ORDER,
             1.0 / proportions.rod
         );
-        return Err(Error::value("rtol", tolerance, cure));
+        return Err(Error::figure("rtol", tolerance, cure));
     }
     let (mut low, mut high) = (0, limits::HIGHEST_ORDER);
     while low < high {

@@ -46,6 +46,22 @@ pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
     TorqueHarmonics { roll, crank }
 }
 
+/// Bound of what orders above `highest` can add to either torque over m·r²·ω².
+///
+/// Order n is `i n/2 (i(h'ₙ₋₁ − h'ₙ₊₁) + Cₙ) − e aₙ` with |h'ₖ| = |aₖ|/k, and the rational part
+/// |Cₙ| ≤ l p₂ⁿ⁻¹: the forces' tail, once for each neighbour, and a geometric sum.
+#[must_use]
+pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
+    let force = super::tail_bound(proportions, highest.saturating_sub(1))?;
+    let roots = RationalPart::new(proportions).roots;
+    let (p, first) = (roots.p2, f64::from(highest + 1));
+    let gap = 1.0 - p;
+    // Σ_{n ≥ N} n pⁿ⁻¹ = p^{N−1}(N/g + p/g²)
+    let rational = p.powf(first - 1.0) * (first / gap + p / (gap * gap));
+    let bound = (1.5 + proportions.offset.abs()) * force + 0.5 * proportions.rod * rational;
+    bound.is_finite().then_some(bound)
+}
+
 /// `h'² = u²cos²θ/h²` as a Fourier series.
 struct RationalPart {
     rod: f64,

@@ -1,7 +1,7 @@
 //! Layout sums of one engine at up to [`BLOCK`] bank angles, side by side.
 
 use super::Quantity;
-use super::plan::{FUNCTIONS, Plan, Terms};
+use super::plan::{Constants, FUNCTIONS, Plan, Terms};
 use crate::Complex64;
 use crate::balance::snapped;
 use crate::engine::Hold;
@@ -23,6 +23,8 @@ pub(super) struct Block {
     functions: Vec<[Column; FUNCTIONS]>,
     /// What rounding can leave, by order.
     pub bounds: Vec<f64>,
+    /// Constants of the functions, by order.
+    constants: Vec<Constants>,
     /// Real and imaginary part of what turns with the crank and of the conjugate of what turns
     /// against it (of the torque and nothing), by order.
     sums: Vec<[Column; FUNCTIONS]>,
@@ -36,6 +38,7 @@ impl Block {
             count: 0,
             functions: empty.clone(),
             bounds: vec![0.0; plan.orders.len()],
+            constants: vec![Constants::default(); plan.orders.len()],
             sums: empty,
         }
     }
@@ -45,8 +48,10 @@ impl Block {
     pub fn set_angles(&mut self, plan: &Plan, bank_angles: &[f64]) {
         self.count = bank_angles.len();
         let Some(hold) = plan.hold else {
-            for functions in &mut self.functions {
-                functions[0][..self.count].fill(1.0);
+            // Cosines of nothing.
+            for [ahead, _, against, _] in &mut self.functions {
+                ahead.fill(1.0);
+                against.fill(1.0);
             }
             return;
         };
@@ -99,19 +104,22 @@ impl Block {
         }
     }
 
-    /// Functions times constants, for every order and angle.
-    #[inline(always)]
-    pub fn evaluate(&mut self, terms: &Terms, scale: f64) {
+    /// The constants of an engine at a point, times ω² or 1.
+    pub fn set_terms(&mut self, terms: &Terms, scale: f64) {
         for (order, constants) in terms.constants.iter().enumerate() {
+            self.constants[order] = constants.map(|constant| constant * scale);
             self.bounds[order] = terms.sizes[order] * scale;
-            let [ka, kb, kc, kd] = constants.map(|constant| constant * scale);
-            let [a, b, c, d] = &self.functions[order];
-            let [ahead_re, ahead_im, against_re, against_im] = &mut self.sums[order];
+        }
+    }
+
+    /// Functions times constants, for every order and angle.
+    pub fn evaluate(&mut self) {
+        for (order, sums) in self.sums.iter_mut().enumerate() {
             for i in 0..BLOCK {
-                ahead_re[i] = a[i].mul_add(ka.re, b[i] * kb.re);
-                ahead_im[i] = a[i].mul_add(ka.im, b[i] * kb.im);
-                against_re[i] = c[i].mul_add(kc.re, d[i] * kd.re);
-                against_im[i] = c[i].mul_add(kc.im, d[i] * kd.im);
+                let at = turning(&self.functions[order], &self.constants[order], i);
+                for (sum, value) in sums.iter_mut().zip(at) {
+                    sum[i] = value;
+                }
             }
         }
     }
@@ -182,15 +190,33 @@ impl Block {
     /// |forward + conj backward| and |forward − conj backward| of one order.
     #[inline(always)]
     fn magnitudes(&self, order: usize, along: &mut Column, across: &mut Column) {
-        let [ahead_re, ahead_im, against_re, against_im] = &self.sums[order];
+        let (functions, constants) = (&self.functions[order], &self.constants[order]);
         let bound = self.bounds[order] * self.bounds[order];
+        let magnitude = |re: f64, im: f64| {
+            let square = re.mul_add(re, im * im);
+            if square > bound { square.sqrt() } else { 0.0 }
+        };
+        // In one loop with the square roots, the products cost next to nothing.
         for i in 0..BLOCK {
-            let (re, im) = (ahead_re[i] + against_re[i], ahead_im[i] + against_im[i]);
-            let square = re.mul_add(re, im * im);
-            along[i] = if square > bound { square.sqrt() } else { 0.0 };
-            let (re, im) = (ahead_re[i] - against_re[i], ahead_im[i] - against_im[i]);
-            let square = re.mul_add(re, im * im);
-            across[i] = if square > bound { square.sqrt() } else { 0.0 };
+            let [ahead_re, ahead_im, against_re, against_im] = turning(functions, constants, i);
+            along[i] = magnitude(ahead_re + against_re, ahead_im + against_im);
+            across[i] = magnitude(ahead_re - against_re, ahead_im - against_im);
         }
     }
+}
+
+/// Real and imaginary part of what turns with the crank, and of the conjugate of what turns against
+/// it, at one angle.
+#[inline(always)]
+fn turning(
+    [a, b, c, d]: &[Column; FUNCTIONS],
+    [ka, kb, kc, kd]: &Constants,
+    i: usize,
+) -> [f64; FUNCTIONS] {
+    [
+        a[i].mul_add(ka.re, b[i] * kb.re),
+        a[i].mul_add(ka.im, b[i] * kb.im),
+        c[i].mul_add(kc.re, d[i] * kd.re),
+        c[i].mul_add(kc.im, d[i] * kd.im),
+    ]
 }

@@ -12,6 +12,8 @@ mod harmonics;
 mod plan;
 mod run;
 
+use std::sync::Arc;
+
 use ndarray::{Array, IxDyn};
 
 use self::block::Block;
@@ -54,7 +56,7 @@ pub enum Quantity {
 /// Engines and axes, checked; values are worked out when they are asked for.
 #[derive(Debug)]
 pub struct Sweep {
-    engines: Vec<Engine>,
+    engines: Vec<Arc<Engine>>,
     axes: Axes,
     orders: Vec<u32>,
     references: Vec<f64>,
@@ -69,7 +71,7 @@ pub type Values<T> = Array<T, IxDyn>;
 impl Sweep {
     /// Check everything that can be wrong.
     pub fn new(
-        engines: Vec<Engine>,
+        engines: Vec<Arc<Engine>>,
         axes: Axes,
         orders: Vec<u32>,
         reference_z: Option<f64>,
@@ -82,7 +84,10 @@ impl Sweep {
         let squares = squares.collect::<Result<_>>()?;
         if let Some((angles, _)) = &axes.bank_angle {
             not_empty("bank_angle_deg", angles.len())?;
-            angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            // Counted before they are looked at one by one, which takes longer.
+            if angles.iter().filter(|angle| !(0.0..=180.0).contains(*angle)).count() > 0 {
+                angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            }
             engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
         }
         for (name, values) in [("rod_ratio", &axes.rod_ratio), ("pin_offset", &axes.pin_offset)] {
@@ -95,8 +100,11 @@ impl Sweep {
         }
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         let references = references.collect::<Result<_>>()?;
+        let replaced = axes.rod_ratio.is_some() || axes.pin_offset.is_some();
         let sweep = Self { engines, axes, orders, references, spectrum, squares };
-        sweep.check_geometry()?;
+        if replaced {
+            sweep.check_geometry()?;
+        }
         Ok(sweep)
     }
 
@@ -113,16 +121,32 @@ impl Sweep {
         ]
     }
 
-    /// Largest crank radius of any cylinder, m.
+    /// Largest mean piston speed of any cylinder at any speed, m/s.
     #[must_use]
-    pub fn largest_crank_radius(&self) -> f64 {
-        self.engines.iter().map(Engine::largest_crank_radius).fold(0.0, f64::max)
+    pub fn mean_piston_speed(&self) -> f64 {
+        let radius = self.engines.iter().map(|e| e.largest_crank_radius()).fold(0.0, f64::max);
+        let square = self.squares.iter().copied().fold(0.0, f64::max);
+        // Four radii a turn.
+        4.0 * radius * square.sqrt() / std::f64::consts::TAU
     }
 
-    /// Peak phasors of each order: (…, `n_orders`, components).
+    /// Multiples of crank speed.
+    #[must_use]
+    pub fn orders(&self) -> &[u32] {
+        &self.orders
+    }
+
+    /// What is swept.
+    #[must_use]
+    pub fn axes(&self) -> &Axes {
+        &self.axes
+    }
+
+    /// Peak phasors of each order: (…, `n_orders`, and 2 but for torque).
     pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
         let components = quantity.components();
-        self.fill(quantity, &[self.orders.len(), components], cancel, |block, out| {
+        self.fill(quantity, &self.by_order(quantity), cancel, |block, out| {
+            block.evaluate();
             for (i, row) in out.chunks_exact_mut(self.orders.len() * components).enumerate() {
                 for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
                     phasors.copy_from_slice(&block.phasors(order, i)[..components]);
@@ -131,10 +155,9 @@ impl Sweep {
         })
     }
 
-    /// max over θ of each order along (about) each axis: (…, `n_orders`, components).
-    #[expect(clippy::redundant_closure_for_method_calls, reason = "only a closure is inlined")]
+    /// max over θ of each order along (about) each axis: (…, `n_orders`, and 2 but for torque).
     pub fn peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
-        let tail = [self.orders.len(), quantity.components()];
+        let tail = self.by_order(quantity);
         self.fill(
             quantity,
             &tail,
@@ -148,6 +171,7 @@ impl Sweep {
     pub fn vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let orders = self.orders.len();
         self.fill(quantity, &[orders], cancel, |block, out| {
+            block.evaluate();
             for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                 for (order, length) in row.iter_mut().enumerate() {
                     let bound = block.bounds[order];
@@ -158,11 +182,12 @@ impl Sweep {
         })
     }
 
-    /// max over θ of the sum of orders along (about) each axis: (…, components).
+    /// max over θ of the sum of orders along (about) each axis: (…, and 2 but for torque).
     pub fn sum_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let components = quantity.components();
         let finder = PeakFinder::new(&self.orders);
-        self.fill(quantity, &[components], cancel, |block, out| {
+        self.fill(quantity, quantity.shape(), cancel, |block, out| {
+            block.evaluate();
             for (i, row) in out.chunks_exact_mut(components).enumerate() {
                 for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
                     *peak = finder.along_axis(&phasors);
@@ -175,11 +200,17 @@ impl Sweep {
     pub fn sum_vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
         let finder = PeakFinder::new(&self.orders);
         self.fill(quantity, &[], cancel, |block, out| {
+            block.evaluate();
             for (i, peak) in out.iter_mut().enumerate() {
                 let [x, y] = block.by_component(i);
                 *peak = finder.of_vector(&x, &y);
             }
         })
+    }
+
+    /// Trailing axes of a result that has all orders.
+    fn by_order(&self, quantity: Quantity) -> Vec<usize> {
+        [&[self.orders.len()], quantity.shape()].concat()
     }
 
     /// Work out every point: layout sums block by block, handed to `finish`, times ω².
@@ -188,7 +219,7 @@ impl Sweep {
         quantity: Quantity,
         tail: &[usize],
         cancel: &Cancel,
-        finish: impl Fn(&Block, &mut [T]) + Sync,
+        finish: impl Fn(&mut Block, &mut [T]) + Sync,
     ) -> Result<Values<T>>
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
@@ -224,7 +255,7 @@ impl Sweep {
             // NaN is kept, so that it is found below.
             Some(largest.map_or(offset, |l| if l.abs() >= offset.abs() { l } else { offset }))
         });
-        for cylinder in self.engines.iter().flat_map(Engine::placements).map(|p| p.cylinder) {
+        for cylinder in self.engines.iter().flat_map(|e| e.placements()).map(|p| p.cylinder) {
             for &ratio in &ratios {
                 proportions(&cylinder, ratio, size)?;
             }
@@ -237,10 +268,14 @@ impl Sweep {
 }
 
 impl Quantity {
-    /// x and y, or z alone.
-    #[must_use]
-    pub fn components(self) -> usize {
-        if self == Self::Torque { 1 } else { 2 }
+    /// Axes of one value: x and y, or none for what is about z alone.
+    fn shape(self) -> &'static [usize] {
+        if self == Self::Torque { &[] } else { &[2] }
+    }
+
+    /// How many components one value has.
+    fn components(self) -> usize {
+        self.shape().iter().product()
     }
 }
 

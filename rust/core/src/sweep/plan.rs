@@ -198,12 +198,13 @@ impl Layout<'_> {
         };
         let (mut right, mut left) = (Complex64::default(), Complex64::default());
         for p in members {
-            // e^{in·pin}, or e^{−in·tdc}.
-            let unit = match hold {
-                Hold::Pins => p.bank.cis(n) * p.tdc.cis(-n),
-                Hold::Firing => p.tdc.cis(-n),
-            };
-            *if p.bank == banks.right { &mut right } else { &mut left } += unit * weight(p);
+            let term = p.tdc.cis(-n) * weight(p);
+            *if p.bank == banks.right { &mut right } else { &mut left } += term;
+        }
+        if hold == Hold::Pins {
+            // e^{in·pin} = e^{in·bank} e^{−in·tdc}
+            right *= banks.right.cis(n);
+            left *= banks.left.cis(n);
         }
         turns.map(|turn| {
             // With the pins held the phase turns with the bank: e^{i(turn − n)·bank} e^{in·pin}.

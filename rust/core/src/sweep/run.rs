@@ -10,8 +10,8 @@ use crate::simd::vectorised;
 
 /// Points of the other axes between two looks at cancellation.
 const POINTS: usize = 1024;
-/// A result of fewer numbers is not worth waking another thread for.
-const WORTH_A_THREAD: usize = 1 << 14;
+/// A result of fewer numbers is not worth waking another thread for (some 30 µs).
+const WORTH_A_THREAD: usize = 1 << 16;
 
 /// One pass over all points.
 pub(super) struct Run<'a> {
@@ -47,7 +47,7 @@ impl<'a> Run<'a> {
         &self,
         bank_angles: &[f64],
         values: &mut [T],
-        finish: &(impl Fn(&Block, &mut [T]) + Sync),
+        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
     ) -> Result<()>
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
@@ -77,7 +77,7 @@ impl<'a> Run<'a> {
                     for (engine, out) in outs.into_iter().enumerate() {
                         self.cancel.check()?;
                         if let (Some(terms), 1) = (single.get(engine), self.squares.len()) {
-                            block.evaluate(terms, self.folded);
+                            block.set_terms(terms, self.folded);
                             finish(block, out);
                         } else {
                             self.engine_block(engine, block, out, finish);
@@ -102,14 +102,14 @@ impl<'a> Run<'a> {
         engine: usize,
         block: &mut Block,
         out: &mut [T],
-        finish: &(impl Fn(&Block, &mut [T]) + Sync),
+        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
     ) where
         T: Copy + Default + std::ops::Mul<f64, Output = T>,
     {
         let (speeds, width) = (self.squares.len(), self.width);
         let mut unscaled = vec![T::default(); block.count * width];
         for point in 0..self.points {
-            block.evaluate(&self.plan.combined(engine, point), self.folded);
+            block.set_terms(&self.plan.combined(engine, point), self.folded);
             finish(block, &mut unscaled);
             for (i, values) in unscaled.chunks_exact(width).enumerate() {
                 let start = (i * self.points + point) * speeds * width;
@@ -123,7 +123,7 @@ impl<'a> Run<'a> {
         &self,
         bank_angles: &[f64],
         values: &mut [T],
-        finish: &(impl Fn(&Block, &mut [T]) + Sync),
+        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
     ) -> Result<()>
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
@@ -147,7 +147,7 @@ impl<'a> Run<'a> {
                 while !rest.is_empty() {
                     let (point, speed) = (at / speeds, at % speeds);
                     let here = (speeds - speed).min(rest.len() / width);
-                    block.evaluate(&self.plan.combined(engine, point), self.folded);
+                    block.set_terms(&self.plan.combined(engine, point), self.folded);
                     finish(block, &mut unscaled);
                     let (rows, after) = rest.split_at_mut(here * width);
                     scale(&unscaled, &self.squares[speed..speed + here], rows);
