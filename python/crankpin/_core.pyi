@@ -6,6 +6,26 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "SCHEMA",
+    "Balance",
+    "Engine",
+    "InputError",
+    "Sweep",
+    "__version__",
+    "angular_speed",
+    "balance",
+    "centred_table",
+    "check_cylinder",
+    "cylinder_harmonics",
+    "cylinder_torque_harmonics",
+    "ellipse",
+    "exact_angle",
+    "motion",
+    "offset_table",
+    "waveform",
+]
+
 __version__: str
 SCHEMA: int
 
@@ -96,7 +116,7 @@ class Balance:
     def crank_torque(self) -> _Complex: ...
     def torque_sum_peak(self) -> float: ...
 
-WaveformParts: TypeAlias = tuple[_Real, _Real, _Real | None, _Real | None, Balance | None]
+_WaveformParts: TypeAlias = tuple[_Real, _Real, _Real | None, _Real | None, Balance | None]
 
 @final
 class Sweep:
@@ -154,4 +174,4 @@ def waveform(
     rtol: float,
     reference_z: float | None,
     spectrum: _Pairs | None,
-) -> WaveformParts: ...
+) -> _WaveformParts: ...

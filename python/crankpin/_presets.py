@@ -384,7 +384,7 @@ CATALOGUE: tuple[Preset, ...] = (
     *(
         Preset(
             f"ijesc-v6-{order}",
-            f"V6 60°, IJESC {order}",
+            f"IJESC V6 60°, firing order {order}",
             f"60° V6 of the IJESC paper, lags by its rule for {order}; not even-firing",
             f"{IJESC_PAPER}, Table {table}; the rule for lags follows from the tables",
             _firing(order, IJESC, rule="ijesc", bank_angle_deg=60, odd_bank="right"),

@@ -54,7 +54,11 @@ class Waveform(Frozen):
     """With ``orders="auto"``: what all orders left out can add at any crank angle."""
 
     def __init__(
-        self, engine: Engine, rpm: float, theta_deg: NDArray[np.float64], parts: _core.WaveformParts
+        self,
+        engine: Engine,
+        rpm: float,
+        theta_deg: NDArray[np.float64],
+        parts: _core._WaveformParts,
     ) -> None:
         if not isinstance(parts, tuple):
             raise InputError(f"Waveform({_inputs.shorten(parts)}): use Engine.waveform")

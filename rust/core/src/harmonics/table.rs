@@ -118,6 +118,16 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
     }
     let square = p.map(|p| p * p);
     let fourth = square.map(|s| s * s);
+    // What rounding took from p, and from its square, relative to them: they go into powers.
+    let (mut of_p, mut of_square) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let (λ, p, square) = (rod_ratios[lane], p[lane], square[lane]);
+        let rest = p.mul_add(p, -square);
+        // Residual of λ(1 + p²) = 2p, where λ − 2p is exact, and a step of Newton's method.
+        let residual = λ.mul_add(square, λ - 2.0 * p) + λ * rest;
+        of_p[lane] = residual / ((2.0 - 2.0 * λ * p) * p);
+        of_square[lane] = rest / square;
+    }
     let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
     for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
         if n == 1 || n % 2 == 1 {
@@ -137,6 +147,11 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
                 for lane in 0..LANES {
                     power[lane] *= square[lane];
                 }
+            }
+            let (degree, squares) = (f64::from(n - 1), f64::from(n / 2 - 1));
+            for lane in 0..LANES {
+                let correction = degree * of_p[lane] + squares * of_square[lane];
+                power[lane] = power[lane].mul_add(correction, power[lane]);
             }
         } else {
             for lane in 0..LANES {
