@@ -270,6 +270,12 @@ proptest! {
                 prop_assert!((a[0] - b[0]).hypot(a[1] - b[1]) <= bound + rounding);
             }
         }
+        let bound = chosen.torque.unwrap().error_bound;
+        let torques = exact.torque.unwrap().into_iter().zip(summed.torque.unwrap());
+        let crank_torques = exact.crank_torque.unwrap().into_iter().zip(summed.crank_torque.unwrap());
+        for (a, b) in torques.chain(crank_torques) {
+            prop_assert!((a - b).abs() <= bound + rounding);
+        }
         let largest = engine
             .placements()
             .iter()

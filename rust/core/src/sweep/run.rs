@@ -80,19 +80,28 @@ impl<'a> Run<'a> {
                             block.set_terms(terms, self.folded);
                             finish(block, out);
                         } else {
-                            self.engine_block(engine, block, out, finish);
+                            self.engine_block(engine, block, out, finish)?;
                         }
                     }
                     Ok(())
                 },
             )
         };
+        self.run(tasks, large, work)
+    }
+
+    /// Work through tasks, in parallel where there is enough of it.
+    fn run<K: Send>(
+        &self,
+        tasks: Vec<K>,
+        large: bool,
+        work: impl Fn(&mut Block, K) -> Result<()> + Sync + Send,
+    ) -> Result<()> {
         if large {
-            tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work)
-        } else {
-            let mut block = Block::new(self.plan);
-            tasks.into_iter().try_for_each(|task| work(&mut block, task))
+            return tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work);
         }
+        let mut block = Block::new(self.plan);
+        tasks.into_iter().try_for_each(|task| work(&mut block, task))
     }
 
     /// One engine at the block's bank angles: every point of the other axes.
@@ -103,12 +112,14 @@ impl<'a> Run<'a> {
         block: &mut Block,
         out: &mut [T],
         finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
-    ) where
+    ) -> Result<()>
+    where
         T: Copy + Default + std::ops::Mul<f64, Output = T>,
     {
         let (speeds, width) = (self.squares.len(), self.width);
         let mut unscaled = vec![T::default(); block.count * width];
         for point in 0..self.points {
+            self.cancel.check()?;
             block.set_terms(&self.plan.combined(engine, point), self.folded);
             finish(block, &mut unscaled);
             for (i, values) in unscaled.chunks_exact(width).enumerate() {
@@ -116,6 +127,7 @@ impl<'a> Run<'a> {
                 scale(values, self.squares, &mut out[start..start + speeds * width]);
             }
         }
+        Ok(())
     }
 
     /// Few bank angles or none: runs of the other points, in parallel.
@@ -145,6 +157,7 @@ impl<'a> Run<'a> {
                 let mut unscaled = vec![T::default(); width];
                 let (mut at, mut rest) = (first, out);
                 while !rest.is_empty() {
+                    self.cancel.check()?;
                     let (point, speed) = (at / speeds, at % speeds);
                     let here = (speeds - speed).min(rest.len() / width);
                     block.set_terms(&self.plan.combined(engine, point), self.folded);
@@ -155,12 +168,7 @@ impl<'a> Run<'a> {
                 }
                 Ok(())
             };
-        if large {
-            tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work)
-        } else {
-            let mut block = Block::new(self.plan);
-            tasks.into_iter().try_for_each(|task| work(&mut block, task))
-        }
+        self.run(tasks, large, work)
     }
 }
 

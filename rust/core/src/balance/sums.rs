@@ -1,227 +1,24 @@
-//! How an engine shakes, order by order: force, moment and roll torque as peak phasors.
-//!
-//! In the cross-section plane force and moment are complex numbers x + iy, and each order is
-//! `forward·e^{inθ} + backward·e^{−inθ}`: a part that turns with the crank and one against it. With
-//! w = m·r and `aₙ` the slider-crank's harmonics, the reciprocating masses give
-//! `forward = aₙ/2 Σ w e^{i(bank − n·tdc)}` and `backward = conj(aₙ/2 Σ w e^{−i(bank + n·tdc)})`; rotating
-//! mass turns forward with its pin at order 1. Since the moment is r × F, that of a cylinder is
-//! i·(z − z₀) times its force.
+//! Sums over the cylinders of a layout: where forces, moments and torques add up or cancel.
 
+use nalgebra::Vector2;
 use ndarray::{Array1, Array2};
 
+use super::{Balance, Shake, Torque};
 use crate::Complex64;
 use crate::engine::{Engine, Placement};
-use crate::error::{Error, Result};
-use crate::extrema::PeakFinder;
 use crate::harmonics;
-use crate::limits;
 use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
 
-/// Which orders to give.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Orders {
-    /// These.
-    Given(Vec<u32>),
-    /// The fewest that leave out at most this part of the largest m·r·ω² of a cylinder (times the
-    /// longest lever, for moments, and the crank radius, for torque).
-    Auto {
-        /// Relative tolerance.
-        rtol: f64,
-    },
-}
-
-/// Force and moment of one kind, order by order.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shake {
-    /// Peak phasors along (about) x and y: (`n_orders`, 2).
-    pub xy: Array2<Complex64>,
-    /// Coefficients of `e^{inθ}`: (`n_orders`,).
-    pub forward: Array1<Complex64>,
-    /// Coefficients of `e^{−inθ}`: (`n_orders`,).
-    pub backward: Array1<Complex64>,
-    /// What rounding can leave of a sum that vanishes; phasors below it are given as zero.
-    pub zero_bound: Array1<f64>,
-    /// What the orders left out can add to the length of the vector at any crank angle; 0 for
-    /// orders that were asked for by number.
-    pub error_bound: f64,
-}
-
-/// Roll torque, order by order.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Torque {
-    /// On the block, about +z: peak phasors, (`n_orders`,).
-    pub roll: Array1<Complex64>,
-    /// On the crank, about +z.
-    pub crank: Array1<Complex64>,
-    /// What rounding can leave of a sum that vanishes.
-    pub zero_bound: Array1<f64>,
-    /// What the orders left out can add to either torque at any crank angle.
-    pub error_bound: f64,
-}
-
-/// How an engine shakes at one speed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Balance {
-    /// Orders, ascending where they were chosen here.
-    pub orders: Vec<u32>,
-    /// Orders that were looked at and left out.
-    pub omitted: Vec<u32>,
-    /// Shaking force, N.
-    pub force: Shake,
-    /// Rocking moment, N·m.
-    pub moment: Shake,
-    /// Torque, N·m; a spectrum given by the user tells nothing of it.
-    pub torque: Option<Torque>,
-}
-
-/// An ellipse traced by force or moment in one order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ellipse {
-    /// Longest half axis.
-    pub major: f64,
-    /// Shortest half axis; below zero where the vector turns against the crank.
-    pub minor: f64,
-    /// Direction of the long axis from +x, radians in (−π/2, π/2]; 0 for a circle.
-    pub tilt: f64,
-}
-
-impl Ellipse {
-    /// From forward and backward parts.
-    #[must_use]
-    pub fn new(forward: Complex64, backward: Complex64) -> Self {
-        let (f, b) = (forward.norm(), backward.norm());
-        let tilt =
-            if f == 0.0 || b == 0.0 { 0.0 } else { (forward * backward / (f * b)).sqrt().arg() };
-        Self { major: f + b, minor: f - b, tilt }
-    }
-}
-
-impl Shake {
-    /// max over θ along x and y of the sum of all orders.
-    #[must_use]
-    pub fn peak_xy(&self, finder: &PeakFinder) -> [f64; 2] {
-        [0, 1].map(|axis| finder.along_axis(&self.xy.column(axis).to_vec()))
-    }
-
-    /// max over θ of the length of the sum of all orders.
-    #[must_use]
-    pub fn peak_vector(&self, finder: &PeakFinder) -> f64 {
-        finder.of_vector(&self.xy.column(0).to_vec(), &self.xy.column(1).to_vec())
-    }
-}
-
-impl Balance {
-    /// Length of force and moment and size of the larger torque of the k-th order.
-    fn sizes(&self, k: usize) -> [f64; 3] {
-        let length = |shake: &Shake| shake.forward[k].norm() + shake.backward[k].norm();
-        let torque = self.torque.as_ref().map_or(0.0, |t| t.roll[k].norm().max(t.crank[k].norm()));
-        [length(&self.force), length(&self.moment), torque]
-    }
-}
-
-/// Angular speed in rad/s.
-pub fn angular_speed(rpm: f64) -> Result<f64> {
-    Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)
-}
-
-/// How the engine shakes at `rpm`, about the plane z = `reference_z` (default: half-way between
-/// the first and the last cylinder). A spectrum stands in for every cylinder's slider-crank.
-pub fn balance(
-    engine: &Engine,
-    rpm: f64,
-    orders: &Orders,
-    reference_z: Option<f64>,
-    spectrum: Option<&Spectrum>,
-) -> Result<Balance> {
-    let omega = angular_speed(rpm)?;
-    let reference = engine.reference(reference_z)?;
-    match orders {
-        Orders::Given(orders) => {
-            limits::orders(orders)?;
-            let cure = "give fewer orders";
-            limits::result_size("orders", &[orders.len(), 8], size_of::<Complex64>(), cure)?;
-            Ok(Sums::new(engine, reference, spectrum).balance(orders, omega))
-        }
-        Orders::Auto { rtol } => chosen(engine, omega, *rtol, reference, spectrum),
-    }
-}
-
-/// The fewest orders within `rtol`.
-fn chosen(
-    engine: &Engine,
-    omega: f64,
-    rtol: f64,
-    reference: f64,
-    spectrum: Option<&Spectrum>,
-) -> Result<Balance> {
-    if !(1e-15..1.0).contains(&rtol) {
-        return Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"));
-    }
-    let sums = Sums::new(engine, reference, spectrum);
-    let count = engine.placements().len() as f64;
-    let candidates = candidates(engine, &sums, 0.25 * rtol / count)?;
-    let last = candidates.last().copied().unwrap_or(1);
-    let whole = sums.balance(&candidates, omega);
-    let tail = if spectrum.is_some() { [0.0; 3] } else { sums.tail(last, omega) };
-    let allowed = sums.largest(reference).map(|largest| rtol * largest * omega * omega);
-    // Each candidate's share of force, moment and torque.
-    let sizes: Vec<[f64; 3]> = (0..candidates.len()).map(|k| whole.sizes(k)).collect();
-    let weight = |&k: &usize| {
-        let shares = sizes[k].iter().zip(&allowed);
-        shares
-            .map(|(&size, &allowed)| if size == 0.0 { 0.0 } else { size / allowed })
-            .fold(0.0, f64::max)
-    };
-    let mut by_size: Vec<usize> = (0..candidates.len()).collect();
-    by_size.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
-    let (mut bounds, mut left_out) = (tail, 0);
-    for &k in &by_size {
-        let more: [f64; 3] = std::array::from_fn(|i| bounds[i] + sizes[k][i]);
-        if more.iter().zip(&allowed).any(|(more, allowed)| more > allowed) {
-            break;
-        }
-        (bounds, left_out) = (more, left_out + 1);
-    }
-    let pick = |indices: &[usize]| {
-        let mut picked: Vec<u32> = indices.iter().map(|&k| candidates[k]).collect();
-        picked.sort_unstable();
-        picked
-    };
-    let mut balance = sums.balance(&pick(&by_size[left_out..]), omega);
-    balance.omitted = pick(&by_size[..left_out]);
-    [balance.force.error_bound, balance.moment.error_bound] = [bounds[0], bounds[1]];
-    if let Some(torque) = &mut balance.torque {
-        torque.error_bound = bounds[2];
-    }
-    Ok(balance)
-}
-
-/// Orders that may matter: those of the spectrum, or all whose harmonics are not below `tolerance`.
-fn candidates(engine: &Engine, sums: &Sums, tolerance: f64) -> Result<Vec<u32>> {
-    if let Some(spectrum) = sums.spectrum {
-        let mut orders = spectrum.orders();
-        if !orders.contains(&1) && engine.placements().iter().any(|p| p.rotating_mass > 0.0) {
-            orders.insert(0, 1);
-        }
-        return Ok(orders);
-    }
-    let mut highest = 1;
-    for group in &sums.groups {
-        highest = highest.max(harmonics::highest_order(&group.proportions, tolerance)?);
-    }
-    Ok((1..=highest).collect())
-}
-
 /// Cylinders whose slider-cranks have the same proportions, hence the same harmonics.
-pub(crate) struct Group {
+pub(super) struct Group {
     pub proportions: Proportions,
     /// Indices into the engine's placements.
     pub members: Vec<usize>,
 }
 
 /// Group an engine's cylinders by their proportions.
-pub(crate) fn groups(cylinders: impl Iterator<Item = Cylinder>) -> Vec<Group> {
+fn groups(cylinders: impl Iterator<Item = Cylinder>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (i, cylinder) in cylinders.enumerate() {
         let proportions = cylinder.proportions();
@@ -250,8 +47,7 @@ pub(crate) fn snapped(sum: Complex64, bound: f64) -> Complex64 {
 /// Weighted sum of unit vectors along the bores, in phase with their cylinders.
 #[derive(Clone, Copy, Default)]
 struct Planar {
-    x: Complex64,
-    y: Complex64,
+    xy: Vector2<Complex64>,
     forward: Complex64,
     /// Conjugate of the backward part.
     backward_conj: Complex64,
@@ -262,8 +58,7 @@ struct Planar {
 impl Planar {
     fn add(&mut self, weight: f64, size: f64, bore: Complex64, phase: Complex64) {
         let term = phase * weight;
-        self.x += term * bore.re;
-        self.y += term * bore.im;
+        self.xy += Vector2::new(term * bore.re, term * bore.im);
         self.forward += term * bore * 0.5;
         self.backward_conj += term * bore.conj() * 0.5;
         self.size += size;
@@ -272,15 +67,13 @@ impl Planar {
     /// A mass that turns with the pin: all of it forward.
     fn add_rotating(&mut self, weight: f64, size: f64, pin: Complex64) {
         let term = pin * weight;
-        self.x += term;
-        self.y += -Complex64::i() * term;
+        self.xy += Vector2::new(term, -Complex64::i() * term);
         self.forward += term;
         self.size += size;
     }
 
     fn add_scaled(&mut self, other: &Self, factor: Complex64) {
-        self.x += other.x * factor;
-        self.y += other.y * factor;
+        self.xy += other.xy * factor;
         self.forward += other.forward * factor;
         self.backward_conj += other.backward_conj * factor;
         self.size += other.size * factor.norm();
@@ -290,8 +83,7 @@ impl Planar {
     fn quarter_turned(&self) -> Self {
         let i = Complex64::i();
         Self {
-            x: -self.y,
-            y: self.x,
+            xy: Vector2::new(-self.xy.y, self.xy.x),
             forward: i * self.forward,
             backward_conj: -i * self.backward_conj,
             size: self.size,
@@ -300,17 +92,17 @@ impl Planar {
 }
 
 /// Everything about an engine that does not depend on the order.
-struct Sums<'a> {
+pub(super) struct Sums<'a> {
     engine: &'a Engine,
-    spectrum: Option<&'a Spectrum>,
-    groups: Vec<Group>,
+    pub spectrum: Option<&'a Spectrum>,
+    pub groups: Vec<Group>,
     bores: Vec<Complex64>,
     /// Lever about the reference plane, and the size its rounding is relative to.
     levers: Vec<(f64, f64)>,
 }
 
 impl<'a> Sums<'a> {
-    fn new(engine: &'a Engine, reference: f64, spectrum: Option<&'a Spectrum>) -> Self {
+    pub fn new(engine: &'a Engine, reference: f64, spectrum: Option<&'a Spectrum>) -> Self {
         let placements = engine.placements();
         Self {
             engine,
@@ -324,7 +116,7 @@ impl<'a> Sums<'a> {
         }
     }
 
-    fn balance(&self, orders: &[u32], omega: f64) -> Balance {
+    pub fn balance(&self, orders: &[u32], omega: f64) -> Balance {
         let square = omega * omega;
         let count = orders.len();
         let mut force = empty_shake(count);
@@ -418,7 +210,7 @@ impl<'a> Sums<'a> {
     }
 
     /// What orders above `highest` can add to force, moment and torque.
-    fn tail(&self, highest: u32, omega: f64) -> [f64; 3] {
+    pub fn tail(&self, highest: u32, omega: f64) -> [f64; 3] {
         let mut tail = [0.0; 3];
         for Group { proportions, members } in &self.groups {
             let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY) * omega * omega;
@@ -436,7 +228,7 @@ impl<'a> Sums<'a> {
     }
 
     /// Largest m·r of a cylinder, times the longest lever, times its crank radius.
-    fn largest(&self, reference: f64) -> [f64; 3] {
+    pub fn largest(&self, reference: f64) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
         for p in self.engine.placements() {
             let radius = p.cylinder.crank_radius();
@@ -461,8 +253,8 @@ fn empty_shake(count: usize) -> Shake {
 
 fn store(shake: &mut Shake, k: usize, sum: &Planar, square: f64, factor: f64) {
     let bound = sum.size * square * factor;
-    shake.xy[[k, 0]] = snapped(sum.x * square, bound);
-    shake.xy[[k, 1]] = snapped(sum.y * square, bound);
+    shake.xy[[k, 0]] = snapped(sum.xy.x * square, bound);
+    shake.xy[[k, 1]] = snapped(sum.xy.y * square, bound);
     shake.forward[k] = snapped(sum.forward * square, bound);
     shake.backward[k] = snapped(sum.backward_conj.conj() * square, bound);
     shake.zero_bound[k] = bound;

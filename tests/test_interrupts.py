@@ -1,0 +1,104 @@
+"""Does Ctrl-C stop a long call, and do other threads go on while it runs?
+
+No test here depends on how fast the machine is: a call that could not be stopped would take hours.
+"""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+LONG_CALLS = {
+    "sum of orders over bank angle, rod ratio and speed": (
+        "cp.sweep(v6, rpm=np.linspace(1, 9000, 100), bank_angle_deg=np.linspace(0, 180, 400), "
+        "hold='pins', rod_ratio=np.linspace(0.1, 0.5, 6000)).moment_sum_peak_vector"
+    ),
+    "sum of orders over rod ratio": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 20_000_000), "
+        "orders=[1, 2, 4, 6, 8, 10]).moment_sum_peak_xy"
+    ),
+    "harmonics with an offset": (
+        "cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)"
+    ),
+    "waveform as a sum of orders": (
+        "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
+    ),
+}
+
+PROGRAM = """
+import numpy as np
+import crankpin as cp
+v6 = cp.Engine.preset("v6-60")
+print("ready", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+@pytest.mark.parametrize("name", LONG_CALLS)
+def test_ctrl_c_stops_a_long_call(name: str) -> None:
+    program = PROGRAM.format(call=LONG_CALLS[name])
+    with subprocess.Popen(  # noqa: S603 - this interpreter
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(1.0)
+        process.send_signal(signal.SIGINT)
+        try:
+            assert process.stdout.readline() == "stopped\n"
+            assert process.wait(60) == 0
+        finally:
+            process.kill()
+
+
+def test_other_threads_go_on() -> None:
+    """While one thread is in a long call, another one gets its turns."""
+    v6 = cp.Engine.preset("v6-60")
+    sweep = cp.sweep(
+        v6,
+        rpm=[1000, 2000],
+        bank_angle_deg=np.linspace(0, 180, 300),
+        hold="pins",
+        rod_ratio=np.linspace(0.1, 0.5, 40),
+    )
+    done = threading.Event()
+
+    def work() -> None:
+        _ = sweep.moment_sum_peak_xy
+        done.set()
+
+    turns = 0
+    thread = threading.Thread(target=work)
+    thread.start()
+    while not done.is_set():
+        turns += 1
+    thread.join()
+    # a call that kept the interpreter would leave a turn before it and one after
+    assert turns > 100
+
+
+def test_several_threads_at_once_agree() -> None:
+    v6 = cp.Engine.preset("v6-60")
+    alone = v6.waveform(5000, np.arange(5000.0)).moment
+    results: list[np.ndarray] = []
+    threads = [
+        threading.Thread(target=lambda: results.append(v6.waveform(5000, np.arange(5000.0)).moment))
+        for _ in range(8)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 8
+    assert all(np.array_equal(alone, result) for result in results)

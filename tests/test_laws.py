@@ -1,0 +1,154 @@
+"""Do the laws hold that must hold for any engine? Through the Python surface, by hypothesis."""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+RPM = 3000.0
+OMEGA_SQUARED = (2 * np.pi * RPM / 60) ** 2
+ORDERS = (1, 2, 3, 4, 6)
+
+angles = st.one_of(
+    st.integers(0, 23).map(lambda k: 15 * k),
+    st.integers(0, 6).map(lambda k: f"{360 * k}/7"),
+    st.floats(0, 360),
+)
+cylinders = st.builds(
+    lambda radius, rod, mass, offset: cp.Cylinder(radius, radius * rod, mass, radius * offset),
+    st.floats(0.02, 0.2),
+    st.floats(1.8, 6),
+    st.floats(0.1, 3),
+    st.floats(-0.5, 0.5),
+)
+
+
+@st.composite
+def engines(draw: st.DrawFn) -> cp.Engine:
+    count = draw(st.integers(1, 8))
+    each = {"min_size": count, "max_size": count}
+    return cp.Engine.from_lists(
+        draw(st.lists(cylinders, **each)),
+        tdc_deg=draw(st.lists(angles, **each)),
+        bank_deg=draw(st.lists(angles, **each)),
+        z=draw(st.lists(st.floats(-0.5, 0.5), **each)),
+        rotating_mass=draw(st.lists(st.floats(0, 2), **each)),
+    )
+
+
+def size(engine: cp.Engine) -> float:
+    """What rounding is relative to: Σ m r ω² (1 + |z|)."""
+    masses = np.array([c.reciprocating_mass for c in engine.cylinders]) + engine.rotating_mass
+    radii = np.array([c.crank_radius for c in engine.cylinders])
+    return float((masses * radii * (1 + np.abs(engine.z))).sum() * OMEGA_SQUARED)
+
+
+def same(found: np.ndarray, expected: np.ndarray, scale: float) -> None:
+    # phases of order 6 of angles up to 1024°: 6 · 1.1e-13° is 1.2e-14 rad; eight terms, ten allowed
+    assert np.abs(np.asarray(found) - np.asarray(expected)).max() <= 2e-13 * scale
+
+
+def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.Balance:
+    return engine.balance(RPM, ORDERS, reference_z=reference_z)
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines(), factor=st.floats(0.01, 1))
+def test_force_goes_with_the_square_of_speed(engine: cp.Engine, factor: float) -> None:
+    faster = engine.balance(RPM * factor, ORDERS, reference_z=0.0)
+    same(faster.force, of(engine).force * factor**2, size(engine) * factor**2)
+    same(faster.torque, of(engine).torque * factor**2, size(engine) * factor**2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines(), by=st.floats(0, 360))
+def test_turning_the_engine_turns_the_result(engine: cp.Engine, by: float) -> None:
+    turned = of(engine.replace(tdc_deg=engine.tdc_deg, bank_deg=engine.bank_deg + by))
+    turn = np.exp(1j * np.radians(by))
+    same(turned.forward_moment, of(engine).forward_moment * turn, size(engine))
+    same(turned.backward_moment, of(engine).backward_moment * turn, size(engine))
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines(), data=st.data())
+def test_relabelling_changes_nothing(engine: cp.Engine, data: st.DataObject) -> None:
+    order = data.draw(st.permutations(range(len(engine))))
+    relabelled = cp.Engine.from_lists(
+        [engine.cylinders[k] for k in order],
+        tdc_deg=engine.tdc_deg[list(order)],
+        bank_deg=engine.bank_deg[list(order)],
+        z=engine.z[list(order)],
+        rotating_mass=engine.rotating_mass[list(order)],
+    )
+    same(of(relabelled).moment, of(engine).moment, size(engine))
+    same(of(relabelled).torque, of(engine).torque, size(engine))
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines(), by=st.floats(-1, 1))
+def test_moving_the_plane_adds_force_times_distance(engine: cp.Engine, by: float) -> None:
+    here, there = of(engine), of(engine, reference_z=by)
+    shift = np.stack([here.force[:, 1], -here.force[:, 0]], axis=1) * by
+    same(there.moment, here.moment + shift, 2 * size(engine))
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines())
+def test_a_mirror_swaps_and_conjugates(engine: cp.Engine) -> None:
+    still = engine.replace(rotating_mass=0.0)
+    mirrored = of(still.replace(tdc_deg=still.tdc_deg, bank_deg=180 - still.bank_deg))
+    same(mirrored.forward_force, -of(still).backward_force.conj(), size(engine))
+    same(mirrored.backward_force, -of(still).forward_force.conj(), size(engine))
+
+
+@settings(max_examples=60, deadline=None)
+@given(engine=engines())
+def test_reversing_the_crank_swaps_the_two(engine: cp.Engine) -> None:
+    centred = [c.replace(pin_offset=0.0) for c in engine.cylinders]
+    still = engine.replace(rotating_mass=0.0, cylinder=centred)
+    reversed_ = of(still.replace(tdc_deg=-still.tdc_deg))
+    same(reversed_.forward_force, of(still).backward_force, size(engine))
+    same(reversed_.backward_moment, of(still).forward_moment, size(engine))
+
+
+@settings(max_examples=40, deadline=None)
+@given(engine=engines())
+def test_parseval(engine: cp.Engine) -> None:
+    """Mean square of the waveform is the sum of |forward|² + |backward|²."""
+    force = engine.waveform(RPM, np.arange(512) * 360 / 512).force
+    parts = engine.balance(RPM, range(1, 121))
+    total = (np.abs(parts.forward_force) ** 2 + np.abs(parts.backward_force) ** 2).sum()
+    # λ ≤ 1/1.8 with e ≤ r/2: order 120 is below 1e-20 of the first
+    assert abs((force**2).sum(axis=1).mean() - total) <= 1e-12 * size(engine) ** 2
+
+
+@settings(max_examples=60, deadline=None)
+@given(cylinder=cylinders, throws=st.lists(angles, min_size=1, max_size=5))
+def test_boxer_pairs_cancel(cylinder: cp.Cylinder, throws: list[float | str]) -> None:
+    engine = cp.Engine.boxer(cylinder, throws_deg=throws, spacing=0.1, rotating_mass=0.5)
+    balance = of(engine, reference_z=0.03)
+    assert not balance.force.any()
+    assert not balance.moment.any()
+
+
+@settings(max_examples=40, deadline=None)
+@given(engine=engines())
+def test_peaks_are_those_of_the_waveform(engine: cp.Engine) -> None:
+    """No sample is higher than the true peak of the sum of orders, and a dense one is as high."""
+    theta = np.linspace(0, 360, 2881)
+    waveform = engine.waveform(RPM, theta, ORDERS, reference_z=0.0)
+    balance = of(engine)
+    for samples, peak, longest in (
+        (waveform.force, balance.force_sum_peak_xy, balance.force_sum_peak_vector),
+        (waveform.moment, balance.moment_sum_peak_xy, balance.moment_sum_peak_vector),
+    ):
+        rounding = 1e-12 * size(engine)
+        dense = np.abs(samples).max(axis=0)
+        assert np.all(dense <= peak + rounding)
+        # half a step of 1/8° at order 6 (12 for the squared length): (12 · 1.1e-3)²/2 = 9e-5
+        assert np.all(peak <= dense + 1e-4 * size(engine))
+        length = np.hypot(*samples.T).max()
+        assert length <= longest + rounding
+        assert longest <= length + 1e-4 * size(engine)
