@@ -10,6 +10,8 @@
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
 //! with `P` its peak phasor.
 
+#![forbid(unsafe_code)]
+
 pub mod angle;
 pub mod balance;
 pub mod cancel;

@@ -10,6 +10,8 @@
 mod choice;
 mod sums;
 
+use std::f64::consts::FRAC_PI_2;
+
 use ndarray::{Array1, Array2};
 
 use self::sums::Sums;
@@ -94,8 +96,14 @@ impl Ellipse {
     #[must_use]
     pub fn new(forward: Complex64, backward: Complex64) -> Self {
         let (f, b) = (forward.norm(), backward.norm());
-        let tilt =
-            if f == 0.0 || b == 0.0 { 0.0 } else { (forward * backward / (f * b)).sqrt().arg() };
+        let mut tilt = 0.0;
+        if f != 0.0 && b != 0.0 {
+            tilt = (forward / f * (backward / b)).sqrt().arg();
+            // The root of −1 − 0i points down.
+            if tilt <= -FRAC_PI_2 {
+                tilt = FRAC_PI_2;
+            }
+        }
         Self { major: f + b, minor: f - b, tilt }
     }
 }
@@ -138,5 +146,20 @@ pub fn balance(
             Ok(Sums::new(engine, reference, spectrum).balance(orders, omega))
         }
         Orders::Auto { rtol } => choice::within(*rtol, engine, omega, reference, spectrum),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ellipse_points_up_where_it_points_down() {
+        let i = Complex64::i();
+        for (forward, backward) in [(i, i), (-i, -i), (i * 2.0, Complex64::new(-0.0, 1.0))] {
+            assert_eq!(Ellipse::new(forward, backward).tilt, FRAC_PI_2);
+        }
+        let circle = Ellipse::new(Complex64::default(), i * 3.0);
+        assert_eq!((circle.major, circle.minor, circle.tilt), (3.0, -3.0, 0.0));
     }
 }
