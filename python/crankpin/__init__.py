@@ -14,10 +14,13 @@ from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
 from crankpin._presets import presets
+from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin._sweep import Sweep, sweep
 from crankpin._waveform import Waveform
 
 __all__ = [
+    "Arrangement",
+    "ArrangementSearch",
     "Balance",
     "Cylinder",
     "Ellipse",
@@ -29,6 +32,7 @@ __all__ = [
     "Waveform",
     "__version__",
     "presets",
+    "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
 ]

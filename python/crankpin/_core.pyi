@@ -11,6 +11,7 @@ __all__ = [
     "Balance",
     "Engine",
     "InputError",
+    "Search",
     "Sweep",
     "__version__",
     "angular_speed",
@@ -117,6 +118,21 @@ class Balance:
     def torque_sum_peak(self) -> float: ...
 
 _WaveformParts: TypeAlias = tuple[_Real, _Real, _Real | None, _Real | None, Balance | None]
+
+@final
+class Search:
+    def __new__(cls, cylinders: int, alternating: bool, phases: Sequence[str] | None) -> Search: ...
+    @property
+    def candidates(self) -> int: ...
+    @property
+    def qualifying(self) -> int: ...
+    @property
+    def balanced(self) -> int: ...
+    def bank_angles(self) -> _Real: ...
+    def solution(
+        self, k: int
+    ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...
+    def engine(self, k: int, parts: _Parts, spacing: float) -> Engine: ...
 
 @final
 class Sweep:

@@ -167,7 +167,7 @@ class Engine(Frozen):
                [    0., 12359.]])
         """
         layout = _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg)
-        return cls(_core.Engine.inline(_parts(cylinder), layout), name, source)
+        return cls(_core.Engine.inline(parts(cylinder), layout), name, source)
 
     @classmethod
     def vee(
@@ -237,7 +237,7 @@ class Engine(Frozen):
             rotating_mass=rotating_mass,
             first_tdc_deg=first_tdc_deg,
         )
-        return cls(_core.Engine.vee(_parts(cylinder), layout), name, source)
+        return cls(_core.Engine.vee(parts(cylinder), layout), name, source)
 
     @classmethod
     def flat(
@@ -355,7 +355,7 @@ class Engine(Frozen):
         rule_text = _inputs.text("rule", rule, 'give "even" or "ijesc"')
         if bank_angle_deg is None:
             inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)
-            core = _core.Engine.inline_from_firing_order(_parts(cylinder), text, rule_text, inline)
+            core = _core.Engine.inline_from_firing_order(parts(cylinder), text, rule_text, inline)
         else:
             vee = _vee_layout(
                 bank_angle_deg=bank_angle_deg,
@@ -368,7 +368,7 @@ class Engine(Frozen):
                 rotating_mass=rotating_mass,
                 first_tdc_deg=first_tdc_deg,
             )
-            core = _core.Engine.vee_from_firing_order(_parts(cylinder), text, rule_text, vee)
+            core = _core.Engine.vee_from_firing_order(parts(cylinder), text, rule_text, vee)
         return cls(core, name, source)
 
     @classmethod
@@ -725,7 +725,8 @@ class Engine(Frozen):
         return 4.0 * self._core.largest_crank_radius * rpm / 60.0
 
 
-def _parts(cylinder: Cylinder) -> tuple[float, float, float, float]:
+def parts(cylinder: Cylinder) -> tuple[float, float, float, float]:
+    """Return the figures of a cylinder, or say that it is none."""
     if not isinstance(cylinder, Cylinder):
         raise InputError(f"cylinder = {_inputs.shorten(cylinder)}: give a crankpin.Cylinder")
     return cylinder._parts
@@ -735,11 +736,11 @@ def _each(
     cylinder: Cylinder | Sequence[Cylinder], count: int
 ) -> list[tuple[float, float, float, float]]:
     if isinstance(cylinder, Cylinder):
-        return [_parts(cylinder)] * count
+        return [parts(cylinder)] * count
     listed = _inputs.items(
         "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
     )
-    return [_parts(each) for each in listed]
+    return [parts(each) for each in listed]
 
 
 def _inline_layout(

@@ -103,6 +103,13 @@ def text(name: str, value: object, cure: str = "give text") -> str:
     return value
 
 
+def flag(name: str, value: object) -> bool:
+    """Return True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} = {shorten(value)}: give True or False")
+    return bool(value)
+
+
 def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     """Return one of a few words."""
     listed = list(choices)

@@ -4,6 +4,7 @@
 //! [`error`], [`limits`], [`cancel`], [`double`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
 //! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
 //! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
+//! [`search`] goes through every arrangement;
 //! [`extrema`] finds the peak of a sum of orders for the last three.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
@@ -23,6 +24,7 @@ pub mod extrema;
 pub mod harmonics;
 pub mod layout;
 pub mod limits;
+pub mod search;
 mod simd;
 pub mod slider_crank;
 pub mod spectrum;

@@ -11,6 +11,7 @@ mod balance;
 mod convert;
 mod engine;
 mod interrupt;
+mod search;
 mod slider_crank;
 mod sweep;
 mod waveform;
@@ -22,6 +23,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("InputError", module.py().get_type::<convert::InputError>())?;
     module.add_class::<engine::Engine>()?;
     module.add_class::<balance::Balance>()?;
+    module.add_class::<search::Search>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;

@@ -1,0 +1,283 @@
+"""Every crank arrangement of a vee, searched for bank angles that a counterweight can balance."""
+
+from __future__ import annotations
+
+import dataclasses
+import operator
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin import _core, _inputs, _tables
+from crankpin._engine import Engine, parts
+from crankpin._frozen import Frozen
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from numpy.typing import NDArray
+
+    from crankpin._cylinder import Cylinder
+    from crankpin._inputs import Angles
+
+
+@dataclasses.dataclass(frozen=True)
+class Arrangement:
+    """A bank angle at which all first-order moment is forward, and two banks that have it."""
+
+    bank_angle_deg: float
+    """Angle between the banks, degrees."""
+    first_deg: tuple[float, ...]
+    """Phases of the first bank's throws, front to flywheel, degrees: TDCs are at minus these."""
+    second_deg: tuple[float, ...]
+    """Phases of the second bank's throws."""
+    counterweight: float
+    """First-order moment that a counterweight takes away, over m·r·ω²·spacing."""
+    second_order: tuple[float, float]
+    """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
+
+    @property
+    def near_circular(self) -> bool:
+        """Whether the two second-order moments differ by a tenth of the larger at most."""
+        low, high = sorted(self.second_order)
+        return high - low <= 0.1 * high
+
+
+def search_arrangements(
+    cylinders: int, *, alternating: bool = False, phases_deg: Angles | None = None
+) -> ArrangementSearch:
+    """Search all pairs of bank arrangements for those with a balanced bank angle.
+
+    With every top dead centre held and Z = Σ s exp(i·phase) over a bank's throws, s the distance
+    from the middle, first-order moment is all forward at α = arg(−Z₂/Z₁), which exists where
+    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a
+    whole combination of roots of unity. Angles are told apart exactly too.
+
+    Parameters
+    ----------
+    cylinders
+        Of the vee: an even number, 4 to 30.
+    alternating
+        Only arrangements in which, in firing order, front and rear halves of a bank take turns and
+        a central throw stands between a rear and a front one.
+    phases_deg
+        Phases of one bank's throws, rational parts of a turn; by default those of the even-firing
+        four-stroke: an odd number of throws n has n phases, an even one n/2, each twice.
+
+    Returns
+    -------
+    ArrangementSearch
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or the search would take more than 8 GiB.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> search = cp.search_arrangements(cylinders=14, alternating=True)
+    >>> search.candidates, search.qualifying, len(search)
+    (254016, 12936, 218)
+    >>> round(search.at(49.54)[0].counterweight, 4)
+    1.5363
+    """
+    try:
+        count = operator.index(cylinders)
+    except TypeError:
+        cure = "give a whole number, such as 14"
+        raise _core.InputError(f"cylinders = {_inputs.shorten(cylinders)}: {cure}") from None
+    if not 0 <= count < 2**32:
+        raise _core.InputError(f"cylinders = {_inputs.shorten(count)}: give 4 to 30")
+    phases = None if phases_deg is None else _inputs.angles("phases_deg", phases_deg)
+    rule = _inputs.flag("alternating", alternating)
+    return ArrangementSearch(_core.Search(count, rule, phases), count, rule, phases)
+
+
+class ArrangementSearch(Frozen):
+    """What a search found: counts, and the balanced bank angles with an arrangement for each.
+
+    A sequence of :class:`Arrangement`, one for each bank angle, ascending. Made by
+    :func:`crankpin.search_arrangements`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> search = cp.search_arrangements(cylinders=6)
+    >>> search.bank_angles_deg.round(9)
+    array([  0.,  60., 120., 180.])
+    >>> engine = search.engine(2, cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
+    >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+    array([0.+0.j])
+    """
+
+    cylinders: int
+    """Of the vee."""
+    alternating: bool
+    """Whether front and rear halves take turns to fire."""
+
+    def __init__(
+        self,
+        core: _core.Search,
+        cylinders: int,
+        alternating: bool,
+        phases: list[str] | None,
+    ) -> None:
+        if not isinstance(core, _core.Search):
+            cure = "use crankpin.search_arrangements"
+            raise _core.InputError(f"ArrangementSearch({_inputs.shorten(core)}): {cure}")
+        self._set(_core=core, cylinders=cylinders, alternating=alternating, _phases=phases)
+
+    _core: _core.Search
+    _phases: list[str] | None
+
+    @property
+    def candidates(self) -> int:
+        """Pairs of bank arrangements that were searched."""
+        return self._core.candidates
+
+    @property
+    def qualifying(self) -> int:
+        """Pairs with a balanced bank angle, a bank with itself included."""
+        return self._core.qualifying
+
+    @property
+    def balanced(self) -> int:
+        """Those of them without any first-order moment: they are balanced at every bank angle."""
+        return self._core.balanced
+
+    @cached_property
+    def bank_angles_deg(self) -> NDArray[np.float64]:
+        """All balanced bank angles in [0, 180], ascending: (n_angles,)."""
+        return self._core.bank_angles()
+
+    def __len__(self) -> int:
+        return len(self.bank_angles_deg)
+
+    def __getitem__(self, index: int) -> Arrangement:
+        angle, first, second, counterweight, second_order = self._core.solution(self._index(index))
+        return Arrangement(angle, tuple(first), tuple(second), counterweight, second_order)
+
+    def __iter__(self) -> Iterator[Arrangement]:
+        return (self[k] for k in range(len(self)))
+
+    def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
+        """Return the arrangements whose bank angle is this one within a tolerance; maybe none."""
+        angle = _inputs.number("bank_angle_deg", bank_angle_deg)
+        tolerance = _inputs.number("tolerance_deg", tolerance_deg)
+        return tuple(self[k] for k in range(*self._window(angle - tolerance, angle + tolerance)))
+
+    def best(
+        self,
+        by: str = "second_order",
+        *,
+        within: tuple[float, float] = (0.0, 180.0),
+        count: int = 1,
+    ) -> tuple[Arrangement, ...]:
+        """Return the arrangements with the least of something, the best first.
+
+        Parameters
+        ----------
+        by
+            ``"second_order"``: the larger of the two second-order moments;
+            ``"counterweight"``: the first-order moment that a counterweight has to take away.
+        within
+            Bank angles to look at, degrees.
+        count
+            How many to return.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> search = cp.search_arrangements(cylinders=14, alternating=True)
+        >>> round(search.best(within=(5, 60))[0].bank_angle_deg, 2)
+        9.13
+        """
+        measure = _MEASURES[_inputs.one_of("by", by, _MEASURES)]
+        wanted = _inputs.number("count", count)
+        if not 0 <= wanted <= len(self):
+            raise _core.InputError(f"count = {_inputs.shorten(count)}: give 0 to {len(self)}")
+        found = sorted((self[k] for k in range(*self._limits(within))), key=measure)
+        return tuple(found[: int(wanted)])
+
+    def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
+        """Return the vee of an index, numbered along the crank, odd cylinders in the first bank.
+
+        Parameters
+        ----------
+        index
+            Into this sequence.
+        cylinder
+            Moving parts of every cylinder.
+        spacing
+            Distance between neighbouring throws, m.
+        """
+        distance = _inputs.number("spacing", spacing)
+        return Engine(self._core.engine(self._index(index), parts(cylinder), distance))
+
+    def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
+        """Return the arrangements as a table, one row a bank angle (needs pandas)."""
+        pandas = _tables.pandas()
+        rows = [self[k] for k in range(*self._limits(within))]
+        columns = {
+            "first_deg": [row.first_deg for row in rows],
+            "second_deg": [row.second_deg for row in rows],
+            "counterweight": [row.counterweight for row in rows],
+            "second_order_x": [row.second_order[0] for row in rows],
+            "second_order_y": [row.second_order[1] for row in rows],
+            "near_circular": [row.near_circular for row in rows],
+        }
+        index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
+        table: pd.DataFrame = pandas.DataFrame(columns, index=index)
+        return table
+
+    def _limits(self, within: object) -> tuple[int, int]:
+        cure = "give two bank angles, such as (45, 90)"
+        ends = _inputs.items("within", within, cure)
+        if len(ends) != 2:
+            raise _core.InputError(f"within = {_inputs.shorten(within)}: {cure}")
+        return self._window(*(_inputs.number("within", end) for end in ends))
+
+    def _window(self, low: float, high: float) -> tuple[int, int]:
+        first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
+        return first, int(np.searchsorted(self.bank_angles_deg, high, side="right"))
+
+    def _index(self, index: int) -> int:
+        try:
+            position = operator.index(index)
+        except TypeError:
+            given = _inputs.shorten(index)
+            raise _core.InputError(f"index = {given}: give a whole number") from None
+        if not -len(self) <= position < len(self):
+            # IndexError is what ends iteration over a sequence.
+            given = _inputs.shorten(position)
+            raise IndexError(f"index = {given}: there are {len(self)} bank angles")
+        return position % len(self)
+
+    def __repr__(self) -> str:
+        rule = ", alternating" if self.alternating else ""
+        found = f"{self.qualifying} of {self.candidates} pairs"
+        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ArrangementSearch) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash((self.cylinders, self.alternating))
+
+    def _key(self) -> tuple[Any, ...]:
+        return (self.cylinders, self.alternating, self._phases)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_again, self._key())
+
+
+def _again(cylinders: int, alternating: bool, phases: list[str] | None) -> ArrangementSearch:
+    return search_arrangements(cylinders, alternating=alternating, phases_deg=phases)
+
+
+_MEASURES: dict[str, Callable[[Arrangement], float]] = {
+    "second_order": lambda found: max(found.second_order),
+    "counterweight": lambda found: found.counterweight,
+}

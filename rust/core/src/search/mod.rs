@@ -1,0 +1,298 @@
+//! Every crank arrangement of a vee, searched for bank angles at which a counterweight removes the
+//! whole first-order moment (Ito and Hattori: with every top dead centre held, α = arg(−Z₂/Z₁), which
+//! exists where |Z₁| = |Z₂|, Z = Σ s e^{i·phase} over a bank's throws).
+//!
+//! n!² pairs are never looked at: |Z|² is a whole number that decides equality exactly, so one bank's
+//! arrangements are sorted by it, and each class of k arrangements gives k² pairs.
+
+mod angles;
+mod enumerate;
+mod images;
+mod magnitude;
+mod ring;
+mod throws;
+
+use rayon::prelude::*;
+
+use self::angles::{Family, Sums, listed};
+pub use self::enumerate::LARGEST_SEARCH;
+use self::enumerate::{Entry, entries};
+use self::images::{Images, Packed};
+use self::magnitude::Magnitude;
+use self::ring::Ring;
+pub use self::throws::{Arrangement, Bank};
+use crate::Complex64;
+use crate::angle::Angle;
+use crate::cancel::Cancel;
+use crate::engine::{Engine, Placement};
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Cylinder;
+
+/// Classes whose angles are worked out between two looks at cancellation.
+const CHUNK: usize = 1024;
+
+/// All arrangements of one bank, grouped by |Z|.
+#[derive(Debug)]
+pub struct Search {
+    bank: Bank,
+    images: Images,
+    /// Sorted by |Z|; one of each set of images, turned cranks left out.
+    entries: Vec<Entry>,
+    /// Start of each class in `entries`, and the end.
+    classes: Vec<usize>,
+    /// The class of Z = 0, if there is one.
+    balanced: Option<usize>,
+}
+
+/// A pair of banks and the angle between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// |α|, degrees.
+    pub bank_angle: f64,
+    /// Phases of both banks' throws, front to flywheel, in multiples of 1/`parts` of a turn.
+    pub banks: [Arrangement; 2],
+    /// Parts of a turn.
+    pub parts: u32,
+    /// α, degrees; below zero where the first bank is the left one.
+    pub signed_angle: f64,
+    /// Moment that a counterweight on the crank takes away, over m·r·ω²·spacing.
+    pub counterweight: f64,
+    /// Second-order moments about x and y, over m·r·ω²·spacing·a₂.
+    pub second_order: [f64; 2],
+}
+
+impl Search {
+    /// Group all arrangements of a bank.
+    pub fn new(bank: Bank, cancel: &Cancel) -> Result<Self> {
+        let ring = Ring::new(bank.parts);
+        let magnitude = Magnitude::new(&bank, &ring)?;
+        let images = Images::new(&bank);
+        let mut entries = entries(&bank, &magnitude, &images, cancel)?;
+        cancel.check()?;
+        entries.par_sort_unstable();
+        let mut classes: Vec<usize> =
+            (0..entries.len()).filter(|&i| i == 0 || entries[i].0 != entries[i - 1].0).collect();
+        classes.push(entries.len());
+        let sums = Sums::new(&bank, &ring, &images);
+        let balanced = classes[..classes.len() - 1].iter().position(|&start| {
+            sums.moment(entries[start].1).norm() < 1e-6 && sums.vanishes(entries[start].1)
+        });
+        Ok(Self { bank, images, entries, classes, balanced })
+    }
+
+    /// One bank's throws.
+    #[must_use]
+    pub fn bank(&self) -> &Bank {
+        &self.bank
+    }
+
+    /// About how many steps it takes to work out the angles.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.entries.len() * 64
+    }
+
+    /// Pairs of arrangements.
+    #[must_use]
+    pub fn candidates(&self) -> u128 {
+        self.bank.count().pow(2)
+    }
+
+    /// Pairs with equal |Z|, a bank with itself included.
+    #[must_use]
+    pub fn qualifying(&self) -> u128 {
+        (0..self.classes.len() - 1).map(|class| self.pairs(class)).sum()
+    }
+
+    /// Pairs of banks without any first-order moment: qualifying at every bank angle.
+    #[must_use]
+    pub fn balanced(&self) -> u128 {
+        self.balanced.map_or(0, |class| self.pairs(class))
+    }
+
+    fn class(&self, class: usize) -> &[Entry] {
+        &self.entries[self.classes[class]..self.classes[class + 1]]
+    }
+
+    fn pairs(&self, class: usize) -> u128 {
+        let images: u128 = self.class(class).iter().map(|entry| u128::from(entry.1 & 15)).sum();
+        (images * u128::from(self.bank.turns())).pow(2)
+    }
+
+    /// Every |α| in [0°, 180°] at which some pair has no backward moment, ascending.
+    pub fn angles(&self, cancel: &Cancel) -> Result<Angles> {
+        let ring = Ring::new(self.bank.parts);
+        let sums = Sums::new(&self.bank, &ring, &self.images);
+        let classes: Vec<usize> =
+            (0..self.classes.len() - 1).filter(|&class| Some(class) != self.balanced).collect();
+        let chunks = classes.par_chunks(CHUNK).map(|classes| -> Result<Vec<Family>> {
+            cancel.check()?;
+            let mut families = Vec::new();
+            for &class in classes {
+                sums.families(self.class(class), &mut families);
+            }
+            Ok(families)
+        });
+        let mut families = chunks.collect::<Result<Vec<_>>>()?.concat();
+        families.extend(
+            classes
+                .first()
+                .into_iter()
+                .flat_map(|&class| sums.common(self.class(class)[0].1 & !15)),
+        );
+        cancel.check()?;
+        sums.merge(&mut families, 0);
+        let turns = self.bank.turns();
+        let cure = "ask for the counts alone, or for fewer cylinders";
+        let size = size_of::<(f64, u32, u32)>();
+        limits::result_size("cylinders", &[families.len(), turns as usize], size, cure)?;
+        let mut found: Vec<(f64, u32, u32)> = families
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(k, family)| {
+                let listed = listed(family, turns, sums.turn).into_iter();
+                listed.map(move |(angle, ahead)| (angle.to_degrees(), k as u32, ahead))
+            })
+            .collect();
+        cancel.check()?;
+        found.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        let pairs = families.into_iter().map(|family| family.pair).collect();
+        Ok(Angles { found, pairs })
+    }
+
+    /// What the k-th angle is of.
+    #[must_use]
+    pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
+        let &(_, family, ahead) = angles.found.get(k)?;
+        let parts = self.bank.parts;
+        let mut banks = angles.pairs[family as usize].map(|packed| self.images.phases(packed));
+        for phase in &mut banks[1] {
+            *phase = (*phase + ahead * (parts / self.bank.turns())) % parts;
+        }
+        let weights = self.bank.weights();
+        let moment = |phases: &[u32], order: i64| -> Complex64 {
+            let unit = |p: u32| Angle::Turns(i64::from(p), i64::from(parts)).cis(order);
+            phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
+        };
+        let (first, second) = (moment(&banks[0], 1), moment(&banks[1], 1));
+        let angle = (-second / first).arg();
+        let (z1, z2) = (moment(&banks[0], 2), moment(&banks[1], 2));
+        let half = 0.5 * angle;
+        // Bores at 90° ∓ α/2, forces along them: F_y with cos α/2, F_x with ± sin α/2.
+        let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin().abs()];
+        // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
+        let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
+        Some(Solution {
+            bank_angle: angle.to_degrees().abs(),
+            banks,
+            parts,
+            signed_angle: angle.to_degrees(),
+            counterweight: forward,
+            second_order,
+        })
+    }
+}
+
+/// Bank angles in ascending order, each with a pair of arrangements that has it.
+#[derive(Debug)]
+pub struct Angles {
+    /// Degrees, the family, and by how many least turns the second bank is ahead.
+    found: Vec<(f64, u32, u32)>,
+    pairs: Vec<[Packed; 2]>,
+}
+
+impl Angles {
+    /// Degrees, ascending.
+    #[must_use]
+    pub fn degrees(&self) -> Vec<f64> {
+        self.found.iter().map(|found| found.0).collect()
+    }
+}
+
+impl Solution {
+    /// The vee: cylinders numbered along the crank, odd ones in the first bank.
+    pub fn engine(&self, cylinder: Cylinder, spacing: f64) -> Result<Engine> {
+        limits::finite("spacing", spacing)?;
+        let half = Angle::from_degrees(0.5 * self.signed_angle)?;
+        let upright = Angle::Turns(1, 4);
+        let placements = (0..2 * self.banks[0].len()).map(|i| {
+            let (throw, bank) = (i / 2, i % 2);
+            let phase = Angle::Turns(i64::from(self.banks[bank][throw]), i64::from(self.parts));
+            Placement {
+                cylinder,
+                tdc: -phase,
+                bank: if bank == 0 { upright - half } else { upright + half },
+                z: throw as f64 * spacing,
+                rotating_mass: 0.0,
+            }
+        });
+        let name = format!("V{} {:.2}°", 2 * self.banks[0].len(), self.bank_angle);
+        Engine::new(name, "crankpin's search of arrangements", placements.collect())
+    }
+}
+
+/// The phases a caller gives, or the even-firing ones.
+pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Result<Bank> {
+    if cylinders % 2 == 1 {
+        return Err(Error::value("cylinders", cylinders, "a vee has an even number of cylinders"));
+    }
+    let Some(phases) = phases else { return Bank::even_firing(cylinders / 2, alternating) };
+    if phases.len() != cylinders / 2 {
+        return Err(Error::Length {
+            argument: "phases_deg".into(),
+            found: phases.len(),
+            reference: "a bank".into(),
+            expected: cylinders / 2,
+            item: "throw",
+        });
+    }
+    if alternating {
+        let cure =
+            "the alternation rule is that of the even-firing crank: leave out one of the two";
+        return Err(Error::value("alternating", "True with phases_deg", cure));
+    }
+    Bank::with_phases(phases)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(cylinders: usize, alternating: bool, phases: Option<&[f64]>) -> Search {
+        let phases: Option<Vec<Angle>> =
+            phases.map(|p| p.iter().map(|&d| Angle::from_degrees(d).unwrap()).collect());
+        let bank = bank(cylinders, alternating, phases.as_deref()).unwrap();
+        Search::new(bank, &Cancel::new()).unwrap()
+    }
+
+    fn counts(search: &Search) -> (u128, usize) {
+        (search.qualifying(), search.angles(&Cancel::new()).unwrap().degrees().len())
+    }
+
+    #[test]
+    fn counts_by_brute_force() {
+        assert_eq!(counts(&search(6, false, None)), (36, 4));
+        assert_eq!(counts(&search(8, false, Some(&[0.0, 90.0, 180.0, 270.0]))), (192, 7));
+        assert_eq!(counts(&search(10, false, None)), (2000, 46));
+        let six = search(12, false, Some(&[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]));
+        assert_eq!((counts(&six), six.balanced()), ((27_648, 46), 576));
+        assert_eq!(counts(&search(14, false, None)), (169_344, 2248));
+        assert_eq!(counts(&search(14, true, None)), (12_936, 218));
+    }
+
+    #[test]
+    fn every_solution_leaves_no_backward_moment() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let search = search(14, true, None);
+        let angles = search.angles(&Cancel::new()).unwrap();
+        for (k, degrees) in angles.degrees().into_iter().enumerate() {
+            let solution = search.solution(&angles, k).unwrap();
+            assert!((solution.bank_angle - degrees).abs() < 1e-12);
+            let engine = solution.engine(cylinder, 0.1).unwrap();
+            let orders = crate::Orders::Given(vec![1, 2]);
+            let balance = crate::balance::balance(&engine, 3000.0, &orders, None, None).unwrap();
+            assert_eq!(balance.moment.backward[0], Complex64::default());
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Whole combinations of the N-th roots of unity, compared exactly.
+//!
+//! Two combinations Σ cₖζᵏ are the same number where their polynomials leave the same remainder
+//! modulo the cyclotomic polynomial `Φ_N`, the minimal polynomial of ζ.
+
+/// Whole combinations of the powers of `ζ = e^{2πi/N}`.
+#[derive(Debug, Clone)]
+pub(super) struct Ring {
+    parts: usize,
+    /// `ζᵏ` modulo `Φ_N`, for k = 0 … N − 1.
+    powers: Vec<Vec<i128>>,
+}
+
+impl Ring {
+    pub(super) fn new(parts: u32) -> Self {
+        let parts = parts as usize;
+        let minimal = cyclotomic(parts);
+        let degree = minimal.len() - 1;
+        let mut powers: Vec<Vec<i128>> = Vec::with_capacity(parts);
+        let mut power = vec![0; degree];
+        power[0] = 1;
+        if degree == 1 {
+            // ζ is 1 or −1.
+            let zeta = -minimal[0];
+            powers.extend((0..parts).map(|k| vec![if k % 2 == 1 { zeta } else { 1 }]));
+            return Self { parts, powers };
+        }
+        for _ in 0..parts {
+            powers.push(power.clone());
+            // Times ζ: shift, and take the leading term off with `Φ_N`, which is monic.
+            let leading = power.pop().unwrap_or(0);
+            power.insert(0, 0);
+            for (term, coefficient) in power.iter_mut().zip(&minimal) {
+                *term -= leading * coefficient;
+            }
+        }
+        Self { parts, powers }
+    }
+
+    /// Remainder of Σ cₖζᵏ: equal for equal numbers.
+    pub(super) fn remainder(&self, combination: &[i128]) -> Vec<i128> {
+        let mut remainder = vec![0; self.powers[0].len()];
+        for (&coefficient, power) in combination.iter().zip(&self.powers) {
+            if coefficient != 0 {
+                for (term, &unit) in remainder.iter_mut().zip(power) {
+                    *term += coefficient * unit;
+                }
+            }
+        }
+        remainder
+    }
+
+    /// Product of two combinations, the second conjugated, as a combination.
+    pub(super) fn times_conjugate(&self, a: &[i128], b: &[i128]) -> Vec<i128> {
+        let mut product = vec![0; self.parts];
+        for (i, &x) in a.iter().enumerate().filter(|(_, x)| **x != 0) {
+            for (j, &y) in b.iter().enumerate().filter(|(_, y)| **y != 0) {
+                product[(i + self.parts - j) % self.parts] += x * y;
+            }
+        }
+        product
+    }
+
+    /// The complex conjugate.
+    pub(super) fn conjugate(&self, combination: &[i128]) -> Vec<i128> {
+        (0..self.parts).map(|k| combination[(self.parts - k) % self.parts]).collect()
+    }
+
+    /// Times ζ^by.
+    pub(super) fn turned(&self, combination: &[i128], by: usize) -> Vec<i128> {
+        (0..self.parts)
+            .map(|k| combination[(k + self.parts - by % self.parts) % self.parts])
+            .collect()
+    }
+}
+
+/// Coefficients of `Φ_N`, lowest first: (xᴺ − 1) over those of the divisors of N.
+pub(super) fn cyclotomic(parts: usize) -> Vec<i128> {
+    let mut quotient = vec![0; parts + 1];
+    (quotient[0], quotient[parts]) = (-1, 1);
+    for divisor in (1..parts).filter(|divisor| parts.is_multiple_of(*divisor)) {
+        quotient = divided(quotient, &cyclotomic(divisor));
+    }
+    quotient
+}
+
+/// Quotient by a monic polynomial that divides without remainder.
+fn divided(mut dividend: Vec<i128>, divisor: &[i128]) -> Vec<i128> {
+    let degree = divisor.len() - 1;
+    let mut quotient = vec![0; dividend.len() - degree];
+    for k in (0..quotient.len()).rev() {
+        let factor = dividend[k + degree];
+        quotient[k] = factor;
+        for (term, &coefficient) in dividend[k..].iter_mut().zip(divisor) {
+            *term -= factor * coefficient;
+        }
+    }
+    quotient
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_polynomials() {
+        assert_eq!(cyclotomic(1), [-1, 1]);
+        assert_eq!(cyclotomic(2), [1, 1]);
+        assert_eq!(cyclotomic(6), [1, -1, 1]);
+        assert_eq!(cyclotomic(9), [1, 0, 0, 1, 0, 0, 1]);
+        assert_eq!(cyclotomic(12), [1, 0, -1, 0, 1]);
+        // the first with a coefficient that is neither 0 nor ±1
+        assert_eq!(cyclotomic(105)[7], -2);
+    }
+
+    #[test]
+    fn all_roots_sum_to_nothing() {
+        for parts in 2..=60 {
+            let ring = Ring::new(parts);
+            assert!(ring.remainder(&vec![1; parts as usize]).iter().all(|&c| c == 0), "{parts}");
+            let mut one = vec![0; parts as usize];
+            one[parts as usize - 1] = 1;
+            // ζ^{N−1}·conj(ζ^{N−1}) = 1
+            let product = ring.times_conjugate(&one, &one);
+            assert_eq!(ring.remainder(&product), ring.powers[0]);
+        }
+    }
+}

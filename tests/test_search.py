@@ -1,0 +1,233 @@
+"""Does the search find every balanced bank angle, and no other?"""
+
+from __future__ import annotations
+
+import copy
+import csv
+import itertools
+import pickle
+from pathlib import Path
+
+import crankpin as cp
+import numpy as np
+import pytest
+from rederivation import ito
+
+DATA = Path(__file__).parent / "data"
+CYLINDER = cp.Cylinder(0.045, 0.158, 0.5)
+MOMENT = 0.5 * 0.045 * (2 * np.pi * 3000 / 60) ** 2
+"""m·r·ω² at 3000 rpm; with a spacing of 1 m moments are in units of it."""
+
+
+def brute_force(phases: list[int], parts: int) -> tuple[int, int, set[int]]:
+    """All pairs of arrangements, one by one, in doubles.
+
+    Pairs with equal |Z|, those of them with Z = 0, and the distinct |α| in units of 1e-7 degrees:
+    doubles are enough for so few throws (the classes are 1e-3 apart).
+    """
+    weights = np.arange(len(phases)) - (len(phases) - 1) / 2
+    arrangements = np.array(sorted(set(itertools.permutations(phases))))
+    moments = (weights * np.exp(2j * np.pi * arrangements / parts)).sum(axis=1)
+    sizes = np.abs(moments)
+    pairs = zeros = 0
+    angles: set[int] = set()
+    for moment, size in zip(moments, sizes, strict=True):
+        equal = np.abs(sizes - size) < 1e-9
+        pairs += int(equal.sum())
+        if size < 1e-9:
+            zeros += int(equal.sum())
+            continue
+        degrees = np.abs(np.degrees(np.angle(-moments[equal] / moment)))
+        angles |= set(np.round(degrees * 1e7).astype(int).tolist())
+    merged = [-9, *sorted(angles)]
+    distinct = {b for a, b in itertools.pairwise(merged) if b - a > 2}
+    return pairs, zeros, distinct
+
+
+@pytest.mark.parametrize(
+    ("cylinders", "phases_deg", "phases", "parts", "printed"),
+    [
+        (6, None, [0, 1, 2], 3, (36, 0, 4)),
+        (8, [0, 90, 180, 270], [0, 1, 2, 3], 4, (192, 0, 7)),
+        (10, None, [0, 1, 2, 3, 4], 5, (2_000, 0, 46)),
+        (12, [0, 60, 120, 180, 240, 300], [0, 1, 2, 3, 4, 5], 6, (27_648, 576, 46)),
+        (8, None, [0, 0, 1, 1], 2, None),
+        (12, None, [0, 0, 1, 1, 2, 2], 3, None),
+        (4, None, [0, 0], 1, None),
+        (6, [0, 90, 180], [0, 1, 2], 4, None),
+        (8, [0, 0, 72, 144], [0, 0, 1, 2], 5, None),
+    ],
+)
+def test_counts_are_those_of_brute_force(
+    cylinders: int,
+    phases_deg: list[int] | None,
+    phases: list[int],
+    parts: int,
+    printed: tuple[int, int, int] | None,
+) -> None:
+    search = cp.search_arrangements(cylinders, phases_deg=phases_deg)
+    pairs, zeros, angles = brute_force(phases, parts)
+    assert (search.qualifying, search.balanced, len(search)) == (pairs, zeros, len(angles))
+    assert search.candidates == len(set(itertools.permutations(phases))) ** 2
+    # rounded to 1e-7 degrees, and arccosines near 0 and 180 good to 1e-6 at worst
+    np.testing.assert_allclose(search.bank_angles_deg, np.array(sorted(angles)) / 1e7, atol=2e-6)
+    if printed:
+        assert (pairs, zeros, len(angles)) == printed
+
+
+@pytest.mark.parametrize(
+    ("alternating", "pairs", "angles"), [(True, 12_936, 218), (False, 169_344, 2_248)]
+)
+def test_v14_against_the_rederivation(alternating: bool, pairs: int, angles: int) -> None:
+    search = cp.search_arrangements(14, alternating=alternating)
+    assert (search.qualifying, search.balanced, len(search)) == (pairs, 0, angles)
+    theirs = ito.qualifying_angles(ito.arrangements(alternating=alternating))
+    sizes = ito.distinct_sizes(theirs)
+    # the re-derivation merges to seven digits
+    np.testing.assert_allclose(search.bank_angles_deg, np.sort(sizes), atol=2e-7)
+
+
+def test_all_angles_of_the_v14_paper_and_two_more() -> None:
+    search = cp.search_arrangements(14, alternating=True)
+    with (DATA / "v14_table1_bank_angles.csv").open(newline="") as file:
+        printed = np.array([float(row["bank_angle_deg"]) for row in csv.DictReader(file)])
+    assert len(printed) == 216
+    nearest = np.abs(printed[:, None] - search.bank_angles_deg).argmin(axis=1)
+    assert len(set(nearest.tolist())) == 216
+    # printed to 0.01°, one of them (1.415) cut off rather than rounded
+    assert np.abs(search.bank_angles_deg[nearest] - printed).max() < 0.0052
+    missing = np.delete(search.bank_angles_deg, nearest)
+    assert missing.round(2).tolist() == [90.91, 152.87]
+    # their supplements are printed: a bank reversed changes the sign of Z
+    assert np.abs(180 - missing[:, None] - printed).min(axis=1).max() < 0.0051
+
+
+def test_no_exact_count_can_be_the_papers() -> None:
+    """Turning both cranks, and exchanging the banks, makes every count a multiple of 14."""
+    for alternating in (True, False):
+        assert cp.search_arrangements(14, alternating=alternating).qualifying % 14 == 0
+    assert 7_682 % 14 != 0
+
+
+@pytest.mark.parametrize(
+    ("angle", "amplitude", "second"),
+    [
+        (49.54, 1.5363, (1.232, 7.214)),
+        (63.03, 4.9216, (5.580, 7.828)),
+        (9.13, 0.480, (1.250, 1.408)),
+        (170.87, 0.480, (1.408, 1.250)),
+    ],
+)
+def test_worked_cases(angle: float, amplitude: float, second: tuple[float, float]) -> None:
+    (found,) = cp.search_arrangements(14, alternating=True).at(angle)
+    # printed to these digits
+    assert found.counterweight == pytest.approx(amplitude, abs=6e-4)
+    assert found.second_order == pytest.approx(second, abs=6e-4)
+
+
+@pytest.mark.parametrize(
+    ("cylinders", "alternating", "phases_deg"),
+    [
+        (6, False, None),
+        (8, False, [0, 90, 180, 270]),
+        (10, False, None),
+        (12, False, None),
+        (14, True, None),
+    ],
+)
+def test_every_engine_keeps_its_promise(
+    cylinders: int, alternating: bool, phases_deg: list[int] | None
+) -> None:
+    search = cp.search_arrangements(cylinders, alternating=alternating, phases_deg=phases_deg)
+    ratio = CYLINDER.rod_ratio
+    spectrum = {1: 0.5 * 0.045, 2: 0.5 * 0.045 * ratio}
+    for k, found in enumerate(search):
+        engine = search.engine(k, CYLINDER, spacing=1.0)
+        balance = engine.balance(3000, [1, 2], spectrum=spectrum)
+        assert balance.backward_moment[0] == 0
+        # rounding of a sum of 14 terms of at most 3
+        assert abs(balance.forward_moment[0]) / MOMENT == pytest.approx(
+            found.counterweight, abs=1e-13
+        )
+        second = balance.moment_peak_xy[1] / MOMENT / ratio
+        np.testing.assert_allclose(second, found.second_order, atol=1e-12)
+        banks = engine.bank_deg[:2]
+        between = abs(banks[1] - banks[0])
+        assert min(between, 360 - between) == pytest.approx(found.bank_angle_deg, abs=1e-12)
+
+
+def test_angles_come_with_their_supplements() -> None:
+    """A bank reversed changes the sign of its moment, and the angle to its supplement."""
+    for cylinders in (10, 14):
+        angles = cp.search_arrangements(cylinders).bank_angles_deg
+        np.testing.assert_allclose(np.sort(180 - angles), angles, atol=1e-11)
+
+
+def test_a_v18_and_how_classes_crowd() -> None:
+    """Counts of 9 throws by exact keys in NumPy: the autocorrelation over Z₉, reduced."""
+    search = cp.search_arrangements(18)
+    rows = np.array(list(itertools.permutations(range(1, 9))))
+    phases = np.concatenate([np.zeros((len(rows), 1), int), rows], axis=1)
+    weights = np.arange(9) - 4
+    correlation = np.zeros((len(phases), 9), int)
+    for i, j in itertools.permutations(range(9), 2):
+        index = (phases[:, i] - phases[:, j]) % 9
+        np.add.at(correlation, (np.arange(len(phases)), index), weights[i] * weights[j])
+    # Φ₉ = x⁶ + x³ + 1: x⁶ = −x³ − 1, x⁷ = −x⁴ − x, x⁸ = −x⁵ − x²
+    keys = correlation[:, :6] - np.tile(correlation[:, 6:], 2)
+    _, counts = np.unique(keys, axis=0, return_counts=True)
+    assert search.qualifying == int(((9 * counts.astype(object)) ** 2).sum())
+    assert search.candidates == 362_880**2
+
+
+def test_best_and_windows() -> None:
+    search = cp.search_arrangements(14, alternating=True)
+    everywhere = [max(found.second_order) for found in search]
+    assert max(search.best()[0].second_order) == min(everywhere)
+    window = search.best("counterweight", within=(40, 70), count=5)
+    assert all(40 <= found.bank_angle_deg <= 70 for found in window)
+    weights = [found.counterweight for found in window]
+    assert weights == sorted(weights)
+    inside = [f.counterweight for f in search if 40 <= f.bank_angle_deg <= 70]
+    assert weights == sorted(inside)[:5]
+    assert search.at(33.0) == ()
+    assert search[-1] == search[217]
+    table = search.to_pandas(within=(0, 30))
+    assert len(table) == int((search.bank_angles_deg <= 30).sum())
+
+
+def test_objects() -> None:
+    search = cp.search_arrangements(6)
+    for other in (copy.copy(search), copy.deepcopy(search), pickle.loads(pickle.dumps(search))):  # noqa: S301
+        assert other == search
+        assert list(other) == list(search)
+    assert search != cp.search_arrangements(10)
+    assert not search.bank_angles_deg.flags.writeable
+    with pytest.raises(AttributeError):
+        search.cylinders = 8  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: cp.search_arrangements(7), ["cylinders", "7", "even"]),
+        (lambda: cp.search_arrangements(2), ["cylinders", "2"]),
+        (lambda: cp.search_arrangements(32), ["cylinders", "32", "30"]),
+        (lambda: cp.search_arrangements(30), ["cylinders", "bytes", "fewer"]),
+        (lambda: cp.search_arrangements("V6"), ["cylinders", "V6"]),  # type: ignore[arg-type]
+        (lambda: cp.search_arrangements(6, phases_deg=[0, 120]), ["phases_deg", "2", "3"]),
+        (lambda: cp.search_arrangements(6, phases_deg=[0, 1.2345, 9]), ["phases_deg", "rational"]),
+        (lambda: cp.search_arrangements(6, phases_deg=[0, 1, "360/7"]), ["phases_deg", "part"]),
+        (
+            lambda: cp.search_arrangements(6, alternating=True, phases_deg=[0, 120, 240]),
+            ["alternating", "leave out"],
+        ),
+        (lambda: cp.search_arrangements(6).best("beauty"), ["by", "beauty", "counterweight"]),
+        (lambda: cp.search_arrangements(6).best(within=(1,)), ["within", "two"]),  # type: ignore[arg-type]
+        (lambda: cp.search_arrangements(6).best(count=99), ["count", "99"]),
+    ],
+)
+def test_what_is_refused(call: object, words: list[str]) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        call()  # type: ignore[operator]
+    assert all(word in str(caught.value) for word in words), caught.value
