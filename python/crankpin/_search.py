@@ -119,7 +119,7 @@ class ArrangementSearch(Frozen):
 
     def __init__(
         self,
-        core: _core.Search,
+        core: object,
         cylinders: int,
         alternating: bool,
         phases: list[str] | None,
