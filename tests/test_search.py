@@ -178,6 +178,13 @@ def test_a_v18_and_how_classes_crowd() -> None:
     _, counts = np.unique(keys, axis=0, return_counts=True)
     assert search.qualifying == int(((9 * counts.astype(object)) ** 2).sum())
     assert search.candidates == 362_880**2
+    angles = search.bank_angles_deg
+    assert len(angles) == len(search) == 103_510
+    assert np.all(np.diff(angles) > 0)
+    for k in [*range(0, len(search), 997), len(search) - 1]:
+        balance = search.engine(k, CYLINDER, spacing=1.0).balance(3000, [1])
+        assert balance.backward_moment[0] == 0
+        assert search[k].bank_angle_deg == pytest.approx(angles[k], abs=1e-11)
 
 
 def test_best_and_windows() -> None:

@@ -190,18 +190,86 @@ fn fold(angle: f64, turn: f64) -> f64 {
     rest.min(turn - rest)
 }
 
-/// All |angle| in [0, π] of a family, with the number of turns by which the second bank is ahead.
-pub(super) fn listed(family: &Family, turns: u32, turn: f64) -> Vec<(f64, u32)> {
-    let mut listed: Vec<(f64, u32)> = (0..turns)
-        .map(|k| {
-            let angle = (family.angle + f64::from(k) * turn).rem_euclid(TAU);
-            (angle.min(TAU - angle), k)
-        })
-        .collect();
-    listed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Multiples of half a turn come in pairs; all others are a large part of a turn apart.
-    listed.dedup_by(|a, b| (a.0 - b.0).abs() < 1e-6 * turn);
-    listed
+/// Bank angles in ascending order, each with a pair of arrangements that has it.
+///
+/// With families ascending by their folded angle f, all angles come in runs that need no sorting:
+/// f, turn − f (families backwards), turn + f, 2·turn − f, … up to half a circle.
+#[derive(Debug)]
+pub struct Angles {
+    families: Vec<Family>,
+    turns: u32,
+    turn: f64,
+    /// Families at 0 (the first or none) and at half a turn (the last or none): they stand once where
+    /// others stand twice.
+    at_zero: usize,
+    at_half: usize,
+}
+
+impl Angles {
+    pub(super) fn new(families: Vec<Family>, turns: u32, turn: f64) -> Self {
+        let near = 1e-9 * turn;
+        let at_zero = usize::from(families.first().is_some_and(|first| first.folded < near));
+        let at_half = families.last().is_some_and(|last| last.folded > 0.5 * turn - near);
+        Self { families, turns, turn, at_zero, at_half: usize::from(at_half) }
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        let turns = self.turns as usize;
+        turns.div_ceil(2) * self.families.len()
+            + turns / 2 * self.between()
+            + if turns.is_multiple_of(2) { self.at_zero } else { 0 }
+    }
+
+    /// Families neither at 0 nor at half a turn.
+    fn between(&self) -> usize {
+        self.families.len() - self.at_zero - self.at_half
+    }
+
+    /// Degrees, ascending.
+    #[must_use]
+    pub fn degrees(&self) -> Vec<f64> {
+        let mut degrees = Vec::with_capacity(self.count());
+        for run in 0..=self.turns {
+            let middle = f64::from(run.div_ceil(2)) * self.turn;
+            let angle = |f: f64| (middle + f).to_degrees().min(180.0);
+            if run.is_multiple_of(2) {
+                // Past half a circle there is only what stands at it.
+                let here = if run < self.turns { self.families.len() } else { self.at_zero };
+                let here =
+                    if run == self.turns && !self.turns.is_multiple_of(2) { 0 } else { here };
+                degrees.extend(self.families[..here].iter().map(|family| angle(family.folded)));
+            } else if run < self.turns {
+                let end = self.families.len() - self.at_half;
+                let here = &self.families[self.at_zero..end];
+                degrees.extend(here.iter().rev().map(|family| angle(-family.folded)));
+            }
+        }
+        degrees
+    }
+
+    /// The pair of the k-th angle, and by how many least turns its second bank is ahead.
+    pub(super) fn pair(&self, k: usize) -> Option<([Packed; 2], u32)> {
+        if k >= self.count() {
+            return None;
+        }
+        let couple = self.families.len() + self.between();
+        let (couples, rest) = (k / couple, k % couple);
+        // |α| = middle·turn ± f
+        let (family, middle, sign) = if rest < self.families.len() {
+            (&self.families[rest], couples, 1)
+        } else {
+            let from_end = rest - self.families.len() + self.at_half + 1;
+            (&self.families[self.families.len() - from_end], couples + 1, -1)
+        };
+        // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.
+        let rest = family.angle.rem_euclid(self.turn);
+        let sigma = if rest <= 0.5 * self.turn { 1 } else { -1 };
+        let own = (family.angle - f64::from(sigma) * family.folded) / self.turn;
+        let ahead = i64::from(sigma * sign) * middle as i64 - own.round() as i64;
+        Some((family.pair, ahead.rem_euclid(i64::from(self.turns)) as u32))
+    }
 }
 
 impl Sums<'_> {

@@ -14,10 +14,11 @@ mod throws;
 
 use rayon::prelude::*;
 
-use self::angles::{Family, Sums, listed};
+pub use self::angles::Angles;
+use self::angles::{Family, Sums};
 pub use self::enumerate::LARGEST_SEARCH;
 use self::enumerate::{Entry, entries};
-use self::images::{Images, Packed};
+use self::images::Images;
 use self::magnitude::Magnitude;
 use self::ring::Ring;
 pub use self::throws::{Arrangement, Bank};
@@ -144,29 +145,18 @@ impl Search {
         cancel.check()?;
         sums.merge(&mut families, 0);
         let turns = self.bank.turns();
+        let angles = Angles::new(families, turns, sums.turn);
         let cure = "ask for the counts alone, or for fewer cylinders";
-        let size = size_of::<(f64, u32, u32)>();
-        limits::result_size("cylinders", &[families.len(), turns as usize], size, cure)?;
-        let mut found: Vec<(f64, u32, u32)> = families
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(k, family)| {
-                let listed = listed(family, turns, sums.turn).into_iter();
-                listed.map(move |(angle, ahead)| (angle.to_degrees(), k as u32, ahead))
-            })
-            .collect();
-        cancel.check()?;
-        found.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        let pairs = families.into_iter().map(|family| family.pair).collect();
-        Ok(Angles { found, pairs })
+        limits::result_size("cylinders", &[angles.count()], size_of::<f64>(), cure)?;
+        Ok(angles)
     }
 
     /// What the k-th angle is of.
     #[must_use]
     pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
-        let &(_, family, ahead) = angles.found.get(k)?;
+        let (pair, ahead) = angles.pair(k)?;
         let parts = self.bank.parts;
-        let mut banks = angles.pairs[family as usize].map(|packed| self.images.phases(packed));
+        let mut banks = pair.map(|packed| self.images.phases(packed));
         for phase in &mut banks[1] {
             *phase = (*phase + ahead * (parts / self.bank.turns())) % parts;
         }
@@ -191,22 +181,6 @@ impl Search {
             counterweight: forward,
             second_order,
         })
-    }
-}
-
-/// Bank angles in ascending order, each with a pair of arrangements that has it.
-#[derive(Debug)]
-pub struct Angles {
-    /// Degrees, the family, and by how many least turns the second bank is ahead.
-    found: Vec<(f64, u32, u32)>,
-    pairs: Vec<[Packed; 2]>,
-}
-
-impl Angles {
-    /// Degrees, ascending.
-    #[must_use]
-    pub fn degrees(&self) -> Vec<f64> {
-        self.found.iter().map(|found| found.0).collect()
     }
 }
 
