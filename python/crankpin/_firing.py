@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import operator
 from collections.abc import Iterable, Mapping
+from fractions import Fraction
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
     from crankpin._engine import Engine
     from crankpin._inputs import Angle, Angles
+
+TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -84,7 +87,7 @@ class ValveTiming:
     >>> import crankpin as cp
     >>> racing = cp.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
     >>> racing.exhaust_opens_deg
-    80
+    80.0
     """
 
     intake_opens_deg: Angle = 10.0
@@ -93,12 +96,15 @@ class ValveTiming:
     exhaust_closes_deg: Angle = 10.0
 
     def __post_init__(self) -> None:
+        for name in TIMES:
+            value = getattr(self, name)
+            if not isinstance(value, (str, Fraction)):
+                object.__setattr__(self, name, _inputs.number(name, value))
         _core.valve_timing(self._given)
 
     @property
     def _given(self) -> tuple[str, str, str, str]:
-        names = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
-        first, second, third, fourth = (_inputs.angle(name, getattr(self, name)) for name in names)
+        first, second, third, fourth = (_inputs.angle(name, getattr(self, name)) for name in TIMES)
         return first, second, third, fourth
 
 
@@ -336,7 +342,7 @@ class Firing(Frozen):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Firing):
             return NotImplemented
-        return self.engine == other.engine and self._core == other._core
+        return self._core == other._core
 
     def __hash__(self) -> int:
         return hash((self.engine, self.strokes, self.revolutions))
@@ -362,7 +368,9 @@ class Throws(Frozen):
     ) -> None:
         given = {"throws_deg": throws_deg, "pin_splits_deg": pin_splits_deg}
         arrays = {name: _inputs.vector(name, values).copy() for name, values in given.items()}
-        for array in arrays.values():
+        for name, array in arrays.items():
+            if not np.isfinite(array).all():
+                raise InputError(f"{name} = {_inputs.shorten(array)}: give finite degrees")
             array.setflags(write=False)
         self._set(**arrays)
 
