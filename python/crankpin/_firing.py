@@ -441,7 +441,7 @@ def throws(
     >>> cp.throws("1-2-3-4-5-6", bank_angle_deg=60)
     <Throws 0-120-240, pins split by -60>
     >>> cp.throws("1-6-5-4-3-2", bank_angle_deg=90, odd_bank="left", intervals_deg=[150, 90] * 3)
-    <Throws 0-120-240, shared pins>
+    <Throws 0-240-120, shared pins>
     """
     text = _inputs.firing_order(firing_order)
     listed = None if intervals_deg is None else _inputs.angles("intervals_deg", intervals_deg)
