@@ -67,6 +67,15 @@ def vee(**changes: Any) -> cp.Engine:
     return cp.Engine.vee(CYLINDER, **given_ | changes)
 
 
+def fires(**changes: Any) -> cp.Firing:
+    return V6.firing(**{"firing_order": "1-2-5-6-3-4"} | changes)
+
+
+def crank(**changes: Any) -> cp.Throws:
+    given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90}
+    return cp.throws(**given_ | changes)
+
+
 def firing(**changes: Any) -> cp.Engine:
     given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90, "spacing": 0.1}
     return cp.Engine.from_firing_order(CYLINDER, **given_ | changes)
@@ -174,6 +183,34 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (firing, "rule", "uneven", "uneven"),
     (firing, "rule", None, "None"),
     (firing, "bank_angle_deg", "wide", "wide"),
+    (firing, "intervals_deg", [180, 180], "2 entries"),
+    (firing, "intervals_deg", [180, 180, 180, 90], "630"),
+    (firing, "intervals_deg", [0, 180, 180, 360], "0"),
+    (firing, "intervals_deg", [NAN] * 4, "NaN"),
+    (firing, "intervals_deg", 180, "180"),
+    (firing, "strokes", 3, "3"),
+    (firing, "strokes", None, "None"),
+    (crank, "firing_order", "1-2-3", "3 cylinders"),
+    (crank, "intervals_deg", [180, 180, 180, 90], "630"),
+    (crank, "bank_angle_deg", 200, "200"),
+    (crank, "odd_bank", "Left", "Left"),
+    (crank, "numbering", None, "None"),
+    (crank, "strokes", 2.5, "2.5"),
+    (fires, "firing_order", "6-5-4-3-2-1", "1-6-5-4-3-2"),
+    (fires, "firing_order", "1-2-3", "1-2-3"),
+    (fires, "firing_order", "1+2-3+4-5+6", "1+2-3+4-5+6"),
+    (fires, "firing_order", None, "None"),
+    (fires, "strokes", 6, "6"),
+    (fires().gaps, "groups", [[1, 7]], "7"),
+    (fires().gaps, "groups", [[1], [1]], "1"),
+    (fires().gaps, "groups", 3, "3"),
+    (fires().exhaust_overlaps, "groups", [[]], "[]"),
+    (fires().exhaust_overlaps, "timing", 50, "50"),
+    (fires().valves, "timing", (10, 50), "(10, 50)"),
+    (cp.ValveTiming, "intake_opens_deg", 181, "181"),
+    (cp.ValveTiming, "intake_closes_deg", NAN, "NaN"),
+    (cp.ValveTiming, "exhaust_opens_deg", "early", "early"),
+    (cp.ValveTiming, "exhaust_closes_deg", -90, "-90"),
     (V6.with_bank_angle, "hold", "crank", "crank"),
     (V6.with_bank_angle, "hold", None, "None"),
     (balance, "rpm", NAN, "NaN"),
@@ -398,6 +435,9 @@ WITHOUT_END = {
     "top dead centres": "I4.replace(tdc_deg=itertools.count(0))",
     "bores": "I4.replace(bank_deg=np.broadcast_to(90.0, 10**12))",
     "firing order": "cp.Engine.from_firing_order(C, itertools.count(1), spacing=0.1)",
+    "order to fire in": "I4.firing(itertools.count(1))",
+    "intervals": "cp.throws([1, 2], intervals_deg=itertools.repeat(1))",
+    "groups": "I4.firing('1-3-4-2').gaps(itertools.repeat([1]))",
     "engines": "cp.sweep(itertools.repeat(I4), rpm=1000)",
 }
 LIMITED = """
@@ -614,8 +654,10 @@ SOUND: dict[str, list[Any]] = {
     "crank_radius": [0.05],
     "engine": [V6],
     "engines": [V6, I4, [V6, I4], {"a": V6}],
-    "firing_order": ["1-3-4-2", [1, 2, 3, 4]],
+    "firing_order": ["1-3-4-2", [1, 2, 3, 4], "1-2-5-6-3-4", "1+4-2+3"],
+    "groups": [[[1, 4], [2, 3]], [[2]]],
     "hold": ["pins", "firing"],
+    "intervals_deg": [[180] * 4, [90, 270, "90", 270]],
     "name": ["v6-60", "i4", "a name"],
     "order": [1, 2],
     "orders": [1, [1, 2], [1, 2, 4, 6]],
@@ -628,10 +670,12 @@ SOUND: dict[str, list[Any]] = {
     "rpm": [1000, [1000.0, 2000.0]],
     "spacing": [0.1],
     "spectrum": [{1: 1.0, 2: 0.3}],
+    "strokes": [4, 2],
     "tdc_deg": [[0, 90], ["360/7", Fraction(1, 3)]],
     "text": [TOML, JSON],
     "theta_deg": [[0.0, 90.0], 30.0],
     "throws_deg": [[0, 120, 240], [0]],
+    "timing": [cp.ValveTiming(), cp.ValveTiming(exhaust_opens_deg="360/7")],
     "x": ["rpm"],
     "z": [[0.0, 0.1]],
 }
@@ -651,11 +695,27 @@ SUBJECTS: dict[str, Any] = {
     "waveform": V6.waveform(1000, [0.0, 1.0]),
     "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
     "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
+    "firing": V6.firing("1-2-5-6-3-4"),
+    "firing, two-stroke": I4.firing("1+4-2+3", strokes=2),
+    "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
 }
-PLAIN = {"Ellipse", "ErrorBound", "OrderBalance", "InputError"}  # take anything, and hold it
-RESULTS_MADE_ELSEWHERE = {"Balance", "Waveform", "Sweep"}  # by methods of Engine and by sweep
+PLAIN = {
+    "Ellipse",
+    "ErrorBound",
+    "Gap",
+    "InputError",
+    "OrderBalance",
+    "Overlap",
+    "Valves",
+}  # take anything, and hold it
+RESULTS_MADE_ELSEWHERE = {
+    "Balance",
+    "Firing",
+    "Waveform",
+    "Sweep",
+}  # by methods of Engine and by sweep
 
 
 class Target(NamedTuple):
@@ -755,6 +815,8 @@ RESULTS = {
     cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
     cp.Balance: ["force", "moment", "torque", "crank_torque", "force_peak_vector", "error_bound"],
     cp.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
+    cp.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
+    cp.Throws: ["throws_deg", "pin_splits_deg"],
     cp.Sweep: ["force", "moment_peak_xy", "torque", "force_sum_peak_vector"],
 }
 
@@ -824,6 +886,8 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
     labels = {each.label for each in TARGETS + PICTURES}
     for name in cp.__all__:
         assert name in labels | PLAIN | RESULTS_MADE_ELSEWHERE | {"__version__"}
+    for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "ValveTiming"):
+        assert label in labels
     for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.order", "i4.save"):
         assert label in labels
 

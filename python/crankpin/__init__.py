@@ -13,6 +13,7 @@ from crankpin._balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
+from crankpin._firing import Firing, Gap, Overlap, Throws, Valves, ValveTiming, throws
 from crankpin._presets import presets
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin._sweep import Sweep, sweep
@@ -26,13 +27,20 @@ __all__ = [
     "Ellipse",
     "Engine",
     "ErrorBound",
+    "Firing",
+    "Gap",
     "InputError",
     "OrderBalance",
+    "Overlap",
     "Sweep",
+    "Throws",
+    "ValveTiming",
+    "Valves",
     "Waveform",
     "__version__",
     "presets",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
+    "throws",
 ]

@@ -1,4 +1,4 @@
-"""The command line: tables and pictures of balances and sweeps."""
+"""The command line: tables and pictures of balances, sweeps and firings."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 PROG = "python -m crankpin"
 MOST_ROWS = 1_000_000
 """Rows of a table that somebody may still want to read with a program."""
+MOST_SHOWN = 20
+"""Firing orders that a table shows."""
 PICTURES = (".pdf", ".png", ".svg")
 FLAGS = {
     "bank_angle_deg": "--bank-angle",
@@ -145,6 +147,23 @@ def _parser() -> _Parser:
     )
     many.add_argument("--orders", default="1,2", help="such as 1,2,4 (default: %(default)s)")
     _shared(many, "peaks to tell")
+
+    fires = _command(
+        commands,
+        "firing",
+        "firing orders that a crank allows, or intervals and exhaust gaps of one",
+        example="firing v8-crossplane --order 1-8-4-3-6-5-7-2 --plot v8.png",
+        run=_firing,
+    )
+    fires.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    fires.add_argument(
+        "--order", help="such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3"
+    )
+    fires.add_argument("--strokes", choices=("4", "2"), default="4", help="default: %(default)s")
+    fires.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+    fires.add_argument(
+        "--plot", metavar="FILE", help="write the chart of valve periods (.pdf, .png, .svg)"
+    )
     return parser
 
 
@@ -200,11 +219,7 @@ def _list(arguments: argparse.Namespace) -> str:
 
 
 def _balance(arguments: argparse.Namespace) -> str:
-    engines = _engines([arguments.name])
-    if len(engines) > 1:
-        members = ", ".join(_presets.family(arguments.name))
-        raise InputError(f"NAME = {arguments.name}: balance takes one engine of {members}")
-    (engine,) = engines.values()
+    engine = _engine(arguments.name, "balance")
     orders: Orders = "auto" if arguments.orders == "auto" else _orders(arguments.orders)
     if arguments.rtol is not None and orders != "auto":
         raise InputError(f"--rtol = {arguments.rtol}: chooses orders; give --orders auto with it")
@@ -268,6 +283,42 @@ def _sweep(arguments: argparse.Namespace) -> str:
     return _printed(tables, csv=arguments.csv)
 
 
+def _firing(arguments: argparse.Namespace) -> str:
+    engine, strokes = _engine(arguments.name, "firing"), int(arguments.strokes)
+    if arguments.order is None:
+        if arguments.plot is not None:
+            raise InputError(f"--plot = {arguments.plot}: give --order with it")
+        return _firing_orders(engine, strokes, csv=arguments.csv)
+    picture = _picture_file(arguments.plot)
+    ways = engine.firings(arguments.order, strokes=strokes)
+    best = engine.firing(arguments.order, strokes=strokes)
+    if picture is not None:
+        figure = best.plot().get_figure(root=True)
+        assert figure is not None  # noqa: S101 - new axes are in a figure
+        _write(figure, picture)
+    text = _printed([best._table()], csv=arguments.csv)
+    if arguments.csv or len(ways) == 1:
+        return text
+    others = "".join(f"  {way._intervals()}\n" for way in ways[1:])
+    return f"{text}The same order in other turns, intervals in degrees:\n{others}"
+
+
+def _firing_orders(engine: Engine, strokes: int, *, csv: bool) -> str:
+    firings = engine.firing_orders(strokes=strokes)
+    shown = firings if csv else firings[:MOST_SHOWN]
+    labels = [
+        (each.firing_order, "even" if each.even and not csv else each._intervals())
+        for each in shown
+    ]
+    rows = np.array([[each.unevenness_deg] for each in shown])
+    name = engine.name or f"{len(engine)} cylinders"
+    header = ["firing order", "intervals °", "rms from even °"]
+    table = _tables.Table(f"{name}: {strokes}-stroke, most even first", header, labels, rows)
+    text = _printed([table], csv=csv)
+    rest = len(firings) - len(shown)
+    return f"{text}and {rest} more: --csv prints all\n" if rest else text
+
+
 def _is_vee(engine: Engine) -> bool:
     try:
         engine.bank_angle_deg  # noqa: B018 - asks whether there is one
@@ -292,6 +343,15 @@ def _engines(names: Sequence[str]) -> dict[str, Engine]:
         title if title and titles.count(title) == 1 else name: engine
         for title, (name, engine) in zip(titles, typed.items(), strict=True)
     }
+
+
+def _engine(name: str, command: str) -> Engine:
+    """Return the engine of a command that takes one."""
+    engines = _engines([name])
+    if len(engines) > 1:
+        members = ", ".join(_presets.family(name))
+        raise InputError(f"NAME = {name}: {command} takes one engine of {members}")
+    return next(iter(engines.values()))
 
 
 def _decimal(name: str, text: str) -> Decimal:

@@ -1,7 +1,7 @@
 # The compiled core; private. Results are read-only arrays.
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias, final
+from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ __all__ = [
     "SCHEMA",
     "Balance",
     "Engine",
+    "Firing",
     "InputError",
     "Search",
     "Sweep",
@@ -22,8 +23,11 @@ __all__ = [
     "cylinder_torque_harmonics",
     "ellipse",
     "exact_angle",
+    "inline_throws",
     "motion",
     "offset_table",
+    "valve_timing",
+    "vee_throws",
     "waveform",
 ]
 
@@ -56,11 +60,21 @@ class Engine:
     def vee(parts: _Parts, layout: dict[str, Any]) -> Engine: ...
     @staticmethod
     def inline_from_firing_order(
-        parts: _Parts, firing_order: str, rule: str, layout: dict[str, Any]
+        parts: _Parts,
+        firing_order: str,
+        rule: str,
+        intervals: Sequence[str] | None,
+        strokes: int,
+        layout: dict[str, Any],
     ) -> Engine: ...
     @staticmethod
     def vee_from_firing_order(
-        parts: _Parts, firing_order: str, rule: str, layout: dict[str, Any]
+        parts: _Parts,
+        firing_order: str,
+        rule: str,
+        intervals: Sequence[str] | None,
+        strokes: int,
+        layout: dict[str, Any],
     ) -> Engine: ...
     @staticmethod
     def from_toml(text: str) -> Engine: ...
@@ -162,6 +176,55 @@ class Sweep:
     def sum_peaks(self, name: str) -> _Real: ...
     def sum_vector_peaks(self, name: str) -> _Real: ...
 
+_Timing: TypeAlias = tuple[str, str, str, str]
+_Groups: TypeAlias = Sequence[Sequence[int]] | None
+
+@final
+class Firing:
+    @staticmethod
+    def named(engine: Engine, firing_order: str, strokes: int) -> Firing: ...
+    @staticmethod
+    def all_named(engine: Engine, firing_order: str, strokes: int) -> list[Firing]: ...
+    @staticmethod
+    def all(engine: Engine, strokes: int) -> list[Firing]: ...
+    @staticmethod
+    def with_later(engine: Engine, strokes: int, later: Sequence[bool]) -> Firing: ...
+    @property
+    def strokes(self) -> int: ...
+    @property
+    def order(self) -> list[int]: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def later(self) -> list[bool]: ...
+    @property
+    def angles_deg(self) -> _Real: ...
+    @property
+    def intervals_deg(self) -> _Real: ...
+    @property
+    def even(self) -> bool: ...
+    @property
+    def unevenness_deg(self) -> float: ...
+    @property
+    def banks(self) -> list[list[int]]: ...
+    def gaps(self, groups: _Groups) -> list[list[tuple[int, int, float]]]: ...
+    def stroke_periods(self) -> list[tuple[str, _Real]]: ...
+    def valves(self, given: _Timing) -> tuple[_Real, _Real]: ...
+    def exhaust_overlaps(
+        self, groups: _Groups, given: _Timing
+    ) -> list[list[tuple[int, int, float, float]]]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def valve_timing(given: _Timing) -> None: ...
+def inline_throws(firing_order: str, intervals: Sequence[str] | None, strokes: int) -> _Real: ...
+def vee_throws(
+    firing_order: str,
+    intervals: Sequence[str] | None,
+    strokes: int,
+    layout: dict[str, Any],
+) -> tuple[_Real, _Real]: ...
 def exact_angle(argument: str, degrees: float | str) -> str: ...
 def angular_speed(rpm: float) -> float: ...
 def check_cylinder(parts: _Parts) -> None: ...

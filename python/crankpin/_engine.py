@@ -12,6 +12,7 @@ from crankpin import _core, _inputs
 from crankpin._balance import Balance
 from crankpin._core import InputError
 from crankpin._cylinder import Cylinder
+from crankpin._firing import Firing, stroke_count
 from crankpin._frozen import Frozen
 from crankpin._waveform import Waveform
 
@@ -302,6 +303,8 @@ class Engine(Frozen):
         spacing: float,
         bank_angle_deg: Angle | None = None,
         rule: FiringRule = "even",
+        intervals_deg: Angles | None = None,
+        strokes: int = 4,
         numbering: Numbering = "alternating",
         odd_bank: Side = "right",
         bank_stagger: float = 0.0,
@@ -310,7 +313,7 @@ class Engine(Frozen):
         name: str = "",
         source: str = "",
     ) -> Engine:
-        """Return the four-stroke engine that fires in this order.
+        """Return the engine that fires in this order.
 
         Parameters
         ----------
@@ -327,6 +330,11 @@ class Engine(Frozen):
             are split where the bank angle asks for it. ``"ijesc"``: the rule of the IJESC paper of
             2017, by which the cylinders of each bank, in the order in which they fire, lag by equal
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
+        intervals_deg
+            With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
+            the last to the first, in place of equal ones.
+        strokes
+            4 or 2: intervals add up to 720 or 360.
         numbering, odd_bank
             As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
         bank_stagger, rotating_mass, first_tdc_deg, name, source
@@ -346,16 +354,16 @@ class Engine(Frozen):
         ... )
         >>> (v8.pin_deg - v8.pin_deg[0])[::2] % 360
         array([  0.,  90., 270., 180.])
+
+        See :func:`crankpin.throws` for the crank alone.
         """
-        text = firing_order
-        if not isinstance(text, str):
-            cure = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
-            numbers = _inputs.items("firing_order", firing_order, cure)
-            text = "-".join(_inputs.shorten(number) for number in numbers)
+        text = _inputs.firing_order(firing_order)
         rule_text = _inputs.text("rule", rule, 'give "even" or "ijesc"')
+        listed = None if intervals_deg is None else _inputs.angles("intervals_deg", intervals_deg)
+        order = (text, rule_text, listed, stroke_count(strokes))
         if bank_angle_deg is None:
             inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)
-            core = _core.Engine.inline_from_firing_order(parts(cylinder), text, rule_text, inline)
+            core = _core.Engine.inline_from_firing_order(parts(cylinder), *order, inline)
         else:
             vee = _vee_layout(
                 bank_angle_deg=bank_angle_deg,
@@ -368,7 +376,7 @@ class Engine(Frozen):
                 rotating_mass=rotating_mass,
                 first_tdc_deg=first_tdc_deg,
             )
-            core = _core.Engine.vee_from_firing_order(parts(cylinder), text, rule_text, vee)
+            core = _core.Engine.vee_from_firing_order(parts(cylinder), *order, vee)
         return cls(core, name, source)
 
     @classmethod
@@ -720,6 +728,88 @@ class Engine(Frozen):
         )
         _inputs.warn_of_units(self._mean_piston_speed(rpm))
         return Waveform(self, rpm, theta, waveform)
+
+    # --- when it fires --------------------------------------------------------------------------
+
+    def firing(self, firing_order: str | Iterable[int], *, strokes: int = 4) -> Firing:
+        """Return how the engine fires in this order; of several ways the most even.
+
+        Parameters
+        ----------
+        firing_order
+            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list, from any of them on. In text,
+            ``+`` joins cylinders that fire together: ``"1+4-2+3"``.
+        strokes
+            4, or 2 for a cycle in each turn.
+
+        Returns
+        -------
+        Firing
+
+        Raises
+        ------
+        InputError
+            If the crank does not allow this order; the message says what it does allow.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("v6-90-odd-fire").firing("1-6-5-4-3-2")
+        <Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>
+        """
+        text, number = _inputs.firing_order(firing_order), stroke_count(strokes)
+        return Firing(_core.Firing.named(self._core, text, number), self)
+
+    def firings(self, firing_order: str | Iterable[int], *, strokes: int = 4) -> tuple[Firing, ...]:
+        """Return every way for the engine to fire in this order, the most even first.
+
+        None if its crank does not allow it; several where the order goes through the top dead
+        centres of one turn, so that the next turn may begin after any cylinder.
+
+        Parameters
+        ----------
+        firing_order, strokes
+            As in :meth:`firing`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> for f in cp.Engine.preset("i2-180").firings("1-2"):
+        ...     print(f)
+        <Firing 4-stroke 1-2, 180-540°>
+        <Firing 4-stroke 1-2, 540-180°>
+        """
+        text, number = _inputs.firing_order(firing_order), stroke_count(strokes)
+        found = _core.Firing.all_named(self._core, text, number)
+        return tuple(Firing(each, self) for each in found)
+
+    def firing_orders(self, *, strokes: int = 4) -> tuple[Firing, ...]:
+        """Return every way for the engine to fire, the most even first.
+
+        In a four-stroke each cylinder but the first has a choice of two turns: 2ⁿ⁻¹ ways, for up to
+        16 cylinders. Cylinders at top dead centre together may fire together.
+
+        Parameters
+        ----------
+        strokes
+            4, or 2 for a cycle in each turn.
+
+        Raises
+        ------
+        InputError
+            If a four-stroke has more than 16 cylinders: name an order.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> for f in cp.Engine.preset("i4").firing_orders()[:3]:
+        ...     print(f)
+        <Firing 4-stroke 1-2-4-3, even, 180°>
+        <Firing 4-stroke 1-3-4-2, even, 180°>
+        <Firing 4-stroke 1-2+3-4, 180-0-180-360°>
+        """
+        found = _core.Firing.all(self._core, stroke_count(strokes))
+        return tuple(Firing(each, self) for each in found)
 
     def _mean_piston_speed(self, rpm: float) -> float:
         return 4.0 * self._core.largest_crank_radius * rpm / 60.0

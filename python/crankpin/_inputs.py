@@ -148,6 +148,14 @@ def angles(name: str, values: object) -> list[str]:
     return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
 
 
+def firing_order(values: object) -> str:
+    """Return a firing order as text."""
+    if isinstance(values, str):
+        return values
+    cure = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
+    return "-".join(shorten(number) for number in items("firing_order", values, cure))
+
+
 def orders(values: object, name: str = "orders") -> list[int] | None:
     """Return a list of orders, or None for ``"auto"``."""
     cure = "orders are whole multiples of crank speed, such as [1, 2]"

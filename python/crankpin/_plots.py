@@ -1,4 +1,4 @@
-"""Pictures of balances, waveforms and sweeps.
+"""Pictures of balances, waveforms, firings and sweeps.
 
 They take axes or make a figure with pyplot, so that notebooks show it, and never show it
 themselves. This module is imported when a picture is asked for; matplotlib comes with it.
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from crankpin._balance import Balance
     from crankpin._engine import Engine
+    from crankpin._firing import Firing, ValveTiming
     from crankpin._sweep import Quantity, Sweep
     from crankpin._waveform import Waveform
 
@@ -43,6 +44,8 @@ AXES: dict[str, tuple[str, ...]] = {
 # Okabe and Ito's colours, which colour-blind readers tell apart; yellow is too pale for a line.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 GREY = "#555555"
+RED = "#C0282D"
+"""Exhaust, as charts of valve periods have it; intake is the blue above."""
 DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 1.5, 1.5, 1.5)))
 
 STEPS = [1, 2, 2.5, 5, 10]
@@ -120,6 +123,60 @@ def _summed(waveform: Waveform, kind: Quantity) -> str:
         if bound
         else text
     )
+
+
+# --- firing: a row for each cylinder -------------------------------------------------------------
+
+
+def firing(firing: Firing, ax: Axes | None, timing: ValveTiming) -> Axes:
+    """Draw the periods in which valves are open over a cycle, a row for each cylinder."""
+    ax = _given_or_new(ax)
+    cycle = 180.0 * firing.strokes
+    # Bank by bank: who shares a manifold as most engines have it stands together.
+    rows = [cylinder - 1 for bank in firing.banks for cylinder in bank]
+    if firing.strokes == 4:
+        valves = firing.valves(timing)
+        bars = [
+            ("intake open", COLOURS[0], valves.intake),
+            ("exhaust open", RED, valves.exhaust),
+        ]
+    else:
+        bars = [("power stroke", COLOURS[1], firing.strokes_deg()["power"])]
+    height = 0.8 / len(bars)
+    for k, (name, colour, periods) in enumerate(bars):
+        for row, (start, end) in enumerate(periods[rows].tolist()):
+            # What runs past the end of the cycle goes on at its beginning.
+            pieces = [(start, min(end, cycle) - start)]
+            if end > cycle:
+                pieces.append((0.0, end - cycle))
+            place = (row - 0.4 + k * height, height)
+            label = name if row == 0 else ""
+            ax.broken_barh(pieces, place, facecolors=colour, label=label)
+    ax.plot(
+        firing.angles_deg[rows],
+        range(len(rows)),
+        linestyle="",
+        marker="D",
+        markersize=4.5,
+        color="black",
+        clip_on=False,
+        zorder=3,
+        label="fires",
+    )
+    _dress(ax, "x")
+    ax.grid(visible=False, axis="y")
+    for end in np.cumsum([len(bank) for bank in firing.banks])[:-1].tolist():
+        ax.axhline(end - 0.5, color="#999999", linewidth=0.8)
+    ax.set_xlim(0.0, cycle)
+    ax.xaxis.set_major_locator(MultipleLocator(90))
+    ax.xaxis.set_major_formatter(FuncFormatter(_in_degrees))
+    ax.set_ylim(len(rows) - 0.5, -0.5)
+    ax.set_yticks(range(len(rows)), [str(row + 1) for row in rows])
+    ax.tick_params(axis="y", length=0, pad=8)
+    ax.set_xlabel("crank angle θ")
+    ax.set_ylabel("cylinder, bank by bank" if len(firing.banks) > 1 else "cylinder")
+    _entitle(ax, _name(firing.engine), _tables.cut(firing._told()))
+    return ax
 
 
 # --- sweep: a panel for each order and axis -----------------------------------------------------

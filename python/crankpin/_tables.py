@@ -166,5 +166,10 @@ def decimals(rows: NDArray[np.float64]) -> int | None:
     return max(0, 5 - math.floor(math.log10(largest)))
 
 
+def cut(text: str, longest: int = 60) -> str:
+    """Return a text that fits a title."""
+    return text if len(text) <= longest else f"{text[: longest - 1]}…"
+
+
 def _short(part: str | float) -> str:
     return part if isinstance(part, str) else f"{part:.10g}"

@@ -11,5 +11,6 @@ a sum (phase lags, three lists, cosine sums), that way is kept, slips corrected 
 ``ebook``         the e-book's engines as three lists, with its tables
 ``crossplane``    the page on the cross-plane V8's inertia forces and couples
 ``ito``           Ito and Hattori's V-14: bank sums, arrangements, bank angles
+``firing``        when cylinders fire, by trying every choice of turns; pins of a firing order
 ``harmonics_mp``  the harmonics of one cylinder to fifty digits
 """

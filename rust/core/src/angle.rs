@@ -5,6 +5,7 @@
 //! integers and its phasor is good to the last bit at every order. Other angles stay in degrees,
 //! where reduction by whole turns is exact too.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, Neg, Sub};
 use std::str::FromStr;
@@ -40,7 +41,7 @@ impl Angle {
             let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
             return Err(Error::figure("angle", degrees, cure));
         }
-        Ok(recognise(degrees).unwrap_or(Self::Degrees(degrees)))
+        Ok(recognise(degrees, few_ulp(degrees)).unwrap_or(Self::Degrees(degrees)))
     }
 
     /// From `numerator / denominator` degrees.
@@ -69,15 +70,33 @@ impl Angle {
     /// Less whole turns: in [0°, 360°).
     #[must_use]
     pub fn reduced(self) -> Self {
+        self.reduced_to(1)
+    }
+
+    /// Less whole cycles of so many turns.
+    #[must_use]
+    pub fn reduced_to(self, turns: i64) -> Self {
         match self {
             Self::Turns(numerator, denominator) => {
-                Self::Turns(numerator.rem_euclid(denominator), denominator)
+                Self::Turns(numerator.rem_euclid(turns * denominator), denominator)
             }
             Self::Degrees(degrees) => {
-                let rest = degrees.rem_euclid(360.0);
+                let cycle = 360.0 * turns as f64;
+                let rest = degrees.rem_euclid(cycle);
                 // Less whole turns it may be a part of one after all; -1e-20 rounds up to one.
-                recognise(rest).map_or(Self::Degrees(rest), Self::reduced)
+                recognise(rest, few_ulp(rest))
+                    .map_or(Self::Degrees(rest), |part| part.reduced_to(turns))
             }
+        }
+    }
+
+    /// The part of a turn (N ≤ 1000) within so many degrees, if there is one: for angles that
+    /// rounding may have moved by more than units in the last place.
+    #[must_use]
+    pub fn nearby_part(self, within: f64) -> Self {
+        match self {
+            Self::Turns(..) => self,
+            Self::Degrees(degrees) => recognise(degrees, within).unwrap_or(self),
         }
     }
 
@@ -170,9 +189,12 @@ where
     if a == zero { T::from(1) } else { a }
 }
 
-/// Continued fraction of the angle in turns, up to [`MOST_PARTS`].
-fn recognise(degrees: f64) -> Option<Angle> {
-    let tolerance = WITHIN_ULP * ulp(degrees);
+fn few_ulp(degrees: f64) -> f64 {
+    WITHIN_ULP * ulp(degrees)
+}
+
+/// Continued fraction of the angle in turns, up to [`MOST_PARTS`], within a tolerance in degrees.
+fn recognise(degrees: f64, tolerance: f64) -> Option<Angle> {
     let target = degrees / 360.0;
     let (mut p0, mut q0, mut p1, mut q1) = (0_i64, 1_i64, 1_i64, 0_i64);
     let mut rest = target;
@@ -218,7 +240,22 @@ impl Add for Angle {
             }
         }
         let sum = self.degrees() + other.degrees();
-        recognise(sum).unwrap_or(Self::Degrees(sum))
+        recognise(sum, few_ulp(sum)).unwrap_or(Self::Degrees(sum))
+    }
+}
+
+impl PartialOrd for Angle {
+    /// Fractions of a turn are compared in integers.
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if let (Self::Turns(a, b), Self::Turns(c, d)) = (*self, *other) {
+            let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
+            return Some((a * d).cmp(&(c * b)));
+        }
+        match self.degrees().partial_cmp(&other.degrees()) {
+            // As `==` has it, an angle in degrees is no fraction of a turn.
+            Some(Ordering::Equal) if self != other => None,
+            found => found,
+        }
     }
 }
 
@@ -328,6 +365,25 @@ mod tests {
             let difference = (a + b).cis(n) - a.cis(n) * b.cis(n);
             // the sum is rounded to half a unit of 1024° (1.1e-13°), turned n ≤ 50 times: 1e-13 rad
             prop_assert!(difference.norm() < 2e-13);
+        }
+
+        #[test]
+        fn fractions_are_compared_as_they_are(a in -720_i64..720, b in -720_i64..720, n in 1_i64..9) {
+            let turns = |k: i64| Angle::from_degree_fraction(k, n).unwrap();
+            prop_assert_eq!(turns(a).partial_cmp(&turns(b)), a.partial_cmp(&b));
+            let floats = (a as f64 + 0.123_456, b as f64 + 0.123_456);
+            let degrees = |x| Angle::from_degrees(x).unwrap();
+            prop_assert_eq!(degrees(floats.0).partial_cmp(&degrees(floats.1)), a.partial_cmp(&b));
+        }
+
+        #[test]
+        fn reduction_stays_in_a_cycle(degrees in -1e6..1e6, turns in 1_i64..4) {
+            let angle = Angle::from_degrees(degrees).unwrap();
+            let rest = angle.reduced_to(turns);
+            prop_assert!((0.0..360.0 * turns as f64).contains(&rest.degrees()));
+            // both are rounded to half a unit of 1024°
+            let apart = (rest.reduced() - angle.reduced()).degrees().abs();
+            prop_assert!(apart.min(360.0 - apart) < 3e-13);
         }
 
         #[test]

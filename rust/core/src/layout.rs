@@ -8,6 +8,10 @@ use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Cylinder;
 
+/// What rounding may leave of a difference of angles that are no parts of a turn, degrees: up to a
+/// thousand additions below 1024°, each rounded to 1.1e-13 at most.
+pub const MOST_ROUNDING: f64 = 1e-9;
+
 /// A bank of a vee, seen from the flywheel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -26,11 +30,55 @@ pub enum Numbering {
     ByBank,
 }
 
-/// How a firing order fixes the crank.
+/// How many strokes make a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strokes {
+    /// A cycle in each turn of the crank.
+    Two,
+    /// A cycle in two turns.
+    Four,
+}
+
+impl Strokes {
+    /// 2 or 4.
+    pub fn from_number(strokes: u32) -> Result<Self> {
+        match strokes {
+            2 => Ok(Self::Two),
+            4 => Ok(Self::Four),
+            _ => Err(Error::value(
+                "strokes",
+                strokes,
+                "give 4 for a four-stroke or 2 for a two-stroke",
+            )),
+        }
+    }
+
+    /// 2 or 4.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Two => 2,
+            Self::Four => 4,
+        }
+    }
+
+    /// Turns of the crank in a cycle.
+    #[must_use]
+    pub fn turns(self) -> i64 {
+        match self {
+            Self::Two => 1,
+            Self::Four => 2,
+        }
+    }
+}
+
+/// How a firing order fixes the crank.
+#[derive(Debug, Clone, PartialEq)]
 pub enum FiringRule {
-    /// A four-stroke with equal intervals: pins are split wherever the bank angle asks for it.
-    Even,
+    /// Equal intervals: pins are split wherever the bank angle asks for it.
+    Even(Strokes),
+    /// These intervals, from each cylinder of the order to the next and from the last to the first.
+    Intervals(Strokes, Vec<Angle>),
     /// The IJESC paper's: within each bank the cylinders, in the order in which they fire, lag by
     /// equal parts of a turn; the lags of both banks start from the same crank angle.
     Ijesc,
@@ -100,7 +148,7 @@ impl Vee {
     }
 
     /// Where each cylinder sits, by number; the throws' angles are not asked.
-    fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
+    pub(crate) fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
         limits::finite("spacing", self.spacing)?;
         limits::finite("bank_stagger", self.bank_stagger)?;
         engine::bank_angle_in_range(self.bank_angle.degrees())?;
@@ -125,9 +173,10 @@ impl Vee {
     }
 }
 
-struct Seat {
-    throw: usize,
-    side: Side,
+/// Where a cylinder of a vee sits.
+pub(crate) struct Seat {
+    pub throw: usize,
+    pub side: Side,
     bank: Angle,
     z: f64,
 }
@@ -159,6 +208,54 @@ impl FiringOrder {
         Ok(Self(order))
     }
 
+    /// The cylinders, by number from 1, in the order in which they fire.
+    #[must_use]
+    pub fn cylinders(&self) -> &[usize] {
+        &self.0
+    }
+
+    /// Crank angles after the first firing at which the first, second … fire.
+    fn times(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
+        let count = self.0.len();
+        let (strokes, intervals) = match rule {
+            FiringRule::Even(strokes) => {
+                return Ok((0..count)
+                    .map(|rank| part(rank, 360 * strokes.turns(), count))
+                    .collect());
+            }
+            FiringRule::Intervals(strokes, intervals) => (*strokes, intervals),
+            // One bank has the same crank by either rule.
+            FiringRule::Ijesc => return self.times(&FiringRule::Even(Strokes::Four)),
+        };
+        if intervals.len() != count {
+            return Err(Error::Length {
+                argument: "intervals_deg".into(),
+                found: intervals.len(),
+                reference: "firing_order".into(),
+                expected: count,
+                item: "cylinder",
+            });
+        }
+        let mut times = vec![Angle::ZERO];
+        for (k, &interval) in intervals.iter().enumerate() {
+            if interval.degrees() <= 0.0 {
+                let cure = "give degrees above 0: cylinders of an order fire one after the other";
+                return Err(Error::value(format!("intervals_deg[{k}]"), interval, cure));
+            }
+            times.push(times[k] + interval);
+        }
+        let (sum, cycle) = (times.pop().unwrap_or(Angle::ZERO), Angle::Turns(strokes.turns(), 1));
+        // Intervals that are no parts of a turn may have been rounded, once each.
+        if (sum - cycle).degrees().abs() > MOST_ROUNDING {
+            let cure = format!(
+                "make them add up to {cycle}, the cycle of a {}-stroke",
+                if strokes == Strokes::Four { "four" } else { "two" }
+            );
+            return Err(Error::value("sum of intervals_deg", sum, cure));
+        }
+        Ok(times)
+    }
+
     /// When each cylinder fires, by number: 0 for the first.
     fn ranks(&self) -> Vec<usize> {
         let mut ranks = vec![0; self.0.len()];
@@ -168,41 +265,58 @@ impl FiringOrder {
         ranks
     }
 
-    /// An upright inline engine that fires so, at equal intervals of a four-stroke.
-    pub fn inline(&self, cylinder: Cylinder, layout: &Inline) -> Result<Engine> {
-        let ranks = self.ranks();
-        let throws = ranks.iter().map(|&rank| -part(rank, 720, self.0.len())).collect();
-        Inline { throws, ..layout.clone() }.engine(cylinder)
+    /// An upright inline engine that fires so; `layout.throws` is not asked.
+    pub fn inline(&self, cylinder: Cylinder, rule: &FiringRule, layout: &Inline) -> Result<Engine> {
+        Inline { throws: self.throws(rule)?, ..layout.clone() }.engine(cylinder)
+    }
+
+    /// Crankpins of an inline engine that fires so, in the direction of rotation.
+    pub(crate) fn throws(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
+        let times = self.times(rule)?;
+        Ok(self.ranks().into_iter().map(|rank| -times[rank]).collect())
+    }
+
+    /// Directions of the crankpins of a vee that fires so, at a crank angle of no meaning.
+    pub(crate) fn vee_pins(&self, rule: &FiringRule, layout: &Vee) -> Result<Vec<Angle>> {
+        Ok(self.vee_seats(rule, layout)?.iter().map(|(seat, tdc)| seat.bank - *tdc).collect())
     }
 
     /// A vee that fires so; `layout.throws` and `layout.pin_split` are not asked.
-    pub fn vee(&self, cylinder: Cylinder, rule: FiringRule, layout: &Vee) -> Result<Engine> {
+    pub fn vee(&self, cylinder: Cylinder, rule: &FiringRule, layout: &Vee) -> Result<Engine> {
+        let seats = self.vee_seats(rule, layout)?;
+        let masses = per_throw(&layout.rotating_mass, seats.len() / 2)?;
+        let placements = seats
+            .iter()
+            .map(|(seat, tdc)| seat.placement(cylinder, *tdc, 0.5 * masses[seat.throw]));
+        Engine::new("", "", placements.collect())?.with_first_tdc(layout.first_tdc)
+    }
+
+    /// Where each cylinder of a vee sits, and its top dead centre.
+    fn vee_seats(&self, rule: &FiringRule, layout: &Vee) -> Result<Vec<(Seat, Angle)>> {
         let count = self.0.len();
         if count % 2 == 1 {
             let cure = "a vee has an even number of cylinders; leave out bank_angle_deg for an \
                         inline engine";
             return Err(Error::value("firing_order", format!("of {count} cylinders"), cure));
         }
-        let ranks = self.ranks();
+        let (ranks, times) = (self.ranks(), self.times(rule)?);
         let seats = layout.seats(count)?;
-        let masses = per_throw(&layout.rotating_mass, count / 2)?;
-        let placements = seats.iter().zip(&ranks).map(|(seat, &rank)| {
-            let tdc = match rule {
-                FiringRule::Even => part(rank, 720, count),
-                FiringRule::Ijesc => {
-                    let fired_before = seats
-                        .iter()
-                        .zip(&ranks)
-                        .filter(|&(other, &earlier)| other.side == seat.side && earlier < rank)
-                        .count();
-                    let lag = part(fired_before, 360, count / 2);
-                    // Vertical crank at θ = 0: top dead centre at φ ∓ γ.
-                    seat.bank - Angle::Turns(1, 4) + lag
-                }
-            };
-            seat.placement(cylinder, tdc, 0.5 * masses[seat.throw])
-        });
-        Engine::new("", "", placements.collect())?.with_first_tdc(layout.first_tdc)
+        let tdc = |seat: &Seat, rank: usize| match rule {
+            FiringRule::Even(_) | FiringRule::Intervals(..) => times[rank],
+            FiringRule::Ijesc => {
+                let fired_before = seats
+                    .iter()
+                    .zip(&ranks)
+                    .filter(|&(other, &earlier)| other.side == seat.side && earlier < rank)
+                    .count();
+                let lag = part(fired_before, 360, count / 2);
+                // Vertical crank at θ = 0: top dead centre at φ ∓ γ.
+                seat.bank - Angle::Turns(1, 4) + lag
+            }
+        };
+        let tdcs: Vec<Angle> =
+            seats.iter().zip(&ranks).map(|(seat, &rank)| tdc(seat, rank)).collect();
+        Ok(seats.into_iter().zip(tdcs).collect())
     }
 }
 
@@ -279,7 +393,7 @@ mod tests {
     fn the_cross_plane_crank_follows_from_its_firing_order() {
         let order: FiringOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
         let layout = vee(90.0, Numbering::Alternating, Side::Left);
-        let engine = order.vee(cylinder(), FiringRule::Even, &layout).unwrap();
+        let engine = order.vee(cylinder(), &FiringRule::Even(Strokes::Four), &layout).unwrap();
         assert_eq!(pins(&engine), [0.0, 0.0, 90.0, 90.0, 270.0, 270.0, 180.0, 180.0]);
     }
 
@@ -287,7 +401,7 @@ mod tests {
     fn the_ijesc_rule_gives_each_bank_its_own_lags() {
         let order: FiringOrder = "1-4-5-2-3-6".parse().unwrap();
         let layout = vee(60.0, Numbering::Alternating, Side::Right);
-        let engine = order.vee(cylinder(), FiringRule::Ijesc, &layout).unwrap();
+        let engine = order.vee(cylinder(), &FiringRule::Ijesc, &layout).unwrap();
         // cylinders (1, 3, 5) lag by 0, 240, 120 and (2, 4, 6) by 120, 0, 240
         assert_eq!(pins(&engine), [0.0, 240.0, 120.0, 0.0, 240.0, 120.0]);
     }
@@ -296,7 +410,7 @@ mod tests {
     fn even_firing_of_a_60_degree_v6_splits_its_pins_by_minus_60() {
         let order: FiringOrder = "1-2-3-4-5-6".parse().unwrap();
         let layout = vee(60.0, Numbering::Alternating, Side::Right);
-        let engine = order.vee(cylinder(), FiringRule::Even, &layout).unwrap();
+        let engine = order.vee(cylinder(), &FiringRule::Even(Strokes::Four), &layout).unwrap();
         assert_eq!(pins(&engine)[1], 300.0);
     }
 

@@ -5,6 +5,7 @@
 //! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
 //! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
 //! [`search`] goes through every arrangement;
+//! [`firing`] (what follows from [`engine`] and [`layout`] alone);
 //! [`extrema`] finds the peak of a sum of orders for the last three.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
@@ -21,6 +22,7 @@ pub mod engine;
 pub mod engine_file;
 pub mod error;
 pub mod extrema;
+pub mod firing;
 pub mod harmonics;
 pub mod layout;
 pub mod limits;
@@ -36,6 +38,7 @@ pub use balance::{Balance, Orders};
 pub use cancel::Cancel;
 pub use engine::{Engine, Hold, Placement};
 pub use error::{Error, Result};
+pub use firing::Firing;
 pub use slider_crank::Cylinder;
 pub use spectrum::Spectrum;
 pub use sweep::Sweep;

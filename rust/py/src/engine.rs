@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crankpin_core as core;
 use crankpin_core::engine::{Hold, Placement};
-use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Vee};
+use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Error, engine_file};
 use ndarray::Array1;
 use numpy::PyArray1;
@@ -43,8 +43,29 @@ pub fn hold(value: &str) -> PyResult<Hold> {
     choice("hold", value, &[("pins", Hold::Pins), ("firing", Hold::Firing)])
 }
 
-fn firing_rule(value: &str) -> PyResult<FiringRule> {
-    choice("rule", value, &[("even", FiringRule::Even), ("ijesc", FiringRule::Ijesc)])
+/// How a firing order fixes the crank.
+pub fn firing_rule(
+    rule: &str,
+    intervals: Option<Vec<Angle>>,
+    strokes: u32,
+) -> PyResult<FiringRule> {
+    let ijesc = choice("rule", rule, &[("even", false), ("ijesc", true)])?;
+    let strokes = Strokes::from_number(strokes).or_raise()?;
+    let unsuited = |argument: &str, value: String, cure: &str| {
+        Err(python_error(Error::value(argument, value, cure)))
+    };
+    match (ijesc, intervals, strokes) {
+        (false, None, _) => Ok(FiringRule::Even(strokes)),
+        (false, Some(intervals), _) => Ok(FiringRule::Intervals(strokes, angles(intervals))),
+        (true, Some(intervals), _) => {
+            let cure = "the rule \"ijesc\" sets the intervals itself; leave them out";
+            unsuited("intervals_deg", format!("{} given", intervals.len()), cure)
+        }
+        (true, None, Strokes::Two) => {
+            unsuited("strokes", "2".into(), "the rule \"ijesc\" is that of a four-stroke; give 4")
+        }
+        (true, None, Strokes::Four) => Ok(FiringRule::Ijesc),
+    }
 }
 
 fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
@@ -79,7 +100,7 @@ where
 }
 
 /// Where the cylinders of a vee sit and how they are numbered.
-struct VeeLayout {
+pub struct VeeLayout {
     bank_angle: Angle,
     throws: Vec<Angle>,
     spacing: f64,
@@ -110,7 +131,7 @@ impl<'py> FromPyObject<'_, 'py> for VeeLayout {
 }
 
 impl VeeLayout {
-    fn vee(self) -> PyResult<Vee> {
+    pub fn vee(self) -> PyResult<Vee> {
         let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
         Ok(Vee {
             bank_angle: self.bank_angle.0,
@@ -224,12 +245,13 @@ impl Engine {
         parts: Parts,
         firing_order: &str,
         rule: &str,
+        intervals: Option<Vec<Angle>>,
+        strokes: u32,
         layout: InlineLayout,
     ) -> PyResult<Self> {
-        // One bank has the same crank by either rule.
-        firing_rule(rule)?;
+        let rule = firing_rule(rule, intervals, strokes)?;
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        order.inline(cylinder(parts)?, &layout.inline()).or_raise().map(Self::from)
+        order.inline(cylinder(parts)?, &rule, &layout.inline()).or_raise().map(Self::from)
     }
 
     #[staticmethod]
@@ -237,11 +259,13 @@ impl Engine {
         parts: Parts,
         firing_order: &str,
         rule: &str,
+        intervals: Option<Vec<Angle>>,
+        strokes: u32,
         layout: VeeLayout,
     ) -> PyResult<Self> {
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        let rule = firing_rule(rule)?;
-        order.vee(cylinder(parts)?, rule, &layout.vee()?).or_raise().map(Self::from)
+        let rule = firing_rule(rule, intervals, strokes)?;
+        order.vee(cylinder(parts)?, &rule, &layout.vee()?).or_raise().map(Self::from)
     }
 
     #[staticmethod]

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 mod balance;
 mod convert;
 mod engine;
+mod firing;
 mod interrupt;
 mod search;
 mod slider_crank;
@@ -25,6 +26,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<balance::Balance>()?;
     module.add_class::<search::Search>()?;
     module.add_class::<sweep::Sweep>()?;
+    module.add_class::<firing::Firing>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
@@ -35,6 +37,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(slider_crank::offset_table, module)?)?;
     module.add_function(wrap_pyfunction!(balance::balance, module)?)?;
     module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
+    module.add_function(wrap_pyfunction!(firing::valve_timing, module)?)?;
+    module.add_function(wrap_pyfunction!(firing::inline_throws, module)?)?;
+    module.add_function(wrap_pyfunction!(firing::vee_throws, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
     Ok(())
 }

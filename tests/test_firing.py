@@ -1,0 +1,807 @@
+"""Does an engine fire when it should, and does a firing order get the crank that it needs?
+
+Against the re-derivation, which tries every choice of turns in fractions of a degree; against what
+is known of built engines, the cross-plane page and the IJESC paper's engine; and against laws that
+hold for any engine. Angles that are parts of a turn are compared with ``==``.
+"""
+
+from __future__ import annotations
+
+import copy
+import csv
+import io
+import itertools
+import math
+import pickle
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+import crankpin as cp
+import matplotlib as mpl
+import numpy as np
+import pytest
+from crankpin._cli import main
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
+from rederivation import firing, ijesc
+from test_presets import EVEN, UNEVEN
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+PART = cp.Cylinder(0.045, 0.158, 0.5)
+V8 = cp.Engine.preset("v8-crossplane")
+PAGE = V8.firing(firing.CROSSPLANE)
+BOXER = cp.Engine.preset("boxer-4")
+OFFSET = cp.Cylinder(0.045, 0.158, 0.5, pin_offset=0.01)
+
+# Angles below 720 degrees, rounded a few times to half a unit in the last place, 5.7e-14.
+ROUNDING = 1e-12
+
+
+@pytest.fixture(autouse=True)
+def _close() -> Iterator[None]:
+    mpl.use("agg")
+    yield
+    plt.close("all")
+
+
+def inline(tdc: Sequence[Any], **options: Any) -> cp.Engine:  # noqa: ANN401 - of from_lists
+    """An engine with these top dead centres."""
+    n = len(tdc)
+    banks = options.pop("bank_deg", [90] * n)
+    return cp.Engine.from_lists(PART, tdc_deg=tdc, bank_deg=banks, z=np.arange(n) * 0.1, **options)
+
+
+def intervals(ways: Sequence[cp.Firing]) -> list[tuple[float, ...]]:
+    """Intervals of each, in a fixed order."""
+    return sorted(tuple(way.intervals_deg.tolist()) for way in ways)
+
+
+def floats(ways: Sequence[Sequence[Fraction]]) -> list[tuple[float, ...]]:
+    """The same of the re-derivation."""
+    return sorted(tuple(map(float, way)) for way in ways)
+
+
+# --- the cross-plane page -------------------------------------------------------------------------
+
+
+def test_the_cross_plane_v8_fires_evenly_in_the_page_s_order() -> None:
+    v8 = cp.Engine.vee(
+        PART, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1, odd_bank="left"
+    )
+    fires = v8.firing(firing.CROSSPLANE)
+    assert fires.even
+    assert fires.unevenness_deg == 0.0
+    assert fires.intervals_deg.tolist() == [90.0] * 8
+    assert fires.order == (1, 8, 4, 3, 6, 5, 7, 2)
+    assert fires.firing_order == firing.CROSSPLANE
+    assert fires.angles_deg.tolist() == [0.0, 630.0, 270.0, 180.0, 450.0, 360.0, 540.0, 90.0]
+    assert fires.revolutions == (0, 1, 0, 0, 1, 1, 1, 0)
+    assert v8.firings(firing.CROSSPLANE) == (fires,)
+    # An order has no beginning.
+    assert v8.firing("6-5-7-2-1-8-4-3") == fires
+    assert v8.firing([4, 3, 6, 5, 7, 2, 1, 8]) == fires
+
+
+def test_gaps_within_the_page_s_banks() -> None:
+    assert PAGE.banks == ((1, 3, 5, 7), (2, 4, 6, 8))
+    left, right = PAGE.gaps()
+    assert {(gap.before, gap.after): gap.gap_deg for gap in left} == firing.CROSSPLANE_GAPS
+    (way,) = (each for each in firing.ways(V8.tdc_deg.tolist()) if each.order == PAGE.order)
+    assert {gap[:2]: gap[2] for gap in right} == firing.gaps(way, (2, 4, 6, 8))
+
+
+@pytest.mark.parametrize(("opens", "closes"), [(50, 10), (80, 60), (0, 0), (90, 90), (40, -20)])
+def test_exhaust_overlaps_of_the_page_s_banks(opens: int, closes: int) -> None:
+    timing = cp.ValveTiming(exhaust_opens_deg=opens, exhaust_closes_deg=closes)
+    (way,) = (each for each in firing.ways(V8.tdc_deg.tolist()) if each.order == PAGE.order)
+    for bank, overlaps in zip(PAGE.banks, PAGE.exhaust_overlaps(timing=timing), strict=True):
+        both = dict.fromkeys(itertools.combinations(bank, 2), 0.0)
+        for each in overlaps:
+            both[min(each[:2]), max(each[:2])] += each.overlap_deg
+            assert (
+                each.gap_deg
+                == (PAGE.angles_deg[each.after - 1] - PAGE.angles_deg[each.before - 1]) % 720
+            )
+        assert both == {pair: firing.both_open(way, pair, opens, closes) for pair in both}
+
+
+def test_the_page_s_cylinders_5_and_7_disturb_each_other_most() -> None:
+    left, _ = PAGE.exhaust_overlaps()
+    found = {(each.before, each.after): (each.gap_deg, each.overlap_deg) for each in left}
+    # Open for 50 + 180 + 10 degrees; 1 and 3 are 270 apart.
+    assert found == {(3, 5): (180, 60), (5, 7): (90, 150), (7, 1): (180, 60)}
+
+
+def test_manifolds_across_the_banks_even_the_exhaust() -> None:
+    # As in the V8s whose exhausts are inside the V: every second cylinder of the order.
+    for group in PAGE.gaps([PAGE.order[::2], PAGE.order[1::2]]):
+        assert [gap.gap_deg for gap in group] == [180.0] * 4
+    assert PAGE.exhaust_overlaps([[1, 6], [8, 5]], timing=cp.ValveTiming()) == ((), ())
+    flat = cp.Engine.preset("v8-flatplane").firing(EVEN["v8-flatplane"])
+    for bank in flat.gaps():
+        assert [gap.gap_deg for gap in bank] == [180.0] * 4
+
+
+def test_a_boxer_s_banks_fire_unevenly_and_its_crossed_manifolds_evenly() -> None:
+    fires = BOXER.firing("1-3-2-4")
+    assert [[gap.gap_deg for gap in bank] for bank in fires.gaps()] == [[180.0, 540.0]] * 2
+    crossed = fires.gaps([[1, 2], [3, 4]])
+    assert [[gap.gap_deg for gap in group] for group in crossed] == [[360.0, 360.0]] * 2
+
+
+def test_a_cylinder_alone_follows_itself() -> None:
+    assert PAGE.gaps([[3]]) == ((cp.Gap(3, 3, 720.0),),)
+    assert BOXER.firing("1+2-3+4", strokes=2).gaps([[4]]) == ((cp.Gap(4, 4, 360.0),),)
+
+
+def test_cylinders_that_fire_together_overlap_once() -> None:
+    fires = BOXER.firing("1+2-3+4")
+    (overlaps,) = fires.exhaust_overlaps([[1, 2]])
+    assert overlaps == (cp.Overlap(1, 2, 0.0, 240.0),)
+    assert fires.gaps([[1, 2]]) == ((cp.Gap(1, 2, 0.0), cp.Gap(2, 1, 720.0)),)
+
+
+# --- the IJESC paper's engine ---------------------------------------------------------------------
+
+LISTED = ["-".join(map(str, order)) for order in ijesc.FIRING_ORDERS]
+
+
+@pytest.mark.parametrize("order", LISTED)
+@pytest.mark.parametrize("v_angle", range(10, 180, 10))
+def test_every_choice_of_turns_of_the_ijesc_engine(order: str, v_angle: int) -> None:
+    engine = cp.Engine.preset(f"ijesc-v6-{order}").with_bank_angle(v_angle, hold="pins")
+    ways = engine.firings(order)
+    lags = ijesc.lags_deg(firing.numbers(order)).tolist()
+    expected = firing.ways_of(order, firing.ijesc_tdc(lags, v_angle))
+    assert intervals(ways) == floats(expected)
+    assert not any(way.even for way in ways)  # the paper calls it even-firing
+    if order in ("1-3-5-2-4-6", "1-5-3-6-2-4") and v_angle < 120:
+        (way,) = ways
+        assert way.intervals_deg.tolist() == [120, 120, 120 + v_angle, 120, 120, 120 - v_angle]
+    elif v_angle < 120:
+        assert len(ways) == 6
+        assert {way.revolutions.count(1) for way in ways} == set(range(6))
+    else:
+        assert ways == ()
+
+
+@pytest.mark.parametrize("order", LISTED)
+def test_at_120_degrees_the_ijesc_order_cannot_be_had(order: str) -> None:
+    engine = cp.Engine.preset(f"ijesc-v6-{order}").with_bank_angle(120, hold="pins")
+    with pytest.raises(cp.InputError) as refusal:
+        engine.firing(order)
+    message = str(refusal.value)
+    assert message.startswith(f"firing_order = {order}: this crank cannot fire so")
+    # It says what is possible: two cylinders come to the top together.
+    assert message.count("+") == 3
+    named = message.rpartition("most evenly ")[2].split(" or ")
+    assert [each.firing_order for each in engine.firing_orders()[:3]] == named
+
+
+def test_at_60_degrees_two_ijesc_orders_fire_in_one_turn_and_rest_for_420() -> None:
+    for order in LISTED[1:3]:
+        ways = cp.Engine.preset(f"ijesc-v6-{order}").firings(order)
+        one_turn = [60.0] * 5 + [420.0]
+        assert sorted(map(sorted, intervals(ways))) == [one_turn] * 6
+        assert one_turn in [way.intervals_deg.tolist() for way in ways]
+
+
+# --- built engines --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "order"), EVEN.items())
+def test_presets_fire_evenly(name: str, order: str) -> None:
+    fires = cp.Engine.preset(name).firing(order)
+    assert fires.even
+    assert fires.firing_order == order
+    # VR and W engines too, whose offset pins put the tops beside the top dead centres.
+    assert set(fires.intervals_deg.tolist()) == {720.0 / len(fires.order)}
+
+
+@pytest.mark.parametrize(("name", "order", "gaps"), [(n, *f) for n, f in UNEVEN.items()])
+def test_presets_fire_unevenly(name: str, order: str, gaps: tuple[int, ...]) -> None:
+    engine = cp.Engine.preset(name)
+    assert gaps in [tuple(way.intervals_deg.tolist()) for way in engine.firings(order)]
+    assert not any(way.even for way in engine.firing_orders())
+
+
+def test_odd_fire_is_150_and_90() -> None:
+    fires = cp.Engine.preset("v6-90-odd-fire").firing("1-6-5-4-3-2")
+    assert fires.intervals_deg.tolist() == [150.0, 90.0] * 3
+    assert fires.unevenness_deg == 30.0
+    assert repr(fires) == "<Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>"
+
+
+def test_a_hair_beside_even_is_not_even() -> None:
+    # 1e-7 of a degree is told apart; what rounding leaves of odd angles is not.
+    pins = cp.Engine.preset("v8-crossplane")
+    assert not pins.with_bank_angle(90.0000001, hold="pins").firing(firing.CROSSPLANE).even
+    odd = [k * 720 / 11 + 1.0001 for k in range(11)]
+    assert inline(odd).firing("1-2-3-4-5-6-7-8-9-10-11").even
+    assert not inline([0, 180.0000001]).firing("1-2").even
+
+
+def test_a_v14_fires_at_parts_of_a_turn() -> None:
+    best = cp.Engine.preset("v14-49.54").firing_orders()[0]
+    assert best.even
+    assert best.intervals_deg.tolist() == [360 / 7] * 14
+
+
+def test_two_strokes() -> None:
+    i3 = cp.Engine.from_firing_order(PART, "1-3-2", strokes=2, spacing=0.1)
+    (only,) = i3.firing_orders(strokes=2)
+    assert only == i3.firing("1-3-2", strokes=2)
+    assert only.strokes == 2
+    assert only.even
+    assert only.intervals_deg.tolist() == [120.0] * 3
+    assert only.angles_deg.tolist() == [0.0, 240.0, 120.0]
+    assert i3.firings("1-2-3", strokes=2) == ()
+    with pytest.raises(cp.InputError, match=r"1-2-3: .* top dead centres as 1-3-2$"):
+        i3.firing("1-2-3", strokes=2)
+    # A four-stroke with the same crank needs the other turn for an even 240.
+    assert i3.firing("1-2-3").intervals_deg.tolist() == [240.0] * 3
+    power, compression = only.strokes_deg().values()
+    assert power.tolist() == [[0.0, 180.0], [240.0, 420.0], [120.0, 300.0]]
+    assert compression.tolist() == [[180.0, 360.0], [60.0, 240.0], [300.0, 480.0]]
+    for call in (only.valves, only.exhaust_overlaps):
+        with pytest.raises(cp.InputError, match="strokes = 2: valves are those of a four-stroke"):
+            call()
+
+
+def test_a_mirrored_boxer_fires_in_pairs_as_a_two_stroke() -> None:
+    (only,) = BOXER.firing_orders(strokes=2)
+    assert only.firing_order == "1+2-3+4"
+    assert only.order == (1, 2, 3, 4)
+    assert only.intervals_deg.tolist() == [0.0, 180.0, 0.0, 180.0]
+    assert BOXER.firing("4+3-2+1", strokes=2) == only
+    assert BOXER.firings("1-2-3-4", strokes=2) == ()
+    assert BOXER.firings("1+3-2+4", strokes=2) == ()
+
+
+# --- strokes and valves ---------------------------------------------------------------------------
+
+
+def test_strokes_follow_each_other() -> None:
+    strokes = PAGE.strokes_deg()
+    assert list(strokes) == ["power", "exhaust", "intake", "compression"]
+    for k, periods in enumerate(strokes.values()):
+        assert (periods[:, 0] == (PAGE.angles_deg + 180 * k) % 720).all()
+        assert (periods[:, 1] == periods[:, 0] + 180).all()
+    with pytest.raises(TypeError):
+        strokes["power"] = strokes["intake"]  # type: ignore[index]
+
+
+def test_strokes_end_where_the_piston_turns() -> None:
+    engine = inline([0, 180, 300]).replace(cylinder=OFFSET)
+    fires = engine.firing_orders()[0]
+    names = list(fires.strokes_deg())
+    for k, name in enumerate(names):
+        periods = fires.strokes_deg()[name]
+        after = fires.strokes_deg()[names[(k + 1) % 4]]
+        np.testing.assert_allclose(periods[:, 1] % 720, after[:, 0] % 720, rtol=0, atol=ROUNDING)
+        for cylinder, period in enumerate(periods):
+            # Rounding of the angle, 1e-14 rad, times the largest speed over ω, about r.
+            speed = OFFSET.velocity(period - engine.tdc_deg[cylinder], rpm=60 / (2 * math.pi))
+            assert abs(speed).max() < 1e-14
+    down = OFFSET.position(fires.strokes_deg()["power"][0] - engine.tdc_deg[0])
+    assert down[0] > down[1]
+
+
+def test_valves_open_and_close_about_the_dead_centres() -> None:
+    timing = cp.ValveTiming(
+        intake_opens_deg=12, intake_closes_deg=48, exhaust_opens_deg="55", exhaust_closes_deg=7
+    )
+    intake, exhaust = PAGE.valves(timing)
+    strokes = PAGE.strokes_deg()
+    assert (intake[:, 0] == (strokes["intake"][:, 0] - 12) % 720).all()
+    assert (intake[:, 1] - intake[:, 0] == 12 + 180 + 48).all()
+    assert (exhaust[:, 0] == (strokes["exhaust"][:, 0] - 55) % 720).all()
+    assert (exhaust[:, 1] - exhaust[:, 0] == 55 + 180 + 7).all()
+    late = PAGE.valves(cp.ValveTiming(intake_opens_deg=-10)).intake
+    assert (late[:, 0] == (strokes["intake"][:, 0] + 10) % 720).all()
+    # Valves of an engine with offset pins are timed from where its pistons turn.
+    single = inline([0]).replace(cylinder=OFFSET).firing("1")
+    opens, closes = single.valves(cp.ValveTiming(0, 0, 0, 0)).intake[0]
+    assert [opens, closes] == single.strokes_deg()["intake"][0].tolist()
+
+
+@pytest.mark.parametrize("name", ["intake_opens_deg", "exhaust_closes_deg"])
+@pytest.mark.parametrize("value", [-90, 181, math.nan, math.inf, "early", None])
+def test_timing_that_is_none(name: str, value: Any) -> None:  # noqa: ANN401 - bad on purpose
+    with pytest.raises(cp.InputError, match=name):
+        cp.ValveTiming(**{name: value})
+
+
+# --- the crank of a firing order ------------------------------------------------------------------
+
+
+def test_throws_of_the_cross_plane_order() -> None:
+    found = cp.throws(firing.CROSSPLANE, bank_angle_deg=90, odd_bank="left")
+    assert found.throws_deg.tolist() == [0.0, 90.0, 270.0, 180.0]
+    assert found.shared_pins
+    assert repr(found) == "<Throws 0-90-270-180, shared pins>"
+    other = cp.throws(firing.CROSSPLANE, bank_angle_deg=90, odd_bank="right")
+    assert other.pin_splits_deg.tolist() == [180.0] * 4
+    assert not other.shared_pins
+
+
+@pytest.mark.parametrize(("bank_angle", "split"), [(60, -60), (90, -30), (120, 0), (150, 30)])
+def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, split: int) -> None:
+    found = cp.throws("1-2-3-4-5-6", bank_angle_deg=bank_angle)
+    assert found.pin_splits_deg.tolist() == [split] * 3
+    assert found.throws_deg.tolist() == [0.0, 120.0, 240.0]
+    engine = cp.Engine.vee(
+        PART,
+        bank_angle_deg=bank_angle,
+        throws_deg=found.throws_deg,
+        pin_split_deg=split,
+        spacing=0.1,
+    )
+    assert engine.firing("1-2-3-4-5-6").even
+
+
+def test_odd_fire_needs_no_split() -> None:
+    found = cp.throws(
+        "1-6-5-4-3-2", bank_angle_deg=90, odd_bank="left", intervals_deg=[150, 90] * 3
+    )
+    assert found.shared_pins
+    engine = cp.Engine.from_firing_order(
+        PART,
+        "1-6-5-4-3-2",
+        bank_angle_deg=90,
+        odd_bank="left",
+        intervals_deg=[150, 90] * 3,
+        spacing=0.1,
+    )
+    assert engine.firing("1-6-5-4-3-2").intervals_deg.tolist() == [150.0, 90.0] * 3
+    preset = cp.Engine.preset("v6-90-odd-fire")
+    assert engine.tdc_deg.tolist() == preset.tdc_deg.tolist()
+    assert engine.pin_deg.tolist() == preset.pin_deg.tolist()
+
+
+def test_throws_of_inline_engines() -> None:
+    found = cp.throws("1-3-4-2")
+    assert found.throws_deg.tolist() == [0.0, 180.0, 180.0, 0.0]
+    assert found.pin_splits_deg.size == 0
+    assert not found.shared_pins
+    assert repr(found) == "<Throws 0-180-180-0>"
+    cross = cp.throws("1-3-2-4", intervals_deg=[270, 180, 90, 180])  # Yamaha's R1
+    assert cross.throws_deg.tolist() == [0.0, 270.0, 90.0, 180.0]
+    assert cp.throws([1, 2, 3], strokes=2).throws_deg.tolist() == [0.0, 240.0, 120.0]
+
+
+ORDERS = st.integers(1, 4).flatmap(lambda n: st.permutations(range(1, 2 * n + 1)))
+
+
+@st.composite
+def interval_lists(draw: st.DrawFn, count: int, cycle: int = 720) -> list[int]:
+    """Whole degrees above 0 that add up to a cycle."""
+    cuts = draw(st.sets(st.integers(1, cycle - 1), min_size=count - 1, max_size=count - 1))
+    stops = [0, *sorted(cuts), cycle]
+    return [after - before for before, after in itertools.pairwise(stops)]
+
+
+@settings(deadline=None)
+@given(
+    st.data(),
+    ORDERS,
+    st.integers(0, 180),
+    st.sampled_from(["right", "left"]),
+    st.sampled_from(["alternating", "by-bank"]),
+)
+def test_a_crank_made_for_an_order_fires_in_it(
+    data: st.DataObject,
+    order: list[int],
+    bank_angle: int,
+    odd_bank: Literal["right", "left"],
+    numbering: Literal["alternating", "by-bank"],
+) -> None:
+    wanted = data.draw(interval_lists(len(order)))
+    options: dict[str, Any] = {
+        "bank_angle_deg": bank_angle,
+        "odd_bank": odd_bank,
+        "numbering": numbering,
+        "intervals_deg": wanted,
+    }
+    engine = cp.Engine.from_firing_order(PART, order, spacing=0.1, **options)
+    # Rotated to cylinder 1, as the result has it.
+    first = order.index(1)
+    rotated = wanted[first:] + wanted[:first]
+    ways = engine.firings(order)
+    assert rotated in [way.intervals_deg.tolist() for way in ways]
+    found = cp.throws(order, **options)
+    text = "-".join(map(str, order))
+    throws, splits = firing.pins(text, wanted, bank_angle, odd_bank, numbering)
+    assert found.throws_deg.tolist() == list(map(float, throws))
+    assert found.pin_splits_deg.tolist() == list(map(float, splits))
+    pins = {
+        (side, z): pin
+        for side, z, pin in zip(engine.bank_deg, engine.z, engine.pin_deg, strict=True)
+    }
+    if 0 < bank_angle < 180:
+        for k, split in enumerate(found.pin_splits_deg):
+            left, right = (pins[90 + sign * bank_angle / 2, k * 0.1] for sign in (1, -1))
+            assert (left - right - split) % 360 == 0
+
+
+@settings(deadline=None)
+@given(st.data(), st.permutations(range(1, 6)), st.sampled_from([2, 4]))
+def test_an_inline_crank_made_for_an_order_fires_in_it(
+    data: st.DataObject, order: list[int], strokes: int
+) -> None:
+    wanted = data.draw(interval_lists(5, 180 * strokes))
+    given_: dict[str, Any] = {"intervals_deg": wanted, "strokes": strokes}
+    engine = cp.Engine.from_firing_order(PART, order, spacing=0.1, **given_)
+    first = order.index(1)
+    rotated = wanted[first:] + wanted[:first]
+    ways = engine.firings(order, strokes=strokes)
+    assert rotated in [way.intervals_deg.tolist() for way in ways]
+    throws = cp.throws(order, **given_).throws_deg
+    assert engine == cp.Engine.inline(PART, throws_deg=throws, spacing=0.1)
+
+
+@pytest.mark.parametrize(
+    ("given_", "words"),
+    [
+        ({"intervals_deg": [180, 180, 180]}, "intervals_deg has 3 entries"),
+        ({"intervals_deg": [180, 180, 180, 90]}, r"sum of intervals_deg = 630: .* up to 720"),
+        ({"intervals_deg": [180] * 4, "strokes": 2}, r"= 720: make them add up to 360"),
+        ({"intervals_deg": [0, 180, 180, 360]}, r"intervals_deg\[0\] = 0: give degrees above 0"),
+        ({"intervals_deg": [-180, 540, 180, 180]}, r"intervals_deg\[0\] = -180"),
+        ({"intervals_deg": [math.nan] * 4}, r"intervals_deg\[0\] = NaN"),
+        ({"intervals_deg": 180}, "intervals_deg = 180: give a list"),
+        ({"strokes": 3}, "strokes = 3: give 4 for a four-stroke or 2"),
+        ({"strokes": "four"}, "strokes = 'four': give 4"),
+    ],
+)
+def test_intervals_that_make_no_crank(given_: dict[str, Any], words: str) -> None:
+    for call in (
+        lambda: cp.Engine.from_firing_order(PART, "1-3-4-2", spacing=0.1, **given_),
+        lambda: cp.throws("1-3-4-2", **given_),
+    ):
+        with pytest.raises(cp.InputError, match=words):
+            call()
+
+
+def test_the_ijesc_rule_has_its_own_intervals() -> None:
+    def build(**given_: Any) -> cp.Engine:  # noqa: ANN401 - of from_firing_order
+        return cp.Engine.from_firing_order(
+            PART, "1-2-3-4-5-6", bank_angle_deg=60, spacing=0.1, rule="ijesc", **given_
+        )
+
+    with pytest.raises(cp.InputError, match='intervals_deg = 6 given: the rule "ijesc"'):
+        build(intervals_deg=[120] * 6)
+    with pytest.raises(cp.InputError, match='strokes = 2: the rule "ijesc"'):
+        build(strokes=2)
+
+
+# --- laws that hold for any engine ----------------------------------------------------------------
+
+TURNS = st.integers(1, 9).flatmap(
+    lambda n: st.lists(st.integers(0, 3 * n).map(lambda k: Fraction(360 * k, n)), min_size=1)
+)
+DECIMALS = st.lists(st.floats(0, 360, allow_subnormal=False), min_size=1)
+TDCS = st.one_of(TURNS, DECIMALS).map(lambda tdc: tdc[:6])
+STROKES = st.sampled_from([2, 4])
+
+
+@settings(deadline=None)
+@given(TDCS, STROKES)
+def test_intervals_fill_the_cycle(tdc: list[Any], strokes: int) -> None:
+    for way in inline(tdc).firing_orders(strokes=strokes):
+        assert way.intervals_deg.sum() == pytest.approx(180 * strokes, rel=0, abs=ROUNDING)
+        assert way.intervals_deg.min() >= 0
+        assert sorted(way.order) == list(range(1, len(tdc) + 1))
+        assert way.order[0] == 1
+        places = np.array(way.order) - 1
+        assert way.angles_deg[0] < 360
+        steps = np.diff(way.angles_deg[np.append(places, 0)])
+        apart = (steps - way.intervals_deg) % (180 * strokes)
+        assert np.minimum(apart, 180 * strokes - apart).max() < 1e-9
+
+
+@settings(deadline=None)
+@given(TURNS.map(lambda tdc: tdc[:6]), STROKES)
+def test_every_choice_of_turns_is_listed_once(tdc: list[Fraction], strokes: int) -> None:
+    found = inline(tdc).firing_orders(strokes=strokes)
+    expected = firing.ways(tdc, strokes)
+    pairs = sorted((way.order, tuple(way.intervals_deg.tolist())) for way in found)
+    assert pairs == sorted((way.order, tuple(map(float, way.intervals))) for way in expected)
+    assert len(set(found)) == len(found)
+    uneven = [way.unevenness_deg for way in found]
+    assert uneven == pytest.approx(sorted(uneven), abs=1e-6)
+    for way in found:
+        assert way.even == (len(set(way.intervals_deg.tolist())) == 1)
+
+
+@settings(deadline=None)
+@given(TDCS, STROKES)
+def test_every_listed_order_can_be_named(tdc: list[Any], strokes: int) -> None:
+    engine = inline(tdc)
+    for way in engine.firing_orders(strokes=strokes):
+        ways = engine.firings(way.firing_order, strokes=strokes)
+        assert way in ways
+        best = engine.firing(way.firing_order, strokes=strokes)
+        assert best == ways[0]
+        assert best.firing_order == way.firing_order
+        assert best.unevenness_deg <= way.unevenness_deg + 1e-6
+
+
+@settings(deadline=None)
+@given(st.data(), TURNS.map(lambda tdc: tdc[:6]), STROKES)
+def test_what_is_not_listed_cannot_be_named(
+    data: st.DataObject, tdc: list[Fraction], strokes: int
+) -> None:
+    engine = inline(tdc)
+    order = data.draw(st.permutations(range(1, len(tdc) + 1)))
+    text = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
+    expected = firing.ways_of(text, tdc, strokes)
+    assert intervals(engine.firings(order, strokes=strokes)) == floats(expected)
+    if not expected:
+        with pytest.raises(cp.InputError, match="firing_order = "):
+            engine.firing(order, strokes=strokes)
+
+
+def differences(engine: cp.Engine, strokes: int, places: Sequence[int]) -> set[tuple[float, ...]]:
+    """Crank angles from each firing to each other, of every way to fire."""
+    found = set()
+    for way in engine.firing_orders(strokes=strokes):
+        angles = way.angles_deg[list(places)]
+        apart = (angles[:, None] - angles) % (180 * strokes)
+        found.add(tuple((apart.round(6) % (180 * strokes)).ravel().tolist()))
+    return found
+
+
+@settings(deadline=None)
+@given(st.data(), TDCS, STROKES)
+def test_numbering_does_not_matter(data: st.DataObject, tdc: list[Any], strokes: int) -> None:
+    places = data.draw(st.permutations(range(len(tdc))))
+    renumbered = inline([tdc[k] for k in places])
+    same = differences(renumbered, strokes, range(len(tdc)))
+    assert differences(inline(tdc), strokes, places) == same
+
+
+@settings(deadline=None)
+@given(TDCS, st.one_of(st.integers(-400, 400), st.floats(-400, 400)), STROKES)
+def test_turning_the_crank_changes_nothing_but_angles(
+    tdc: list[Any], turn: float, strokes: int
+) -> None:
+    engine = inline(tdc)
+    turned = engine.with_first_tdc(turn)
+    before, after = (each.firing_orders(strokes=strokes) for each in (engine, turned))
+    # Angles a millionth of a degree apart may be told apart before and not after, or change places.
+    tops = np.sort(engine.tdc_deg)
+    apart = np.diff(np.append(tops, tops[0] + 360))
+    assume(not ((apart > 0) & (apart < 1e-6)).any())
+    by_turns = {way.revolutions: way for way in after}
+    assert set(by_turns) == {way.revolutions for way in before}
+    for way in before:
+        same = by_turns[way.revolutions]
+        assert same.order == way.order
+        np.testing.assert_allclose(same.intervals_deg, way.intervals_deg, rtol=0, atol=1e-9)
+        moved = (same.angles_deg - way.angles_deg - (same.angles_deg[0] - way.angles_deg[0])) % (
+            180 * strokes
+        )
+        assert np.minimum(moved, 180 * strokes - moved).max() < 1e-9
+
+
+# --- refusals -------------------------------------------------------------------------------------
+
+
+def test_refusals() -> None:
+    i4 = cp.Engine.preset("i4")
+    with pytest.raises(cp.InputError) as refusal:
+        i4.firing("1-2-3-4")
+    assert str(refusal.value) == (
+        "firing_order = 1-2-3-4: this crank cannot fire so: its top dead centres come as 1+4-2+3 "
+        "in a turn, and each cylinder fires at every second of its own, most evenly 1-2-4-3 or "
+        "1-3-4-2 or 1-2+3-4"
+    )
+    for ask in (i4.firing, i4.firings):
+        with pytest.raises(cp.InputError, match="1-3-2: name each of the engine's 4 cylinders"):
+            ask("1-3-2")
+        with pytest.raises(cp.InputError, match="1-3-3-2: name every cylinder from 1 to"):
+            ask("1-3-3-2")
+        with pytest.raises(cp.InputError, match="1;3: give cylinder numbers joined by '-'"):
+            ask("1;3")
+        with pytest.raises(cp.InputError, match="firing_order = 1342: give cylinder numbers"):
+            ask(1342)  # type: ignore[arg-type]
+        with pytest.raises(cp.InputError, match="strokes = 6: give 4"):
+            ask("1-3-4-2", strokes=6)
+    groups: list[tuple[Any, str]] = [
+        ([[1, 1]], r"groups\[0\] = 1: name cylinders from 1 to 8, each once"),
+        ([[1], [9]], r"groups\[1\] = 9: name cylinders"),
+        ([[0]], r"groups\[0\] = 0: give lists of cylinder numbers"),
+        ([[]], r"groups\[0\] = \[\]: name at least one"),
+        ([["a"]], r"groups\[0\] = \['a'\]: give lists"),
+        ([1], r"groups\[0\] = 1: give lists"),
+        (3, "groups = 3: give lists"),
+    ]
+    for given_, words in groups:
+        for ask_groups in (PAGE.gaps, PAGE.exhaust_overlaps):
+            with pytest.raises(cp.InputError, match=words):
+                ask_groups(given_)
+    with pytest.raises(cp.InputError, match="timing = 50: give a crankpin"):
+        PAGE.valves(50)  # type: ignore[arg-type]
+
+
+def test_too_many_cylinders_to_list_can_still_be_named() -> None:
+    engine = inline([0] * 17)
+    with pytest.raises(
+        cp.InputError, match=r"cylinders = 17: .* up to 16 cylinders.*name an order"
+    ):
+        engine.firing_orders()
+    assert len(engine.firing_orders(strokes=2)) == 1
+    assert engine.firing("+".join(map(str, range(1, 18)))).intervals_deg[-1] == 720.0
+    with pytest.raises(cp.InputError, match="this crank cannot fire so"):
+        engine.firing(range(1, 18))
+    even = "-".join(map(str, range(1, 1001)))
+    thousand = cp.Engine.from_firing_order(PART, even, spacing=0.1)
+    assert thousand.firing(even).even
+
+
+# --- objects --------------------------------------------------------------------------------------
+
+
+def test_firings_are_frozen_and_copied() -> None:
+    throws = cp.throws("1-2-3-4-5-6", bank_angle_deg=60)
+    timing = cp.ValveTiming(intake_opens_deg="360/7")
+    for each in (PAGE, BOXER.firing("1+2-3+4", strokes=2), throws, timing):
+        for again in (pickle.loads(pickle.dumps(each)), copy.copy(each), copy.deepcopy(each)):  # noqa: S301 - our own
+            assert again == each
+            assert hash(again) == hash(each)
+            assert repr(again) == repr(each)
+        with pytest.raises(AttributeError):
+            each.strokes = 2  # type: ignore[union-attr,misc]
+    arrays = (
+        PAGE.angles_deg,
+        PAGE.intervals_deg,
+        *PAGE.valves(),
+        *PAGE.strokes_deg().values(),
+        throws.throws_deg,
+        throws.pin_splits_deg,
+        pickle.loads(pickle.dumps(throws)).throws_deg,  # noqa: S301 - our own
+    )
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0.0
+    assert V8.firing_orders()[0] != PAGE
+    assert V8.with_first_tdc(10).firing(firing.CROSSPLANE) != PAGE
+    assert PAGE != "1"
+    assert throws != cp.throws("1-2-3-4-5-6", bank_angle_deg=90)
+    assert throws != 1
+
+
+def test_tables() -> None:
+    table = PAGE.to_pandas()
+    assert table.index.tolist() == list(PAGE.order)
+    assert table["interval_deg"].tolist() == [90.0] * 8
+    assert table["angle_deg"].tolist() == [90.0 * k for k in range(8)]
+    assert table["gap_in_bank_deg"].tolist() == [270, 90, 180, 180, 270, 90, 180, 180]
+    assert "<td>270</td>" in PAGE._repr_html_()
+
+
+# --- the chart ------------------------------------------------------------------------------------
+
+
+def drawn(ax: Any) -> dict[str, list[tuple[float, float, float]]]:  # noqa: ANN401 - axes
+    """Colour → (row, start, end) of every bar."""
+    found: dict[str, list[tuple[float, float, float]]] = {}
+    for bars in ax.collections:
+        assert isinstance(bars, PolyCollection)
+        colour = mpl.colors.to_hex(bars.get_facecolor()[0])
+        for path in bars.get_paths():
+            (x0, y0), (x1, _) = path.vertices.min(axis=0), path.vertices.max(axis=0)
+            found.setdefault(colour, []).append((math.floor(y0 + 0.5), x0, x1))
+    return found
+
+
+def test_the_chart_shows_when_valves_are_open() -> None:
+    ax = PAGE.plot()
+    rows = [1, 3, 5, 7, 2, 4, 6, 8]
+    assert [label.get_text() for label in ax.get_yticklabels()] == [str(row) for row in rows]
+    found = drawn(ax)
+    blue, red = list(found)
+    assert int(blue[5:], 16) > int(blue[1:3], 16)
+    assert int(red[1:3], 16) > int(red[5:], 16)
+    for colour, periods in zip((blue, red), PAGE.valves(), strict=True):
+        expected = []
+        for row, cylinder in enumerate(rows):
+            start, end = periods[cylinder - 1]
+            expected.append((row, start, min(end, 720.0)))
+            if end > 720:
+                expected.append((row, 0.0, end - 720))
+        assert sorted(found[colour]) == sorted(expected)
+    fires = ax.lines[0]
+    assert fires.get_label() == "fires"
+    assert fires.get_xdata().tolist() == [PAGE.angles_deg[row - 1] for row in rows]
+    assert ax.get_xlim() == (0.0, 720.0)
+    assert ax.get_title(loc="left") == "V8 90°, cross-plane\n4-stroke 1-8-4-3-6-5-7-2, even, 90°"
+
+
+def test_the_chart_takes_axes_and_timing() -> None:
+    _, ax = plt.subplots()
+    timing = cp.ValveTiming(exhaust_opens_deg=80)
+    assert PAGE.plot(ax, timing=timing) is ax
+    assert any(end - start == 270 for bars in drawn(ax).values() for _, start, end in bars)
+    two = BOXER.firing("1+2-3+4", strokes=2).plot()
+    assert two.get_xlim() == (0.0, 360.0)
+    (power,) = drawn(two).values()
+    assert [bar[1:] for bar in power] == [(0, 180), (180, 360), (0, 180), (180, 360)]
+    with pytest.raises(cp.InputError, match="ax = 3"):
+        PAGE.plot(3)  # type: ignore[arg-type]
+
+
+# --- the command line -----------------------------------------------------------------------------
+
+CAPTURE = pytest.CaptureFixture[str]
+
+
+def printed(capsys: CAPTURE, *argv: str) -> str:
+    """What a run that succeeds prints."""
+    assert main(argv) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
+    argv = ("firing", "v8-crossplane", "--order", firing.CROSSPLANE)
+    lines = printed(capsys, *argv).splitlines()
+    assert lines[0] == "V8 90°, cross-plane: 4-stroke 1-8-4-3-6-5-7-2, even, 90°"
+    assert [line.split() for line in lines[2:4]] == [
+        ["1", "0", "90", "270"],
+        ["8", "90", "90", "90"],
+    ]
+    assert len(lines) == 10
+    head, *rows = csv.reader(io.StringIO(printed(capsys, *argv, "--csv")))
+    assert head[0] == "cylinder"
+    assert [float(row[1]) for row in rows] == PAGE.to_pandas()["angle_deg"].tolist()
+    picture = tmp_path / "v8.png"
+    printed(capsys, *argv, "--plot", str(picture))
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert not plt.get_fignums()
+
+
+def test_command_of_an_order_in_several_turns(capsys: CAPTURE) -> None:
+    name = "ijesc-v6-1-4-5-2-3-6"
+    lines = printed(capsys, "firing", name, "--order", "1-4-5-2-3-6").splitlines()
+    ways = cp.Engine.preset(name).firings("1-4-5-2-3-6")
+    told = ["  " + "-".join(f"{each:g}" for each in way.intervals_deg) for way in ways]
+    assert lines[-5:] == told[1:]
+    assert told[0].strip() in lines[0]
+
+
+def test_command_lists_orders(capsys: CAPTURE) -> None:
+    lines = printed(capsys, "firing", "i4").splitlines()
+    firings = cp.Engine.preset("i4").firing_orders()
+    assert [line.split()[0] for line in lines[2:]] == [each.firing_order for each in firings]
+    assert lines[2].split() == ["1-2-4-3", "even", "0"]
+    assert printed(capsys, "firing", "v8-crossplane").endswith("and 108 more: --csv prints all\n")
+    head, *rows = csv.reader(io.StringIO(printed(capsys, "firing", "v8-crossplane", "--csv")))
+    assert head == ["firing order", "intervals °", "rms from even °"]
+    assert [row[0] for row in rows] == [each.firing_order for each in V8.firing_orders()]
+    lines = printed(capsys, "firing", "boxer-4", "--strokes", "2").splitlines()
+    assert lines[2].split()[:2] == ["1+2-3+4", "0-180-0-180"]
+
+
+@pytest.mark.parametrize(
+    ("argv", "words"),
+    [
+        (["i4", "--order", "1-2-3-4"], "firing_order = 1-2-3-4: this crank cannot fire so"),
+        (["i4", "--plot", "i4.png"], "--plot = i4.png: give --order with it"),
+        (["i4", "--order", "1-3-4-2", "--plot", "i4.txt"], "--plot = i4.txt: a picture's name"),
+        (["ijesc-v6"], "NAME = ijesc-v6: firing takes one engine of ijesc-v6-1-3-5-2-4-6"),
+        (["i4", "--strokes", "3"], "--strokes"),
+    ],
+)
+def test_command_refuses(capsys: CAPTURE, argv: list[str], words: str) -> None:
+    assert main(["firing", *argv]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert words in err
