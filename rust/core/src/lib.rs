@@ -1,9 +1,10 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
+//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`] → [`slider_crank`], [`harmonics`] (one cylinder)
 //! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
-//! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
+//! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`],
+//! [`vanishing`], [`closed_form`] (what is exactly zero, and exactly what);
 //! [`extrema`] finds the peak of a sum of orders for the last three.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
@@ -15,6 +16,8 @@
 pub mod angle;
 pub mod balance;
 pub mod cancel;
+pub mod closed_form;
+pub mod cyclotomic;
 pub mod double;
 pub mod engine;
 pub mod engine_file;
@@ -23,10 +26,12 @@ pub mod extrema;
 pub mod harmonics;
 pub mod layout;
 pub mod limits;
+pub mod rational;
 mod simd;
 pub mod slider_crank;
 pub mod spectrum;
 pub mod sweep;
+pub mod vanishing;
 pub mod waveform;
 
 pub use angle::Angle;
