@@ -13,12 +13,14 @@ from crankpin._balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
+from crankpin._exact import ClosedForm, VanishingOrders
 from crankpin._presets import presets
 from crankpin._sweep import Sweep, sweep
 from crankpin._waveform import Waveform
 
 __all__ = [
     "Balance",
+    "ClosedForm",
     "Cylinder",
     "Ellipse",
     "Engine",
@@ -26,6 +28,7 @@ __all__ = [
     "InputError",
     "OrderBalance",
     "Sweep",
+    "VanishingOrders",
     "Waveform",
     "__version__",
     "presets",

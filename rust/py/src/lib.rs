@@ -8,11 +8,13 @@
 use pyo3::prelude::*;
 
 mod balance;
+mod closed_form;
 mod convert;
 mod engine;
 mod interrupt;
 mod slider_crank;
 mod sweep;
+mod vanishing;
 mod waveform;
 
 #[pymodule]
@@ -33,6 +35,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(slider_crank::offset_table, module)?)?;
     module.add_function(wrap_pyfunction!(balance::balance, module)?)?;
     module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
+    module.add_function(wrap_pyfunction!(vanishing::vanishing, module)?)?;
+    module.add_function(wrap_pyfunction!(closed_form::closed_form, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
     Ok(())
 }
