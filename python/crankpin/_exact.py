@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import operator
 from fractions import Fraction
 from functools import cached_property
@@ -178,7 +179,8 @@ class VanishingOrders(Frozen):
         return "\n".join([self._table().text(), *self.obstacles])
 
     def _repr_html_(self) -> str:
-        return self._table().html()
+        reasons = (f"<p>{html.escape(obstacle)}</p>" for obstacle in self.obstacles)
+        return "".join([self._table().html(), *reasons])
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, VanishingOrders):

@@ -415,7 +415,7 @@ mod tests {
 
     #[test]
     fn a_real_part_has_one_form() {
-        // 2cos(2π/5)·2 and −1 − 2cos(4π/5)·…: the five cosines add to nothing.
+        // The five fifth roots add to nothing: ζ = −(1 + ζ² + ζ³ + ζ⁴).
         let one = sum_of_period(5, &[(1, 1)]).twice_real().unwrap();
         let other = sum_of_period(5, &[(0, -1), (2, -1), (3, -1), (4, -1)]).twice_real().unwrap();
         assert_eq!(one, other);

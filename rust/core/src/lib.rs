@@ -1,11 +1,12 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`] → [`slider_crank`], [`harmonics`] (one cylinder)
-//! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
-//! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`],
-//! [`vanishing`], [`closed_form`] (what is exactly zero, and exactly what);
-//! [`extrema`] finds the peak of a sum of orders for the last three.
+//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`]
+//! → [`slider_crank`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders sit),
+//! [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON)
+//! → [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of
+//! orders for these three; [`vanishing`] proves which orders are zero, [`closed_form`] writes out
+//! the others.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
