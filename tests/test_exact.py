@@ -350,6 +350,28 @@ def test_the_shared_pin_v6_of_the_ijesc_paper() -> None:
     assert first.spacing == pytest.approx(0.13, rel=1e-15)
 
 
+@pytest.mark.parametrize("tdc", range(0, 360, 45))
+def test_phases_in_every_quadrant(tdc: int) -> None:
+    """With a cylinder at an odd place, so that nothing lies along an axis."""
+    tdcs = [tdc, tdc + 10, tdc + 70]
+    engine = cp.Engine.from_lists(CYLINDER, tdc_deg=tdcs, bank_deg=[90, 75, 60], z=[0, 0.1, 0.3])
+    for order in (1, 2):
+        form, b = engine.closed_form(order), engine.balance(RPM, order)
+        for phase, part in (
+            (form.forward_phase, b.forward_moment[0]),
+            (form.backward_phase, b.backward_moment[0]),
+        ):
+            assert float(phase) == pytest.approx(math.atan2(part.imag, part.real), rel=1e-12)
+
+
+def test_an_order_that_no_rod_has_is_zero() -> None:
+    """Although the sum over the layout is not."""
+    third = cp.Engine.preset("single").closed_form(3, "force")
+    assert third.magnitude == third.y == third.y_sum == 0
+    assert third.y_terms == ()
+    assert third.forward_phase == 0
+
+
 def test_sevenths_stay_cosines() -> None:
     throws = [f"{360 * k}/7" for k in (0, 3, 5, 1, 4, 6, 2)]
     i7 = cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1)
