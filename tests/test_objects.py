@@ -77,6 +77,10 @@ OBJECTS: dict[str, Any] = {
     "OrderBalance": balance().order(1),
     "Ellipse": balance().order(1).moment_ellipse,
     "ErrorBound": balance().error_bound,
+    "VanishingOrders": V6.vanishing_orders(),
+    "VanishingOrders of odd angles": ODD.vanishing_orders([1, 2], reference_z=0.3),
+    "ClosedForm": V6.replace(cylinder=CYLINDER.replace(pin_offset=0.0)).closed_form(1),
+    "ClosedForm of a force": V6.closed_form(2, "force", reference_z=0.0),
     "Waveform": waveform(),
     "Waveform, auto": waveform(orders="auto"),
     "Sweep": sweep(),
@@ -144,7 +148,7 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 @every_object
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
-    assert found or name in {"Cylinder", "Ellipse", "ErrorBound"}
+    assert found or name.startswith(("Cylinder", "Ellipse", "ErrorBound", "ClosedForm"))
     for attribute, array in found:
         assert not array.flags.writeable, attribute
         with pytest.raises(ValueError, match="read-only"):
@@ -193,7 +197,9 @@ def test_copies_are_equal_and_frozen(name: str, how: str) -> None:
         copied.new = 0
 
 
-@pytest.mark.parametrize("name", [name for name in OBJECTS if name.startswith(("C", "E", "B"))])
+@pytest.mark.parametrize(
+    "name", [name for name in OBJECTS if name.startswith(("C", "E", "B", "V"))]
+)
 def test_copies_compare_and_hash_equal(name: str) -> None:
     value = OBJECTS[name]
     for copied in (how(value) for how in COPIES.values()):
@@ -428,7 +434,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    if not name.startswith("Balance"):  # a table under a title
+    if not name.startswith(("Balance", "Vanishing", "ClosedForm")):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
 

@@ -105,6 +105,11 @@ def proportions(**changes: Any) -> cp.Sweep:
     return swept(bank_angle_deg=None, hold=None, **changes)
 
 
+def closed_form(**changes: Any) -> cp.ClosedForm:
+    given_: dict[str, Any] = {"order": 1}
+    return V6.closed_form(**given_ | changes)
+
+
 def harmonics(**changes: Any) -> Any:
     given_: dict[str, Any] = {"rod_ratio": 0.3, "orders": [1, 2]}
     return cp.slider_crank_harmonics(**given_ | changes)
@@ -275,6 +280,21 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (harmonics, "pin_offset_ratio", 2.5, "2.5"),
     (harmonics, "pin_offset_ratio", INF, "inf"),
     (harmonics, "pin_offset_ratio", "left", "left"),
+    (V6.vanishing_orders, "orders", "auto", "auto"),
+    (V6.vanishing_orders, "orders", [], "[]"),
+    (V6.vanishing_orders, "orders", [2, 2], "2"),
+    (V6.vanishing_orders, "orders", 20_000, "20000"),
+    (V6.vanishing_orders, "reference_z", NAN, "NaN"),
+    (V6.vanishing_orders, "reference_z", "middle", "middle"),
+    (V6.vanishing_orders().of, "quantity", "power", "power"),
+    (V6.vanishing_orders().order, "order", 13, "13"),
+    (closed_form, "order", 1.5, "1.5"),
+    (closed_form, "order", [1, 2], "[1, 2]"),
+    (closed_form, "order", 0, "0"),
+    (closed_form, "order", 20_000, "20000"),
+    (closed_form, "quantity", "torque", "torque"),
+    (closed_form, "quantity", None, "None"),
+    (closed_form, "reference_z", INF, "inf"),
     (CYLINDER.position, "theta_deg", NAN, "NaN"),
     (CYLINDER.position, "theta_deg", "top", "top"),
     (CYLINDER.position, "theta_deg", [[0], [0, 1]], "[[0], [0, 1]]"),
@@ -427,6 +447,7 @@ def test_what_no_memory_holds_is_refused(name: str) -> None:
 
 WITHOUT_END = {
     "orders": "I4.balance(1000, itertools.count(1))",
+    "orders that vanish": "I4.vanishing_orders(itertools.count(1))",
     "orders of a waveform": "I4.waveform(1000, [0.0], itertools.count(1))",
     "orders of a sweep": "cp.sweep(I4, rpm=1000, orders=itertools.count(1))",
     "many orders": "I4.balance(1000, range(1, 10**12))",
@@ -692,6 +713,8 @@ SUBJECTS: dict[str, Any] = {
     "balance": V6.balance(1000),
     "balance of a spectrum": V6.balance(1000, [1], spectrum={1: 1.0}),
     "balance, auto": V6.balance(1000, "auto"),
+    "vanishing orders": V6.vanishing_orders(),
+    "closed form": V6.closed_form(1),
     "waveform": V6.waveform(1000, [0.0, 1.0]),
     "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
     "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
@@ -814,6 +837,8 @@ RESULTS = {
     cp.Cylinder: ["crank_radius", "rod_length", "reciprocating_mass", "pin_offset", "rod_ratio"],
     cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
     cp.Balance: ["force", "moment", "torque", "crank_torque", "force_peak_vector", "error_bound"],
+    cp.VanishingOrders: ["orders", "reference_z"],
+    cp.ClosedForm: ["spacing", "reference_z"],
     cp.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
     cp.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
     cp.Throws: ["throws_deg", "pin_splits_deg"],

@@ -13,6 +13,7 @@ from crankpin._balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
+from crankpin._exact import ClosedForm, VanishingOrders
 from crankpin._firing import Firing, Gap, Overlap, Throws, Valves, ValveTiming, throws
 from crankpin._presets import presets
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
@@ -23,6 +24,7 @@ __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "ClosedForm",
     "Cylinder",
     "Ellipse",
     "Engine",
@@ -36,6 +38,7 @@ __all__ = [
     "Throws",
     "ValveTiming",
     "Valves",
+    "VanishingOrders",
     "Waveform",
     "__version__",
     "presets",

@@ -19,6 +19,7 @@ __all__ = [
     "balance",
     "centred_table",
     "check_cylinder",
+    "closed_form",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
     "ellipse",
@@ -27,6 +28,7 @@ __all__ = [
     "motion",
     "offset_table",
     "valve_timing",
+    "vanishing",
     "vee_throws",
     "waveform",
 ]
@@ -243,6 +245,17 @@ def balance(
     reference_z: float | None,
     spectrum: _Pairs | None,
 ) -> Balance: ...
+def vanishing(
+    engine: Engine, orders: Sequence[int], reference_z: float | None
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], list[str]]: ...
+
+_Fraction: TypeAlias = tuple[int, int]
+_Part: TypeAlias = tuple[_Fraction, _Fraction, _Fraction, _Fraction, _Fraction]
+_Coefficients: TypeAlias = tuple[list[int], list[int], list[int]]
+
+def closed_form(
+    engine: Engine, order: int, moment: bool, reference_z: float | None
+) -> tuple[int, float, bool, list[_Part], int, int, list[_Coefficients]]: ...
 def ellipse(parts: Sequence[tuple[complex, complex]]) -> list[tuple[float, float, float]]: ...
 def waveform(
     engine: Engine,

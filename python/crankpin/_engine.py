@@ -12,6 +12,7 @@ from crankpin import _core, _inputs
 from crankpin._balance import Balance
 from crankpin._core import InputError
 from crankpin._cylinder import Cylinder
+from crankpin._exact import ClosedForm, VanishingOrders
 from crankpin._firing import Firing, stroke_count
 from crankpin._frozen import Frozen
 from crankpin._waveform import Waveform
@@ -810,6 +811,76 @@ class Engine(Frozen):
         """
         found = _core.Firing.all(self._core, stroke_count(strokes))
         return tuple(Firing(each, self) for each in found)
+
+    # --- exactly --------------------------------------------------------------------------------
+
+    def vanishing_orders(
+        self, orders: Orders = range(1, 13), *, reference_z: float | None = None
+    ) -> VanishingOrders:
+        """Return which orders of force, moment and torque vanish, with proof, at any speed.
+
+        Parameters
+        ----------
+        orders
+            Whole multiples of crank speed.
+        reference_z
+            Plane about which moments are taken, m; by default midway between the first and the last
+            cylinder.
+
+        Returns
+        -------
+        VanishingOrders
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("i6").vanishing_orders().of("force")
+        (1, 2, 3, 4, 5, 7, 8, 9, 10, 11)
+        """
+        return VanishingOrders(self, orders, reference_z)
+
+    def closed_form(
+        self,
+        order: int,
+        quantity: Literal["force", "moment"] = "moment",
+        *,
+        reference_z: float | None = None,
+    ) -> ClosedForm:
+        """Return force or moment of one order as exact expressions (needs SymPy).
+
+        Parameters
+        ----------
+        order
+            Whole multiple of crank speed.
+        quantity
+            ``"force"`` or ``"moment"``.
+        reference_z
+            As in :meth:`vanishing_orders`.
+
+        Returns
+        -------
+        ClosedForm
+
+        Raises
+        ------
+        InputError
+            If angles are no rational parts of a turn, masses or places no rational multiples of
+            each other, or slider-cranks of different proportions.
+        ImportError
+            If SymPy is not installed.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("i3").closed_form(1).magnitude
+        sqrt(3)*F*a
+        """
+        return ClosedForm(self, order, quantity, reference_z)
 
     def _mean_piston_speed(self, rpm: float) -> float:
         return 4.0 * self._core.largest_crank_radius * rpm / 60.0

@@ -60,11 +60,17 @@ def xarray() -> Any:  # noqa: ANN401 - a module
     return _optional("xarray")
 
 
-def _optional(name: str) -> Any:  # noqa: ANN401 - a module
+def sympy() -> Any:  # noqa: ANN401 - a module
+    """Return SymPy, or say how to get it."""
+    return _optional("sympy", "exact")
+
+
+def _optional(name: str, extra: str | None = None) -> Any:  # noqa: ANN401 - a module
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise ImportError(f'{name} is not installed: pip install "crankpin[{name}]"') from error
+        cure = f'pip install "crankpin[{extra or name}]"'
+        raise ImportError(f"{name} is not installed: {cure}") from error
 
 
 def value_text(dimension: str, value: float) -> str:

@@ -7,6 +7,12 @@
 //! [`search`] goes through every arrangement;
 //! [`firing`] (what follows from [`engine`] and [`layout`] alone);
 //! [`extrema`] finds the peak of a sum of orders for the last three.
+//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`]
+//! → [`slider_crank`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders sit),
+//! [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON)
+//! → [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of
+//! orders for these three; [`vanishing`] proves which orders are zero, [`closed_form`] writes out
+//! the others.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
@@ -17,6 +23,8 @@
 pub mod angle;
 pub mod balance;
 pub mod cancel;
+pub mod closed_form;
+pub mod cyclotomic;
 pub mod double;
 pub mod engine;
 pub mod engine_file;
@@ -26,11 +34,13 @@ pub mod firing;
 pub mod harmonics;
 pub mod layout;
 pub mod limits;
+pub mod rational;
 pub mod search;
 mod simd;
 pub mod slider_crank;
 pub mod spectrum;
 pub mod sweep;
+pub mod vanishing;
 pub mod waveform;
 
 pub use angle::Angle;

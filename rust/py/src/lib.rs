@@ -8,6 +8,7 @@
 use pyo3::prelude::*;
 
 mod balance;
+mod closed_form;
 mod convert;
 mod engine;
 mod firing;
@@ -15,6 +16,7 @@ mod interrupt;
 mod search;
 mod slider_crank;
 mod sweep;
+mod vanishing;
 mod waveform;
 
 #[pymodule]
@@ -40,6 +42,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(firing::valve_timing, module)?)?;
     module.add_function(wrap_pyfunction!(firing::inline_throws, module)?)?;
     module.add_function(wrap_pyfunction!(firing::vee_throws, module)?)?;
+    module.add_function(wrap_pyfunction!(vanishing::vanishing, module)?)?;
+    module.add_function(wrap_pyfunction!(closed_form::closed_form, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
     Ok(())
 }

@@ -1,0 +1,259 @@
+//! Force and moment of one order in closed form: whole numbers times cosines of parts of a turn.
+//!
+//! In units of one cylinder's force m·r·ω²·aₙ (and of the spacing a) a phasor is a sum of roots of
+//! unity with rational weights. Its real and imaginary part and the square of its size are sums
+//! c₀ + Σ cₖ·2cos(2πk/N) with whole cₖ, unique if k stays below half the degree of `Φ_N`: see
+//! [`crate::cyclotomic`]. What radicals these make is left to a computer algebra system.
+
+use crate::angle::Angle;
+use crate::cyclotomic::RootSum;
+use crate::engine::Engine;
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::rational::{Multiples, Ratio};
+use crate::vanishing::{Places, too_long, whole};
+
+/// Coefficients of 1, 2cos(2π/N), 2cos(4π/N) …, to be divided by the form's denominator.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Phasor {
+    /// Of the real part.
+    pub real: Vec<i128>,
+    /// Of the imaginary part.
+    pub imaginary: Vec<i128>,
+    /// Of the size squared, to be divided by the denominator squared.
+    pub square: Vec<i128>,
+}
+
+/// One cylinder's part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// m·r in units of the unit cylinder's.
+    pub weight: Ratio,
+    /// z − z₀ in units of the spacing.
+    pub lever: Ratio,
+    /// m·r of what turns with its pin; zero above order 1.
+    pub rotating: Ratio,
+    /// Direction of its bore, as part of a turn.
+    pub bank: (i64, i64),
+    /// Crank angle of its top dead centre, as part of a turn.
+    pub tdc: (i64, i64),
+}
+
+/// Force or moment of one order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosedForm {
+    /// Index of the cylinder whose force is the unit: the first that has reciprocating mass.
+    pub unit: usize,
+    /// Length of which all distances between cylinders are whole multiples, m; 0 if all stand in
+    /// the plane of reference.
+    pub spacing: f64,
+    /// Whether the harmonic aₙ is zero, and all with it.
+    pub no_harmonic: bool,
+    /// Cylinder by cylinder.
+    pub parts: Vec<Part>,
+    /// N.
+    pub period: i128,
+    /// By which coefficients are divided.
+    pub denominator: i128,
+    /// Along (about) x, along (about) y, forward, backward.
+    pub phasors: [Phasor; 4],
+}
+
+fn refused(argument: &str, value: impl std::fmt::Display, cure: &str) -> Error {
+    Error::value(argument, value, format!("a closed form needs {cure}"))
+}
+
+fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
+    match angle {
+        Angle::Turns(numerator, denominator) => Ok((numerator, denominator)),
+        Angle::Degrees(degrees) => {
+            Err(refused(argument, degrees, "rational parts of a turn, such as 60 or \"360/7\""))
+        }
+    }
+}
+
+/// Levers in units of the spacing, and the spacing.
+fn levers(engine: &Engine, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> {
+    let multiples = Places::new(engine, reference).multiples;
+    if multiples.units.len() > 1 {
+        let value = format!("{:?}", engine.placements().iter().map(|p| p.z).collect::<Vec<_>>());
+        return Err(refused("z", value, "distances that are rational multiples of each other"));
+    }
+    let unit = multiples.units.first().copied().unwrap_or(0.0).abs();
+    let sign = Ratio::new(multiples.units.first().map_or(1, |u| u.signum() as i128), 1);
+    let places: Vec<Ratio> = multiples.of.iter().map(|&(_, ratio)| ratio).collect();
+    let Some((&plane, places)) = places.split_last() else {
+        return Ok((Vec::new(), 0.0));
+    };
+    let from = |origin: Ratio| -> Option<Vec<Ratio>> {
+        places.iter().map(|place| place.minus(origin)?.times(sign?)).collect()
+    };
+    let measure = |of: &[Ratio]| of.iter().try_fold(Ratio::ZERO, |m, &d| m.common_measure(d));
+    let levers = from(plane).ok_or_else(too_long)?;
+    let mut step = measure(&from(places[0]).ok_or_else(too_long)?).ok_or_else(too_long)?;
+    if step == Ratio::ZERO {
+        step = measure(&levers).ok_or_else(too_long)?;
+    }
+    if step == Ratio::ZERO {
+        return Ok((levers, 0.0));
+    }
+    let levers: Option<Vec<Ratio>> = levers.into_iter().map(|lever| lever.over(step)).collect();
+    Ok((levers.ok_or_else(too_long)?, unit * step.value()))
+}
+
+/// m·r of what moves with the piston and what turns with the pin, in units of the first that moves.
+fn weights(engine: &Engine, order: u32) -> Result<(usize, Vec<(Ratio, Ratio)>)> {
+    let placements = engine.placements();
+    let count = placements.len();
+    let mut figures: Vec<f64> = placements.iter().map(|p| p.cylinder.first_order()).collect();
+    let turning = |p: &crate::Placement| p.rotating_mass * p.cylinder.crank_radius();
+    figures.extend(placements.iter().map(|p| if order == 1 { turning(p) } else { 0.0 }));
+    let Some(unit) = figures[..count].iter().position(|&figure| figure > 0.0) else {
+        return Err(refused("reciprocating_mass", 0, "a cylinder that has some"));
+    };
+    let multiples = Multiples::of_figures(&figures);
+    if multiples.units.len() > 1 {
+        let value = format!("m·r = {figures:?}");
+        let cure = "masses times radius that are rational multiples of each other";
+        return Err(refused("cylinders and rotating_mass", value, cure));
+    }
+    let one = multiples.of[unit].1;
+    let ratio = |i: usize| multiples.of[i].1.over(one).ok_or_else(too_long);
+    let pairs = (0..count).map(|i| Ok((ratio(i)?, ratio(count + i)?)));
+    Ok((unit, pairs.collect::<Result<_>>()?))
+}
+
+/// Force, or moment about the plane z = `reference_z`, of one order.
+pub fn closed_form(
+    engine: &Engine,
+    order: u32,
+    moment: bool,
+    reference_z: Option<f64>,
+) -> Result<ClosedForm> {
+    limits::order(order)?;
+    let reference = reference_z.map(|z| engine.reference(Some(z))).transpose()?;
+    let placements = engine.placements();
+    let cylinder = placements[0].cylinder;
+    if placements.iter().any(|p| p.cylinder.proportions() != cylinder.proportions()) {
+        return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
+    }
+    let offset = cylinder.pin_offset();
+    let (unit, weights) = weights(engine, order)?;
+    if offset != 0.0 && weights.iter().any(|(_, rotating)| *rotating != Ratio::ZERO) {
+        let cure = "no rotating mass at order 1, whose phase is another, or no offset";
+        return Err(refused("pin_offset", offset, cure));
+    }
+    let (levers, spacing) =
+        if moment { levers(engine, reference)? } else { (vec![Ratio::ONE; placements.len()], 0.0) };
+    let mut parts = Vec::with_capacity(placements.len());
+    for ((placement, (weight, rotating)), lever) in placements.iter().zip(weights).zip(levers) {
+        let bank = part_of_turn("bank_deg", placement.bank)?;
+        let tdc = part_of_turn("tdc_deg", placement.tdc)?;
+        parts.push(Part { weight, lever, rotating, bank, tdc });
+    }
+    let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
+    let (denominator, [forward, backward_conj]) = sums(&parts, order)?;
+    // The moment of a force is i·lever times it; x = f + b*, y = −i(f − b*), b* conjugate.
+    let (forward, backward_conj) = if moment {
+        (forward.turned(1, 4), backward_conj.turned(-1, 4))
+    } else {
+        (forward, backward_conj)
+    };
+    let x = forward.plus(&backward_conj, 1)?;
+    let y = forward.plus(&backward_conj, -1)?.turned(-1, 4);
+    let backward = backward_conj.conjugate();
+    let phasors = [phasor(&x)?, phasor(&y)?, phasor(&forward)?, phasor(&backward)?];
+    // Real parts come doubled, and forward and backward are halves: a quarter.
+    let denominator = denominator.checked_mul(4).ok_or_else(too_long)?;
+    let period = forward.period();
+    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors })
+}
+
+/// Twice forward and twice the conjugate of backward force, times levers, over a denominator.
+fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
+    let mut products = Vec::with_capacity(2 * parts.len());
+    for part in parts {
+        products.push(part.weight.times(part.lever).ok_or_else(too_long)?);
+        products.push(part.rotating.times(part.lever).ok_or_else(too_long)?);
+    }
+    let (weights, denominator) = whole(&products)?;
+    let (mut forward, mut backward) = (Vec::new(), Vec::new());
+    for (part, weights) in parts.iter().zip(weights.chunks(2)) {
+        let (bank, tdc) = (part.bank, part.tdc);
+        let common = i128::from(bank.1).checked_mul(tdc.1.into()).ok_or_else(too_long)?;
+        let direction = i128::from(bank.0) * i128::from(tdc.1);
+        let phase = i128::from(order) * i128::from(tdc.0) % i128::from(tdc.1) * i128::from(bank.1);
+        let turns = |numerator: i128| -> Result<(i128, i128)> {
+            let ratio = Ratio::new(numerator, common).ok_or_else(too_long)?;
+            Ok((ratio.numerator, ratio.denominator))
+        };
+        let (ahead, against) = (turns(direction - phase)?, turns(-direction - phase)?);
+        let twice = weights[1].checked_mul(2).ok_or_else(too_long)?;
+        forward.push((ahead.0, ahead.1, weights[0]));
+        forward.push((ahead.0, ahead.1, twice));
+        backward.push((against.0, against.1, weights[0]));
+    }
+    // A period for both, and with quarters of a turn for i; three at least, so that there is a cosine.
+    let one = RootSum::new(&forward, 4)?.period();
+    let backward = RootSum::new(&backward, one)?;
+    let forward = RootSum::new(&forward, backward.period())?;
+    Ok((denominator, [forward, backward]))
+}
+
+fn phasor(sum: &RootSum) -> Result<Phasor> {
+    let square = sum.squared_size()?.twice_real()?;
+    let doubled = |c: &i128| c.checked_mul(2).ok_or_else(too_long);
+    Ok(Phasor {
+        real: sum.twice_real()?,
+        // Im z = Re(−iz).
+        imaginary: sum.turned(-1, 4).twice_real()?,
+        // Twice |z|², over the square of a denominator that has a 2 for the real parts.
+        square: square.iter().map(doubled).collect::<Result<_>>()?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Placement;
+    use crate::slider_crank::Cylinder;
+
+    fn crossplane() -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let throws = [(0.0, 0.0), (270.0, 0.13), (90.0, 0.26), (180.0, 0.39)];
+        let place = |(tdc, z), bank: f64| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(tdc + bank - 135.0).unwrap(),
+            bank: Angle::from_degrees(bank).unwrap(),
+            z,
+            rotating_mass: 0.0,
+        };
+        let places = throws.into_iter().flat_map(|t| [place(t, 135.0), place(t, 45.0)]);
+        Engine::new("", "", places.collect()).unwrap()
+    }
+
+    #[test]
+    fn the_couple_of_the_cross_plane_eight_is_root_ten() {
+        let form = closed_form(&crossplane(), 1, true, None).unwrap();
+        assert!((form.spacing - 0.13).abs() < 1e-15);
+        assert_eq!(form.parts[0].lever, Ratio::new(-3, 2).unwrap());
+        let square = &form.phasors[2].square;
+        let (value, rest) = square.split_first().unwrap();
+        assert_eq!(*value, 10 * form.denominator * form.denominator);
+        assert!(rest.iter().all(|&c| c == 0));
+        assert!(form.phasors[3].square.iter().all(|&c| c == 0));
+    }
+
+    #[test]
+    fn what_has_none_is_refused_with_the_reason() {
+        let mut places = crossplane().placements().to_vec();
+        places[3].z = 0.123_456_789_123;
+        let engine = Engine::new("", "", places.clone()).unwrap();
+        assert!(closed_form(&engine, 1, true, None).unwrap_err().to_string().contains('z'));
+        assert!(closed_form(&engine, 1, false, None).is_ok());
+        places[3].bank = Angle::Degrees(49.54);
+        let engine = Engine::new("", "", places).unwrap();
+        let error = closed_form(&engine, 1, false, None).unwrap_err().to_string();
+        assert!(error.contains("bank_deg = 49.54"), "{error}");
+    }
+}

@@ -1,0 +1,248 @@
+//! Figures as rational multiples of one another.
+//!
+//! Places and masses come as doubles: 0, 0.1, 0.2, 0.3 stand for equal steps although 0.3 is not
+//! three times 0.1 in binary. Taken at their last bit they would leave 1e-17 of a sum that
+//! vanishes; so a figure is taken for p/q of another, q ≤ 10 000, where it is within a few units
+//! in the last place of it. One that is no such multiple is a unit of its own.
+
+/// Largest denominator: millimetres of an engine of ten metres.
+const MOST_PARTS: i128 = 10_000;
+/// Ratios that are known less well than this are not looked for: with tolerance t, a figure at
+/// random is taken for a ratio with a chance of t times the square of [`MOST_PARTS`].
+const COARSEST: f64 = 1e-12;
+/// A figure is taken to be right within so many units in the last place.
+pub const WITHIN_ULP: f64 = 4.0;
+
+/// A rational number in lowest terms, denominator > 0. Arithmetic gives None where it overflows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ratio {
+    /// Above the line.
+    pub numerator: i128,
+    /// Below it.
+    pub denominator: i128,
+}
+
+impl Ratio {
+    /// 0.
+    pub const ZERO: Self = Self { numerator: 0, denominator: 1 };
+    /// 1.
+    pub const ONE: Self = Self { numerator: 1, denominator: 1 };
+
+    /// In lowest terms; None for a denominator of 0.
+    #[must_use]
+    pub fn new(numerator: i128, denominator: i128) -> Option<Self> {
+        let divisor = common_divisor(numerator, denominator);
+        if denominator == 0 {
+            return None;
+        }
+        let sign = denominator.signum();
+        Some(Self {
+            numerator: numerator.checked_div(divisor)?.checked_mul(sign)?,
+            denominator: denominator.checked_div(divisor)?.checked_mul(sign)?,
+        })
+    }
+
+    /// Product.
+    #[must_use]
+    pub fn times(self, other: Self) -> Option<Self> {
+        Self::new(
+            self.numerator.checked_mul(other.numerator)?,
+            self.denominator.checked_mul(other.denominator)?,
+        )
+    }
+
+    /// Quotient.
+    #[must_use]
+    pub fn over(self, other: Self) -> Option<Self> {
+        Self::new(
+            self.numerator.checked_mul(other.denominator)?,
+            self.denominator.checked_mul(other.numerator)?,
+        )
+    }
+
+    /// Difference.
+    #[must_use]
+    pub fn minus(self, other: Self) -> Option<Self> {
+        let left = self.numerator.checked_mul(other.denominator)?;
+        let right = other.numerator.checked_mul(self.denominator)?;
+        Self::new(left.checked_sub(right)?, self.denominator.checked_mul(other.denominator)?)
+    }
+
+    /// The largest number of which both are whole multiples, of either sign; 0 if both are 0.
+    #[must_use]
+    pub fn common_measure(self, other: Self) -> Option<Self> {
+        let left = self.numerator.checked_mul(other.denominator)?;
+        let right = other.numerator.checked_mul(self.denominator)?;
+        let common = self.denominator.checked_mul(other.denominator)?;
+        if left == 0 && right == 0 {
+            return Some(Self::ZERO);
+        }
+        Self::new(common_divisor(left, right), common)
+    }
+
+    /// The nearest double, or one beside it.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.numerator as f64 / self.denominator as f64
+    }
+}
+
+/// Greatest common divisor, > 0; 1 where both are 0.
+#[must_use]
+pub fn common_divisor(a: i128, b: i128) -> i128 {
+    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    i128::try_from(a.max(1)).unwrap_or(i128::MAX)
+}
+
+/// Least common multiple; None where it overflows.
+#[must_use]
+pub fn common_multiple(a: i128, b: i128) -> Option<i128> {
+    (a / common_divisor(a, b)).checked_mul(b)
+}
+
+/// p/q within the tolerance of x, q ≤ [`MOST_PARTS`]: the first convergent that is.
+pub(crate) fn recognise(x: f64, tolerance: f64) -> Option<Ratio> {
+    // A quotient that underflows is of figures that are not zero.
+    if tolerance > COARSEST || x.abs() > 1.0 / COARSEST || x == 0.0 {
+        return None;
+    }
+    let (mut p0, mut q0, mut p1, mut q1) = (0_i128, 1_i128, 1_i128, 0_i128);
+    let mut rest = x;
+    loop {
+        let whole = rest.floor();
+        if q1 > 0 && whole > MOST_PARTS as f64 {
+            return None;
+        }
+        (p0, q0, p1, q1) = (p1, q1, whole as i128 * p1 + p0, whole as i128 * q1 + q0);
+        if q1 > MOST_PARTS {
+            return None;
+        }
+        let candidate = Ratio::new(p1, q1)?;
+        if (candidate.value() - x).abs() <= tolerance {
+            return Some(candidate);
+        }
+        if rest == whole {
+            return None;
+        }
+        rest = 1.0 / (rest - whole);
+    }
+}
+
+/// Figures, each a rational multiple of one of few units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Multiples {
+    /// Figures of which none is a rational multiple of another.
+    pub units: Vec<f64>,
+    /// For each figure the index of its unit and how many of it; figures of zero are 0 times the
+    /// first unit.
+    pub of: Vec<(usize, Ratio)>,
+}
+
+impl Multiples {
+    /// Of figures that are right within the errors given, one for each.
+    #[must_use]
+    pub fn new(figures: &[f64], errors: &[f64]) -> Self {
+        let mut units: Vec<(f64, f64)> = Vec::new();
+        let mut of = vec![(0, Ratio::ZERO); figures.len()];
+        // From the largest down, so that ratios and their errors are small.
+        let mut falling: Vec<usize> = (0..figures.len()).collect();
+        falling.sort_by(|&a, &b| figures[b].abs().total_cmp(&figures[a].abs()));
+        for i in falling {
+            let (figure, error) = (figures[i], errors[i]);
+            if figure.abs() <= error {
+                continue;
+            }
+            let known = units.iter().enumerate().find_map(|(k, &(unit, of_unit))| {
+                let ratio = figure / unit;
+                if ratio.abs() == 1.0 {
+                    return Some((k, Ratio { numerator: ratio as i128, denominator: 1 }));
+                }
+                recognise(ratio, (error + ratio.abs() * of_unit) / unit.abs()).map(|r| (k, r))
+            });
+            of[i] = known.unwrap_or_else(|| {
+                units.push((figure, error));
+                (units.len() - 1, Ratio::ONE)
+            });
+        }
+        Self { units: units.into_iter().map(|(unit, _)| unit).collect(), of }
+    }
+
+    /// Of figures that are right within [`WITHIN_ULP`] of their own last place.
+    #[must_use]
+    pub fn of_figures(figures: &[f64]) -> Self {
+        let errors: Vec<f64> =
+            figures.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
+        Self::new(figures, &errors)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn ratio(numerator: i128, denominator: i128) -> Ratio {
+        Ratio::new(numerator, denominator).unwrap()
+    }
+
+    #[test]
+    fn decimals_are_taken_as_they_are_meant() {
+        assert_ne!(0.3, 3.0 * 0.1);
+        let steps = Multiples::of_figures(&[0.1, 0.2, 0.3, -0.3, 0.0]);
+        assert_eq!(steps.units, [0.3]);
+        let found: Vec<Ratio> = steps.of.iter().map(|&(_, r)| r).collect();
+        assert_eq!(found, [ratio(1, 3), ratio(2, 3), ratio(1, 1), ratio(-1, 1), Ratio::ZERO]);
+    }
+
+    #[test]
+    fn what_is_no_ratio_is_a_unit_of_its_own() {
+        let root = 2.0_f64.sqrt();
+        let figures = Multiples::of_figures(&[1.0, root, 2.0 * root, 0.25]);
+        assert_eq!(figures.units, [2.0 * root, 1.0]);
+        assert_eq!(
+            figures.of,
+            [(1, ratio(1, 1)), (0, ratio(1, 2)), (0, ratio(1, 1)), (1, ratio(1, 4))]
+        );
+        // Known to few digits, any ratio would do; only equality says something.
+        let rough = Multiples::new(&[1.0, 0.5, 1.0], &[1e-9; 3]);
+        assert_eq!(rough.units.len(), 2);
+    }
+
+    #[test]
+    fn extreme_figures_are_units_or_ratios() {
+        for figures in [[1e30, 1e-30], [5e-324, 1e30], [0.0, -0.0], [1e-300, 3e-300]] {
+            let found = Multiples::of_figures(&figures);
+            for (&figure, &(unit, ratio)) in figures.iter().zip(&found.of) {
+                let back = found.units.get(unit).map_or(0.0, |u| u * ratio.value());
+                assert!((back - figure).abs() <= figure.abs() * 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn arithmetic_does_not_wrap() {
+        let huge = ratio(i128::MAX, 1);
+        assert_eq!(huge.times(huge), None);
+        assert_eq!(huge.minus(ratio(-1, 1)), None);
+        assert_eq!(ratio(1, 2).over(Ratio::ZERO), None);
+        assert_eq!(ratio(3, -6), ratio(-1, 2));
+        assert_eq!(ratio(1, 2).common_measure(ratio(1, 3)), Some(ratio(1, 6)));
+        assert_eq!(common_multiple(i128::MAX, i128::MAX - 1), None);
+    }
+
+    proptest! {
+        #[test]
+        fn fractions_are_recognised(p in -999_i32..999, q in 1_i32..999, unit in 0.01..10.0) {
+            let figure = f64::from(p) * unit / f64::from(q);
+            let found = Multiples::of_figures(&[unit, figure]);
+            prop_assert!(found.units.len() == 1);
+            if p != 0 {
+                let quotient = found.of[1].1.over(found.of[0].1).unwrap();
+                prop_assert_eq!(quotient, ratio(p.into(), q.into()));
+            }
+        }
+    }
+}

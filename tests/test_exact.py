@@ -1,0 +1,474 @@
+"""Is what is said to vanish zero, what is said to remain not, and are closed forms the numbers?
+
+The proofs are held against floating point for every preset, against 50 digits for any rational
+layout, and against the classical results by name.
+"""
+
+# ruff: noqa: ANN401 - SymPy has no types
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rederivation import crossplane
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=0.6)
+RPM = 10.0
+NAMES = list(cp.presets())
+# Tops dead centre of the right rows come from an arc sine; banks of the V14s from an argument.
+IRRATIONAL = {"vr6", "w12", "w16", *(name for name in NAMES if name.startswith("v14-"))}
+# Sums of at most 16 terms, each rounded a few times to 1.1e-16.
+ROUNDING = 1e-13
+
+
+def zeros(b: cp.Balance) -> dict[str, np.ndarray]:
+    """Which of a balance's sums are given as zero, by the names of the proofs."""
+    return {
+        "force_x": b.force[:, 0] == 0,
+        "force_y": b.force[:, 1] == 0,
+        "force_forward": b.forward_force == 0,
+        "force_backward": b.backward_force == 0,
+        "moment_x": b.moment[:, 0] == 0,
+        "moment_y": b.moment[:, 1] == 0,
+        "moment_forward": b.forward_moment == 0,
+        "moment_backward": b.backward_moment == 0,
+        "torque": b.torque == 0,
+    }
+
+
+# --- what vanishes ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in IRRATIONAL])
+def test_proofs_agree_with_floating_point_both_ways(name: str) -> None:
+    engine = cp.Engine.preset(name)
+    v = engine.vanishing_orders()
+    assert v.orders == tuple(range(1, 13))
+    assert not v.undecided.any()
+    assert v.obstacles == ()
+    found = zeros(engine.balance(RPM, range(1, 13)))
+    for column, quantity in enumerate(v.quantities):
+        np.testing.assert_array_equal(v.vanishes[:, column], found[quantity], quantity)
+        np.testing.assert_array_equal(v.remains[:, column], ~found[quantity], quantity)
+        np.testing.assert_array_equal(v.within_rounding[:, column], found[quantity], quantity)
+
+
+@pytest.mark.parametrize("name", sorted(IRRATIONAL))
+def test_of_the_others_no_proof_is_wrong_and_some_are_given(name: str) -> None:
+    v = cp.Engine.preset(name).vanishing_orders()
+    assert v.undecided.any()
+    assert v.vanishes.any()
+    assert v.obstacles
+    assert v.within_rounding[v.vanishes].all()
+    assert not v.within_rounding[v.remains].any()
+
+
+def test_rows_of_a_vr6_cancel_row_by_row() -> None:
+    v = cp.Engine.preset("vr6").vanishing_orders()
+    # Offset bores have odd orders too: orders 3 and 9 are left like 6 and 12.
+    assert v.of("force") == (1, 2, 4, 5, 7, 8, 10, 11)
+    assert v.order(6)["force_y"] == "undecided"  # two rows are left: they might cancel
+    assert "rational part of a turn" in v.obstacles[0]
+
+
+def test_classical_results() -> None:
+    def vanishing(name: str, quantity: str) -> set[int]:
+        return set(cp.Engine.preset(name).vanishing_orders().of(quantity))
+
+    all_orders = set(range(1, 13))
+    assert vanishing("i4", "force") == all_orders - {2, 4, 6, 8, 10, 12}
+    assert vanishing("i4", "moment") == all_orders
+    assert vanishing("i6", "force") == all_orders - {6, 12}
+    assert vanishing("v8-crossplane", "moment") == all_orders - {1}
+    assert vanishing("v8-crossplane", "moment_backward") == all_orders
+    assert vanishing("v12-60", "force") == all_orders - {6, 12}
+    assert vanishing("v12-60", "moment") == all_orders
+
+
+@pytest.mark.parametrize("spacing", [0.1, 0.13, 0.091, 1e-3 / 3, 1e6])
+def test_equal_steps_in_decimals_are_equal(spacing: float) -> None:
+    """0, 0.1, 0.2, 0.3 as they are typed: 0.3 is not three times 0.1 in binary."""
+    assert 3 * 0.1 != 0.3
+    z = [float(f"{k * spacing:.15g}") for k in range(4)]
+    i4 = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, 180, 180, 0], bank_deg=[90] * 4, z=z)
+    assert i4.vanishing_orders(1).of("moment_x") == (1,)
+    z[3] += 1e-6 * spacing
+    moved = i4.replace(z=z).vanishing_orders(1)
+    assert moved.of("moment_x") == ()
+
+
+def test_the_plane_of_reference_matters_where_a_force_is_left() -> None:
+    i4 = cp.Engine.preset("i4")
+    assert i4.vanishing_orders(2).order(2)["moment_x"] == "vanishes"
+    assert i4.vanishing_orders(2, reference_z=0.0).order(2)["moment_x"] == "remains"
+    # No rational multiple of the spacing: still only one thing is left, the force times it.
+    assert i4.vanishing_orders(2, reference_z=math.pi).order(2)["moment_x"] == "remains"
+
+
+def test_an_angle_that_is_no_part_of_a_turn_is_not_decided() -> None:
+    i3 = cp.Engine.from_lists(
+        CYLINDER, tdc_deg=[0, 120.0001234, 240], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
+    )
+    v = i3.vanishing_orders([1, 2])
+    assert v.order(1)["force_y"] == "undecided"
+    assert not v.within_rounding[0, v.quantities.index("force_y")]
+    assert v.order(1)["force_x"] == "vanishes"  # upright bores
+    assert any("cylinders 2" in text for text in v.obstacles)
+    assert "?≠0" in repr(v)
+    assert v.obstacles[0] in repr(v)
+    assert f"<p>{v.obstacles[0]}</p>" in v._repr_html_()
+    assert v.to_pandas().loc[1, "force_y"] == "undecided"
+    close = cp.Engine.from_lists(
+        CYLINDER, tdc_deg=[0, 120 + 1e-13, 240], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
+    ).vanishing_orders(1)
+    # Taken for 120°, or not proved: never proved to be zero and found not to be.
+    assert close.within_rounding[close.vanishes].all()
+
+
+def test_masses_of_other_proportions_cancel_group_by_group() -> None:
+    longer = CYLINDER.replace(rod_length=0.2)
+    parts = [CYLINDER, longer, longer, CYLINDER]
+    layout: dict[str, Any] = {"bank_deg": [90] * 4, "z": [0.0] * 4}
+    paired = cp.Engine.from_lists(parts, tdc_deg=[0, 0, 90, 90], **layout).vanishing_orders([1, 2])
+    assert paired.order(2)["force_y"] == "vanishes"
+    mixed = cp.Engine.from_lists(parts, tdc_deg=[0, 90, 0, 90], **layout).vanishing_orders([1, 2])
+    assert mixed.order(2)["force_y"] == "vanishes"
+    crossed = cp.Engine.from_lists(parts, tdc_deg=[0, 90, 90, 0], **layout)
+    v = crossed.vanishing_orders([1, 2])
+    assert v.order(2)["force_y"] == "undecided"
+    # Order 1 is the same for any rod, and so decided.
+    assert v.order(1)["force_y"] == "remains"
+    assert "proportions" in v.obstacles[0]
+
+
+def test_masses_that_are_no_ratio_of_each_other() -> None:
+    parts = [CYLINDER, CYLINDER.replace(reciprocating_mass=0.6 * math.sqrt(2))]
+    twin = cp.Engine.from_lists(parts, tdc_deg=[0, 180], bank_deg=[90, 90], z=[0, 0.1])
+    v = twin.vanishing_orders([1, 3])
+    assert v.order(1)["force_y"] == "undecided"
+    assert v.order(3)["force_y"] == "vanishes"  # no rod has a third order without an offset
+    assert any("masses" in text for text in v.obstacles)
+
+
+fractions = st.builds(Fraction, st.integers(0, 23), st.sampled_from([1, 2, 3, 5, 7, 12, 24]))
+
+
+@st.composite
+def rational_engines(draw: st.DrawFn) -> cp.Engine:
+    """Sets of evenly spaced cylinders, so that something vanishes, with some that are not."""
+    tdc: list[Fraction] = []
+    banks: list[Fraction] = []
+    z: list[int] = []
+    mass: list[int] = []
+    for _ in range(draw(st.integers(1, 3))):
+        count = draw(st.sampled_from([1, 1, 2, 3, 4, 5]))
+        start, bank = draw(fractions), draw(fractions)
+        step = draw(st.sampled_from([-1, 0, 1]))
+        place = draw(st.integers(-3, 3))
+        weight = draw(st.integers(1, 3))
+        for k in range(count):
+            tdc.append(360 * (start + Fraction(k, count)))
+            banks.append(360 * bank)
+            z.append(place + step * k)
+            mass.append(weight)
+    spacing = draw(st.sampled_from([0.1, 0.13, 0.0907]))
+    turning = draw(st.sampled_from([0.0, 0.3]))
+    return cp.Engine.from_lists(
+        [CYLINDER.replace(reciprocating_mass=0.3 * m) for m in mass],
+        tdc_deg=tdc,
+        bank_deg=banks,
+        z=[place * spacing for place in z],
+        rotating_mass=[turning * m for m in mass],
+    )
+
+
+def part_of_turn(text: str) -> Fraction:
+    """The angle that this text of degrees, a fraction or the nearest double to one, stands for."""
+    return (Fraction(text) / 360).limit_denominator(1000)
+
+
+def fifty_digits(engine: cp.Engine, order: int) -> dict[str, Any]:
+    """The nine sums, each over aₙ, from the exact angles, to 50 digits."""
+    mpmath.mp.dps = 50
+    tdc_text, bank_text = engine._core.exact_angles
+    places = [Fraction(z).limit_denominator(10**6) for z in engine.z]
+    middle = (max(places) + min(places)) / 2
+    sums = {"force": [mpmath.mpc(0)] * 2, "moment": [mpmath.mpc(0)] * 2}
+    torque = mpmath.mpc(0)
+    for k, cylinder in enumerate(engine.cylinders):
+        tdc, bank = (
+            2 * mpmath.pi * mpmath.mpf(turns.numerator) / turns.denominator
+            for turns in (part_of_turn(tdc_text[k]), part_of_turn(bank_text[k]))
+        )
+        weight = Fraction(cylinder.reciprocating_mass).limit_denominator(1000)
+        turning = Fraction(engine.rotating_mass[k]).limit_denominator(1000)
+        w = mpmath.mpf(weight.numerator) / weight.denominator
+        phase = mpmath.expjpi(-order * tdc / mpmath.pi)
+        has = 1 if order == 1 or order % 2 == 0 else 0
+        x, y = (has * w * part * phase for part in (mpmath.cos(bank), mpmath.sin(bank)))
+        if order == 1:
+            pin = mpmath.mpf(turning.numerator) / turning.denominator
+            pin *= mpmath.expjpi((bank - tdc) / mpmath.pi)
+            x, y = x + pin, y - 1j * pin
+        lever = places[k] - middle
+        z = mpmath.mpf(lever.numerator) / lever.denominator
+        sums["force"] = [sums["force"][0] + x, sums["force"][1] + y]
+        sums["moment"] = [sums["moment"][0] - z * y, sums["moment"][1] + z * x]
+        torque += w * phase
+    found = {"torque": torque}
+    for name, (x, y) in sums.items():
+        found[f"{name}_x"], found[f"{name}_y"] = x, y
+        found[f"{name}_forward"], found[f"{name}_backward"] = x + 1j * y, x - 1j * y
+    return found
+
+
+@settings(max_examples=80, deadline=None)
+@given(engine=rational_engines(), order=st.integers(1, 6))
+def test_any_rational_layout_against_fifty_digits(engine: cp.Engine, order: int) -> None:
+    v = engine.vanishing_orders(order)
+    assert not v.undecided.any()
+    sums = fifty_digits(engine, order)
+    for column, quantity in enumerate(v.quantities):
+        # Whole multiples of 1/10^8 of roots of orders below 10^4: no sum but zero is below 1e-40.
+        assert bool(v.vanishes[0, column]) == (abs(sums[quantity]) < 1e-40), quantity
+
+
+@st.composite
+def mixed_engines(draw: st.DrawFn) -> cp.Engine:
+    """Rational layouts of two kinds of rods, with offsets to either side or none."""
+    engine = draw(rational_engines())
+    kinds = [
+        (rod, offset)
+        for rod in (0.158, 0.2)
+        for offset in (0.0, 0.004, -0.004)
+        if rod < 0.2 or offset == 0.0
+    ]
+    parts = []
+    for cylinder in engine.cylinders:
+        rod, offset = draw(st.sampled_from(kinds))
+        parts.append(cylinder.replace(rod_length=rod, pin_offset=offset))
+    return engine.replace(cylinder=parts)
+
+
+@settings(max_examples=150, deadline=None)
+@given(engine=mixed_engines())
+def test_no_proof_about_unlike_cylinders_is_refuted(engine: cp.Engine) -> None:
+    """Offsets of a tenth of the radius: what remains is far above what rounding leaves."""
+    v = engine.vanishing_orders(range(1, 7))
+    assert v.within_rounding[v.vanishes].all()
+    assert not v.within_rounding[v.remains].any()
+
+
+# --- closed forms -------------------------------------------------------------------------------
+
+
+def in_units(form: cp.ClosedForm, what: str = "magnitude") -> Any:
+    """A magnitude over F, or a·F."""
+    return getattr(form, what) / (form.F if form.quantity == "force" else form.a * form.F)
+
+
+def equal(found: Any, expected: Any) -> bool:
+    return bool(sp.simplify(found - expected) == 0)
+
+
+def test_the_couple_of_the_cross_plane_eight() -> None:
+    v8 = cp.Engine.from_firing_order(
+        CYLINDER, crossplane.FIRING_ORDER, bank_angle_deg=90, odd_bank="left", spacing=0.1
+    )
+    couple = v8.closed_form(1)
+    assert couple.magnitude == sp.sqrt(10) * couple.a * couple.F
+    assert couple.x_magnitude == couple.y_magnitude == couple.magnitude
+    assert couple.backward == 0
+    assert couple.spacing == pytest.approx(0.1, rel=1e-15)
+    # The page's phase counts from the other side: half a turn less π/4 + arctan 3.
+    page = sp.pi / 4 + sp.atan(3)
+    assert couple.forward_phase == sp.atan(2)
+    assert abs((couple.forward_phase + page - sp.pi).evalf(40)) < 1e-39
+    assert float(page) == pytest.approx(crossplane.COUPLE_PHASE, rel=1e-15)
+    fourth = v8.closed_form(4, "force")
+    assert fourth.magnitude == 4 * sp.sqrt(2) * fourth.F
+    assert fourth.x == 0
+    assert v8.closed_form(2).magnitude == 0
+    assert v8.closed_form(3, "force").magnitude == 0
+
+
+CLASSICAL: list[tuple[str, int, str, Any]] = [
+    ("i3", 1, "moment", sp.sqrt(3)),
+    ("i3", 2, "moment", sp.sqrt(3)),
+    ("i3", 6, "force", sp.Integer(3)),
+    ("i4", 2, "force", sp.Integer(4)),
+    ("i4", 1, "moment", sp.Integer(0)),
+    ("i6", 6, "force", sp.Integer(6)),
+    ("v12-60", 1, "moment", sp.Integer(0)),
+    ("v12-60", 2, "moment", sp.Integer(0)),
+    ("v12-60", 4, "force", sp.Integer(0)),
+    ("v8-crossplane", 1, "moment", sp.sqrt(10)),
+    ("v8-crossplane", 4, "force", 4 * sp.sqrt(2)),
+    ("v8-crossplane-ebook", 1, "moment", 2 * sp.sqrt(2)),
+    ("v8-crossplane-ebook", 2, "moment", 2 * sp.sqrt(2)),
+    ("i5", 1, "moment", sp.sqrt(sp.Rational(25, 2) - 11 * sp.sqrt(5) / 2)),
+    ("i5", 2, "moment", sp.sqrt(sp.Rational(25, 2) + 11 * sp.sqrt(5) / 2)),
+]
+
+
+@pytest.mark.parametrize(("name", "order", "quantity", "expected"), CLASSICAL)
+def test_classical_amplitudes(name: str, order: int, quantity: Any, expected: Any) -> None:
+    engine = cp.Engine.preset(name)
+    form = engine.replace(rotating_mass=0).closed_form(order, quantity)
+    assert equal(in_units(form), expected)
+
+
+def test_the_shared_pin_v6_of_the_ijesc_paper() -> None:
+    """60°, throws 0-120-240: each bank √3, the left one 60° later.
+
+    Half of |1 + e^{i(60° − n·60°)}| √3 turns forward: √3 and 3/2 in orders 1 and 2. Half of
+    |1 + e^{i(60° + n·60°)}| √3 turns backward: √3/2 and nothing.
+    """
+    v6 = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13)
+    first, second = v6.closed_form(1), v6.closed_form(2)
+    assert equal(in_units(first, "forward_magnitude"), sp.sqrt(3))
+    assert equal(in_units(first, "backward_magnitude"), sp.sqrt(3) / 2)
+    assert equal(in_units(first), 3 * sp.sqrt(3) / 2)
+    assert equal(in_units(first, "x_magnitude"), 3 * sp.sqrt(3) / 2)
+    assert equal(in_units(first, "y_magnitude"), sp.sqrt(3) / 2)
+    assert equal(in_units(second, "forward_magnitude"), sp.Rational(3, 2))
+    assert second.backward == 0
+    assert first.spacing == pytest.approx(0.13, rel=1e-15)
+
+
+@pytest.mark.parametrize("tdc", range(0, 360, 45))
+def test_phases_in_every_quadrant(tdc: int) -> None:
+    """With a cylinder at an odd place, so that nothing lies along an axis."""
+    tdcs = [tdc, tdc + 10, tdc + 70]
+    engine = cp.Engine.from_lists(CYLINDER, tdc_deg=tdcs, bank_deg=[90, 75, 60], z=[0, 0.1, 0.3])
+    for order in (1, 2):
+        form, b = engine.closed_form(order), engine.balance(RPM, order)
+        for phase, part in (
+            (form.forward_phase, b.forward_moment[0]),
+            (form.backward_phase, b.backward_moment[0]),
+        ):
+            assert float(phase) == pytest.approx(math.atan2(part.imag, part.real), rel=1e-12)
+
+
+def test_an_order_that_no_rod_has_is_zero() -> None:
+    """Although the sum over the layout is not."""
+    third = cp.Engine.preset("single").closed_form(3, "force")
+    assert third.magnitude == third.y == third.y_sum == 0
+    assert third.y_terms == ()
+    assert third.forward_phase == 0
+
+
+def test_sevenths_stay_cosines() -> None:
+    throws = [f"{360 * k}/7" for k in (0, 3, 5, 1, 4, 6, 2)]
+    i7 = cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1)
+    form = i7.closed_form(1)
+    assert form.magnitude.has(sp.cos)
+    unit = 0.6 * 0.045 * (2 * math.pi * RPM / 60) ** 2 * 0.1
+    expected = float(i7.balance(RPM, 1).moment_peak_vector[0]) / unit
+    assert float(in_units(form)) == pytest.approx(expected, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in IRRATIONAL])
+def test_closed_forms_are_the_numbers(name: str) -> None:
+    engine = cp.Engine.preset(name)
+    omega = 2 * math.pi * RPM / 60
+    for order in (1, 2, 4):
+        b = engine.balance(RPM, order).order(order)
+        unit = engine.cylinders[0]
+        scale = unit.reciprocating_mass * unit.crank_radius * omega**2 * len(engine)
+        scale *= abs(complex(unit.harmonics(order)[0]))
+        for quantity in ("force", "moment"):
+            form = engine.closed_form(order, quantity)  # type: ignore[arg-type]
+            values = form.evaluate(RPM)
+            xy, size = getattr(b, quantity), scale
+            if quantity == "moment":
+                size *= max(np.ptp(engine.z), 1e-30)
+            for axis, expected in (
+                ("x", xy[0]),
+                ("y", xy[1]),
+                ("forward", getattr(b, f"forward_{quantity}")),
+                ("backward", getattr(b, f"backward_{quantity}")),
+            ):
+                assert abs(values[axis] - expected) <= ROUNDING * size, (order, quantity, axis)
+            f, back = abs(values["forward"]), abs(values["backward"])
+            numbers = {form.F: abs(scale) / len(engine), form.a: form.spacing}
+            assert float(form.magnitude.subs(numbers)) == pytest.approx(f + back, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["v6-60", "v8-crossplane", "i5", "boxer-4"])
+@pytest.mark.parametrize("quantity", ["force", "moment"])
+def test_the_terms_add_up_to_the_sum(name: str, quantity: Any) -> None:
+    engine = cp.Engine.preset(name).replace(rotating_mass=0.3)
+    for order in (1, 2):
+        form = engine.closed_form(order, quantity)
+        assert len(form.x_terms) == len(engine)
+        for terms, total in ((form.x_terms, form.x_sum), (form.y_terms, form.y_sum)):
+            for theta in (0.3, 2.0):
+                numbers = {form.theta: theta, form.F: 1.0, form.a: 1.0}
+                found = sum(complex(term.subs(numbers)) for term in terms)
+                assert abs(found - complex(total.subs(numbers))) < ROUNDING
+
+
+def test_an_offset_has_a_closed_form_of_its_own_unit() -> None:
+    i3 = cp.Engine.inline(CYLINDER.replace(pin_offset=0.004), throws_deg=[0, 120, 240], spacing=0.1)
+    for order in (1, 2, 3):
+        values, b = i3.closed_form(order).evaluate(RPM), i3.balance(RPM, order).order(order)
+        size = abs(b.moment).max() + 1e-12
+        for axis, expected in (("x", b.moment[0]), ("backward", b.backward_moment)):
+            assert abs(values[axis] - expected) <= ROUNDING * size
+
+
+def test_latex_shows_the_sum_and_what_it_comes_to() -> None:
+    latex = cp.Engine.preset("v8-crossplane").closed_form(1)._repr_latex_()
+    assert latex.startswith("$\\displaystyle \\begin{aligned} M_x &=")
+    assert latex.endswith("\\max |M| &= \\sqrt{10} F a \\end{aligned}$")
+    assert latex.count("\\cos{\\left(\\theta - \\frac{3 \\pi}{2} \\right)}") == 4
+    zero = cp.Engine.preset("i4").closed_form(3)._repr_latex_()
+    assert "M_x &= 0" in zero
+
+
+def refusals() -> Sequence[tuple[dict[str, Any], str]]:
+    return [
+        ({"bank_deg": [90, 49.54]}, "bank_deg = 49.54"),
+        ({"tdc_deg": [0, 51.4]}, "tdc_deg = 51.4"),
+        ({"cylinder": [CYLINDER, CYLINDER.replace(rod_length=0.2)]}, "proportions"),
+        ({"cylinder": [CYLINDER, CYLINDER.replace(reciprocating_mass=math.pi)]}, "m·r"),
+        ({"cylinder": CYLINDER.replace(reciprocating_mass=0.0)}, "reciprocating_mass"),
+        ({"z": [0, 0.1, math.pi], "tdc_deg": [0] * 3, "bank_deg": [90] * 3}, "z ="),
+        ({"cylinder": CYLINDER.replace(pin_offset=1e-3), "rotating_mass": 0.1}, "pin_offset"),
+    ]
+
+
+@pytest.mark.parametrize(("changes", "words"), refusals())
+def test_what_has_no_closed_form_is_refused_with_the_reason(
+    changes: dict[str, Any], words: str
+) -> None:
+    lists: dict[str, Any] = {"cylinder": CYLINDER, "tdc_deg": [0, 90], "bank_deg": [90, 90]}
+    engine = cp.Engine.from_lists(**lists | {"z": [0, 0.1]} | changes)
+    with pytest.raises(cp.InputError, match=words):
+        engine.closed_form(1)
+
+
+def test_sympy_is_imported_when_it_is_used() -> None:
+    script = (
+        "import sys\nsys.modules['sympy'] = None\nimport crankpin as cp\n"
+        "i3 = cp.Engine.preset('i3')\ni3.vanishing_orders()\n"
+        "try:\n    i3.closed_form(1)\nexcept ImportError as error:\n    print(error)"
+    )
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)  # noqa: S603 - its own
+    assert 'pip install "crankpin[exact]"' in done.stdout
