@@ -66,7 +66,7 @@ pub struct Solution {
 impl Search {
     /// Group all arrangements of a bank.
     pub fn new(bank: Bank, cancel: &Cancel) -> Result<Self> {
-        let ring = Ring::new(bank.parts);
+        let ring = Ring::new(bank.parts)?;
         let magnitude = Magnitude::new(&bank, &ring)?;
         let images = Images::new(&bank);
         let mut entries = entries(&bank, &magnitude, &images, cancel)?;
@@ -123,7 +123,7 @@ impl Search {
 
     /// Every |α| in [0°, 180°] at which some pair has no backward moment, ascending.
     pub fn angles(&self, cancel: &Cancel) -> Result<Angles> {
-        let ring = Ring::new(self.bank.parts);
+        let ring = Ring::new(self.bank.parts)?;
         let sums = Sums::new(&self.bank, &ring, &self.images);
         let classes: Vec<usize> =
             (0..self.classes.len() - 1).filter(|&class| Some(class) != self.balanced).collect();
