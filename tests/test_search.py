@@ -7,6 +7,7 @@ import csv
 import itertools
 import pickle
 from pathlib import Path
+from typing import Literal
 
 import crankpin as cp
 import numpy as np
@@ -125,6 +126,7 @@ def test_worked_cases(angle: float, amplitude: float, second: tuple[float, float
     assert found.second_order == pytest.approx(second, abs=6e-4)
 
 
+@pytest.mark.parametrize("hold", ["firing", "pins"])
 @pytest.mark.parametrize(
     ("cylinders", "alternating", "phases_deg"),
     [
@@ -136,9 +138,12 @@ def test_worked_cases(angle: float, amplitude: float, second: tuple[float, float
     ],
 )
 def test_every_engine_keeps_its_promise(
-    cylinders: int, alternating: bool, phases_deg: list[int] | None
+    cylinders: int, alternating: bool, phases_deg: list[int] | None, hold: Literal["firing", "pins"]
 ) -> None:
-    search = cp.search_arrangements(cylinders, alternating=alternating, phases_deg=phases_deg)
+    search = cp.search_arrangements(
+        cylinders, alternating=alternating, phases_deg=phases_deg, hold=hold
+    )
+    assert np.all(np.diff(search.bank_angles_deg) > 0)
     ratio = CYLINDER.rod_ratio
     spectrum = {1: 0.5 * 0.045, 2: 0.5 * 0.045 * ratio}
     for k, found in enumerate(search):
@@ -154,6 +159,18 @@ def test_every_engine_keeps_its_promise(
         banks = engine.bank_deg[:2]
         between = abs(banks[1] - banks[0])
         assert min(between, 360 - between) == pytest.approx(found.bank_angle_deg, abs=1e-12)
+
+
+def test_what_is_held_matters() -> None:
+    """A V6 with pins 0-120-240 in both banks has no backward part at 90°, with its TDCs at 120°."""
+    by_pins = cp.search_arrangements(6, hold="pins")
+    by_firing = cp.search_arrangements(6, hold="firing")
+    assert by_firing.bank_angles_deg.round(9).tolist() == [0, 60, 120, 180]
+    # half of 0, 60, 120, 180, and their supplements
+    assert by_pins.bank_angles_deg.round(9).tolist() == [0, 30, 60, 90, 120, 150, 180]
+    shared = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 120, 240], spacing=1.0)
+    assert shared.balance(3000, [1]).backward_moment[0] == 0
+    assert by_pins.qualifying == by_firing.qualifying
 
 
 def test_angles_come_with_their_supplements() -> None:

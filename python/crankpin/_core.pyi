@@ -137,7 +137,9 @@ _WaveformParts: TypeAlias = tuple[_Real, _Real, _Real | None, _Real | None, Bala
 
 @final
 class Search:
-    def __new__(cls, cylinders: int, alternating: bool, phases: Sequence[str] | None) -> Search: ...
+    def __new__(
+        cls, cylinders: int, alternating: bool, phases: Sequence[str] | None, held: str
+    ) -> Search: ...
     @property
     def candidates(self) -> int: ...
     @property

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._cylinder import Cylinder
+    from crankpin._engine import Hold
     from crankpin._inputs import Angles
 
 
@@ -29,7 +30,7 @@ class Arrangement:
     bank_angle_deg: float
     """Angle between the banks, degrees."""
     first_deg: tuple[float, ...]
-    """Phases of the first bank's throws, front to flywheel, degrees: TDCs are at minus these."""
+    """Phases of the first bank's throws, front to flywheel, degrees: pins, or minus the TDCs."""
     second_deg: tuple[float, ...]
     """Phases of the second bank's throws."""
     counterweight: float
@@ -45,7 +46,11 @@ class Arrangement:
 
 
 def search_arrangements(
-    cylinders: int, *, alternating: bool = False, phases_deg: Angles | None = None
+    cylinders: int,
+    *,
+    alternating: bool = False,
+    phases_deg: Angles | None = None,
+    hold: Hold = "firing",
 ) -> ArrangementSearch:
     """Search all pairs of bank arrangements for those with a balanced bank angle.
 
@@ -64,6 +69,9 @@ def search_arrangements(
     phases_deg
         Phases of one bank's throws, rational parts of a turn; by default those of the even-firing
         four-stroke: an odd number of throws n has n phases, an even one n/2, each twice.
+    hold
+        What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
+        Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
 
     Returns
     -------
@@ -92,7 +100,9 @@ def search_arrangements(
         raise _core.InputError(f"cylinders = {_inputs.shorten(count)}: give 4 to 30")
     phases = None if phases_deg is None else _inputs.angles("phases_deg", phases_deg)
     rule = _inputs.flag("alternating", alternating)
-    return ArrangementSearch(_core.Search(count, rule, phases), count, rule, phases)
+    held = _inputs.text("hold", hold, 'give "firing" or "pins"')
+    core = _core.Search(count, rule, phases, held)
+    return ArrangementSearch(core, count, rule, phases, hold)
 
 
 class ArrangementSearch(Frozen):
@@ -116,6 +126,8 @@ class ArrangementSearch(Frozen):
     """Of the vee."""
     alternating: bool
     """Whether front and rear halves take turns to fire."""
+    hold: Hold
+    """What phases are of as the bank angle changes."""
 
     def __init__(
         self,
@@ -123,11 +135,14 @@ class ArrangementSearch(Frozen):
         cylinders: int,
         alternating: bool,
         phases: list[str] | None,
+        hold: Hold,
     ) -> None:
         if not isinstance(core, _core.Search):
             cure = "use crankpin.search_arrangements"
             raise _core.InputError(f"ArrangementSearch({_inputs.shorten(core)}): {cure}")
-        self._set(_core=core, cylinders=cylinders, alternating=alternating, _phases=phases)
+        self._set(
+            _core=core, cylinders=cylinders, alternating=alternating, _phases=phases, hold=hold
+        )
 
     _core: _core.Search
     _phases: list[str] | None
@@ -267,14 +282,16 @@ class ArrangementSearch(Frozen):
         return hash((self.cylinders, self.alternating))
 
     def _key(self) -> tuple[Any, ...]:
-        return (self.cylinders, self.alternating, self._phases)
+        return (self.cylinders, self.alternating, self._phases, self.hold)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, self._key())
 
 
-def _again(cylinders: int, alternating: bool, phases: list[str] | None) -> ArrangementSearch:
-    return search_arrangements(cylinders, alternating=alternating, phases_deg=phases)
+def _again(
+    cylinders: int, alternating: bool, phases: list[str] | None, hold: Hold
+) -> ArrangementSearch:
+    return search_arrangements(cylinders, alternating=alternating, phases_deg=phases, hold=hold)
 
 
 _MEASURES: dict[str, Callable[[Arrangement], float]] = {

@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_error};
-use crate::engine::Engine;
+use crate::engine::{Engine, hold};
 use crate::interrupt;
 
 /// All arrangements of one bank, grouped by |Z|.
@@ -47,11 +47,12 @@ impl Search {
         cylinders: usize,
         alternating: bool,
         phases: Option<Vec<Angle>>,
+        held: &str,
     ) -> PyResult<Self> {
-        let phases = phases.map(angles);
+        let (phases, hold) = (phases.map(angles), hold(held)?);
         let bank = search::bank(cylinders, alternating, phases.as_deref()).or_raise()?;
         let steps = usize::try_from(bank.count()).unwrap_or(usize::MAX);
-        let search = interrupt::run(py, steps, |cancel| search::Search::new(bank, cancel))?;
+        let search = interrupt::run(py, steps, |cancel| search::Search::new(bank, hold, cancel))?;
         Ok(Self { search, angles: OnceLock::new() })
     }
 

@@ -14,6 +14,7 @@ use super::ring::Ring;
 use super::throws::Bank;
 use crate::Complex64;
 use crate::angle::Angle;
+use crate::engine::Hold;
 
 /// Relative to 1/|Z|: how near two folded angles may be by rounding alone. Z is a sum of 15 terms of
 /// at most 14, good to 1e-13.
@@ -203,23 +204,37 @@ pub struct Angles {
     /// others stand twice.
     at_zero: usize,
     at_half: usize,
+    hold: Hold,
 }
 
 impl Angles {
-    pub(super) fn new(families: Vec<Family>, turns: u32, turn: f64) -> Self {
+    pub(super) fn new(families: Vec<Family>, turns: u32, turn: f64, hold: Hold) -> Self {
         let near = 1e-9 * turn;
         let at_zero = usize::from(families.first().is_some_and(|first| first.folded < near));
         let at_half = families.last().is_some_and(|last| last.folded > 0.5 * turn - near);
-        Self { families, turns, turn, at_zero, at_half: usize::from(at_half) }
+        Self { families, turns, turn, at_zero, at_half: usize::from(at_half), hold }
     }
 
     /// How many.
     #[must_use]
     pub fn count(&self) -> usize {
+        match self.hold {
+            Hold::Firing => self.conditions(),
+            // Half of each, and what half is short of half a circle; 180° halves to 90° both ways.
+            Hold::Pins => 2 * self.conditions() - usize::from(self.reaches_half_a_circle()),
+        }
+    }
+
+    /// How many values |arg(−Z₂/Z₁)| takes.
+    fn conditions(&self) -> usize {
         let turns = self.turns as usize;
         turns.div_ceil(2) * self.families.len()
             + turns / 2 * self.between()
             + if turns.is_multiple_of(2) { self.at_zero } else { 0 }
+    }
+
+    fn reaches_half_a_circle(&self) -> bool {
+        if self.turns.is_multiple_of(2) { self.at_zero == 1 } else { self.at_half == 1 }
     }
 
     /// Families neither at 0 nor at half a turn.
@@ -230,6 +245,20 @@ impl Angles {
     /// Degrees, ascending.
     #[must_use]
     pub fn degrees(&self) -> Vec<f64> {
+        let mut degrees = self.condition_degrees();
+        if self.hold == Hold::Pins {
+            let short = usize::from(self.reaches_half_a_circle());
+            let rest: Vec<f64> =
+                degrees.iter().rev().skip(short).map(|d| 180.0 - 0.5 * d).collect();
+            for degree in &mut degrees {
+                *degree *= 0.5;
+            }
+            degrees.extend(rest);
+        }
+        degrees
+    }
+
+    fn condition_degrees(&self) -> Vec<f64> {
         let mut degrees = Vec::with_capacity(self.count());
         for run in 0..=self.turns {
             let middle = f64::from(run.div_ceil(2)) * self.turn;
@@ -249,11 +278,14 @@ impl Angles {
         degrees
     }
 
-    /// The pair of the k-th angle, and by how many least turns its second bank is ahead.
-    pub(super) fn pair(&self, k: usize) -> Option<([Packed; 2], u32)> {
+    /// The pair of the k-th angle, by how many least turns its second bank is ahead, and whether the
+    /// angle is half the condition's or that short of half a circle.
+    pub(super) fn pair(&self, k: usize) -> Option<([Packed; 2], u32, bool)> {
         if k >= self.count() {
             return None;
         }
+        let beyond = k >= self.conditions();
+        let k = if beyond { self.count() - 1 - k } else { k };
         let couple = self.families.len() + self.between();
         let (couples, rest) = (k / couple, k % couple);
         // |α| = middle·turn ± f
@@ -268,7 +300,7 @@ impl Angles {
         let sigma = if rest <= 0.5 * self.turn { 1 } else { -1 };
         let own = (family.angle - f64::from(sigma) * family.folded) / self.turn;
         let ahead = i64::from(sigma * sign) * middle as i64 - own.round() as i64;
-        Some((family.pair, ahead.rem_euclid(i64::from(self.turns)) as u32))
+        Some((family.pair, ahead.rem_euclid(i64::from(self.turns)) as u32, beyond))
     }
 }
 

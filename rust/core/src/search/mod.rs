@@ -1,6 +1,7 @@
 //! Every crank arrangement of a vee, searched for bank angles at which a counterweight removes the
 //! whole first-order moment (Ito and Hattori: with every top dead centre held, α = arg(−Z₂/Z₁), which
-//! exists where |Z₁| = |Z₂|, Z = Σ s e^{i·phase} over a bank's throws).
+//! exists where |Z₁| = |Z₂|, Z = Σ s e^{i·phase} over a bank's throws; with the pins held and phase
+//! the pin's angle, 2α takes the place of α).
 //!
 //! n!² pairs are never looked at: |Z|² is a whole number that decides equality exactly, so one bank's
 //! arrangements are sorted by it, and each class of k arrangements gives k² pairs.
@@ -11,6 +12,8 @@ mod images;
 mod magnitude;
 mod ring;
 mod throws;
+
+use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
@@ -25,7 +28,7 @@ pub use self::throws::{Arrangement, Bank};
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::cancel::Cancel;
-use crate::engine::{Engine, Placement};
+use crate::engine::{Engine, Hold, Placement};
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Cylinder;
@@ -44,11 +47,14 @@ pub struct Search {
     classes: Vec<usize>,
     /// The class of Z = 0, if there is one.
     balanced: Option<usize>,
+    hold: Hold,
 }
 
 /// A pair of banks and the angle between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
+    /// What the phases are of: top dead centres (at minus them), or pins.
+    pub hold: Hold,
     /// |α|, degrees.
     pub bank_angle: f64,
     /// Phases of both banks' throws, front to flywheel, in multiples of 1/`parts` of a turn.
@@ -65,7 +71,7 @@ pub struct Solution {
 
 impl Search {
     /// Group all arrangements of a bank.
-    pub fn new(bank: Bank, cancel: &Cancel) -> Result<Self> {
+    pub fn new(bank: Bank, hold: Hold, cancel: &Cancel) -> Result<Self> {
         let ring = Ring::new(bank.parts)?;
         let magnitude = Magnitude::new(&bank, &ring)?;
         let images = Images::new(&bank);
@@ -79,7 +85,7 @@ impl Search {
         let balanced = classes[..classes.len() - 1].iter().position(|&start| {
             sums.moment(entries[start].1).norm() < 1e-6 && sums.vanishes(entries[start].1)
         });
-        Ok(Self { bank, images, entries, classes, balanced })
+        Ok(Self { bank, images, entries, classes, balanced, hold })
     }
 
     /// One bank's throws.
@@ -145,7 +151,7 @@ impl Search {
         cancel.check()?;
         sums.merge(&mut families, 0);
         let turns = self.bank.turns();
-        let angles = Angles::new(families, turns, sums.turn);
+        let angles = Angles::new(families, turns, sums.turn, self.hold);
         let cure = "ask for the counts alone, or for fewer cylinders";
         limits::result_size("cylinders", &[angles.count()], size_of::<f64>(), cure)?;
         Ok(angles)
@@ -154,7 +160,7 @@ impl Search {
     /// What the k-th angle is of.
     #[must_use]
     pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
-        let (pair, ahead) = angles.pair(k)?;
+        let (pair, ahead, beyond) = angles.pair(k)?;
         let parts = self.bank.parts;
         let mut banks = pair.map(|packed| self.images.phases(packed));
         for phase in &mut banks[1] {
@@ -165,15 +171,28 @@ impl Search {
             let unit = |p: u32| Angle::Turns(i64::from(p), i64::from(parts)).cis(order);
             phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
         };
-        let (first, second) = (moment(&banks[0], 1), moment(&banks[1], 1));
-        let angle = (-second / first).arg();
-        let (z1, z2) = (moment(&banks[0], 2), moment(&banks[1], 2));
+        let orders = [1, 2].map(|order| banks.each_ref().map(|phases| moment(phases, order)));
+        let condition = (-orders[0][1] / orders[0][0]).arg();
+        let angle = match self.hold {
+            Hold::Firing => condition,
+            // Of the two halves of an angle the one asked for.
+            Hold::Pins if beyond => 0.5 * condition - PI.copysign(condition),
+            Hold::Pins => 0.5 * condition,
+        };
         let half = 0.5 * angle;
-        // Bores at 90° ∓ α/2, forces along them: F_y with cos α/2, F_x with ± sin α/2.
-        let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin().abs()];
+        // Bores at 90° ∓ α/2. With the pins held a cylinder's phase turns with its bore.
+        let [[first, second], [z1, z2]] =
+            [(1.0, orders[0]), (2.0, orders[1])].map(|(n, [a, b])| {
+                let turned = if self.hold == Hold::Pins { n * half } else { 0.0 };
+                [a * Complex64::cis(turned), b * Complex64::cis(-turned)]
+            });
+        // F_y with cos α/2, F_x with ± sin α/2.
+        let second_order =
+            [(z1 + z2).norm() * half.cos().abs(), (z1 - z2).norm() * half.sin().abs()];
         // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
         Some(Solution {
+            hold: self.hold,
             bank_angle: angle.to_degrees().abs(),
             banks,
             parts,
@@ -193,10 +212,14 @@ impl Solution {
         let placements = (0..2 * self.banks[0].len()).map(|i| {
             let (throw, bank) = (i / 2, i % 2);
             let phase = Angle::Turns(i64::from(self.banks[bank][throw]), i64::from(self.parts));
+            let bore = if bank == 0 { upright - half } else { upright + half };
             Placement {
                 cylinder,
-                tdc: -phase,
-                bank: if bank == 0 { upright - half } else { upright + half },
+                tdc: match self.hold {
+                    Hold::Firing => -phase,
+                    Hold::Pins => bore - phase,
+                },
+                bank: bore,
                 z: throw as f64 * spacing,
                 rotating_mass: 0.0,
             }
@@ -237,7 +260,7 @@ mod tests {
         let phases: Option<Vec<Angle>> =
             phases.map(|p| p.iter().map(|&d| Angle::from_degrees(d).unwrap()).collect());
         let bank = bank(cylinders, alternating, phases.as_deref()).unwrap();
-        Search::new(bank, &Cancel::new()).unwrap()
+        Search::new(bank, Hold::Firing, &Cancel::new()).unwrap()
     }
 
     fn counts(search: &Search) -> (u128, usize) {
