@@ -12,6 +12,7 @@ use std::str::FromStr;
 
 use crate::Complex64;
 use crate::error::{Error, Result};
+use crate::rational;
 
 /// A float is taken for k/N of a turn up to this N.
 const MOST_PARTS: i64 = 1000;
@@ -169,24 +170,13 @@ fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
         if denominator < 0 { (-numerator, -denominator) } else { (numerator, denominator) };
     // Nearly always both fit in 64 bits, where division is many times faster.
     let divisor = match (u64::try_from(numerator.unsigned_abs()), u64::try_from(denominator)) {
-        (Ok(a), Ok(b)) => greatest_common_divisor(a, b).into(),
-        _ => greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs()),
+        (Ok(a), Ok(b)) => rational::divisor(a, b).into(),
+        _ => rational::divisor(numerator.unsigned_abs(), denominator.unsigned_abs()),
     };
     let divisor = i128::try_from(divisor).ok()?;
     let numerator = i64::try_from(numerator / divisor).ok()?;
     let denominator = i64::try_from(denominator / divisor).ok()?;
     (denominator <= LARGEST_DENOMINATOR).then_some(Angle::Turns(numerator, denominator))
-}
-
-fn greatest_common_divisor<T>(mut a: T, mut b: T) -> T
-where
-    T: Copy + PartialEq + From<u8> + std::ops::Rem<Output = T>,
-{
-    let zero = T::from(0);
-    while b != zero {
-        (a, b) = (b, a % b);
-    }
-    if a == zero { T::from(1) } else { a }
 }
 
 fn few_ulp(degrees: f64) -> f64 {
@@ -302,9 +292,8 @@ impl fmt::Display for Angle {
         {
             let numerator = i128::from(numerator) * 360;
             let denominator = i128::from(denominator);
-            let divisor =
-                greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs())
-                    .cast_signed();
+            let divisor = rational::divisor(numerator.unsigned_abs(), denominator.unsigned_abs())
+                .cast_signed();
             return write!(f, "{}/{}", numerator / divisor, denominator / divisor);
         }
         write!(f, "{degrees}")

@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use crate::Complex64;
+use crate::rational::divisor;
 
 /// Grid points to the shortest wave.
 const POINTS_PER_WAVE: usize = 16;
@@ -31,8 +32,8 @@ impl PeakFinder {
     /// For sums of these orders.
     #[must_use]
     pub fn new(orders: &[u32]) -> Self {
-        let divisor = orders.iter().fold(0, |a, &b| greatest_common_divisor(a, b)).max(1);
-        let waves: Vec<u32> = orders.iter().map(|n| n / divisor).collect();
+        let common = orders.iter().fold(0, |a, &b| divisor(a, b));
+        let waves: Vec<u32> = orders.iter().map(|n| n / common).collect();
         let degree = waves.iter().copied().max().unwrap_or(1) as usize;
         Self {
             waves,
@@ -193,13 +194,6 @@ impl Interval {
 
 fn circle(points: usize) -> Vec<Complex64> {
     (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect()
-}
-
-fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 #[cfg(test)]

@@ -90,11 +90,19 @@ impl Ratio {
 /// Greatest common divisor, > 0; 1 where both are 0.
 #[must_use]
 pub fn common_divisor(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
-    while b != 0 {
+    i128::try_from(divisor(a.unsigned_abs(), b.unsigned_abs())).unwrap_or(i128::MAX)
+}
+
+/// Greatest common divisor of two numbers without a sign; 1 where both are 0.
+pub(crate) fn divisor<T>(mut a: T, mut b: T) -> T
+where
+    T: Copy + PartialEq + From<u8> + std::ops::Rem<Output = T>,
+{
+    let zero = T::from(0);
+    while b != zero {
         (a, b) = (b, a % b);
     }
-    i128::try_from(a.max(1)).unwrap_or(i128::MAX)
+    if a == zero { T::from(1) } else { a }
 }
 
 /// Least common multiple; None where it overflows.

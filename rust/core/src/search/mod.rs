@@ -82,10 +82,10 @@ impl Search {
             (0..entries.len()).filter(|&i| i == 0 || entries[i].0 != entries[i - 1].0).collect();
         classes.push(entries.len());
         let sums = Sums::new(&bank, &ring, &images);
-        let balanced = classes[..classes.len() - 1].iter().position(|&start| {
-            sums.moment(entries[start].1).norm() < 1e-6 && sums.vanishes(entries[start].1)
-        });
-        Ok(Self { bank, images, entries, classes, balanced, hold })
+        // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
+        let first = entries.first();
+        let balanced = first.is_some_and(|&(key, packed)| key == 0 && sums.vanishes(packed));
+        Ok(Self { bank, images, entries, classes, balanced: balanced.then_some(0), hold })
     }
 
     /// One bank's throws.

@@ -2,6 +2,7 @@
 
 use crate::angle::Angle;
 use crate::error::{Error, Result};
+use crate::rational::divisor;
 
 /// Most throws in a bank; an arrangement is packed into four bits a throw.
 pub const MOST_THROWS: usize = 15;
@@ -15,6 +16,8 @@ pub struct Bank {
     pub parts: u32,
     /// Only arrangements whose front and rear halves take turns to fire.
     pub alternating: bool,
+    turns: u32,
+    mirror: Option<u32>,
 }
 
 /// One arrangement: the phase of each throw, front to flywheel, in multiples of 1/`parts` of a turn.
@@ -28,7 +31,7 @@ impl Bank {
         let parts = if throws % 2 == 1 { throws } else { throws / 2 };
         let mut phases: Vec<u32> = (0..throws).map(|k| (k % parts) as u32).collect();
         phases.sort_unstable();
-        Ok(Self { phases, parts: parts as u32, alternating })
+        Ok(Self::of(phases, parts as u32, alternating))
     }
 
     /// Given phases, each a rational part of a turn; the alternation rule asks for even firing.
@@ -40,7 +43,7 @@ impl Bank {
                 let cure = "give rational parts of a turn, such as 90 or \"360/7\"";
                 return Err(Error::value("phases_deg", phase, cure));
             };
-            parts = lcm(parts, denominator);
+            parts = parts / divisor(parts, denominator) * denominator;
             if parts > 360 {
                 let cure = "give phases that are multiples of one part of a turn, 1/360 or larger";
                 return Err(Error::value("phases_deg", phase, cure));
@@ -54,7 +57,19 @@ impl Bank {
             })
             .collect();
         multiples.sort_unstable();
-        Ok(Self { phases: multiples, parts: parts as u32, alternating: false })
+        Ok(Self::of(multiples, parts as u32, false))
+    }
+
+    /// Ascending phases, and what leaves them as they are: both are asked for each arrangement.
+    fn of(phases: Vec<u32>, parts: u32, alternating: bool) -> Self {
+        let same = |image: &dyn Fn(u32) -> u32| {
+            let mut images: Vec<u32> = phases.iter().map(|&phase| image(phase) % parts).collect();
+            images.sort_unstable();
+            images == phases
+        };
+        let turns = (0..parts).filter(|&by| same(&|phase| phase + by)).count() as u32;
+        let mirror = (0..parts).find(|&sum| same(&|phase| parts + sum - phase));
+        Self { phases, parts, alternating, turns, mirror }
     }
 
     /// Number of throws.
@@ -70,17 +85,10 @@ impl Bank {
         (0..n).map(|i| n - 1 - 2 * i).collect()
     }
 
-    /// How far the crank can be turned and still have the same phases, in parts; the number of such
-    /// turns.
+    /// In how many ways the crank can be turned and still have the same phases.
     #[must_use]
     pub fn turns(&self) -> u32 {
-        let turned = |by: u32| {
-            let mut phases: Vec<u32> =
-                self.phases.iter().map(|phase| (phase + by) % self.parts).collect();
-            phases.sort_unstable();
-            phases == self.phases
-        };
-        (0..self.parts).filter(|&by| turned(by)).count() as u32
+        self.turns
     }
 
     /// Phases the front throw need take: one for each way that turning the crank does not reach.
@@ -97,12 +105,7 @@ impl Bank {
     /// Sum of a phase and its mirror image, where the crank running backward has the same phases.
     #[must_use]
     pub fn mirror(&self) -> Option<u32> {
-        (0..self.parts).find(|&sum| {
-            let mut mirrored: Vec<u32> =
-                self.phases.iter().map(|phase| (self.parts + sum - phase) % self.parts).collect();
-            mirrored.sort_unstable();
-            mirrored == self.phases
-        })
+        self.mirror
     }
 
     /// Number of arrangements, turned ones counted apart.
@@ -168,14 +171,6 @@ fn check_count(throws: usize) -> Result<()> {
     let cure =
         format!("a bank has 2 to {MOST_THROWS} throws: give 4 to {} cylinders", 2 * MOST_THROWS);
     Err(Error::value("cylinders", 2 * throws, cure))
-}
-
-fn lcm(a: i64, b: i64) -> i64 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x.max(1) * b
 }
 
 #[cfg(test)]
