@@ -26,6 +26,7 @@ LONG_CALLS = {
     "harmonics with an offset": (
         "cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)"
     ),
+    "search of a V-26": "cp.search_arrangements(26)",
     "waveform as a sum of orders": (
         "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),

@@ -248,7 +248,7 @@ def test_objects() -> None:
         ),
         (lambda: cp.search_arrangements(6).best("beauty"), ["by", "beauty", "counterweight"]),
         (lambda: cp.search_arrangements(6).best(within=(1,)), ["within", "two"]),  # type: ignore[arg-type]
-        (lambda: cp.search_arrangements(6).best(count=99), ["count", "99"]),
+        (lambda: cp.search_arrangements(6).best(count=-1), ["count", "-1"]),
     ],
 )
 def test_what_is_refused(call: object, words: list[str]) -> None:

@@ -1,6 +1,6 @@
 # The compiled core; private. Results are read-only arrays.
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 __all__ = [
     "SCHEMA",
     "Balance",
+    "BankAngles",
     "Engine",
     "Firing",
     "InputError",
@@ -40,6 +41,7 @@ _Parts: TypeAlias = tuple[float, float, float, float]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
 _Complex: TypeAlias = NDArray[np.complex128]
 _Real: TypeAlias = NDArray[np.float64]
+_Progress: TypeAlias = Callable[[int, int], object]
 
 class InputError(ValueError): ...
 
@@ -138,7 +140,12 @@ _WaveformParts: TypeAlias = tuple[_Real, _Real, _Real | None, _Real | None, Bala
 @final
 class Search:
     def __new__(
-        cls, cylinders: int, alternating: bool, phases: Sequence[str] | None, held: str
+        cls,
+        cylinders: int,
+        alternating: bool,
+        phases: Sequence[str] | None,
+        held: str,
+        progress: _Progress | None,
     ) -> Search: ...
     @property
     def candidates(self) -> int: ...
@@ -146,7 +153,16 @@ class Search:
     def qualifying(self) -> int: ...
     @property
     def balanced(self) -> int: ...
-    def bank_angles(self) -> _Real: ...
+    @property
+    def distinct(self) -> int: ...
+
+@final
+class BankAngles:
+    def __new__(
+        cls, search: Search, window: tuple[float, float], progress: _Progress | None
+    ) -> BankAngles: ...
+    def __len__(self) -> int: ...
+    def degrees(self) -> _Real: ...
     def solution(
         self, k: int
     ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...

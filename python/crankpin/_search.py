@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import heapq
 import operator
 from collections.abc import Callable, Iterator
 from functools import cached_property
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
+from crankpin import _core, _inputs, _progress, _tables
 from crankpin._engine import Engine, parts
 from crankpin._frozen import Frozen
 
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
     from crankpin._cylinder import Cylinder
     from crankpin._engine import Hold
     from crankpin._inputs import Angles
+    from crankpin._progress import Progress
+
+_WHOLE = (0.0, 180.0)
+_LARGE = 1 << 21
+"""Distinct arrangements beyond which bank angles are worked out window by window."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,6 +57,7 @@ def search_arrangements(
     alternating: bool = False,
     phases_deg: Angles | None = None,
     hold: Hold = "firing",
+    progress: Progress = False,
 ) -> ArrangementSearch:
     """Search all pairs of bank arrangements for those with a balanced bank angle.
 
@@ -72,6 +79,9 @@ def search_arrangements(
     hold
         What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
         Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
+    progress
+        True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
+        steps in all, some 50 times a second, while a long search runs.
 
     Returns
     -------
@@ -81,6 +91,11 @@ def search_arrangements(
     ------
     InputError
         If an argument is out of range, or the search would take more than 8 GiB.
+
+    Notes
+    -----
+    A V-22 (11!² pairs) takes a fraction of a second. A V-26 (13!² pairs) takes 2 GB, and has more
+    bank angles than can be listed: ask for those :meth:`ArrangementSearch.within` a window.
 
     Examples
     --------
@@ -101,8 +116,10 @@ def search_arrangements(
     phases = None if phases_deg is None else _inputs.angles("phases_deg", phases_deg)
     rule = _inputs.flag("alternating", alternating)
     held = _inputs.text("hold", hold, 'give "firing" or "pins"')
-    core = _core.Search(count, rule, phases, held)
-    return ArrangementSearch(core, count, rule, phases, hold)
+    watched = _progress.checked(progress)
+    with _progress.shown(watched, f"V{count}") as told:
+        core = _core.Search(count, rule, phases, held, told)
+    return ArrangementSearch(core, count, rule, phases, hold, progress=watched)
 
 
 class ArrangementSearch(Frozen):
@@ -129,6 +146,9 @@ class ArrangementSearch(Frozen):
     hold: Hold
     """What phases are of as the bank angle changes."""
 
+    window_deg: tuple[float, float]
+    """Bank angles that are listed: from, to."""
+
     def __init__(
         self,
         core: object,
@@ -136,42 +156,75 @@ class ArrangementSearch(Frozen):
         alternating: bool,
         phases: list[str] | None,
         hold: Hold,
+        window_deg: tuple[float, float] = _WHOLE,
+        progress: Progress = False,
     ) -> None:
         if not isinstance(core, _core.Search):
             cure = "use crankpin.search_arrangements"
             raise _core.InputError(f"ArrangementSearch({_inputs.shorten(core)}): {cure}")
         self._set(
-            _core=core, cylinders=cylinders, alternating=alternating, _phases=phases, hold=hold
+            _search=core,
+            cylinders=cylinders,
+            alternating=alternating,
+            _phases=phases,
+            hold=hold,
+            window_deg=window_deg,
+            _progress=progress,
         )
 
-    _core: _core.Search
+    _search: _core.Search
     _phases: list[str] | None
+    _progress: Progress
 
     @property
     def candidates(self) -> int:
         """Pairs of bank arrangements that were searched."""
-        return self._core.candidates
+        return self._search.candidates
 
     @property
     def qualifying(self) -> int:
-        """Pairs with a balanced bank angle, a bank with itself included."""
-        return self._core.qualifying
+        """Pairs with a balanced bank angle, a bank with itself included; at any bank angle."""
+        return self._search.qualifying
 
     @property
     def balanced(self) -> int:
         """Those of them without any first-order moment: they are balanced at every bank angle."""
-        return self._core.balanced
+        return self._search.balanced
+
+    @cached_property
+    def _angles(self) -> _core.BankAngles:
+        with _progress.shown(self._progress, f"V{self.cylinders} bank angles") as told:
+            return _core.BankAngles(self._search, self.window_deg, told)
 
     @cached_property
     def bank_angles_deg(self) -> NDArray[np.float64]:
-        """All balanced bank angles in [0, 180], ascending: (n_angles,)."""
-        return self._core.bank_angles()
+        """All balanced bank angles in the window, ascending: (n_angles,)."""
+        return self._angles.degrees()
+
+    def within(self, low: float, high: float) -> ArrangementSearch:
+        """Return the same search with only the bank angles from ``low`` to ``high``, degrees.
+
+        Nothing is searched again, and angles beyond are not worked out: the way to look into a
+        search with too many of them.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.search_arrangements(cylinders=14).within(60, 60.2).bank_angles_deg.round(2)
+        array([60.09, 60.13])
+        """
+        ends = (_inputs.number("low", low), _inputs.number("high", high))
+        window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
+        rest = (self.cylinders, self.alternating, self._phases, self.hold, window)
+        return ArrangementSearch(self._search, *rest, progress=self._progress)
 
     def __len__(self) -> int:
-        return len(self.bank_angles_deg)
+        return len(self._angles)
 
     def __getitem__(self, index: int) -> Arrangement:
-        angle, first, second, counterweight, second_order = self._core.solution(self._index(index))
+        angle, first, second, counterweight, second_order = self._angles.solution(
+            self._index(index)
+        )
         return Arrangement(angle, tuple(first), tuple(second), counterweight, second_order)
 
     def __iter__(self) -> Iterator[Arrangement]:
@@ -181,7 +234,7 @@ class ArrangementSearch(Frozen):
         """Return the arrangements whose bank angle is this one within a tolerance; maybe none."""
         angle = _inputs.number("bank_angle_deg", bank_angle_deg)
         tolerance = _inputs.number("tolerance_deg", tolerance_deg)
-        return tuple(self[k] for k in range(*self._window(angle - tolerance, angle + tolerance)))
+        return tuple(self._from(angle - tolerance, angle + tolerance))
 
     def best(
         self,
@@ -211,10 +264,9 @@ class ArrangementSearch(Frozen):
         """
         measure = _MEASURES[_inputs.one_of("by", by, _MEASURES)]
         wanted = _inputs.number("count", count)
-        if not 0 <= wanted <= len(self):
-            raise _core.InputError(f"count = {_inputs.shorten(count)}: give 0 to {len(self)}")
-        found = sorted((self[k] for k in range(*self._limits(within))), key=measure)
-        return tuple(found[: int(wanted)])
+        if not wanted >= 0:
+            raise _core.InputError(f"count = {_inputs.shorten(count)}: give 0 or more")
+        return tuple(heapq.nsmallest(int(wanted), self._from(*_window(within)), key=measure))
 
     def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
         """Return the vee of an index, numbered along the crank, odd cylinders in the first bank.
@@ -229,12 +281,12 @@ class ArrangementSearch(Frozen):
             Distance between neighbouring throws, m.
         """
         distance = _inputs.number("spacing", spacing)
-        return Engine(self._core.engine(self._index(index), parts(cylinder), distance))
+        return Engine(self._angles.engine(self._index(index), parts(cylinder), distance))
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
         pandas = _tables.pandas()
-        rows = [self[k] for k in range(*self._limits(within))]
+        rows = list(self._from(*_window(within)))
         columns = {
             "first_deg": [row.first_deg for row in rows],
             "second_deg": [row.second_deg for row in rows],
@@ -247,16 +299,14 @@ class ArrangementSearch(Frozen):
         table: pd.DataFrame = pandas.DataFrame(columns, index=index)
         return table
 
-    def _limits(self, within: object) -> tuple[int, int]:
-        cure = "give two bank angles, such as (45, 90)"
-        ends = _inputs.items("within", within, cure)
-        if len(ends) != 2:
-            raise _core.InputError(f"within = {_inputs.shorten(within)}: {cure}")
-        return self._window(*(_inputs.number("within", end) for end in ends))
-
-    def _window(self, low: float, high: float) -> tuple[int, int]:
+    def _from(self, low: float, high: float) -> Iterator[Arrangement]:
+        """Yield what is in a window; of a large search nothing else is worked out."""
+        if self._search.distinct > _LARGE and "_angles" not in self.__dict__:
+            yield from self.within(low, high)
+            return
         first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
-        return first, int(np.searchsorted(self.bank_angles_deg, high, side="right"))
+        stop = int(np.searchsorted(self.bank_angles_deg, high, side="right"))
+        yield from (self[k] for k in range(first, stop))
 
     def _index(self, index: int) -> int:
         try:
@@ -273,7 +323,9 @@ class ArrangementSearch(Frozen):
     def __repr__(self) -> str:
         rule = ", alternating" if self.alternating else ""
         found = f"{self.qualifying} of {self.candidates} pairs"
-        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}>"
+        low, high = self.window_deg
+        part = "" if self.window_deg == _WHOLE else f", bank angles {low:g} to {high:g}"
+        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}{part}>"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ArrangementSearch) and self._key() == other._key()
@@ -282,16 +334,30 @@ class ArrangementSearch(Frozen):
         return hash((self.cylinders, self.alternating))
 
     def _key(self) -> tuple[Any, ...]:
-        return (self.cylinders, self.alternating, self._phases, self.hold)
+        return (self.cylinders, self.alternating, self._phases, self.hold, self.window_deg)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, self._key())
 
 
 def _again(
-    cylinders: int, alternating: bool, phases: list[str] | None, hold: Hold
+    cylinders: int,
+    alternating: bool,
+    phases: list[str] | None,
+    hold: Hold,
+    window_deg: tuple[float, float],
 ) -> ArrangementSearch:
-    return search_arrangements(cylinders, alternating=alternating, phases_deg=phases, hold=hold)
+    found = search_arrangements(cylinders, alternating=alternating, phases_deg=phases, hold=hold)
+    return found.within(*window_deg)
+
+
+def _window(within: object) -> tuple[float, float]:
+    cure = "give two bank angles, such as (45, 90)"
+    ends = _inputs.items("within", within, cure)
+    if len(ends) != 2:
+        raise _core.InputError(f"within = {_inputs.shorten(within)}: {cure}")
+    low, high = (_inputs.number("within", end) for end in ends)
+    return low, high
 
 
 _MEASURES: dict[str, Callable[[Arrangement], float]] = {

@@ -1,27 +1,53 @@
-//! A flag by which a long computation is asked to stop; it looks between chunks of its work.
+//! What passes between a long computation and who waits for it: the wish to stop, looked at between
+//! chunks of work, and how far the work has come.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::error::{Error, Result};
 
-/// Raised by one thread, looked at by all that work.
+/// Shared by the thread that waits and all that work.
 #[derive(Debug, Default)]
-pub struct Cancel(AtomicBool);
+pub struct Cancel {
+    raised: AtomicBool,
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
 
 impl Cancel {
-    /// A flag that is down.
+    /// Nobody wishes to stop, nothing is done.
     #[must_use]
     pub const fn new() -> Self {
-        Self(AtomicBool::new(false))
+        Self {
+            raised: AtomicBool::new(false),
+            done: AtomicUsize::new(0),
+            total: AtomicUsize::new(0),
+        }
     }
 
     /// Ask the computation to stop.
     pub fn raise(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.raised.store(true, Ordering::Relaxed);
     }
 
     /// Go on, or stop with [`Error::Cancelled`].
     pub fn check(&self) -> Result<()> {
-        if self.0.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+        if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+    }
+
+    /// There are so many more steps to do.
+    pub fn expect(&self, steps: usize) {
+        self.total.fetch_add(steps, Ordering::Relaxed);
+    }
+
+    /// One more step is done: [`Cancel::check`].
+    pub fn step(&self) -> Result<()> {
+        self.done.fetch_add(1, Ordering::Relaxed);
+        self.check()
+    }
+
+    /// Steps done, and how many are known of.
+    #[must_use]
+    pub fn progress(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 }

@@ -1,4 +1,4 @@
-//! Long calls: the interpreter is released, and Ctrl-C answered.
+//! Long calls: the interpreter is released, Ctrl-C answered, and progress told.
 
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -19,25 +19,47 @@ pub fn run<T: Send>(
     steps: usize,
     work: impl FnOnce(&Cancel) -> Result<T> + Send,
 ) -> PyResult<T> {
+    watched(py, steps, None, work)
+}
+
+/// [`run`], with a Python function that is told how many steps of how many are done.
+pub fn watched<T: Send>(
+    py: Python<'_>,
+    steps: usize,
+    progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Cancel) -> Result<T> + Send,
+) -> PyResult<T> {
     let cancel = Cancel::new();
+    let tell = || match progress {
+        Some(function) => Python::attach(|py| function.call1(py, cancel.progress()).map(drop)),
+        None => Ok(()),
+    };
     if steps < SHORT {
-        return py.detach(|| work(&cancel)).or_raise();
+        let result = py.detach(|| work(&cancel)).or_raise()?;
+        tell()?;
+        return Ok(result);
     }
     py.detach(|| {
         std::thread::scope(|scope| {
             let (sender, receiver) = channel();
             let flag = &cancel;
             scope.spawn(move || sender.send(work(flag)));
-            let mut signal = None;
+            let mut raised = None;
             loop {
                 match receiver.recv_timeout(PATIENCE) {
-                    Ok(result) => return signal.map_or_else(|| result.or_raise(), Err),
-                    Err(RecvTimeoutError::Timeout) => {
-                        if let Err(raised) = signals() {
+                    Ok(result) => {
+                        return match raised {
+                            Some(raised) => Err(raised),
+                            None => result.or_raise().and_then(|result| tell().map(|()| result)),
+                        };
+                    }
+                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
+                        if let Err(error) = signals().and_then(|()| tell()) {
                             cancel.raise();
-                            signal = Some(raised);
+                            raised = Some(error);
                         }
                     }
+                    Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => {
                         return Err(pyo3::exceptions::PyRuntimeError::new_err(
                             "worker thread died",

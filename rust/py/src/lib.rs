@@ -27,6 +27,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<engine::Engine>()?;
     module.add_class::<balance::Balance>()?;
     module.add_class::<search::Search>()?;
+    module.add_class::<search::BankAngles>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<firing::Firing>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;

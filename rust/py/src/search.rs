@@ -1,7 +1,5 @@
 //! The search of arrangements.
 
-use std::sync::OnceLock;
-
 use crankpin_core as core;
 use crankpin_core::Error;
 use crankpin_core::search::{self, Angles};
@@ -14,30 +12,7 @@ use crate::interrupt;
 
 /// All arrangements of one bank, grouped by |Z|.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Search {
-    search: search::Search,
-    angles: OnceLock<Angles>,
-}
-
-/// Bank angle, phases of both banks in degrees, counterweight, second-order moments.
-type Solution = (f64, Vec<f64>, Vec<f64>, f64, (f64, f64));
-
-impl Search {
-    fn angles(&self, py: Python<'_>) -> PyResult<&Angles> {
-        if let Some(angles) = self.angles.get() {
-            return Ok(angles);
-        }
-        let steps = self.search.steps();
-        let found = interrupt::run(py, steps, |cancel| self.search.angles(cancel))?;
-        Ok(self.angles.get_or_init(|| found))
-    }
-
-    fn found(&self, py: Python<'_>, k: usize) -> PyResult<search::Solution> {
-        self.search.solution(self.angles(py)?, k).ok_or_else(|| {
-            python_error(Error::value("index", k, "there are fewer bank angles than that"))
-        })
-    }
-}
+pub struct Search(search::Search);
 
 #[pymethods]
 impl Search {
@@ -48,35 +23,75 @@ impl Search {
         alternating: bool,
         phases: Option<Vec<Angle>>,
         held: &str,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let (phases, hold) = (phases.map(angles), hold(held)?);
         let bank = search::bank(cylinders, alternating, phases.as_deref()).or_raise()?;
         let steps = usize::try_from(bank.count()).unwrap_or(usize::MAX);
-        let search = interrupt::run(py, steps, |cancel| search::Search::new(bank, hold, cancel))?;
-        Ok(Self { search, angles: OnceLock::new() })
+        let search = interrupt::watched(py, steps, progress.as_ref(), |cancel| {
+            search::Search::new(bank, hold, cancel)
+        })?;
+        Ok(Self(search))
     }
 
     #[getter]
     fn candidates(&self) -> u128 {
-        self.search.candidates()
+        self.0.candidates()
     }
 
     #[getter]
     fn qualifying(&self) -> u128 {
-        self.search.qualifying()
+        self.0.qualifying()
     }
 
     #[getter]
     fn balanced(&self) -> u128 {
-        self.search.balanced()
+        self.0.balanced()
     }
 
-    fn bank_angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(frozen(py, self.angles(py)?.degrees().into()))
+    /// Arrangements of one bank, turned, reversed and mirrored ones counted once.
+    #[getter]
+    fn distinct(&self) -> usize {
+        self.0.distinct()
+    }
+}
+
+/// The bank angles of a search within a window.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct BankAngles {
+    search: Py<Search>,
+    angles: Angles,
+}
+
+/// Bank angle, phases of both banks in degrees, counterweight, second-order moments.
+type Solution = (f64, Vec<f64>, Vec<f64>, f64, (f64, f64));
+
+#[pymethods]
+impl BankAngles {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        search: Py<Search>,
+        window: [f64; 2],
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let core = &search.get().0;
+        let angles = interrupt::watched(py, core.steps(), progress.as_ref(), |cancel| {
+            core.angles(window, cancel)
+        })?;
+        Ok(Self { search, angles })
     }
 
-    fn solution(&self, py: Python<'_>, k: usize) -> PyResult<Solution> {
-        let found = self.found(py, k)?;
+    fn __len__(&self) -> usize {
+        self.angles.count()
+    }
+
+    fn degrees<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        frozen(py, self.angles.degrees().into())
+    }
+
+    fn solution(&self, k: usize) -> PyResult<Solution> {
+        let found = self.found(k)?;
         let degrees = |phases: &[u32]| -> Vec<f64> {
             let turns = |&p: &u32| core::Angle::Turns(i64::from(p), i64::from(found.parts));
             phases.iter().map(|phase| turns(phase).degrees()).collect()
@@ -86,7 +101,15 @@ impl Search {
         Ok((found.bank_angle, first, second, found.counterweight, (about_x, about_y)))
     }
 
-    fn engine(&self, py: Python<'_>, k: usize, parts: Parts, spacing: f64) -> PyResult<Engine> {
-        self.found(py, k)?.engine(cylinder(parts)?, spacing).or_raise().map(Engine::from)
+    fn engine(&self, k: usize, parts: Parts, spacing: f64) -> PyResult<Engine> {
+        self.found(k)?.engine(cylinder(parts)?, spacing).or_raise().map(Engine::from)
+    }
+}
+
+impl BankAngles {
+    fn found(&self, k: usize) -> PyResult<search::Solution> {
+        self.search.get().0.solution(&self.angles, k).ok_or_else(|| {
+            python_error(Error::value("index", k, "there are fewer bank angles than that"))
+        })
     }
 }

@@ -1,120 +1,396 @@
-//! All arrangements of a bank up to turning the crank, with the exact keys of their |Z|².
+//! All arrangements of a bank up to turning the crank and to their images, by the exact key of |Z|².
+//!
+//! Throws are placed in pairs from the ends inward, so that images can be compared, and cut, as far
+//! as the throws stand. Two walks: one counts how many arrangements fall into each range of keys, one
+//! puts them there; nothing is held but the arrangements themselves.
+
+use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::images::{Images, Packed};
+use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
-use super::throws::Bank;
+use super::throws::{Bank, MOST_THROWS, Pool};
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 
-/// Most memory that the keys of a search may take, bytes.
+/// Most memory that the arrangements of a search may take, bytes.
 pub const LARGEST_SEARCH: u128 = 8 << 30;
 
-/// The key of an arrangement, and the arrangement with the number of its images in the lowest bits.
-pub(super) type Entry = (u64, Packed);
+/// Pairs of throws in the largest bank.
+const MOST_PAIRS: usize = MOST_THROWS / 2;
+/// Arrangements in one range of keys, about, and most ranges.
+const RANGE: u128 = 4096;
+const MOST_RANGES: u128 = 512;
+/// Tasks that share the walk, at least, where it is long.
+const TASKS: usize = 32;
+/// Pairs of throws below which nobody looks at cancellation.
+const UNINTERRUPTED: usize = 3;
 
-/// The first of each set of images.
-pub(super) fn entries(
-    bank: &Bank,
-    magnitude: &Magnitude,
-    images: &Images,
-    cancel: &Cancel,
-) -> Result<Vec<Entry>> {
-    let bytes = bank.count() / u128::from(bank.turns()) / 2 * size_of::<Entry>() as u128;
-    if bytes > LARGEST_SEARCH {
-        return Err(Error::TooLarge {
-            argument: "cylinders".into(),
-            bytes,
-            limit: LARGEST_SEARCH,
-            cure: "ask for fewer cylinders",
-        });
-    }
-    let left: Vec<u8> = images
-        .distinct
-        .iter()
-        .map(|phase| bank.phases.iter().filter(|other| *other == phase).count() as u8)
-        .collect();
-    let walk = Walk { bank, magnitude, images, weights: bank.weights() };
-    // One task for each choice of the first two throws.
-    let mut starts = Vec::new();
-    for first in bank.first_phases() {
-        let mut start = Partial { left: left.clone(), phases: Vec::new(), packed: 0, key: 0 };
-        let Ok(index) = walk.images.distinct.binary_search(&first) else { continue };
-        walk.place(&mut start, index);
-        for second in 0..walk.images.distinct.len() {
-            if start.left[second] > 0 {
-                let mut start = start.clone();
-                walk.place(&mut start, second);
-                starts.push(start);
-            }
-        }
-    }
-    let parts = starts.into_par_iter().map(|mut start| {
-        let mut out = Vec::new();
-        walk.extend(&mut start, &mut out, cancel).map(|()| out)
-    });
-    Ok(parts.collect::<Result<Vec<_>>>()?.concat())
+/// An arrangement and the number of its images, below the key of its |Z|²: the order is by key.
+/// A plain integer, for memory that is zero to begin with costs nothing before it is written.
+pub(super) type Entry = u128;
+
+#[inline]
+pub(super) fn key(entry: Entry) -> u64 {
+    (entry >> 64) as u64
 }
 
+#[inline]
+pub(super) fn packed(entry: Entry) -> Packed {
+    entry as u64
+}
+
+pub(super) fn image_count(entry: Entry) -> u64 {
+    packed(entry) & 15
+}
+
+/// The first of each set of images, sorted within ranges of keys.
+#[derive(Debug)]
+pub(super) struct Entries {
+    pub all: Vec<Entry>,
+    /// Where each range starts, and the end.
+    starts: Vec<usize>,
+}
+
+impl Entries {
+    pub(super) fn new(
+        bank: &Bank,
+        magnitude: &Magnitude,
+        images: &Images,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let arrangements = bank.count() / u128::from(bank.turns() * images.count());
+        let bytes = arrangements * size_of::<Entry>() as u128;
+        if bytes > LARGEST_SEARCH {
+            return Err(Error::TooLarge {
+                argument: "cylinders".into(),
+                bytes,
+                limit: LARGEST_SEARCH,
+                cure: "ask for fewer cylinders",
+            });
+        }
+        let walk = Walk::new(bank, magnitude, images);
+        let tasks = walk.tasks(if arrangements > RANGE { TASKS } else { 1 }, bank);
+        let ranges = (arrangements / RANGE).clamp(1, MOST_RANGES).next_power_of_two() as usize;
+        cancel.expect(2 * tasks.len() + ranges);
+        let range = |key: u64| ((u128::from(key) * ranges as u128) >> 64) as usize;
+        let counts = tasks.par_iter().map(|task| -> Result<Vec<usize>> {
+            cancel.step()?;
+            let mut counts = vec![0; ranges];
+            walk.descend(task, cancel, &mut |key, _| counts[range(key)] += 1)?;
+            Ok(counts)
+        });
+        let counts = counts.collect::<Result<Vec<_>>>()?;
+        let mut starts = vec![0];
+        for range in 0..ranges {
+            let size: usize = counts.iter().map(|counts| counts[range]).sum();
+            starts.push(starts[range] + size);
+        }
+        let mut all = vec![0; starts[ranges]];
+        let found = fill(&mut all, &walk, &tasks, &counts, range, cancel)
+            .and_then(|()| sort(&mut all, &starts, cancel));
+        if let Err(error) = found {
+            // Giving gigabytes back takes most of a second: who pressed Ctrl-C need not wait for it.
+            std::thread::spawn(move || drop(all));
+            return Err(error);
+        }
+        Ok(Self { all, starts })
+    }
+
+    /// Ranges of entries that share no class.
+    pub(super) fn ranges(&self) -> impl IndexedParallelIterator<Item = (usize, &[Entry])> {
+        self.starts.par_windows(2).map(|ends| (ends[0], &self.all[ends[0]..ends[1]]))
+    }
+}
+
+/// Each task puts its arrangements where they belong; it has a place in each range.
+fn fill(
+    all: &mut [Entry],
+    walk: &Walk<'_>,
+    tasks: &[Node],
+    counts: &[Vec<usize>],
+    range: impl Fn(u64) -> usize + Sync,
+    cancel: &Cancel,
+) -> Result<()> {
+    let ranges = counts.first().map_or(0, Vec::len);
+    let mut places: Vec<Vec<std::slice::IterMut<'_, Entry>>> =
+        tasks.iter().map(|_| Vec::with_capacity(ranges)).collect();
+    let mut rest = all;
+    for range in 0..ranges {
+        for (places, counts) in places.iter_mut().zip(counts) {
+            let (place, after) = rest.split_at_mut(counts[range]);
+            places.push(place.iter_mut());
+            rest = after;
+        }
+    }
+    tasks.par_iter().zip(places).try_for_each(|(task, mut places)| {
+        cancel.step()?;
+        walk.descend(task, cancel, &mut |key, packed| {
+            if let Some(place) = places[range(key)].next() {
+                *place = (Entry::from(key) << 64) | Entry::from(packed);
+            }
+        })
+    })
+}
+
+fn sort(all: &mut [Entry], starts: &[usize], cancel: &Cancel) -> Result<()> {
+    let mut parts = Vec::with_capacity(starts.len());
+    let mut rest = all;
+    for ends in starts.windows(2) {
+        let (part, after) = rest.split_at_mut(ends[1] - ends[0]);
+        parts.push(part);
+        rest = after;
+    }
+    parts.into_par_iter().try_for_each(|part| {
+        part.sort_unstable();
+        cancel.step()
+    })
+}
+
+/// Arrangements of equal |Z|.
+pub(super) fn classes(range: &[Entry]) -> impl Iterator<Item = &[Entry]> {
+    range.chunk_by(|&a, &b| key(a) == key(b))
+}
+
+/// Throws placed so far, in pairs from the ends inward.
 #[derive(Clone)]
-struct Partial {
-    /// How many throws each distinct phase still takes.
-    left: Vec<u8>,
-    phases: Vec<u32>,
-    packed: Packed,
+struct Node {
+    pool: Pool,
+    /// Pairs of throws that stand.
+    pairs: usize,
     key: u64,
+    packed: Packed,
+    /// What a throw of weight 1 with each phase would add to the key by those that stand.
+    field: [u64; 16],
+    /// Images (by their bits) equal to the arrangement as far as it stands.
+    tied: u32,
+    /// Index of the front and the last throw.
+    ends: [usize; 2],
 }
 
 struct Walk<'a> {
-    bank: &'a Bank,
-    magnitude: &'a Magnitude,
     images: &'a Images,
-    weights: Vec<i64>,
+    throws: usize,
+    weights: [u64; MOST_PAIRS],
+    /// What two throws add to the key, by weight of the one, for weight 1 of the other.
+    fields: Box<[[[u64; 16]; 16]; MOST_PAIRS]>,
+    /// What a pair of throws of weights w and −w adds by itself.
+    alone: Box<[[[u64; 16]; 16]; MOST_PAIRS]>,
+    /// Phases that the front throw may take, by index.
+    first: [bool; 16],
 }
 
-impl Walk<'_> {
-    /// The next throw takes a phase.
-    fn place(&self, partial: &mut Partial, index: usize) {
-        let throw = partial.phases.len();
-        let (phase, weight) = (self.images.distinct[index], self.weights[throw]);
-        let mut sum = 0_u64;
-        for (&other, &of_other) in partial.phases.iter().zip(&self.weights) {
-            sum = sum.wrapping_add(self.magnitude.pair(phase, other).wrapping_mul(of_other as u64));
+impl<'a> Walk<'a> {
+    fn new(bank: &Bank, magnitude: &Magnitude, images: &'a Images) -> Self {
+        let mut walk = Self {
+            images,
+            throws: bank.throws(),
+            weights: [0; MOST_PAIRS],
+            fields: Box::new([[[0; 16]; 16]; MOST_PAIRS]),
+            alone: Box::new([[[0; 16]; 16]; MOST_PAIRS]),
+            first: [false; 16],
+        };
+        for (first, phase) in walk.first.iter_mut().zip(&images.distinct) {
+            *first = bank.first_phases().contains(phase);
         }
-        partial.key = partial
-            .key
-            .wrapping_add(sum.wrapping_mul(weight as u64))
-            .wrapping_add(self.magnitude.alone(weight));
-        partial.left[index] -= 1;
-        partial.phases.push(phase);
-        partial.packed |= (index as u64) << (4 * (throw + 1));
+        for (k, &weight) in bank.weights()[..bank.throws() / 2].iter().enumerate() {
+            let w = weight as u64;
+            walk.weights[k] = w;
+            for (p, &phase) in images.distinct.iter().enumerate() {
+                for (q, &other) in images.distinct.iter().enumerate() {
+                    let field = magnitude.pair(phase, other).wrapping_mul(w);
+                    walk.fields[k][p][q] = field;
+                    let alone = magnitude.alone(weight).wrapping_mul(2);
+                    walk.alone[k][p][q] = alone.wrapping_sub(field.wrapping_mul(w));
+                }
+            }
+        }
+        walk
     }
 
-    fn extend(&self, partial: &mut Partial, out: &mut Vec<Entry>, cancel: &Cancel) -> Result<()> {
-        let throw = partial.phases.len();
-        if throw == self.weights.len() {
-            if let Some(images) = self.images.count_of_first(partial.packed)
-                && (!self.bank.alternating || self.bank.alternates(&partial.phases))
-            {
-                out.push((partial.key, partial.packed | images));
+    /// Nodes from which the whole walk goes on, at least so many unless it ends there.
+    fn tasks(&self, least: usize, bank: &Bank) -> Vec<Node> {
+        let others = Image::OTHERS.iter().filter(|&&image| self.images.has(image));
+        let root = |pool| Node {
+            pool,
+            pairs: 0,
+            key: 0,
+            packed: 0,
+            field: [0; 16],
+            tied: others.clone().map(|image| 1 << image.bits()).sum(),
+            ends: [0; 2],
+        };
+        let mut nodes: Vec<Node> = bank.pools().into_iter().map(root).collect();
+        while nodes.len() < least && nodes.iter().any(|node| self.pairs_left(node) > 1) {
+            let mut next = Vec::new();
+            for node in &nodes {
+                self.pairs(node, |pair| next.push(self.child(node, &pair)));
             }
+            nodes = next;
+        }
+        nodes
+    }
+
+    fn pairs_left(&self, node: &Node) -> usize {
+        self.throws / 2 - node.pairs
+    }
+
+    /// All arrangements that start as the node does, the first of each set of images.
+    fn descend(
+        &self,
+        node: &Node,
+        cancel: &Cancel,
+        found: &mut impl FnMut(u64, Packed),
+    ) -> Result<()> {
+        let left = self.pairs_left(node);
+        if left == 1 {
+            self.pairs(node, |pair| self.leaf(node, &pair, found));
             return Ok(());
         }
-        if self.weights.len() - throw == 6 {
+        if left > UNINTERRUPTED {
             cancel.check()?;
         }
-        for index in 0..self.images.distinct.len() {
-            if partial.left[index] == 0 {
+        let mut result = Ok(());
+        self.pairs(node, |pair| {
+            if result.is_ok() {
+                result = self.descend(&self.child(node, &pair), cancel, found);
+            }
+        });
+        result
+    }
+
+    /// Every next pair of throws that no image comes before.
+    #[inline]
+    fn pairs(&self, node: &Node, mut found: impl FnMut(Pair)) {
+        for front in node.pool.open(0) {
+            if node.pairs == 0 && !self.first[front] {
                 continue;
             }
-            let (key, packed) = (partial.key, partial.packed);
-            self.place(partial, index);
-            self.extend(partial, out, cancel)?;
-            (partial.key, partial.packed) = (key, packed);
-            partial.phases.pop();
-            partial.left[index] += 1;
+            let mut one = node.pool.clone();
+            one.take(0, front);
+            for rear in one.open(1) {
+                if let Some(tied) = self.tied(node, front, rear) {
+                    let mut pool = one.clone();
+                    pool.take(1, rear);
+                    found(Pair { front, rear, tied, pool });
+                }
+            }
         }
-        Ok(())
+    }
+
+    /// Images that are still equal, if none comes before the arrangement.
+    #[inline]
+    fn tied(&self, node: &Node, front: usize, rear: usize) -> Option<u32> {
+        let mut tied = node.tied;
+        if tied == 0 {
+            return Some(0);
+        }
+        let [first, last] = if node.pairs == 0 { [front, rear] } else { node.ends };
+        for image in Image::OTHERS {
+            if tied & 1 << image.bits() == 0 {
+                continue;
+            }
+            let row = self.images.table(image, first, last);
+            let (front, rear) = (front & 15, rear & 15);
+            let seen = [usize::from(row[front]), usize::from(row[rear])];
+            let seen = if image.reversed { [seen[1], seen[0]] } else { seen };
+            match seen.cmp(&[front, rear]) {
+                Ordering::Less => return None,
+                Ordering::Equal => {}
+                Ordering::Greater => tied ^= 1 << image.bits(),
+            }
+        }
+        Some(tied)
+    }
+
+    /// The key with one more pair.
+    #[inline]
+    fn key(&self, node: &Node, pair: &Pair) -> u64 {
+        let (front, rear) = (pair.front & 15, pair.rear & 15);
+        let moved = node.field[front].wrapping_sub(node.field[rear]);
+        node.key
+            .wrapping_add(moved.wrapping_mul(self.weights[node.pairs]))
+            .wrapping_add(self.alone[node.pairs][front][rear])
+    }
+
+    #[inline]
+    fn packed(&self, node: &Node, pair: &Pair) -> Packed {
+        let rear = self.throws - 1 - node.pairs;
+        let place = |throw: usize, phase: usize| (phase as u64) << (4 * throw + 4);
+        node.packed | place(node.pairs, pair.front) | place(rear, pair.rear)
+    }
+
+    fn child(&self, node: &Node, pair: &Pair) -> Node {
+        let fields = &self.fields[node.pairs];
+        let (ahead, behind) = (&fields[pair.front & 15], &fields[pair.rear & 15]);
+        Node {
+            pool: pair.pool.clone(),
+            pairs: node.pairs + 1,
+            key: self.key(node, pair),
+            packed: self.packed(node, pair),
+            field: std::array::from_fn(|phase| {
+                node.field[phase].wrapping_add(ahead[phase]).wrapping_sub(behind[phase])
+            }),
+            tied: pair.tied,
+            ends: if node.pairs == 0 { [pair.front, pair.rear] } else { node.ends },
+        }
+    }
+
+    /// A central throw has no weight.
+    #[inline]
+    fn leaf(&self, node: &Node, pair: &Pair, found: &mut impl FnMut(u64, Packed)) {
+        let mut packed = self.packed(node, pair);
+        if self.throws % 2 == 1 {
+            packed |= (pair.pool.centre() as u64) << (4 * (self.throws / 2) + 4);
+        }
+        let images = self.images.count() / (1 + pair.tied.count_ones());
+        found(self.key(node, pair), packed | u64::from(images));
+    }
+}
+
+/// A front and a rear throw that may be placed next.
+struct Pair {
+    front: usize,
+    rear: usize,
+    /// Images still equal, and what is left, after it.
+    tied: u32,
+    pool: Pool,
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::angle::Angle;
+
+    use super::super::moments::Moments;
+    use super::super::throws::tests::alternates;
+    use super::*;
+
+    #[test]
+    fn images_and_turns_of_all_entries_are_all_arrangements() {
+        let degrees = [0.0, 30.0, 30.0, 90.0, 120.0, 150.0, 240.0, 240.0].map(Angle::from_degrees);
+        let phases: Vec<Angle> = degrees.into_iter().map(Result::unwrap).collect();
+        let mut banks: Vec<Bank> =
+            (2..=8).map(|n| Bank::with_phases(&phases[..n]).unwrap()).collect();
+        for throws in 2..=9 {
+            banks.extend([false, true].map(|rule| Bank::even_firing(throws, rule).unwrap()));
+        }
+        for bank in banks {
+            let moments = Moments::new(bank).unwrap();
+            let bank = &moments.bank;
+            let magnitude = Magnitude::new(bank, &moments.ring).unwrap();
+            let entries = Entries::new(bank, &magnitude, &moments.images, &Cancel::new()).unwrap();
+            let images: u64 = entries.all.iter().map(|&entry| image_count(entry)).sum();
+            assert_eq!(u128::from(images) * u128::from(bank.turns()), bank.count(), "{bank:?}");
+            for &entry in &entries.all {
+                for image in Image::ALL.into_iter().filter(|&image| moments.images.has(image)) {
+                    let phases = moments.images.phases(packed(entry), image);
+                    let mut ascending = phases.clone();
+                    ascending.sort_unstable();
+                    assert_eq!(ascending, bank.phases);
+                    assert!(!bank.alternating || alternates(&phases), "{phases:?}");
+                }
+            }
+        }
     }
 }

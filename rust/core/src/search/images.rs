@@ -4,23 +4,60 @@
 use super::throws::Bank;
 
 /// An arrangement in four bits a throw, as indices into the distinct phases, from bit 4 on. The
-/// lowest four bits are free.
+/// lowest four bits hold the number of its images.
 pub(super) type Packed = u64;
 
-/// Index of the phase of a throw, counted from 1.
+/// Index of the phase of a throw, counted from 0.
 #[inline]
 pub(super) fn index(packed: Packed, throw: usize) -> usize {
-    (packed >> (4 * throw)) as usize & 15
+    (packed >> (4 * throw + 4)) as usize & 15
 }
 
-/// How images are made: a table for each phase that the front throw may come to have.
+/// An image of an arrangement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Image {
+    pub reversed: bool,
+    pub mirrored: bool,
+}
+
+impl Image {
+    pub(super) const ITSELF: Self = Self { reversed: false, mirrored: false };
+
+    pub(super) const ALL: [Self; 4] =
+        [Self::ITSELF, Self::OTHERS[0], Self::OTHERS[1], Self::OTHERS[2]];
+
+    /// All but the arrangement itself.
+    pub(super) const OTHERS: [Self; 3] = [
+        Self { reversed: true, mirrored: false },
+        Self { reversed: false, mirrored: true },
+        Self { reversed: true, mirrored: true },
+    ];
+
+    /// In two bits.
+    pub(super) const fn bits(self) -> u32 {
+        self.reversed as u32 | (self.mirrored as u32) << 1
+    }
+
+    pub(super) const fn of_bits(bits: u32) -> Self {
+        Self { reversed: bits & 1 == 1, mirrored: bits & 2 == 2 }
+    }
+}
+
+/// Index of a phase → index of its image's, by the index that comes to the front.
+type Tables = Vec<[u8; 16]>;
+
+/// How images are made.
 #[derive(Debug)]
 pub(super) struct Images {
-    throws: usize,
+    pub throws: usize,
     /// Distinct phases, ascending.
     pub distinct: Vec<u32>,
-    /// Index → index, by the index that comes to the front; plain, and mirrored if that is possible.
-    tables: Vec<Vec<[u64; 16]>>,
+    /// Parts of a turn.
+    pub parts: u32,
+    /// Sum of a phase and its mirror image, if the bank has a mirror.
+    pub mirror: Option<u32>,
+    plain: Tables,
+    mirrored: Tables,
 }
 
 impl Images {
@@ -29,7 +66,7 @@ impl Images {
         distinct.dedup();
         let parts = bank.parts;
         let period = parts / bank.turns();
-        let table = |mirror: Option<u32>| -> Vec<[u64; 16]> {
+        let table = |mirror: Option<u32>| -> Tables {
             let seen = |phase: u32| mirror.map_or(phase, |sum| (parts + sum - phase) % parts);
             let turned_back = |front: u32| {
                 // By whole periods, which leave the phases as they are.
@@ -37,63 +74,49 @@ impl Images {
                 let mut row = [0; 16];
                 for (entry, &phase) in row.iter_mut().zip(&distinct) {
                     let image = (seen(phase) + parts - by) % parts;
-                    *entry = distinct.binary_search(&image).unwrap_or(0) as u64;
+                    *entry = distinct.binary_search(&image).unwrap_or(0) as u8;
                 }
                 row
             };
             distinct.iter().map(|&front| turned_back(front)).collect()
         };
-        let mut tables = vec![table(None)];
-        tables.extend(bank.mirror().map(|sum| table(Some(sum))));
-        Self { throws: bank.throws(), distinct, tables }
+        let plain = table(None);
+        let mirrored = bank.mirror().map(|sum| table(Some(sum))).unwrap_or_default();
+        let mirror = bank.mirror();
+        Self { throws: bank.throws(), distinct, parts, mirror, plain, mirrored }
     }
 
-    /// The image, turned so that its front throw has one of the bank's first phases.
+    /// Whether the bank has this image.
+    pub(super) fn has(&self, image: Image) -> bool {
+        !image.mirrored || self.mirror.is_some()
+    }
+
+    /// What phases become where these come to the front and to the flywheel, turned back so that the
+    /// front throw has one of the bank's first phases.
     #[inline]
-    fn image(&self, packed: Packed, reversed: bool, table: &[[u64; 16]]) -> Packed {
-        let source = |throw: usize| if reversed { self.throws + 1 - throw } else { throw };
-        let row = &table[index(packed, source(1))];
-        (1..=self.throws)
-            .fold(0, |image, throw| image | row[index(packed, source(throw))] << (4 * throw))
+    pub(super) fn table(&self, image: Image, front: usize, last: usize) -> &[u8; 16] {
+        let tables = if image.mirrored { &self.mirrored } else { &self.plain };
+        &tables[if image.reversed { last } else { front }]
     }
 
-    /// All distinct images, itself first.
-    pub(super) fn all(&self, packed: Packed) -> Vec<Packed> {
-        let packed = packed & !15;
-        let mut images = vec![packed];
-        for table in &self.tables {
-            for reversed in [false, true] {
-                let image = self.image(packed, reversed, table);
-                if !images.contains(&image) {
-                    images.push(image);
-                }
-            }
-        }
-        images
+    /// How many images arrangements have.
+    pub(super) fn count(&self) -> u32 {
+        if self.mirror.is_some() { 4 } else { 2 }
     }
 
-    /// How many images an arrangement has, if it is the first of them.
+    /// Phase of an image's throw.
     #[inline]
-    pub(super) fn count_of_first(&self, packed: Packed) -> Option<u64> {
-        let mut seen = [packed; 4];
-        let mut count = 1;
-        for table in &self.tables {
-            for reversed in [false, true] {
-                let image = self.image(packed, reversed, table);
-                if image < packed {
-                    return None;
-                }
-                if !seen[..count].contains(&image) {
-                    seen[count] = image;
-                    count += 1;
-                }
-            }
+    pub(super) fn seen(&self, phase: u32, image: Image) -> u32 {
+        match self.mirror {
+            Some(sum) if image.mirrored => (self.parts + sum - phase) % self.parts,
+            _ => phase,
         }
-        Some(count as u64)
     }
 
-    /// Phases, front to flywheel.
-    pub(super) fn phases(&self, packed: Packed) -> Vec<u32> {
-        (1..=self.throws).map(|throw| self.distinct[index(packed, throw)]).collect()
+    /// Phases of an image, front to flywheel; not turned back.
+    pub(super) fn phases(&self, packed: Packed, image: Image) -> Vec<u32> {
+        let throw = |i: usize| if image.reversed { self.throws - 1 - i } else { i };
+        let phase = |i: usize| self.distinct[index(packed, throw(i))];
+        (0..self.throws).map(|i| self.seen(phase(i), image)).collect()
     }
 }

@@ -8,23 +8,29 @@
 
 mod angles;
 mod enumerate;
+mod families;
 mod images;
 mod magnitude;
+mod moments;
+mod packing;
 mod ring;
 mod throws;
+mod window;
 
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
 pub use self::angles::Angles;
-use self::angles::{Family, Sums};
+use self::angles::Origin;
 pub use self::enumerate::LARGEST_SEARCH;
-use self::enumerate::{Entry, entries};
-use self::images::Images;
+use self::enumerate::{Entries, Entry, classes, image_count, packed};
+use self::families::Families;
+use self::images::Image;
 use self::magnitude::Magnitude;
-use self::ring::Ring;
+use self::moments::Moments;
 pub use self::throws::{Arrangement, Bank};
+use self::window::Wanted;
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::cancel::Cancel;
@@ -33,20 +39,13 @@ use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Cylinder;
 
-/// Classes whose angles are worked out between two looks at cancellation.
-const CHUNK: usize = 1024;
-
 /// All arrangements of one bank, grouped by |Z|.
 #[derive(Debug)]
 pub struct Search {
-    bank: Bank,
-    images: Images,
-    /// Sorted by |Z|; one of each set of images, turned cranks left out.
-    entries: Vec<Entry>,
-    /// Start of each class in `entries`, and the end.
-    classes: Vec<usize>,
-    /// The class of Z = 0, if there is one.
-    balanced: Option<usize>,
+    moments: Moments,
+    entries: Entries,
+    qualifying: u128,
+    balanced: u128,
     hold: Hold,
 }
 
@@ -72,101 +71,78 @@ pub struct Solution {
 impl Search {
     /// Group all arrangements of a bank.
     pub fn new(bank: Bank, hold: Hold, cancel: &Cancel) -> Result<Self> {
-        let ring = Ring::new(bank.parts)?;
-        let magnitude = Magnitude::new(&bank, &ring)?;
-        let images = Images::new(&bank);
-        let mut entries = entries(&bank, &magnitude, &images, cancel)?;
-        cancel.check()?;
-        entries.par_sort_unstable();
-        let mut classes: Vec<usize> =
-            (0..entries.len()).filter(|&i| i == 0 || entries[i].0 != entries[i - 1].0).collect();
-        classes.push(entries.len());
-        let sums = Sums::new(&bank, &ring, &images);
+        let moments = Moments::new(bank)?;
+        let magnitude = Magnitude::new(&moments.bank, &moments.ring)?;
+        let entries = Entries::new(&moments.bank, &magnitude, &moments.images, cancel)?;
+        let turns = u128::from(moments.bank.turns());
+        let pairs = |class: &[Entry]| {
+            let images: u64 = class.iter().map(|&entry| image_count(entry)).sum();
+            (u128::from(images) * turns).pow(2)
+        };
+        let qualifying =
+            entries.ranges().map(|(_, range)| classes(range).map(pairs).sum::<u128>()).sum();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
-        let first = entries.first();
-        let balanced = first.is_some_and(|&(key, packed)| key == 0 && sums.vanishes(packed));
-        Ok(Self { bank, images, entries, classes, balanced: balanced.then_some(0), hold })
+        let first = classes(&entries.all).next();
+        let zero = first.filter(|class| moments.vanishes(packed(class[0])));
+        let balanced = zero.map_or(0, pairs);
+        Ok(Self { moments, entries, qualifying, balanced, hold })
     }
 
     /// One bank's throws.
     #[must_use]
     pub fn bank(&self) -> &Bank {
-        &self.bank
+        &self.moments.bank
+    }
+
+    /// Arrangements of one bank, turned, reversed and mirrored ones counted once.
+    #[must_use]
+    pub fn distinct(&self) -> usize {
+        self.entries.all.len()
     }
 
     /// About how many steps it takes to work out the angles.
     #[must_use]
     pub fn steps(&self) -> usize {
-        self.entries.len() * 64
+        self.entries.all.len() * 64
     }
 
     /// Pairs of arrangements.
     #[must_use]
     pub fn candidates(&self) -> u128 {
-        self.bank.count().pow(2)
+        self.bank().count().pow(2)
     }
 
     /// Pairs with equal |Z|, a bank with itself included.
     #[must_use]
     pub fn qualifying(&self) -> u128 {
-        (0..self.classes.len() - 1).map(|class| self.pairs(class)).sum()
+        self.qualifying
     }
 
     /// Pairs of banks without any first-order moment: qualifying at every bank angle.
     #[must_use]
     pub fn balanced(&self) -> u128 {
-        self.balanced.map_or(0, |class| self.pairs(class))
+        self.balanced
     }
 
-    fn class(&self, class: usize) -> &[Entry] {
-        &self.entries[self.classes[class]..self.classes[class + 1]]
+    fn families(&self) -> Families<'_> {
+        Families { moments: &self.moments, entries: &self.entries }
     }
 
-    fn pairs(&self, class: usize) -> u128 {
-        let images: u128 = self.class(class).iter().map(|entry| u128::from(entry.1 & 15)).sum();
-        (images * u128::from(self.bank.turns())).pow(2)
-    }
-
-    /// Every |α| in [0°, 180°] at which some pair has no backward moment, ascending.
-    pub fn angles(&self, cancel: &Cancel) -> Result<Angles> {
-        let ring = Ring::new(self.bank.parts)?;
-        let sums = Sums::new(&self.bank, &ring, &self.images);
-        let classes: Vec<usize> =
-            (0..self.classes.len() - 1).filter(|&class| Some(class) != self.balanced).collect();
-        let chunks = classes.par_chunks(CHUNK).map(|classes| -> Result<Vec<Family>> {
-            cancel.check()?;
-            let mut families = Vec::new();
-            for &class in classes {
-                sums.families(self.class(class), &mut families);
-            }
-            Ok(families)
-        });
-        let mut families = chunks.collect::<Result<Vec<_>>>()?.concat();
-        families.extend(
-            classes
-                .first()
-                .into_iter()
-                .flat_map(|&class| sums.common(self.class(class)[0].1 & !15)),
-        );
-        cancel.check()?;
-        sums.merge(&mut families, 0);
-        let turns = self.bank.turns();
-        let angles = Angles::new(families, turns, sums.turn, self.hold);
-        let cure = "ask for the counts alone, or for fewer cylinders";
-        limits::result_size("cylinders", &[angles.count()], size_of::<f64>(), cure)?;
-        Ok(angles)
+    /// Every |α| within a window of [0°, 180°] at which some pair has no backward moment, ascending.
+    pub fn angles(&self, window: [f64; 2], cancel: &Cancel) -> Result<Angles> {
+        let (turns, turn) = (self.bank().turns(), self.moments.turn);
+        let wanted = Wanted::new(window, self.hold, turn);
+        let families = self.families().all(&wanted, cancel)?;
+        Angles::new(families, turns, turn, self.hold, window)
     }
 
     /// What the k-th angle is of.
     #[must_use]
     pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
-        let (pair, ahead, beyond) = angles.pair(k)?;
-        let parts = self.bank.parts;
-        let mut banks = pair.map(|packed| self.images.phases(packed));
-        for phase in &mut banks[1] {
-            *phase = (*phase + ahead * (parts / self.bank.turns())) % parts;
-        }
-        let weights = self.bank.weights();
+        let origin = angles.get(k)?;
+        let parts = self.bank().parts;
+        let banks = self.banks(origin);
+        let weights = self.bank().weights();
         let moment = |phases: &[u32], order: i64| -> Complex64 {
             let unit = |p: u32| Angle::Turns(i64::from(p), i64::from(parts)).cis(order);
             phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
@@ -176,7 +152,7 @@ impl Search {
         let angle = match self.hold {
             Hold::Firing => condition,
             // Of the two halves of an angle the one asked for.
-            Hold::Pins if beyond => 0.5 * condition - PI.copysign(condition),
+            Hold::Pins if origin.beyond => 0.5 * condition - PI.copysign(condition),
             Hold::Pins => 0.5 * condition,
         };
         let half = 0.5 * angle;
@@ -200,6 +176,27 @@ impl Search {
             counterweight: forward,
             second_order,
         })
+    }
+
+    /// Phases of both banks: those of the family, the second turned by so many least turns that the
+    /// angle is the one asked for.
+    fn banks(&self, origin: Origin) -> [Arrangement; 2] {
+        let Moments { bank, images, turn, .. } = &self.moments;
+        let family = origin.family;
+        let (second, image) = family.second();
+        let phases =
+            |place: usize, image: Image| images.phases(packed(self.entries.all[place]), image);
+        let mut banks = [phases(family.first(), Image::ITSELF), phases(second, image)];
+        // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.
+        let angle = self.families().angle(family);
+        let sigma = if angle.rem_euclid(*turn) <= 0.5 * turn { 1 } else { -1 };
+        let own = (angle - f64::from(sigma) * family.folded()) / turn;
+        let ahead = i64::from(sigma) * origin.sign * origin.middle - own.round() as i64;
+        let ahead = ahead.rem_euclid(i64::from(bank.turns())) as u32 * (bank.parts / bank.turns());
+        for phase in &mut banks[1] {
+            *phase = (*phase + ahead) % bank.parts;
+        }
+        banks
     }
 }
 
@@ -264,7 +261,7 @@ mod tests {
     }
 
     fn counts(search: &Search) -> (u128, usize) {
-        (search.qualifying(), search.angles(&Cancel::new()).unwrap().degrees().len())
+        (search.qualifying(), search.angles([0.0, 180.0], &Cancel::new()).unwrap().degrees().len())
     }
 
     #[test]
@@ -282,7 +279,7 @@ mod tests {
     fn every_solution_leaves_no_backward_moment() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let search = search(14, true, None);
-        let angles = search.angles(&Cancel::new()).unwrap();
+        let angles = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
         for (k, degrees) in angles.degrees().into_iter().enumerate() {
             let solution = search.solution(&angles, k).unwrap();
             assert!((solution.bank_angle - degrees).abs() < 1e-12);

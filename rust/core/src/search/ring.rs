@@ -11,15 +11,16 @@ use crate::error::Result;
 pub(super) struct Ring {
     parts: usize,
     /// `ζᵏ` modulo `Φ_N`, for k = 0 … N − 1.
-    powers: Vec<Vec<i128>>,
+    powers: Vec<Vec<i64>>,
 }
 
 impl Ring {
     pub(super) fn new(parts: u32) -> Result<Self> {
-        let minimal = cyclotomic(parts.into())?;
+        let minimal: Vec<i64> =
+            cyclotomic(parts.into())?.into_iter().map(|coefficient| coefficient as i64).collect();
         let parts = parts as usize;
         let degree = minimal.len() - 1;
-        let mut powers: Vec<Vec<i128>> = Vec::with_capacity(parts);
+        let mut powers: Vec<Vec<i64>> = Vec::with_capacity(parts);
         let mut power = vec![0; degree];
         power[0] = 1;
         if degree == 1 {
@@ -41,7 +42,7 @@ impl Ring {
     }
 
     /// Remainder of Σ cₖζᵏ: equal for equal numbers.
-    pub(super) fn remainder(&self, combination: &[i128]) -> Vec<i128> {
+    pub(super) fn remainder(&self, combination: &[i64]) -> Vec<i64> {
         let mut remainder = vec![0; self.powers[0].len()];
         for (&coefficient, power) in combination.iter().zip(&self.powers) {
             if coefficient != 0 {
@@ -54,26 +55,29 @@ impl Ring {
     }
 
     /// Product of two combinations, the second conjugated, as a combination.
-    pub(super) fn times_conjugate(&self, a: &[i128], b: &[i128]) -> Vec<i128> {
+    pub(super) fn times_conjugate(&self, a: &[i64], b: &[i64]) -> Vec<i64> {
         let mut product = vec![0; self.parts];
-        for (i, &x) in a.iter().enumerate().filter(|(_, x)| **x != 0) {
-            for (j, &y) in b.iter().enumerate().filter(|(_, y)| **y != 0) {
-                product[(i + self.parts - j) % self.parts] += x * y;
+        for (j, &y) in b.iter().enumerate().filter(|(_, y)| **y != 0) {
+            // ζⁱ⁻ʲ: rotated left by j.
+            let (before, after) = a.split_at(j);
+            let rotated = after.iter().chain(before);
+            for (term, x) in product.iter_mut().zip(rotated) {
+                *term += x * y;
             }
         }
         product
     }
 
     /// The complex conjugate.
-    pub(super) fn conjugate(&self, combination: &[i128]) -> Vec<i128> {
+    pub(super) fn conjugate(&self, combination: &[i64]) -> Vec<i64> {
         (0..self.parts).map(|k| combination[(self.parts - k) % self.parts]).collect()
     }
 
     /// Times ζ^by.
-    pub(super) fn turned(&self, combination: &[i128], by: usize) -> Vec<i128> {
-        (0..self.parts)
-            .map(|k| combination[(k + self.parts - by % self.parts) % self.parts])
-            .collect()
+    pub(super) fn turned(&self, combination: &[i64], by: usize) -> Vec<i64> {
+        let mut turned = combination.to_vec();
+        turned.rotate_right(by % self.parts);
+        turned
     }
 }
 

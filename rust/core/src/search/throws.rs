@@ -130,10 +130,125 @@ impl Bank {
         }
     }
 
+    /// What front and rear throws may take, in each way that the rule leaves open: any phase; or,
+    /// alternating, what makes front and rear halves take turns in firing order, a central throw
+    /// between a rear and a front one.
+    pub(super) fn pools(&self) -> Vec<Pool> {
+        let (n, m) = (self.throws(), self.parts as usize);
+        let with = |amount: u8, takes: &dyn Fn(usize) -> bool| -> [u8; 16] {
+            std::array::from_fn(|phase| if phase < m && takes(phase) { amount } else { 0 })
+        };
+        if !self.alternating {
+            let mut left = [0; 16];
+            for (amount, group) in left.iter_mut().zip(self.phases.chunk_by(|a, b| a == b)) {
+                *amount = group.len() as u8;
+            }
+            return vec![Pool::shared(left)];
+        }
+        match n % 4 {
+            0 => {
+                let halves = [with(2, &|phase| phase % 2 == 0), with(2, &|phase| phase % 2 == 1)];
+                vec![Pool::apart(halves, None), Pool::apart([halves[1], halves[0]], None)]
+            }
+            // A phase fires again half a cycle later, when it is the other half's turn.
+            2 => vec![Pool::apart([with(1, &|_| true); 2], None)],
+            _ => {
+                // Phases in firing order are two parts apart; from the central throw on, odd steps
+                // are of one half and even ones of the other.
+                let from_centre = |centre: usize, odd: usize| {
+                    with(1, &|phase| {
+                        let step = (phase + 2 * n - centre) % n;
+                        let step = if step.is_multiple_of(2) { step / 2 } else { step.midpoint(n) };
+                        step > 0 && step % 2 == odd
+                    })
+                };
+                let pool = |centre: usize, front: usize| {
+                    let halves = [from_centre(centre, front), from_centre(centre, 1 - front)];
+                    Pool::apart(halves, Some(centre))
+                };
+                (0..2 * n).map(|k| pool(k / 2, k % 2)).collect()
+            }
+        }
+    }
+}
+
+/// Phases that the throws of a bank's halves may still take, by index among the distinct ones.
+#[derive(Debug, Clone)]
+pub(super) struct Pool {
+    /// How many throws each phase takes, front and rear.
+    left: [[u8; 16]; 2],
+    /// Phases of which `left` is not zero, as bits.
+    open: [u16; 2],
+    /// Whether the halves take from the same.
+    shared: bool,
+    centre: Option<usize>,
+}
+
+impl Pool {
+    fn shared(left: [u8; 16]) -> Self {
+        Self { shared: true, ..Self::apart([left, left], None) }
+    }
+
+    fn apart(left: [[u8; 16]; 2], centre: Option<usize>) -> Self {
+        let open = left.map(|left| {
+            (0..16).filter(|&phase| left[phase] > 0).map(|phase| 1 << phase).sum::<u16>()
+        });
+        Self { left, open, shared: false, centre }
+    }
+
+    /// Phases open to the front half (0) or the rear one (1).
+    #[inline]
+    pub(super) fn open(&self, half: usize) -> Bits {
+        Bits(self.open[half])
+    }
+
+    /// A throw takes a phase that is open.
+    #[inline]
+    pub(super) fn take(&mut self, half: usize, phase: usize) {
+        let halves = if self.shared { 0..2 } else { half..half + 1 };
+        for half in halves {
+            self.left[half][phase & 15] -= 1;
+            self.open[half] ^= u16::from(self.left[half][phase & 15] == 0) << phase;
+        }
+    }
+
+    /// What is left for a central throw.
+    #[inline]
+    pub(super) fn centre(&self) -> usize {
+        self.centre.unwrap_or(self.open[0].trailing_zeros() as usize)
+    }
+}
+
+/// Set bits, ascending.
+pub(super) struct Bits(u16);
+
+impl Iterator for Bits {
+    type Item = usize;
+
+    #[inline]
+    fn next(&mut self) -> Option<usize> {
+        let lowest = self.0.trailing_zeros() as usize;
+        self.0 &= self.0.wrapping_sub(1);
+        (lowest < 16).then_some(lowest)
+    }
+}
+
+fn check_count(throws: usize) -> Result<()> {
+    if (2..=MOST_THROWS).contains(&throws) {
+        return Ok(());
+    }
+    let cure =
+        format!("a bank has 2 to {MOST_THROWS} throws: give 4 to {} cylinders", 2 * MOST_THROWS);
+    Err(Error::value("cylinders", 2 * throws, cure))
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
     /// Whether an arrangement keeps the alternation rule: in firing order front and rear halves take
     /// turns, and a central throw stands between a rear and a front one.
-    #[must_use]
-    pub fn alternates(&self, arrangement: &[u32]) -> bool {
+    pub(in super::super) fn alternates(arrangement: &[u32]) -> bool {
         let n = arrangement.len();
         let half = n / 2;
         let is_front = |throw: usize| throw < half;
@@ -162,20 +277,6 @@ impl Bank {
         let fired = |step: usize| by_phase[(centre + 2 * step) % n];
         (1..n - 1).all(|step| is_front(fired(step)) != is_front(fired(step + 1)))
     }
-}
-
-fn check_count(throws: usize) -> Result<()> {
-    if (2..=MOST_THROWS).contains(&throws) {
-        return Ok(());
-    }
-    let cure =
-        format!("a bank has 2 to {MOST_THROWS} throws: give 4 to {} cylinders", 2 * MOST_THROWS);
-    Err(Error::value("cylinders", 2 * throws, cure))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
 
     fn all(bank: &Bank) -> Vec<Arrangement> {
         fn extend(
@@ -185,7 +286,7 @@ mod tests {
             out: &mut Vec<Arrangement>,
         ) {
             if rest.is_empty() {
-                if !bank.alternating || bank.alternates(so_far) {
+                if !bank.alternating || alternates(so_far) {
                     out.push(so_far.clone());
                 }
                 return;

@@ -1,0 +1,48 @@
+"""How far a long call has come: told to a function, or shown by tqdm."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TypeAlias
+
+from crankpin import _inputs
+from crankpin._core import InputError
+
+Progress: TypeAlias = bool | Callable[[int, int], object]
+"""True for a tqdm bar, or a function of (steps done, steps in all) that is called now and then."""
+
+
+@contextmanager
+def shown(progress: Progress, description: str) -> Iterator[Callable[[int, int], object] | None]:
+    """Yield what to call with the steps done and the steps in all, if anything."""
+    if progress is False:
+        yield None
+    elif progress is not True:
+        yield progress
+    else:
+        tqdm = importlib.import_module("tqdm.auto")
+        with tqdm.tqdm(desc=description, leave=False) as bar:
+
+            def show(done: int, total: int) -> None:
+                bar.total = total
+                bar.update(done - bar.n)
+
+            yield show
+
+
+def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may give
+    """Return what was given, if it can tell progress."""
+    if progress is True:
+        try:
+            importlib.import_module("tqdm")
+        except ImportError as error:
+            raise ImportError(
+                'tqdm is not installed: pip install "crankpin[progress]", or give a function'
+            ) from error
+        return True
+    if progress is False or callable(progress):
+        return progress  # type: ignore[no-any-return] # callables return what they like
+    cure = "give True for a tqdm bar, or a function of (steps done, steps in all)"
+    raise InputError(f"progress = {_inputs.shorten(progress)}: {cure}")

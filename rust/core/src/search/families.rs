@@ -1,0 +1,313 @@
+//! Bank angles at which only forward first-order moment is left, told apart exactly.
+//!
+//! With every top dead centre held the angle is arg(−Z₂/Z₁). Turning one bank's crank turns it by a
+//! part of a turn; so within a class of equal |Z| it is enough to look at one arrangement for each
+//! crank, and to fold the angle into half such a part.
+
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::enumerate::{Entries, Entry, LARGEST_SEARCH, classes, key, packed};
+use super::images::Image;
+use super::moments::{Moments, NEAR, fold};
+use super::window::Wanted;
+use crate::cancel::Cancel;
+use crate::error::{Error, Result};
+
+/// |2Z| below which rounding asks for more than [`CLOSE`].
+const SMALL: f64 = 0.1;
+/// How near folded angles may be by rounding alone, unless |Z| is small.
+const CLOSE: f64 = NEAR / SMALL;
+/// Families in one range of folded angles, about, and most ranges.
+const RANGE: usize = 4096;
+const MOST_RANGES: usize = 512;
+
+/// A folded angle (its bits: it is not negative), and the two arrangements that have it: the place of
+/// the first, and of the second with its image and whether |Z| is small in the lowest bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Family(u128);
+
+impl Family {
+    fn new(folded: f64, first: usize, second: usize, image: Image, small: bool) -> Self {
+        let second = (second as u32) << 3 | image.bits() << 1 | u32::from(small);
+        Self(u128::from(folded.to_bits()) << 64 | (first as u128) << 32 | u128::from(second))
+    }
+
+    /// In [0, half of the least turn], radians.
+    #[inline]
+    pub(super) fn folded(self) -> f64 {
+        f64::from_bits((self.0 >> 64) as u64)
+    }
+
+    /// Place of the first bank's arrangement.
+    pub(super) fn first(self) -> usize {
+        (self.0 >> 32) as u32 as usize
+    }
+
+    /// Place of the second bank's arrangement, and its image.
+    pub(super) fn second(self) -> (usize, Image) {
+        let second = self.0 as u32;
+        ((second >> 3) as usize, Image::of_bits(second >> 1 & 3))
+    }
+
+    fn is_small(self) -> bool {
+        self.0 & 1 == 1
+    }
+}
+
+/// An arrangement of a class.
+#[derive(Clone, Copy)]
+struct Member {
+    place: usize,
+    /// Of Z.
+    argument: f64,
+    /// What turns and images leave of it.
+    folded: f64,
+}
+
+/// All arrangements and what their angles are worked out from.
+#[derive(Clone, Copy)]
+pub(super) struct Families<'a> {
+    pub moments: &'a Moments,
+    pub entries: &'a Entries,
+}
+
+impl Families<'_> {
+    /// Those whose folded angle is wanted, ascending, each once.
+    pub(super) fn all(self, wanted: &Wanted, cancel: &Cancel) -> Result<Vec<Family>> {
+        // Each arrangement and its mirror image make two families. Half of what is to be expected
+        // will come, and they are grouped, gathered, sorted and joined.
+        let mirrored = if self.moments.images.mirror.is_some() { 2.0 } else { 0.0 };
+        let expected = mirrored * self.entries.all.len() as f64 * wanted.share();
+        refuse_too_many(4 * (0.5 * expected) as usize + self.entries.all.len())?;
+        let ranges = (self.entries.all.len() / RANGE).clamp(1, MOST_RANGES);
+        cancel.expect(self.entries.ranges().len() + ranges);
+        let count = AtomicUsize::new(0);
+        let found = self.entries.ranges().map(|(start, range)| -> Result<Sorted> {
+            let mut families = Vec::new();
+            let mut members = Vec::new();
+            let mut place = start;
+            for class in classes(range) {
+                self.members(place, class, &mut members);
+                self.class(&members, |family| {
+                    if wanted.has(family.folded()) {
+                        families.push(family);
+                    }
+                });
+                place += class.len();
+            }
+            let so_far = count.fetch_add(families.len(), Ordering::Relaxed) + families.len();
+            refuse_too_many(4 * so_far + self.entries.all.len())?;
+            cancel.step()?;
+            Ok(Sorted::new(&families, ranges, 0.5 * self.moments.turn))
+        });
+        let mut found = found.collect::<Result<Vec<_>>>()?;
+        let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
+        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, 0.5 * self.moments.turn));
+        let parts = (0..ranges).into_par_iter().map(|range| -> Result<[Vec<Family>; 2]> {
+            let mut families: Vec<Family> =
+                found.iter().flat_map(|sorted| sorted.range(range)).copied().collect();
+            families.sort_unstable();
+            cancel.step()?;
+            let small = families.iter().copied().filter(|family| family.is_small()).collect();
+            let mut distinct = Vec::with_capacity(families.len());
+            self.join(&mut distinct, families.iter().filter(|family| !family.is_small()));
+            Ok([distinct, small])
+        });
+        let mut all: Vec<Family> = Vec::new();
+        let mut small = Vec::new();
+        for [distinct, of_small] in parts.collect::<Result<Vec<_>>>()? {
+            // Only what is close to the joint can be there already.
+            let close = |family: &Family| {
+                all.last().is_some_and(|last| family.folded() - last.folded() <= CLOSE)
+            };
+            let joint = distinct.partition_point(close);
+            self.join(&mut all, &distinct[..joint]);
+            all.extend(&distinct[joint..]);
+            small.extend(of_small);
+        }
+        self.insert(&mut all, &small);
+        Ok(all)
+    }
+
+    /// Append ascending families that are not there yet.
+    fn join<'f>(self, to: &mut Vec<Family>, families: impl IntoIterator<Item = &'f Family>) {
+        for &family in families {
+            let close = to.iter().rev().take_while(|o| family.folded() - o.folded() <= CLOSE);
+            if !close.into_iter().any(|&other| self.same(family, other)) {
+                to.push(family);
+            }
+        }
+    }
+
+    /// Insert families of small |Z|, of which there are few: rounding may have put them anywhere near.
+    fn insert(self, to: &mut Vec<Family>, families: &[Family]) {
+        let mut new: Vec<Family> = Vec::new();
+        for &family in families {
+            let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
+            let (low, high) = (family.folded() - NEAR / size, family.folded() + NEAR / size);
+            let start = to.partition_point(|other| other.folded() < low);
+            let close = to[start..].iter().take_while(|other| other.folded() <= high);
+            if !close.chain(&new).any(|&other| self.same(family, other)) {
+                new.push(family);
+            }
+        }
+        if !new.is_empty() {
+            to.extend(new);
+            to.sort();
+        }
+    }
+
+    /// One arrangement for each Z of a class, where turned, reversed and mirrored ones count once;
+    /// none of the class of Z = 0.
+    fn members(self, start: usize, class: &[Entry], members: &mut Vec<Member>) {
+        members.clear();
+        // Rows of a remainder that is zero are zero, and so is the key.
+        if key(class[0]) == 0 && self.moments.vanishes(packed(class[0])) {
+            return;
+        }
+        for (i, &entry) in class.iter().enumerate() {
+            let argument = self.moments.twice(packed(entry)).arg();
+            members.push(Member { place: start + i, argument, folded: 0.0 });
+        }
+        if class.len() == 1 {
+            return;
+        }
+        for member in &mut *members {
+            member.folded = self.moments.folded(member.argument);
+        }
+        members.sort_unstable_by(|a, b| a.folded.total_cmp(&b.folded).then(a.place.cmp(&b.place)));
+        let near = NEAR / self.moments.twice(packed(class[0])).norm().min(1.0);
+        let known = |member: &Member| (packed(class[member.place - start]), member.argument);
+        let mut distinct = 0;
+        for i in 0..members.len() {
+            let member = members[i];
+            let close = members[..distinct].iter().rev();
+            let same = close
+                .take_while(|other| member.folded - other.folded <= near)
+                .any(|other| self.moments.same(known(&member), known(other), near));
+            if !same {
+                members[distinct] = member;
+                distinct += 1;
+            }
+        }
+        members.truncate(distinct);
+    }
+
+    /// The families of one class: all pairs of its members, the second as all its images.
+    ///
+    /// An arrangement with itself, or reversed, has the same angles in every class: they are left to
+    /// [`Self::common`].
+    #[inline]
+    fn class(self, members: &[Member], mut found: impl FnMut(Family)) {
+        let Some(first) = members.first() else { return };
+        let size = self.moments.twice(packed(self.entries.all[first.place])).norm();
+        for (a, first) in members.iter().enumerate() {
+            for (b, second) in members[a..].iter().enumerate() {
+                for image in Image::ALL {
+                    if !self.moments.images.has(image) || (b == 0 && !image.mirrored) {
+                        continue;
+                    }
+                    let angle = PI + self.moments.seen(second.argument, image) - first.argument;
+                    let folded = fold(angle, self.moments.turn);
+                    found(Family::new(folded, first.place, second.place, image, size < SMALL));
+                }
+            }
+        }
+    }
+
+    /// What every class has: a bank with itself, at half a circle, and with itself reversed, at 0.
+    fn common(self) -> Vec<Family> {
+        let entries = self.entries.all.iter();
+        let place = entries.enumerate().find(|(_, e)| !self.moments.vanishes(packed(**e)));
+        let family = |place: usize, angle: f64, image: Image| {
+            Family::new(fold(angle, self.moments.turn), place, place, image, false)
+        };
+        place.map_or_else(Vec::new, |(place, _)| {
+            vec![family(place, PI, Image::ITSELF), family(place, 0.0, Image::OTHERS[0])]
+        })
+    }
+
+    /// arg(−Z₂/Z₁) of a family, before it is folded.
+    pub(super) fn angle(self, family: Family) -> f64 {
+        let argument = |place: usize| self.moments.twice(packed(self.entries.all[place])).arg();
+        let (second, image) = family.second();
+        PI + self.moments.seen(argument(second), image) - argument(family.first())
+    }
+
+    /// Whether two folded angles are equal: −Z₂Z̄₁/|Z|² up to a turn and conjugation.
+    fn same(self, a: Family, b: Family) -> bool {
+        let ring = &self.moments.ring;
+        let at = |place: usize| packed(self.entries.all[place]);
+        let first = |f: Family| self.moments.combination(at(f.first()), Image::ITSELF);
+        let product = |family: Family| {
+            let (second, image) = family.second();
+            let second = self.moments.combination(at(second), image);
+            ring.times_conjugate(&second, &first(family))
+        };
+        let (mut x, mut y) = (product(a), product(b));
+        let class = |family: Family| key(self.entries.all[family.first()]);
+        if class(a) != class(b) {
+            // x/|x|² = y/|y|²: multiplied out, |y|² being its own conjugate.
+            let square = |family: Family| ring.times_conjugate(&first(family), &first(family));
+            x = ring.times_conjugate(&x, &square(b));
+            y = ring.times_conjugate(&y, &square(a));
+        }
+        let wanted = ring.remainder(&x);
+        let mirrored = ring.conjugate(&y);
+        // The turn between them is known from the angles; which it is exactly is what is asked.
+        let (of_a, of_b) = (self.angle(a), self.angle(b));
+        [(y, of_a - of_b), (mirrored, of_a + of_b)].iter().any(|(other, apart)| {
+            ring.remainder(&ring.turned(other, self.moments.turns_in(*apart))) == wanted
+        })
+    }
+}
+
+/// Families grouped by ranges of their folded angles.
+struct Sorted {
+    families: Vec<Family>,
+    /// Where each range starts, and the end.
+    starts: Vec<usize>,
+}
+
+impl Sorted {
+    fn new(families: &[Family], ranges: usize, largest: f64) -> Self {
+        let scale = ranges as f64 / largest;
+        let range = |family: &Family| ((family.folded() * scale) as usize).min(ranges - 1);
+        let mut starts = vec![0; ranges + 1];
+        for family in families {
+            starts[range(family) + 1] += 1;
+        }
+        for i in 0..ranges {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut sorted = vec![Family(0); families.len()];
+        for family in families {
+            let place = &mut next[range(family)];
+            sorted[*place] = *family;
+            *place += 1;
+        }
+        Self { families: sorted, starts }
+    }
+
+    fn range(&self, range: usize) -> &[Family] {
+        &self.families[self.starts[range]..self.starts[range + 1]]
+    }
+}
+
+/// Families and entries are of one size.
+fn refuse_too_many(count: usize) -> Result<()> {
+    let bytes = count as u128 * size_of::<Family>() as u128;
+    if bytes <= LARGEST_SEARCH {
+        return Ok(());
+    }
+    Err(Error::TooLarge {
+        argument: "bank angles".into(),
+        bytes,
+        limit: LARGEST_SEARCH,
+        cure: "ask for those within a narrower window, or for the counts alone",
+    })
+}

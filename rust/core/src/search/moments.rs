@@ -1,0 +1,148 @@
+//! Z of an arrangement: in doubles, and exactly.
+
+use std::f64::consts::{PI, TAU};
+
+use super::images::{Image, Images, Packed, index};
+use super::magnitude::too_rich;
+use super::packing::Packing;
+use super::ring::Ring;
+use super::throws::Bank;
+use crate::Complex64;
+use crate::angle::Angle;
+use crate::error::Result;
+
+/// How near the arguments of two arrangements may be by rounding alone, times |2Z|: that is a sum of
+/// 15 terms of at most 14, good to 1e-13.
+pub(super) const NEAR: f64 = 1e-12;
+
+/// What Z of a bank's arrangements is worked out from.
+#[derive(Debug)]
+pub(super) struct Moments {
+    pub bank: Bank,
+    pub ring: Ring,
+    pub images: Images,
+    /// The least turn that leaves the bank's phases as they are, radians.
+    pub turn: f64,
+    weights: Vec<i64>,
+    /// `e^{i·phase}` of the distinct phases.
+    units: Vec<Complex64>,
+    /// The same as remainders, packed.
+    exact: Vec<u128>,
+    /// Index among the distinct phases of each part of a turn.
+    index_of: Vec<usize>,
+}
+
+impl Moments {
+    pub(super) fn new(bank: Bank) -> Result<Self> {
+        let ring = Ring::new(bank.parts)?;
+        let images = Images::new(&bank);
+        let parts = i64::from(bank.parts);
+        let units = images.distinct.iter().map(|&k| Angle::Turns(1, parts).cis(k.into())).collect();
+        let remainder = |&phase: &u32| {
+            let mut combination = vec![0; bank.parts as usize];
+            combination[phase as usize] = 1;
+            ring.remainder(&combination)
+        };
+        let columns: Vec<Vec<i64>> = images.distinct.iter().map(remainder).collect();
+        let weights = bank.weights();
+        let largest: i64 = weights.iter().map(|w| w.abs()).sum();
+        let packing = Packing::new(&columns, &columns, |row| {
+            largest * columns.iter().map(|column| column[row].abs()).max().unwrap_or(0)
+        });
+        if packing.bits > 128 {
+            return Err(too_rich(&bank));
+        }
+        let mut index_of = vec![0; bank.parts as usize];
+        for (index, &phase) in images.distinct.iter().enumerate() {
+            index_of[phase as usize] = index;
+        }
+        let turn = TAU / f64::from(bank.turns());
+        Ok(Self { bank, ring, images, turn, weights, units, exact: packing.columns, index_of })
+    }
+
+    /// Twice Z = Σ s e^{i·phase}.
+    #[inline]
+    pub(super) fn twice(&self, packed: Packed) -> Complex64 {
+        let terms = self.weights.iter().enumerate();
+        terms.map(|(throw, &weight)| self.units[index(packed, throw)] * weight as f64).sum()
+    }
+
+    /// Whether Z is exactly zero.
+    pub(super) fn vanishes(&self, packed: Packed) -> bool {
+        self.sum(|throw| self.exact[index(packed, throw)]) == 0
+    }
+
+    /// Argument of an image's Z, from the arrangement's own.
+    #[inline]
+    pub(super) fn seen(&self, argument: f64, image: Image) -> f64 {
+        let reversed = if image.reversed { PI } else { 0.0 };
+        match self.images.mirror {
+            Some(sum) if image.mirrored => {
+                reversed + TAU * f64::from(sum) / f64::from(self.bank.parts) - argument
+            }
+            _ => reversed + argument,
+        }
+    }
+
+    /// What turning the crank and taking images leave of an argument.
+    pub(super) fn folded(&self, argument: f64) -> f64 {
+        // An even number of least turns has half a circle among them, which is what reversing adds.
+        let step = if self.bank.turns().is_multiple_of(2) { self.turn } else { 0.5 * self.turn };
+        match self.images.mirror {
+            Some(sum) => fold(argument - PI * f64::from(sum) / f64::from(self.bank.parts), step),
+            None => argument.rem_euclid(step),
+        }
+    }
+
+    /// Whether Z of two arrangements is the same up to turns and images, where the arguments are
+    /// known within `near`.
+    pub(super) fn same(&self, a: (Packed, f64), b: (Packed, f64), near: f64) -> bool {
+        let mut wanted = None;
+        Image::ALL.into_iter().filter(|&image| self.images.has(image)).any(|image| {
+            let apart = a.1 - self.seen(b.1, image);
+            if fold(apart, self.turn) > near {
+                return false;
+            }
+            let wanted =
+                *wanted.get_or_insert_with(|| self.sum(|throw| self.exact[index(a.0, throw)]));
+            let turned = self.turns_in(apart) as u32;
+            let parts = self.bank.parts;
+            let found = self.sum(|throw| {
+                let phase = self.images.seen(self.images.distinct[index(b.0, throw)], image);
+                self.exact[self.index_of[((phase + turned) % parts) as usize]]
+            });
+            wanted == if image.reversed { found.wrapping_neg() } else { found }
+        })
+    }
+
+    fn sum(&self, of: impl Fn(usize) -> u128) -> u128 {
+        let terms = self.weights.iter().enumerate();
+        terms.fold(0, |sum, (throw, &weight)| {
+            // Below zero, a weight is a large number that wraps round.
+            sum.wrapping_add(of(throw).wrapping_mul(i128::from(weight) as u128))
+        })
+    }
+
+    /// An angle as the nearest number of least turns, in parts of a turn.
+    pub(super) fn turns_in(&self, angle: f64) -> usize {
+        let turns = i64::from(self.bank.turns());
+        let nearest = (angle / self.turn).round() as i64;
+        nearest.rem_euclid(turns) as usize * (i64::from(self.bank.parts) / turns) as usize
+    }
+
+    /// 2Z of an image as a combination of roots of unity.
+    pub(super) fn combination(&self, packed: Packed, image: Image) -> Vec<i64> {
+        let mut combination = vec![0; self.bank.parts as usize];
+        for (phase, weight) in self.images.phases(packed, image).into_iter().zip(&self.weights) {
+            combination[phase as usize] += weight;
+        }
+        combination
+    }
+}
+
+/// An angle less turns, and without its sign: in [0, turn/2].
+#[inline]
+pub(super) fn fold(angle: f64, turn: f64) -> f64 {
+    let rest = angle - turn * (angle / turn).floor();
+    rest.min(turn - rest).max(0.0)
+}

@@ -1,0 +1,66 @@
+//! Which folded angles unfold to bank angles within a window.
+
+use std::f64::consts::TAU;
+
+use crate::engine::Hold;
+
+/// More than rounding moves an angle of at most half a circle, radians.
+const SLACK: f64 = 1e-9;
+
+/// Folded angles, in [0, turn/2], that are wanted.
+pub(super) struct Wanted {
+    /// From, to; radians.
+    intervals: Vec<[f64; 2]>,
+    half: f64,
+}
+
+impl Wanted {
+    /// For a window of bank angles, degrees.
+    pub(super) fn new(window: [f64; 2], hold: Hold, turn: f64) -> Self {
+        let half = 0.5 * turn;
+        let [low, high] = window.map(|degrees| degrees.clamp(0.0, 180.0).to_radians());
+        let windows = match hold {
+            Hold::Firing => vec![[low, high]],
+            // Half of an angle, or what that is short of half a circle.
+            Hold::Pins => {
+                vec![[2.0 * low, 2.0 * high], [TAU - 2.0 * high, TAU - 2.0 * low]]
+            }
+        };
+        let mut intervals: Vec<[f64; 2]> = windows
+            .into_iter()
+            .filter(|[low, high]| low <= high)
+            .flat_map(|[low, high]| {
+                // In units of half a turn unfolded angles run up, down, up, …; three are enough to
+                // have a whole one.
+                let (first, last) = ((low / half).floor() as i64, (high / half).floor() as i64);
+                (first..=last.min(first + 2)).map(move |run| {
+                    let start = run as f64 * half;
+                    let (from, to) = ((low - start).max(0.0), (high - start).min(half));
+                    if run % 2 == 0 { [from, to] } else { [half - to, half - from] }
+                })
+            })
+            .map(|[from, to]| [from - SLACK, to + SLACK])
+            .collect();
+        intervals.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        // Those that overlap are one.
+        intervals.dedup_by(|next, last| {
+            let overlap = next[0] <= last[1];
+            if overlap {
+                last[1] = last[1].max(next[1]);
+            }
+            overlap
+        });
+        Self { intervals, half }
+    }
+
+    #[inline]
+    pub(super) fn has(&self, folded: f64) -> bool {
+        self.intervals.iter().any(|[from, to]| folded >= *from && folded <= *to)
+    }
+
+    /// How large a part of all folded angles is wanted.
+    pub(super) fn share(&self) -> f64 {
+        let wanted: f64 = self.intervals.iter().map(|[from, to]| to - from).sum();
+        (wanted / self.half).min(1.0)
+    }
+}

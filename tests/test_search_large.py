@@ -1,0 +1,133 @@
+"""Large searches: a part of the answer, bounded memory, progress, any number of threads."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import subprocess
+import sys
+from fractions import Fraction
+
+import crankpin as cp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+V22 = cp.search_arrangements(22)
+"""(11!)² pairs."""
+
+SEARCHES = {
+    (name, hold): cp.search_arrangements(cylinders, phases_deg=phases, hold=hold)
+    for name, cylinders, phases in [
+        ("V6", 6, None),
+        ("V8", 8, [0, 90, 180, 270]),
+        ("V12", 12, None),
+        ("V14", 14, None),
+        ("turned only by a whole turn", 8, [0, 60, 120, 300]),
+        ("without a mirror", 8, [0, 30, 90, 120]),
+    ]
+    for hold in ("firing", "pins")
+}
+
+
+@pytest.mark.parametrize("name", SEARCHES)
+@given(ends=st.tuples(*[st.integers(-20, 400).map(lambda n: Fraction(n, 2))] * 2))
+def test_a_window_is_a_part_of_the_list(
+    name: tuple[str, str], ends: tuple[Fraction, Fraction]
+) -> None:
+    """Windows that end between angles; on an angle that is no fraction, rounding would decide."""
+    search = SEARCHES[name]
+    low, high = (float(end) + 1e-6 for end in ends)
+    angles = search.bank_angles_deg
+    inside = np.flatnonzero((angles >= low) & (angles <= high))
+    part = search.within(low, high)
+    # A family may be found through another of its pairs, whose rounding differs.
+    np.testing.assert_allclose(part.bank_angles_deg, angles[inside], rtol=0, atol=1e-9)
+    assert part.qualifying == search.qualifying
+
+
+def test_a_window_ends_on_its_angles() -> None:
+    search = cp.search_arrangements(6)
+    assert search.within(0, 180).bank_angles_deg.round(9).tolist() == [0, 60, 120, 180]
+    angle = search.bank_angles_deg[2]
+    assert len(search.within(angle, angle)) == 1
+    assert len(search.within(61, 59)) == 0
+    assert search.within(50, 170).within(0, 130).window_deg == (50, 130)
+    assert "50 to 130" in repr(search.within(50, 130))
+
+
+def test_a_window_has_its_own_arrangements() -> None:
+    part = V22.within(60, 60.001)
+    assert len(part) > 50
+    for arrangement in itertools.islice(part, 0, None, 10):
+        assert 60 <= arrangement.bank_angle_deg <= 60.001
+    engine = part.engine(7, cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
+    balance = engine.balance(rpm=3000, orders=[1])
+    assert balance.backward_moment[0] == 0
+    best = V22.best(within=(60, 60.001), count=3)
+    assert best == part.best(count=3)
+    assert len(best) == 3
+
+
+def test_v22() -> None:
+    """The count of pairs is that of exact keys in NumPy (``benchmarks/search.py``)."""
+    assert V22.candidates == 39_916_800**2
+    assert V22.qualifying == 1_854_562_160
+    assert V22.balanced == 0
+
+
+PROGRAM = """
+import hashlib
+import crankpin as cp
+found = hashlib.sha256()
+for search in (cp.search_arrangements(18), cp.search_arrangements(22).within(59, 61)):
+    found.update(search.bank_angles_deg.tobytes())
+    found.update(repr([search[k] for k in range(0, len(search), 997)]).encode())
+    found.update(repr(search).encode())
+print(found.hexdigest())
+"""
+
+
+def test_any_number_of_threads_finds_the_same_bits() -> None:
+    found = {
+        subprocess.run(  # noqa: S603 - this interpreter
+            [sys.executable, "-c", PROGRAM],
+            env=os.environ | {"RAYON_NUM_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for threads in ("1", "2", "3", "7")
+    }
+    assert len(found) == 1
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[int, int]] = []
+    search = cp.search_arrangements(22, progress=lambda done, total: told.append((done, total)))
+    assert told == sorted(told)
+    assert told[-1][0] == told[-1][1] > 0
+    told.clear()
+    search.within(60, 61).bank_angles_deg  # noqa: B018 - worked out when asked for
+    assert told[-1][0] == told[-1][1] > 0
+
+
+def test_what_progress_raises_stops_the_search() -> None:
+    def stop(done: int, total: int) -> None:
+        raise LookupError(f"{done} of {total}")
+
+    with pytest.raises(LookupError):
+        cp.search_arrangements(22, progress=stop)
+
+
+def test_progress_bar(capsys: pytest.CaptureFixture[str]) -> None:
+    cp.search_arrangements(22, progress=True)
+    assert "V22" in capsys.readouterr().err
+
+
+def test_what_is_too_large_is_refused_by_name() -> None:
+    with pytest.raises(cp.InputError, match=r"cylinders: .* bytes, more .* fewer cylinders"):
+        cp.search_arrangements(30)
+    with pytest.raises(cp.InputError, match="progress = 3: give True"):
+        cp.search_arrangements(6, progress=3)  # type: ignore[arg-type]
