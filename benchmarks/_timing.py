@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib.metadata import version
 from pathlib import Path
 
 import crankpin
@@ -30,18 +32,21 @@ def least(run: Callable[[], object], seconds: float = 1.0, runs: int = 20) -> fl
 
 
 def interleaved(
-    methods: dict[str, Callable[[], object]], rounds: int = 5, seconds: float = 0.4
+    methods: Mapping[str, Callable[[], object]],
+    rounds: int = 5,
+    seconds: float = 0.4,
+    runs: int = 4,
 ) -> dict[str, float]:
     """Return the least time of each method, taken in turns so that all meet the same machine."""
     best = dict.fromkeys(methods, float("inf"))
     for _ in range(rounds):
         for name, run in methods.items():
-            best[name] = min(best[name], least(run, seconds / rounds, runs=4))
+            best[name] = min(best[name], least(run, seconds / rounds, runs))
     return best
 
 
-def machine() -> str:
-    """Return what ran this."""
+def machine(*packages: str) -> str:
+    """Return what ran this, with the versions of further packages."""
     cpu = platform.processor() or platform.machine()
     info = Path("/proc/cpuinfo")
     if info.exists():
@@ -49,10 +54,11 @@ def machine() -> str:
         cpu = next(
             (line.split(":")[1].strip() for line in lines if line.startswith("model name")), cpu
         )
+    others = "".join(f", {name} {version(name)}" for name in packages)
     return (
         f"{cpu}, {os.cpu_count()} cores; Python {platform.python_version()}, "
         f"NumPy {np.__version__}, "
-        f"crankpin {crankpin.__version__}"
+        f"crankpin {crankpin.__version__}{others}"
     )
 
 
@@ -66,6 +72,17 @@ def print_table(title: str, header: list[str], rows: list[list[str]]) -> None:
             for k, (c, w) in enumerate(zip(row, widths, strict=True))
         )
         print("  " + "  ".join(cells))
+
+
+def write_csv(
+    path: Path, ran_on: str, header: Sequence[str], rows: Iterable[Sequence[object]]
+) -> None:
+    """Write raw figures; the first line, a comment, says what ran this."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.write(f"# {ran_on}\n")
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows(rows)
 
 
 def milliseconds(seconds: float) -> str:

@@ -12,6 +12,7 @@ import csv
 from pathlib import Path
 
 import crankpin as cp
+import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -222,3 +223,182 @@ def test_amplitude_of_each_bank_is_the_same() -> None:
             for name in ("first_bank", "second_bank")
         )
         assert one == pytest.approx(two, rel=ROUNDING)
+
+
+# --- what comparing computed magnitudes finds -----------------------------------------------------
+
+EXACT = 12_936
+ARRANGEMENTS = ito.arrangements()
+
+
+def pairs(formula: str, dtype: type, digits: int | None, tolerance: float) -> int:
+    """Pairs of the 504 arrangements whose computed |Z|^2 are equal within a tolerance."""
+    return ito.pairs_within(ito.squared_magnitudes(ARRANGEMENTS, formula, dtype, digits), tolerance)
+
+
+def test_cosines_that_the_counts_rest_on_are_rounded_once() -> None:
+    """The counts below depend on the last bit of these: they are the nearest doubles."""
+    cos, sin = ito.constants(np.float64)
+    with mpmath.workprec(200):
+        for k, turn in enumerate(2.0 * np.pi * j / 7 for j in range(7)):
+            assert float(mpmath.cos(turn)) == cos[k]
+            assert float(mpmath.sin(turn)) == sin[k]
+
+
+@pytest.mark.parametrize(
+    ("formula", "dtype", "digits", "tolerance", "count"),
+    [
+        # == tears equal magnitudes apart
+        ("equation (6)", np.float64, None, 0.0, 2_544),
+        ("term by term", np.float64, None, 0.0, 2_526),
+        ("equation (6)", np.float32, None, 0.0, 3_384),
+        ("equation (6)", np.float64, 6, 0.0, 1_992),
+        ("equation (6)", np.float64, 4, 0.0, 1_992),
+        # a tolerance within rounding: some
+        ("equation (6)", np.float64, None, 1e-15, 4_072),
+        ("equation (6)", np.float64, None, 1e-14, 11_776),
+        ("equation (6)", np.float32, None, 1e-6, 7_640),
+        ("equation (6)", np.float64, 6, 1e-5, 6_600),
+        ("equation (6)", np.float64, 4, 1e-3, 8_072),
+        # above rounding, below the least difference of two magnitudes: all
+        ("equation (6)", np.float64, None, 1e-13, EXACT),
+        ("equation (6)", np.float64, None, 1e-1, EXACT),
+        ("equation (6)", np.float32, None, 1e-5, EXACT),
+        ("equation (6)", np.float64, 6, 1e-4, EXACT),
+        ("equation (6)", np.float64, 4, 1e-2, EXACT),
+        # above that: others too
+        ("equation (6)", np.float64, None, 0.5, 16_856),
+        ("equation (6)", np.float32, None, 0.5, 16_856),
+        ("equation (6)", np.float64, None, 1.0, 21_560),
+        # equal whole numbers make equal sums in any precision
+        ("correlations", np.float64, None, 0.0, EXACT),
+        ("correlations", np.float32, None, 0.0, EXACT),
+        ("correlations", np.float64, 4, 0.0, EXACT),
+    ],
+)
+def test_what_comparing_floating_point_finds(
+    formula: str, dtype: type, digits: int | None, tolerance: float, count: int
+) -> None:
+    """The paper's 7 682 is no count of pairs with equal |Z|; comparing numbers gives such figures.
+
+    Measured: each row is what this formula, precision and tolerance finds.
+    """
+    assert pairs(formula, dtype, digits, tolerance) == count
+    search = cp.search_arrangements(14, alternating=True)
+    assert (count == search.qualifying) == (count == EXACT)
+
+
+@pytest.mark.parametrize("formula", ito.FORMULAS)
+def test_no_count_by_comparing_is_the_papers(formula: str) -> None:
+    for dtype in (np.float32, np.float64, np.longdouble):
+        for digits in (None, 4, 6, 8):
+            squares = ito.squared_magnitudes(ARRANGEMENTS, formula, dtype, digits)
+            counts = [ito.pairs_within(squares, t) for t in (0.0, *np.logspace(-16, 0, 17))]
+            assert 7_682 not in counts
+
+
+# --- groups with the same wave --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("signed", "shift", "negated", "reversed_", "count"),
+    [
+        (True, False, False, False, 11_930),
+        (True, True, False, False, 1_706),
+        (True, True, True, False, 854),
+        (True, True, True, True, 674),
+        (False, True, False, False, 854),
+        (False, True, True, False, 428),
+        (False, True, True, True, 338),
+    ],
+)
+def test_groups_with_the_same_wave(
+    signed: bool, shift: bool, negated: bool, reversed_: bool, count: int
+) -> None:
+    """The paper has 806 groups "which have the same wave of exciting moment and the same V-angle".
+
+    None of these readings of "same" gives that number.
+    """
+    assert ito.groups(signed=signed, shift=shift, negated=negated, backward=reversed_) == count
+    assert count != 806
+
+
+# --- figures 4, 6 and 8: the engines that the search hands back -----------------------------------
+
+SEARCH = cp.search_arrangements(14, alternating=True)
+SIX = cp.search_arrangements(6)
+
+
+def found_engine(search: cp.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
+    """The engine of a bank angle as printed."""
+    (index,) = np.flatnonzero(np.abs(search.bank_angles_deg - bank_angle_deg) < 0.005)
+    return search.engine(int(index), CYLINDER, SPACING)
+
+
+def remaining(engine: cp.Engine) -> Array:
+    """Second-order pitch and yaw, in units of lambda M_0."""
+    b = engine.balance(RPM, 2, spectrum=AS_THE_PAPER)
+    return b.moment_peak_xy[0] / (ROD_RATIO * M_0)
+
+
+@each_case
+def test_the_balancer_of_the_engine_that_the_search_hands_back(row: Row) -> None:
+    """Dashed in the figures: M_yb = M cos(theta + theta_0), M_xb = -M sin(theta + theta_0)."""
+    engine = found_engine(SEARCH, float(row["bank_angle_deg"]))
+    length = np.hypot(*engine.waveform(RPM, THETA, [1]).moment.T) / M_0
+    assert np.max(length) == printed(row, "amplitude")
+    assert np.ptp(length) < ROUNDING
+    phase = np.angle(engine.balance(RPM, 1).forward_moment[0], deg=True)
+    if row["phase_deg"]:
+        # The same engine turned by a seventh, reversed or mirrored: theta_0 in steps of 180/7
+        # degrees, either sign.
+        step = 180.0 / 7.0
+        off = [np.mod(phase - sign * float(row["phase_deg"]), step) for sign in (1, -1)]
+        nearest = min(min(value, step - value) for value in off)
+        assert nearest < half_digit(row["phase_deg"])
+
+
+@each_case
+def test_moment_balancer_and_rest_are_the_rederivations(row: Row) -> None:
+    """Full, dashed and remaining curves, from exact kinematics, through equations (3) to (6)."""
+    engine = found_engine(SEARCH, float(row["bank_angle_deg"]))
+    engine = engine.replace(cylinder=CYLINDER.replace(rod_length=CYLINDER.crank_radius / ROD_RATIO))
+    (found,) = SEARCH.at(float(row["bank_angle_deg"]))
+    one, two = (
+        np.round(np.array(bank) * 7 / 360).astype(int) + 1
+        for bank in (found.first_deg, found.second_deg)
+    )
+    # theta counts from cylinder 1's top dead centre; the first bank may stand on either side.
+    theta = np.deg2rad(THETA + engine.tdc_deg[0] + found.first_deg[0])
+    sides = np.sign(engine.bank_deg[1] - engine.bank_deg[0])
+    pitch, yaw = ito.engine_moment(
+        one, two, sides * np.deg2rad(found.bank_angle_deg), theta, ROD_RATIO
+    )
+    whole = engine.waveform(RPM, THETA).moment / M_0
+    # z runs to the rear as -s from a middle plane: as in the cases above.
+    np.testing.assert_allclose(whole, np.stack([pitch, -yaw], axis=1), rtol=0, atol=3e-13)
+    balancer = engine.waveform(RPM, THETA, [1]).moment / M_0
+    rest = whole - balancer
+    # What is left has the peaks of the second order, and the fourth and sixth on top of it.
+    above = [np.abs(engine.balance(RPM, n).moment_peak_xy[0]) / M_0 for n in (4, 6, 8)]
+    second = engine.balance(RPM, 2).moment_peak_xy[0] / M_0
+    assert np.all(np.abs(rest).max(axis=0) <= second + np.sum(above, axis=0) + 1e-4)
+    assert np.all(np.abs(rest).max(axis=0) >= 0.99 * (second - np.sum(above, axis=0)))
+
+
+def test_beside_the_v6() -> None:
+    """Section 4: 170.87 and 9.13 degrees are better than the V-6, 49.54 in pitch, 63.03 in neither.
+
+    The V-6 in use is taken to be the even-firing one at 60 degrees, whose first order a
+    counterweight takes away too; same cylinders and spacing.
+    """
+    six = remaining(found_engine(SIX, 60.0))
+    np.testing.assert_allclose(six, 1.5, rtol=ROUNDING)
+    for angle in (9.13, 170.87):
+        assert np.all(remaining(found_engine(SEARCH, angle)) < six)
+    pitch, yaw = remaining(found_engine(SEARCH, 49.54))
+    assert 0.8 * six[0] < pitch < six[0]
+    assert yaw > six[1]
+    assert np.all(remaining(found_engine(SEARCH, 63.03)) > six)
+    # "about 6-fold larger" than at 170.87 degrees
+    assert 5 < yaw / remaining(found_engine(SEARCH, 170.87))[1] < 6

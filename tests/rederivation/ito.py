@@ -11,6 +11,9 @@ second order in lambda times that. Every top dead centre is held while the V-ang
 
 from __future__ import annotations
 
+import functools
+import math
+import operator
 from collections.abc import Iterator, Sequence
 from itertools import permutations
 from typing import NamedTuple
@@ -177,3 +180,102 @@ def pairs_with_angle(
         angle = np.rad2deg(np.angle(-z[alike] / z[i]))
         for j in alike[np.abs(np.abs(angle) - v_angle_deg) <= tolerance_deg]:
             yield tuple(map(int, row)), tuple(map(int, arrangements_[j]))
+
+
+# --- what comparing computed magnitudes finds -----------------------------------------------------
+
+FORMULAS = ("equation (6)", "term by term", "hypot", "|exp sum|", "correlations")
+
+
+def constants(dtype: type, digits: int | None = None) -> tuple[Array, Array]:
+    """Cos and sin of 2 pi k/7 in a precision, or first rounded to so many decimal digits.
+
+    Doubles one by one by the C library, which gives the nearest to cos and sin of the rounded
+    angle; NumPy's own depend on the processor in the last bit, and the counts depend on that bit.
+    """
+    if dtype is np.longdouble:
+        angles = 2 * np.arccos(np.longdouble(-1)) * np.arange(CYLINDERS) / CYLINDERS
+        return np.cos(angles), np.sin(angles)
+    turns = [2.0 * math.pi * k / CYLINDERS for k in range(CYLINDERS)]
+    cos, sin = np.array([math.cos(t) for t in turns]), np.array([math.sin(t) for t in turns])
+    if digits is not None:
+        cos, sin = np.round(cos, digits), np.round(sin, digits)
+    return cos.astype(dtype), sin.astype(dtype)
+
+
+def squared_magnitudes(
+    arrangements_: IntArray, formula: str, dtype: type = np.float64, digits: int | None = None
+) -> Array:
+    """|Z|^2 of arrangements (n, 7) as computed in floating point, (n,).
+
+    "equation (6)": a^2 + b^2 with a = 3 (c_h - c_p) + 2 (c_j - c_n) + (c_k - c_m), b the same in
+    sines. "term by term": a = 3 c_h + 2 c_j + c_k + 0 c_l - ..., from the front on. "hypot": the
+    same a and b, hypot(a, b)^2. "|exp sum|": abs of a sum of complex exponentials, squared.
+    "correlations": c_0 + 2 (c_1 cos 1/7 + c_2 cos 2/7 + c_3 cos 3/7) of a turn with whole c_k.
+    """
+    cos, sin = constants(dtype, digits)
+    if formula == "correlations":
+        twice: Array = (2 * magnitude_key(arrangements_)).astype(dtype)
+        total = dtype(28) + twice[:, 0] * cos[1]
+        return np.asarray((total + twice[:, 1] * cos[2]) + twice[:, 2] * cos[3])
+    if formula == "|exp sum|":
+        terms = (
+            LEVERS.astype(dtype)
+            * (cos + 1j * sin).astype(cos.dtype.char.upper())[arrangements_ - 1]
+        )
+        return np.asarray(np.abs(functools.reduce(operator.add, terms.T)) ** 2)
+    a, b = (_bank_coefficient(part[arrangements_ - 1].T, formula) for part in (cos, sin))
+    return np.asarray(np.hypot(a, b) ** 2 if formula == "hypot" else a * a + b * b)
+
+
+def _bank_coefficient(by_place: Array, formula: str) -> Array:
+    """A or b of the formulas above from cosines or sines by place, (7, n)."""
+    kind = by_place.dtype.type
+    if formula == "equation (6)":
+        h, j, k, _, m, n, p = by_place
+        return np.asarray(kind(3) * (h - p) + kind(2) * (j - n) + (k - m))
+    terms = (kind(s) * part for s, part in zip(LEVERS, by_place, strict=True))
+    return np.asarray(functools.reduce(operator.add, terms))
+
+
+def pairs_within(squares: Array, tolerance: float) -> int:
+    """Ordered pairs whose squared magnitudes differ by the tolerance at most; 0 is ==."""
+    return int((np.abs(squares[:, np.newaxis] - squares) <= tolerance).sum())
+
+
+# --- groups ---------------------------------------------------------------------------------------
+
+
+def groups(*, signed: bool, shift: bool, negated: bool, backward: bool, digits: int = 6) -> int:
+    """How many of the qualifying pairs differ in V-angle or wave, by one reading of "same wave".
+
+    The wave is pitch and yaw of first and second order (equation 11). Same V-angle: with its sign,
+    or its size. Same wave: as it is, or also if it begins at another crank angle (``shift``), if
+    all of it has the other sign (``negated``), or if it runs backward in time with yaw's sign
+    changed, as the mirrored engine's does (``backward``).
+    """
+    all_ = arrangements()
+    one, two = bank_sum(all_), bank_sum(all_, 2)
+    _, label = np.unique(magnitude_key(all_), axis=0, return_inverse=True)
+    i, j = np.nonzero(label.ravel()[:, np.newaxis] == label.ravel())
+    alpha = np.angle(-one[j] / one[i])
+    first = (one[i] * np.exp(-0.5j * alpha) + one[j] * np.exp(0.5j * alpha)) / 2.0
+    pitch = (two[i] + two[j]) * np.cos(alpha / 2.0)
+    yaw = (two[i] - two[j]) * np.sin(alpha / 2.0)
+    # At 0 and 180 degrees nothing is left at any order.
+    still = np.abs(first) < 1e-9
+    if shift:
+        start = np.where(still, 1.0, first / np.where(still, 1.0, np.abs(first)))
+        first, pitch, yaw = first / start, pitch / start**2, yaw / start**2
+    waves = np.where(still, 0.0, np.stack([first, pitch, yaw]))
+    same = [waves]
+    if negated:
+        # With the second order's sign alone where the start is free: half a turn later.
+        same.append(waves * np.array([[1], [-1], [-1]]) if shift else -waves)
+    if backward:
+        same += [wave.conj() * np.array([[1], [1], [-1]]) for wave in same]
+    angle = np.rad2deg(alpha) if signed else np.abs(np.rad2deg(alpha))
+    rows = [np.concatenate([angle[np.newaxis], w.real, w.imag]) for w in same]
+    rounded = np.round(np.stack(rows), digits) + 0.0
+    rounded[:, 0] = np.where(rounded[:, 0] == -180.0, 180.0, rounded[:, 0])
+    return len({min(map(tuple, of_pair)) for of_pair in rounded.transpose(2, 0, 1).tolist()})
