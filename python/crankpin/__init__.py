@@ -16,6 +16,7 @@ from crankpin._engine import Engine
 from crankpin._exact import ClosedForm, VanishingOrders
 from crankpin._firing import Firing, Gap, Overlap, Throws, Valves, ValveTiming, throws
 from crankpin._presets import presets
+from crankpin._rank import Choice, Ranking, rank
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin._sweep import Sweep, sweep
 from crankpin._waveform import Waveform
@@ -24,6 +25,7 @@ __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "Choice",
     "ClosedForm",
     "Cylinder",
     "Ellipse",
@@ -34,6 +36,7 @@ __all__ = [
     "InputError",
     "OrderBalance",
     "Overlap",
+    "Ranking",
     "Sweep",
     "Throws",
     "ValveTiming",
@@ -42,6 +45,7 @@ __all__ = [
     "Waveform",
     "__version__",
     "presets",
+    "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
