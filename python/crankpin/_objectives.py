@@ -164,7 +164,9 @@ def listed(by: object) -> list[Objective]:
         if isinstance(each, str):
             found.append(named(each))
         elif callable(each):
-            found.append(Objective(_free(each, found), "as given", "", of_balance=each))
+            label = _free(each, found)
+            words = f"{label}, a function given"
+            found.append(Objective(label, words, "", of_balance=each))
         else:
             raise InputError(f"by = {_inputs.shorten(each)}: {cure}")
     if not found:

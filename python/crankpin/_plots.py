@@ -500,7 +500,7 @@ def ranking(ranking: Ranking, ax: Axes | None) -> Axes:
         rings = [(angle, each.value) for each in ranking for angle in each.bank_angles_deg]
     else:
         first = {each.name for each in ranking if each.place == 1}
-        places = ranking.own_bank_angles_deg
+        places = ranking._own_angles_deg
         if np.unique(places[np.isfinite(places)]).size < 2:
             places, along = np.arange(len(names), dtype=np.float64), "x"
         rings = [

@@ -153,16 +153,18 @@ def rank(
     1-4-5-2-3-6 (30.0,) [   0.  2009.8]
     1-5-3-6-2-4 (10.0,) [717.3 415.6]
 
-    Where between these angles the moment of all orders is least, and any other objective:
+    A function takes the balance of an engine at an angle, and ``refine`` looks between the angles:
 
-    >>> cp.rank(
+    >>> (best,) = cp.rank(
     ...     cp.Engine.preset("ijesc-v6-1-6-5-4-3-2"),
     ...     rpm=5000,
     ...     bank_angle_deg=np.arange(10, 180, 10),
     ...     hold="pins",
-    ...     by=lambda balance: balance.moment_sum_peak_xy[1],
+    ...     by=lambda balance: np.hypot(*balance.moment_sum_peak_xy),
     ...     refine=True,
-    ... )[0].bank_angles_deg
+    ... )
+    >>> round(best.bank_angles_deg[0], 3)
+    140.657
     """
     objectives = _objectives.listed(by)
     tolerance = _inputs.number("rtol", rtol)
@@ -263,7 +265,7 @@ class Ranking(Frozen):
         return _angles(self._sweep)
 
     @cached_property
-    def own_bank_angles_deg(self) -> NDArray[np.float64]:
+    def _own_angles_deg(self) -> NDArray[np.float64]:
         """The bank angles that the engines were given with, NaN where there are not two banks."""
         own = _own_angles(self.engines)
         own.setflags(write=False)
@@ -328,7 +330,7 @@ class Ranking(Frozen):
         pandas = _tables.pandas()
         angles = self.bank_angles_deg
         if angles is None:
-            rows = list(zip(self.names, self.own_bank_angles_deg, strict=True))
+            rows = list(zip(self.names, self._own_angles_deg, strict=True))
             index = pandas.MultiIndex.from_tuples(rows, names=["engine", "bank_angle_deg"])
         else:
             index = pandas.MultiIndex.from_product(
@@ -365,7 +367,7 @@ class Ranking(Frozen):
             "engine": list(self.names),
             "bank_angle_deg": (
                 dims[-1],
-                self.own_bank_angles_deg if angles is None else angles,
+                self._own_angles_deg if angles is None else angles,
                 {"units": "degree"},
             ),
         }
@@ -521,10 +523,10 @@ def _dips(
 
     def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
         found = objective.values(_part(swept, engine, where.ravel()))
-        return np.nan_to_num(found, nan=np.inf).reshape(where.shape)
+        return np.where(np.isnan(found), np.inf, found).reshape(where.shape)
 
     angles, first = np.unique(angles, return_index=True)
-    values = np.nan_to_num(values[first], nan=np.inf)
+    values = np.where(np.isnan(values), np.inf, values)[first]
     before, after = np.append(np.nan, values[:-1]), np.append(values[1:], np.nan)
     higher = (before > values + tolerance) | (after > values + tolerance)
     lower = (before < values) | (after < values)
@@ -538,13 +540,15 @@ def _dips(
         lowest, rows = heights.argmin(axis=1), np.arange(dips.size)
         low = across[rows, np.maximum(lowest - 1, 0)]
         high = across[rows, np.minimum(lowest + 1, POINTS - 1)]
-        flat = np.ptp(heights, axis=1) <= FLAT * np.abs(heights).max(axis=1)
+        highest = np.abs(heights).max(axis=1)
+        flat = np.isfinite(highest) & (heights.max(axis=1) <= heights.min(axis=1) + FLAT * highest)
         low[flat] = high[flat] = across[flat, POINTS // 2]
     middle = 0.5 * (low + high)
     # The roundest angle that is as good: 30 for 30.00000000001.
     rounded = np.stack([middle.round(digits) for digits in range(8)] + [middle], axis=1)
-    heights = at(np.clip(rounded, angles[0], angles[-1]))
-    as_good = heights <= heights[:, -1:] * (1.0 + FLAT) + FLAT * _largest(values)
+    rounded = np.clip(rounded, angles[0], angles[-1])
+    heights = at(rounded)
+    as_good = heights <= heights[:, -1:] + FLAT * np.abs(values[dips])[:, None]
     rows, chosen = np.arange(dips.size), as_good.argmax(axis=1)
     found, depths = rounded[rows, chosen], heights[rows, chosen]
     found = np.sort(found[depths < values[dips] - tolerance])
