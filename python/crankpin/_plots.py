@@ -526,7 +526,7 @@ def ranking(ranking: Ranking, ax: Axes | None) -> Axes:
     if not (heights < 0.0).any():
         largest = float(np.nanmax(np.append(heights, 0.0)))
         _from_zero(ax, largest, along)
-    ax.set_title(f"{title}\n{_tables.cut(ranking._told(), 90)}", loc="left", fontsize=11)
+    ax.set_title(f"{title}\n{_tables.cut(ranking._told(1), 80)}", loc="left", fontsize=11)
     if len(ax.get_legend_handles_labels()[1]) > 1:
         ax.legend(loc="best", fontsize=8, title=common or None, title_fontsize=8)
     return ax

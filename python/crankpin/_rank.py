@@ -388,9 +388,9 @@ class Ranking(Frozen):
 
         return _plots.ranking(self, ax)
 
-    def _told(self) -> str:
-        """Say what was ranked."""
-        least = ", then ".join(each.words for each in self._objectives)
+    def _told(self, objectives: int | None = None) -> str:
+        """Say what was ranked by, all or the first few objectives."""
+        least = ", then ".join(each.words for each in self._objectives[:objectives])
         return f"{least}, {_tables.value_text('rpm', self._sweep.fixed['rpm'])}"
 
     def _table(self, shown: int | None = None) -> _tables.Table:
