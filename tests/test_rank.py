@@ -335,6 +335,16 @@ def test_a_dip_lower_than_that_at_the_lowest_angle_is_found() -> None:
 def test_dips_between_two_equal_angles_are_one() -> None:
     choice = by_angle(lambda a: (a - 45.0) ** 2, range(0, 181, 10))
     assert choice.bank_angles_deg == pytest.approx((45.0,), abs=1e-5)
+    # A point at an angle that rounds to no short number, come upon from both sides.
+    point = 33.0 + 12345.0 / 2**16
+    at = point + np.array([-31.7, -10.0, 10.0, 47.3])
+    choice = by_angle(lambda a: 1.0 + abs(a - point), at)
+    assert choice.bank_angles_deg == pytest.approx((point,), abs=1e-9)
+
+
+def test_a_given_angle_that_ties_with_the_bottom_of_its_dip_is_kept() -> None:
+    choice = by_angle(lambda a: 1.0 + (a - 60.001234) ** 2, range(0, 181, 20))
+    assert choice.bank_angles_deg == (60.0,)  # 1.5e-6 above the bottom: 1.1e-10 of the largest
 
 
 def test_an_angle_is_not_rounded_out_of_the_range() -> None:
