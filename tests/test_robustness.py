@@ -71,6 +71,10 @@ def fires(**changes: Any) -> cp.Firing:
     return V6.firing(**{"firing_order": "1-2-5-6-3-4"} | changes)
 
 
+def two_stroke() -> cp.Firing:
+    return I4.firing("1+4-2+3", strokes=2)
+
+
 def crank(**changes: Any) -> cp.Throws:
     given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90}
     return cp.throws(**given_ | changes)
@@ -226,6 +230,10 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cp.ValveTiming, "intake_closes_deg", NAN, "NaN"),
     (cp.ValveTiming, "exhaust_opens_deg", "early", "early"),
     (cp.ValveTiming, "exhaust_closes_deg", -90, "-90"),
+    (cp.PortTiming, "transfer_opens_deg", 0, "0"),
+    (cp.PortTiming, "exhaust_opens_deg", 180, "180"),
+    (two_stroke().ports, "timing", cp.ValveTiming(), "ValveTiming"),
+    (two_stroke().exhaust_overlaps, "timing", 50, "50"),
     (V6.with_bank_angle, "hold", "crank", "crank"),
     (V6.with_bank_angle, "hold", None, "None"),
     (balance, "rpm", NAN, "NaN"),
@@ -748,7 +756,7 @@ SOUND: dict[str, list[Any]] = {
     "text": [TOML, JSON],
     "theta_deg": [[0.0, 90.0], 30.0],
     "throws_deg": [[0, 120, 240], [0]],
-    "timing": [cp.ValveTiming(), cp.ValveTiming(exhaust_opens_deg="360/7")],
+    "timing": [cp.ValveTiming(exhaust_opens_deg="360/7"), cp.PortTiming()],
     "x": ["rpm"],
     "z": [[0.0, 0.1]],
 }
@@ -771,7 +779,7 @@ SUBJECTS: dict[str, Any] = {
     "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
     "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
     "firing": V6.firing("1-2-5-6-3-4"),
-    "firing, two-stroke": I4.firing("1+4-2+3", strokes=2),
+    "firing, two-stroke": two_stroke(),
     "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "ranking": ranked(by=["force_sum_peak_xy", lambda b: b.rpm], refine=True),
@@ -786,6 +794,7 @@ PLAIN = {
     "InputError",
     "OrderBalance",
     "Overlap",
+    "Ports",
     "Valves",
 }  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {

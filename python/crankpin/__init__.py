@@ -14,7 +14,17 @@ from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
 from crankpin._exact import ClosedForm, VanishingOrders
-from crankpin._firing import Firing, Gap, Overlap, Throws, Valves, ValveTiming, throws
+from crankpin._firing import (
+    Firing,
+    Gap,
+    Overlap,
+    Ports,
+    PortTiming,
+    Throws,
+    Valves,
+    ValveTiming,
+    throws,
+)
 from crankpin._presets import presets
 from crankpin._rank import Choice, Ranking, rank
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
@@ -36,6 +46,8 @@ __all__ = [
     "InputError",
     "OrderBalance",
     "Overlap",
+    "PortTiming",
+    "Ports",
     "Ranking",
     "Sweep",
     "Throws",

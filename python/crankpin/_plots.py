@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from crankpin._balance import Balance
     from crankpin._engine import Engine
-    from crankpin._firing import Firing, ValveTiming
+    from crankpin._firing import Firing
     from crankpin._rank import Ranking
     from crankpin._sweep import Quantity, Sweep
     from crankpin._waveform import Waveform
@@ -129,20 +129,19 @@ def _summed(waveform: Waveform, kind: Quantity) -> str:
 # --- firing: a row for each cylinder -------------------------------------------------------------
 
 
-def firing(firing: Firing, ax: Axes | None, timing: ValveTiming) -> Axes:
-    """Draw the periods in which valves are open over a cycle, a row for each cylinder."""
+def firing(
+    firing: Firing,
+    ax: Axes | None,
+    inlet: str,
+    inlets: NDArray[np.float64],
+    exhausts: NDArray[np.float64],
+) -> Axes:
+    """Draw the periods in which cylinders breathe over a cycle, a row for each cylinder."""
     ax = _given_or_new(ax)
     cycle = 180.0 * firing.strokes
     # Bank by bank: who shares a manifold as most engines have it stands together.
     rows = [cylinder - 1 for bank in firing.banks for cylinder in bank]
-    if firing.strokes == 4:
-        valves = firing.valves(timing)
-        bars = [
-            ("intake open", COLOURS[0], valves.intake),
-            ("exhaust open", RED, valves.exhaust),
-        ]
-    else:
-        bars = [("power stroke", COLOURS[1], firing.strokes_deg()["power"])]
+    bars = [(inlet, COLOURS[0], inlets), ("exhaust open", RED, exhausts)]
     height = 0.8 / len(bars)
     for k, (name, colour, periods) in enumerate(bars):
         for row, (start, end) in enumerate(periods[rows].tolist()):
