@@ -81,7 +81,8 @@ def rank(
     ----------
     engines
         An engine, several, or a mapping name → engine, such as one for each firing order; or an
-        :class:`ArrangementSearch`, of which all arrangements are taken.
+        :class:`ArrangementSearch`, of which all arrangements are taken (for some of them give what
+        its ``engine`` returns).
     rpm
         Crank speed.
     bank_angle_deg
