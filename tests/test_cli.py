@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import crankpin as cp
 import matplotlib as mpl
@@ -296,6 +297,39 @@ def test_ranges(text: str, values: float | list[float] | None) -> None:
         np.testing.assert_array_equal(result, values)
 
 
+# --- rank ---------------------------------------------------------------------------------------
+
+
+def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
+    by = ["moment_after_counterweight", "moment_peak_vector_2"]
+    argv = ["rank", "ijesc-v6", "--rpm", "5000", "--by", ",".join(by), "--reference-z", "0"]
+    argv += ["--orders", "1,2", "--spectrum", "1=0.0669,2=0.0191", "--refine"]
+    engines = {cp.Engine.preset(name).name: cp.Engine.preset(name) for name in IJESC}
+    for hold in ("pins", "firing"):
+        how: dict[str, Any] = {"hold": hold, "refine": True, "reference_z": 0.0, "orders": [1, 2]}
+        how |= {"spectrum": {1: 0.0669, 2: 0.0191}, "bank_angle_deg": BANK_ANGLES}
+        ranking = cp.rank(engines, rpm=5000, by=by, **how)
+        out = printed(capsys, *argv, "--hold", hold, "--csv")
+        head, labels, values = numbers(out, labels=3)
+        assert head == ["place", "engine", "bank angle °", *(f"{name} N·m" for name in by)]
+        np.testing.assert_array_equal(values, [choice.values for choice in ranking])
+        assert [(int(place), name) for place, name, _ in labels] == [
+            (choice.place, choice.name) for choice in ranking
+        ]
+        # Angles are printed to eight digits.
+        told = [[float(angle) for angle in angles.split(", ")] for _, _, angles in labels]
+        for mine, choice in zip(told, ranking, strict=True):
+            assert mine == pytest.approx(list(choice.bank_angles_deg), rel=1e-7)
+
+
+def test_rank_of_engines_as_they_are(capsys: CAPTURE) -> None:
+    out = printed(capsys, "rank", "i4", "i6", "--bank-angle", "own", "--by", "force_peak_vector_2")
+    title, _, first, last = out.splitlines()
+    assert title == "Ranked by longest shaking force of order 2, 3000 rpm"
+    assert first.split() == ["1", "Inline-6", "–", "0"]
+    assert last.split()[:3] == ["2", "Inline-4", "–"]
+
+
 # --- pictures -----------------------------------------------------------------------------------
 
 
@@ -376,6 +410,12 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "rod_ratio"),
         ("sweep v6-60 --hold nothing", "--hold"),
         ("sweep v6-60 --orders auto", "--orders = auto"),
+        ("rank v6-60 --by shake", "by = 'shake': give"),
+        ("rank v6-60 --by moment_peak_vector_3", 'by = "moment_peak_vector_3" takes order 3'),
+        ("rank v6-60 --bank-angle own --refine", "refine = True"),
+        ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to look at"),
+        ("rank i4", "bank"),
+        ("rank v6-60 --plot picture.bmp", "a picture's name ends in"),
         ("sweep", "NAME"),
         ("presets v6-60", "unrecognized arguments: v6-60"),
         ("shake", "invalid choice: 'shake'"),
@@ -426,7 +466,7 @@ def test_version(capsys: CAPTURE) -> None:
     assert capsys.readouterr().out == f"crankpin {cp.__version__}\n"
 
 
-@pytest.mark.parametrize("command", [[], ["presets"], ["balance"], ["sweep"]])
+@pytest.mark.parametrize("command", [[], ["presets"], ["balance"], ["sweep"], ["rank"]])
 def test_examples_of_help_run(
     capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]
 ) -> None:

@@ -248,9 +248,56 @@ def test_two_strokes() -> None:
     power, compression = only.strokes_deg().values()
     assert power.tolist() == [[0.0, 180.0], [240.0, 420.0], [120.0, 300.0]]
     assert compression.tolist() == [[180.0, 360.0], [60.0, 240.0], [300.0, 480.0]]
-    for call in (only.valves, only.exhaust_overlaps):
-        with pytest.raises(cp.InputError, match="strokes = 2: valves are those of a four-stroke"):
-            call()
+    with pytest.raises(cp.InputError, match=r"strokes = 2: valves are .* ports: Firing\.ports"):
+        only.valves()
+    with pytest.raises(cp.InputError, match=r"strokes = 4: ports are .* valves: Firing\.valves"):
+        i3.firing("1-2-3").ports()
+    for call in (only.ports, only.exhaust_overlaps, only.plot):
+        with pytest.raises(cp.InputError, match=r"timing = ValveTiming.*: give a .*PortTiming"):
+            call(timing=cp.ValveTiming())  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match=r"timing = PortTiming.*: give a .*ValveTiming"):
+        i3.firing("1-2-3").exhaust_overlaps(timing=cp.PortTiming())
+
+
+def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
+    i3 = cp.Engine.from_firing_order(PART, "1-3-2", strokes=2, spacing=0.1)
+    timing = cp.PortTiming(transfer_opens_deg=62, exhaust_opens_deg="94.5")
+    fires = i3.firing("1-3-2", strokes=2)
+    for periods, half in zip(fires.ports(timing), (62.0, 94.5), strict=True):
+        assert (periods[:, 1] - periods[:, 0]).tolist() == [2 * half] * 3
+        assert ((periods[:, 0] >= 0) & (periods[:, 0] < 360)).all()
+        for tdc, (opens, closes) in zip(fires.angles_deg, periods, strict=True):
+            lowest = opens + half - tdc
+            assert lowest % 360 == 180
+            up, down = PART.position([opens - tdc, closes - tdc])
+            assert up == pytest.approx(down, rel=1e-14)  # a few roundings of a cosine
+    # With a pin offset they are timed from where the piston is lowest.
+    single = inline([0]).replace(cylinder=OFFSET).firing("1", strokes=2)
+    (opens, closes) = single.ports(cp.PortTiming(40, 90)).exhaust[0]
+    assert 0.5 * (opens + closes) == pytest.approx(single.strokes_deg()["power"][0, 1], abs=1e-12)
+
+
+@pytest.mark.parametrize("opens", [60, 85, 90, 100, 179])
+def test_exhaust_overlaps_of_a_two_stroke(opens: int) -> None:
+    timing = cp.PortTiming(exhaust_opens_deg=opens)
+    for order, tdc in (("1-3-2", [0, 240, 120]), ("1-2-3-4", [0, 90, 180, 270])):
+        engine = cp.Engine.from_lists(
+            PART, tdc_deg=tdc, bank_deg=[90] * len(tdc), z=[0.1 * k for k in range(len(tdc))]
+        )
+        fires = engine.firing(order, strokes=2)
+        (way,) = firing.ways(tdc, strokes=2)
+        everyone = [list(range(1, len(tdc) + 1))]
+        both = dict.fromkeys(itertools.combinations(everyone[0], 2), 0.0)
+        (overlaps,) = fires.exhaust_overlaps(everyone, timing=timing)
+        for each in overlaps:
+            both[min(each[:2]), max(each[:2])] += each.overlap_deg
+        assert both == {pair: firing.both_ports_open(way, pair, opens) for pair in both}
+
+
+def test_ports_that_fire_together_overlap_once() -> None:
+    fires = BOXER.firing("1+2-3+4", strokes=2)
+    assert fires.exhaust_overlaps([[1, 2]]) == ((cp.Overlap(1, 2, 0.0, 170.0),),)
+    assert fires.exhaust_overlaps([[1, 3]]) == ((),)  # 85 + 85 degrees, half a turn apart
 
 
 def test_a_mirrored_boxer_fires_in_pairs_as_a_two_stroke() -> None:
@@ -315,6 +362,13 @@ def test_valves_open_and_close_about_the_dead_centres() -> None:
 def test_timing_that_is_none(name: str, value: Any) -> None:  # noqa: ANN401 - bad on purpose
     with pytest.raises(cp.InputError, match=name):
         cp.ValveTiming(**{name: value})
+
+
+@pytest.mark.parametrize("name", ["transfer_opens_deg", "exhaust_opens_deg"])
+@pytest.mark.parametrize("value", [0, 180, -5, math.nan, math.inf, "early", None])
+def test_port_timing_that_is_none(name: str, value: Any) -> None:  # noqa: ANN401 - bad on purpose
+    with pytest.raises(cp.InputError, match=name):
+        cp.PortTiming(**{name: value})
 
 
 # --- the crank of a firing order ------------------------------------------------------------------
@@ -650,8 +704,9 @@ def test_too_many_cylinders_to_list_can_still_be_named() -> None:
 
 def test_firings_are_frozen_and_copied() -> None:
     throws = cp.throws("1-2-3-4-5-6", bank_angle_deg=60)
-    timing = cp.ValveTiming(intake_opens_deg="360/7")
-    for each in (PAGE, BOXER.firing("1+2-3+4", strokes=2), throws, timing):
+    timing, ports = cp.ValveTiming(intake_opens_deg="360/7"), cp.PortTiming(50, "360/7")
+    two = BOXER.firing("1+2-3+4", strokes=2)
+    for each in (PAGE, two, throws, timing, ports):
         for again in (pickle.loads(pickle.dumps(each)), copy.copy(each), copy.deepcopy(each)):  # noqa: S301 - our own
             assert again == each
             assert hash(again) == hash(each)
@@ -662,6 +717,7 @@ def test_firings_are_frozen_and_copied() -> None:
         PAGE.angles_deg,
         PAGE.intervals_deg,
         *PAGE.valves(),
+        *two.ports(),
         *PAGE.strokes_deg().values(),
         throws.throws_deg,
         throws.pin_splits_deg,
@@ -731,8 +787,13 @@ def test_the_chart_takes_axes_and_timing() -> None:
     assert any(end - start == 270 for bars in drawn(ax).values() for _, start, end in bars)
     two = BOXER.firing("1+2-3+4", strokes=2).plot()
     assert two.get_xlim() == (0.0, 360.0)
-    (power,) = drawn(two).values()
-    assert [bar[1:] for bar in power] == [(0, 180), (180, 360), (0, 180), (180, 360)]
+    transfer, exhaust = drawn(two).values()
+    assert sorted({bar[1:] for bar in transfer}) == [(0, 60), (120, 240), (300, 360)]
+    assert sorted({bar[1:] for bar in exhaust}) == [(0, 85), (95, 265), (275, 360)]
+    labels = [text.get_text() for text in two.get_legend().get_texts()]  # type: ignore[union-attr]
+    assert labels == ["transfer open", "exhaust open", "fires"]
+    racing = BOXER.firing("1+2-3+4", strokes=2).plot(timing=cp.PortTiming(exhaust_opens_deg=98))
+    assert (82, 278) in {bar[1:] for bars in drawn(racing).values() for bar in bars}
     with pytest.raises(cp.InputError, match="ax = 3"):
         PAGE.plot(3)  # type: ignore[arg-type]
 

@@ -27,6 +27,13 @@ LONG_CALLS = {
         "cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)"
     ),
     "search of a V-26": "cp.search_arrangements(26)",
+    "ranking by name": (
+        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins')"
+    ),
+    "ranking by a function": (
+        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
+        "by=lambda balance: balance.rpm)"
+    ),
     "waveform as a sum of orders": (
         "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),

@@ -67,6 +67,11 @@ def sweep(**options: Any) -> cp.Sweep:
     return cp.sweep({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
 
 
+def ranking(**options: Any) -> cp.Ranking:
+    given: dict[str, Any] = {"rpm": 5000, "bank_angle_deg": [60, 75, 90], "hold": "pins"}
+    return cp.rank({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
+
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": CYLINDER,
     "Engine": V6,
@@ -85,6 +90,11 @@ OBJECTS: dict[str, Any] = {
     "Waveform, auto": waveform(orders="auto"),
     "Sweep": sweep(),
     "Sweep of one": cp.sweep(V6, rpm=5000),
+    "Ranking": ranking(),
+    "Ranking, refined, by a function": ranking(by=lambda b: b.rpm / b.orders[0], refine=True),
+    "Ranking of what nobody wants": ranking(by=lambda _: np.nan),
+    "Ranking of engines as they are": cp.rank([V6, ODD], rpm=5000, spectrum=SPECTRUM),
+    "Choice": ranking()[0],
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -148,7 +158,8 @@ def test_attributes_cannot_be_set_or_deleted(name: str) -> None:
 @every_object
 def test_arrays_are_read_only(name: str) -> None:
     found = list(arrays(OBJECTS[name]))
-    assert found or name.startswith(("Cylinder", "Ellipse", "ErrorBound", "ClosedForm"))
+    without = ("Cylinder", "Ellipse", "ErrorBound", "ClosedForm", "Choice")
+    assert found or name.startswith(without)
     for attribute, array in found:
         assert not array.flags.writeable, attribute
         with pytest.raises(ValueError, match="read-only"):
@@ -198,7 +209,7 @@ def test_copies_are_equal_and_frozen(name: str, how: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [name for name in OBJECTS if name.startswith(("C", "E", "B", "V"))]
+    "name", [name for name in OBJECTS if name.startswith(("C", "E", "B", "V", "R"))]
 )
 def test_copies_compare_and_hash_equal(name: str) -> None:
     value = OBJECTS[name]
@@ -318,6 +329,24 @@ def test_balances_are_compared_by_what_was_asked() -> None:
         assert other != balance()
 
 
+def test_rankings_are_compared_by_what_was_asked_and_found() -> None:
+    assert ranking() == ranking()
+    assert hash(ranking()) == hash(ranking())
+    others = (
+        ranking(rpm=5001),
+        ranking(orders=[1, 2, 4]),
+        ranking(bank_angle_deg=[60, 75, 91]),
+        ranking(hold="firing"),
+        ranking(reference_z=0.0),
+        ranking(spectrum=SPECTRUM),
+        ranking(by="moment_peak_vector_2"),
+        ranking(by=["moment_sum_peak_vector", "moment_peak_vector_2"]),
+        cp.rank([V6], rpm=5000, bank_angle_deg=[60, 75, 90], hold="pins", orders=[1, 2]),
+    )
+    for other in others:
+        assert other != ranking()
+
+
 def test_nothing_equals_something_else() -> None:
     for value in OBJECTS.values():
         for other in (None, 0, "V6", object()):
@@ -434,7 +463,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    if not name.startswith(("Balance", "Vanishing", "ClosedForm")):  # tables under a title
+    if not name.startswith(
+        ("Balance", "Vanishing", "ClosedForm", "Ranking")
+    ):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
 

@@ -71,6 +71,10 @@ def fires(**changes: Any) -> cp.Firing:
     return V6.firing(**{"firing_order": "1-2-5-6-3-4"} | changes)
 
 
+def two_stroke() -> cp.Firing:
+    return I4.firing("1+4-2+3", strokes=2)
+
+
 def crank(**changes: Any) -> cp.Throws:
     given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90}
     return cp.throws(**given_ | changes)
@@ -99,6 +103,16 @@ def waveform(**changes: Any) -> cp.Waveform:
 def swept(**changes: Any) -> cp.Sweep:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
     return cp.sweep(V6, **given_ | changes)
+
+
+def ranked(**changes: Any) -> cp.Ranking:
+    given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
+    return cp.rank(V6, **given_ | changes)
+
+
+def ranked_search(**changes: Any) -> cp.Ranking:
+    given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1}
+    return cp.rank(cp.search_arrangements(6), rpm=1000, **given_ | changes)
 
 
 def proportions(**changes: Any) -> cp.Sweep:
@@ -216,6 +230,10 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cp.ValveTiming, "intake_closes_deg", NAN, "NaN"),
     (cp.ValveTiming, "exhaust_opens_deg", "early", "early"),
     (cp.ValveTiming, "exhaust_closes_deg", -90, "-90"),
+    (cp.PortTiming, "transfer_opens_deg", 0, "0"),
+    (cp.PortTiming, "exhaust_opens_deg", 180, "180"),
+    (two_stroke().ports, "timing", cp.ValveTiming(), "ValveTiming"),
+    (two_stroke().exhaust_overlaps, "timing", 50, "50"),
     (V6.with_bank_angle, "hold", "crank", "crank"),
     (V6.with_bank_angle, "hold", None, "None"),
     (balance, "rpm", NAN, "NaN"),
@@ -265,6 +283,36 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (swept, "orders", [2, 2], "2"),
     (swept, "reference_z", NAN, "NaN"),
     (swept, "reference_z", "middle", "middle"),
+    (ranked, "by", "moment", "moment"),
+    (ranked, "by", "moment_peak_vector_0", "moment_peak_vector_0"),
+    (ranked, "by", 3, "3"),
+    (ranked, "by", [], "[]"),
+    (ranked, "by", ["torque_sum_peak", None], "None"),
+    (ranked, "by", ["torque_sum_peak"] * 2, "torque_sum_peak"),
+    (ranked, "by", lambda _: "much", "much"),
+    (ranked, "by", lambda _: [1.0, 2.0], "[1.0, 2.0]"),
+    (ranked, "by", lambda _: -INF, "-inf"),
+    (ranked, "orders", [1, 4], "[1, 4]"),
+    (ranked, "orders", "auto", "auto"),
+    (ranked, "rpm", [1000.0, 2000.0], "[1000.0, 2000.0]"),
+    (ranked, "rpm", NAN, "NaN"),
+    (ranked, "bank_angle_deg", [60, 190], "190"),
+    (ranked, "bank_angle_deg", [], "[]"),
+    (ranked, "bank_angle_deg", [[60]], "(1, 1)"),
+    (ranked, "hold", None, "None"),
+    (ranked, "hold", "banks", "banks"),
+    (ranked, "cylinder", CYLINDER, "Cylinder"),
+    (ranked, "spacing", 0.1, "0.1"),
+    (ranked, "refine", "yes", "yes"),
+    (ranked, "rtol", -1e-9, "-1e-09"),
+    (ranked, "rtol", NAN, "nan"),
+    (ranked_search, "cylinder", None, "None"),
+    (ranked_search, "cylinder", 0.05, "0.05"),
+    (ranked_search, "spacing", None, "None"),
+    (ranked_search, "spacing", NAN, "NaN"),
+    (ranked_search, "refine", True, "True"),
+    (ranked().best, "count", 2, "2"),
+    (ranked().best, "count", 0.5, "0.5"),
     (proportions, "rod_ratio", [0.3, 1.0], "1"),
     (proportions, "rod_ratio", [0.0], "0"),
     (proportions, "rod_ratio", NAN, "NaN"),
@@ -325,6 +373,8 @@ def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     arguments = {argument: value}
     if call == V6.with_bank_angle:
         arguments["bank_angle_deg"] = 90
+    if (call, argument) == (ranked, "orders"):
+        arguments["by"] = "moment_peak_vector_2"
     with pytest.raises(cp.InputError) as caught:
         call(**arguments)
     message = str(caught.value)
@@ -388,6 +438,8 @@ def test_engines_of_a_sweep() -> None:
     for engines in (None, [], [None], {"a": None}, "v6", 3):
         with pytest.raises(cp.InputError, match="engines"):
             cp.sweep(engines, rpm=1000)  # type: ignore[arg-type]
+        with pytest.raises(cp.InputError, match="engines"):
+            cp.rank(engines, rpm=1000)  # type: ignore[arg-type]
 
 
 def test_an_input_error_is_a_value_error() -> None:
@@ -460,6 +512,12 @@ WITHOUT_END = {
     "intervals": "cp.throws([1, 2], intervals_deg=itertools.repeat(1))",
     "groups": "I4.firing('1-3-4-2').gaps(itertools.repeat([1]))",
     "engines": "cp.sweep(itertools.repeat(I4), rpm=1000)",
+    "engines to rank": "cp.rank(itertools.repeat(I4), rpm=1000)",
+    "objectives": "cp.rank(I4, rpm=1000, by=itertools.repeat('torque_sum_peak'))",
+    "bank angles": (
+        "cp.rank(cp.Engine.preset('v6-60'), rpm=1000, hold='pins', "
+        "bank_angle_deg=np.broadcast_to(1.0, 10**12))"
+    ),
 }
 LIMITED = """
 import itertools, resource
@@ -671,6 +729,8 @@ SOUND: dict[str, list[Any]] = {
     "backward_force": [1j],
     "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
     "bank_deg": [[60, 120], [90, 90, 90]],
+    "by": ["moment_sum_peak_vector", ["force_after_counterweight"], lambda b: b.rpm],
+    "count": [1, 0],
     "cylinder": [CYLINDER],
     "crank_radius": [0.05],
     "engine": [V6],
@@ -696,7 +756,7 @@ SOUND: dict[str, list[Any]] = {
     "text": [TOML, JSON],
     "theta_deg": [[0.0, 90.0], 30.0],
     "throws_deg": [[0, 120, 240], [0]],
-    "timing": [cp.ValveTiming(), cp.ValveTiming(exhaust_opens_deg="360/7")],
+    "timing": [cp.ValveTiming(exhaust_opens_deg="360/7"), cp.PortTiming()],
     "x": ["rpm"],
     "z": [[0.0, 0.1]],
 }
@@ -719,26 +779,31 @@ SUBJECTS: dict[str, Any] = {
     "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
     "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
     "firing": V6.firing("1-2-5-6-3-4"),
-    "firing, two-stroke": I4.firing("1+4-2+3", strokes=2),
+    "firing, two-stroke": two_stroke(),
     "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
+    "ranking": ranked(by=["force_sum_peak_xy", lambda b: b.rpm], refine=True),
+    "ranking, as they are": cp.rank([V6, I4], rpm=1e3, spectrum={1: 1.0, 2: 0.2}),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
 }
 PLAIN = {
+    "Choice",
     "Ellipse",
     "ErrorBound",
     "Gap",
     "InputError",
     "OrderBalance",
     "Overlap",
+    "Ports",
     "Valves",
 }  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {
     "Balance",
     "Firing",
+    "Ranking",
     "Waveform",
     "Sweep",
-}  # by methods of Engine and by sweep
+}  # by methods of Engine, by sweep and by rank
 
 
 class Target(NamedTuple):
@@ -843,6 +908,7 @@ RESULTS = {
     cp.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
     cp.Throws: ["throws_deg", "pin_splits_deg"],
     cp.Sweep: ["force", "moment_peak_xy", "torque", "force_sum_peak_vector"],
+    cp.Ranking: ["values"],
 }
 
 
@@ -914,6 +980,8 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
     for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "ValveTiming"):
         assert label in labels
     for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.order", "i4.save"):
+        assert label in labels
+    for label in ("rank", "ranking.best", "ranking.plot"):
         assert label in labels
 
 

@@ -250,17 +250,6 @@ def searched(
     return cp.search_arrangements(2 * len(phases), phases_deg=texts, hold=hold)
 
 
-def mirrored_off_zero(parts: int, phases: list[int]) -> bool:
-    """Whether the phases are their own mirror image, but not about phase 0."""
-    about = [
-        turn
-        for turn in range(parts)
-        if sorted((turn - k) % parts for k in phases) == sorted(k % parts for k in phases)
-    ]
-    return bool(about) and 0 not in about
-
-
-@pytest.mark.xfail(strict=True, reason="moments mirrored about another phase than 0 are mixed up")
 def test_phases_that_are_mirrored_about_another_phase_than_zero() -> None:
     """The same phases turned: 10 bank angles by brute force, whichever comes first."""
     about_zero, elsewhere = (searched(3, phases) for phases in ([1, 1, 2, 2, 0], [0, 0, 1, 1, 2]))
@@ -277,7 +266,6 @@ def test_what_leaves_the_answer_alone(
     """All phases turned alike; all cranks running backward; phases in another order."""
     parts, phases = drawn
     alike = ([k + turn for k in phases], [-k for k in phases], phases[::-1])
-    assume(not any(mirrored_off_zero(parts, others) for others in (phases, *alike)))
     found = searched(parts, phases, hold)
     for others in alike:
         other = searched(parts, others, hold)
@@ -303,7 +291,6 @@ def test_the_solutions_are_closed_under_the_symmetries(
 ) -> None:
     """A solution reversed, mirrored or with its banks exchanged is one, at an angle found."""
     parts, phases = drawn
-    assume(not mirrored_off_zero(parts, phases))
     search = searched(parts, phases)
     if not len(search):
         return

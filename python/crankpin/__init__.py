@@ -14,8 +14,19 @@ from crankpin._core import InputError, __version__
 from crankpin._cylinder import Cylinder, slider_crank_harmonics
 from crankpin._engine import Engine
 from crankpin._exact import ClosedForm, VanishingOrders
-from crankpin._firing import Firing, Gap, Overlap, Throws, Valves, ValveTiming, throws
+from crankpin._firing import (
+    Firing,
+    Gap,
+    Overlap,
+    Ports,
+    PortTiming,
+    Throws,
+    Valves,
+    ValveTiming,
+    throws,
+)
 from crankpin._presets import presets
+from crankpin._rank import Choice, Ranking, rank
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin._sweep import Sweep, sweep
 from crankpin._waveform import Waveform
@@ -24,6 +35,7 @@ __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "Choice",
     "ClosedForm",
     "Cylinder",
     "Ellipse",
@@ -34,6 +46,9 @@ __all__ = [
     "InputError",
     "OrderBalance",
     "Overlap",
+    "PortTiming",
+    "Ports",
+    "Ranking",
     "Sweep",
     "Throws",
     "ValveTiming",
@@ -42,6 +57,7 @@ __all__ = [
     "Waveform",
     "__version__",
     "presets",
+    "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",

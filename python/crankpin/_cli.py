@@ -17,6 +17,7 @@ import numpy as np
 from crankpin import _presets, _tables
 from crankpin._core import InputError, __version__
 from crankpin._engine import Engine
+from crankpin._rank import rank
 from crankpin._sweep import Sweep, sweep
 
 if TYPE_CHECKING:
@@ -148,6 +149,39 @@ def _parser() -> _Parser:
     many.add_argument("--orders", default="1,2", help="such as 1,2,4 (default: %(default)s)")
     _shared(many, "peaks to tell")
 
+    ranks = _command(
+        commands,
+        "rank",
+        "engines by what is least, each at its best bank angles",
+        example="rank ijesc-v6 --rpm 5000 --by moment_after_counterweight,moment_peak_vector_2",
+        run=_rank,
+        note="Of several objectives the next tells apart what ties by the first. They are\n"
+        "moment_ and force_sum_peak_vector (the longest, all orders together), _sum_peak_xy,\n"
+        "_after_counterweight (first order), _peak_vector_2 (of one order), torque_sum_peak and\n"
+        "unevenness_deg.",
+    )
+    ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")
+    ranks.add_argument(
+        "--by",
+        metavar="OBJECTIVE,…",
+        default="moment_sum_peak_vector",
+        help="what is to be least (default: %(default)s)",
+    )
+    ranks.add_argument(
+        "--bank-angle",
+        dest="bank_angle_deg",
+        metavar="RANGE",
+        default="10:170:10",
+        help="degrees to choose from, or own for each engine's own (default: %(default)s)",
+    )
+    ranks.add_argument(
+        "--hold", choices=("pins", "firing"), default="pins", help="as for sweep (%(default)s)"
+    )
+    ranks.add_argument("--refine", action="store_true", help="look between these angles too")
+    ranks.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
+    ranks.add_argument("--orders", default="1,2,4,6", help="such as 1,2,4 (default: %(default)s)")
+    _cylinder_and_output(ranks)
+
     fires = _command(
         commands,
         "firing",
@@ -194,6 +228,10 @@ def _shared(parser: _Parser, quantity: str) -> None:
         default="moment",
         help=f"{quantity} (default: %(default)s)",
     )
+    _cylinder_and_output(parser)
+
+
+def _cylinder_and_output(parser: _Parser) -> None:
     parser.add_argument(
         "--reference-z",
         metavar="Z",
@@ -281,6 +319,32 @@ def _sweep(arguments: argparse.Namespace) -> str:
     if picture is not None:
         _write(result.plot(quantity=arguments.quantity), picture)
     return _printed(tables, csv=arguments.csv)
+
+
+def _rank(arguments: argparse.Namespace) -> str:
+    engines = _engines(arguments.names)
+    own = arguments.bank_angle_deg == "own"
+    angles = None if own else _range("--bank-angle", arguments.bank_angle_deg)
+    points = len(engines) * (1 if angles is None else np.size(angles))
+    if points > MOST_ROWS:
+        raise InputError(f"{points} points to look at: give {MOST_ROWS} at most")
+    picture = _picture_file(arguments.plot)
+    ranking = rank(
+        engines,
+        rpm=_number("--rpm", arguments.rpm),
+        bank_angle_deg=angles,
+        hold=None if own else arguments.hold,
+        by=arguments.by.split(","),
+        orders=_orders(arguments.orders),
+        reference_z=_plane(arguments.reference_z),
+        spectrum=_spectrum(arguments.spectrum),
+        refine=arguments.refine,
+    )
+    if picture is not None:
+        figure = ranking.plot().get_figure(root=True)
+        assert figure is not None  # noqa: S101 - new axes are in a figure
+        _write(figure, picture)
+    return _printed([ranking._table()], csv=arguments.csv)
 
 
 def _firing(arguments: argparse.Namespace) -> str:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from crankpin._inputs import Angle, Angles
 
 TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
+PORT_TIMES = ("transfer_opens_deg", "exhaust_opens_deg")
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -42,12 +43,12 @@ class Gap(NamedTuple):
 
 
 class Overlap(NamedTuple):
-    """Two cylinders whose exhaust valves are open at one time."""
+    """Two cylinders whose exhaust valves, or ports, are open at one time."""
 
     before: int
-    """Number of the cylinder whose valve is open."""
+    """Number of the cylinder whose exhaust is open."""
     after: int
-    """Number of the one whose valve opens into its exhaust."""
+    """Number of the one that opens into it."""
     gap_deg: float
     """Crank angle from one opening to the other."""
     overlap_deg: float
@@ -61,6 +62,16 @@ class Valves(NamedTuple):
     """
 
     intake: NDArray[np.float64]
+    exhaust: NDArray[np.float64]
+
+
+class Ports(NamedTuple):
+    """Crank angles at which ports open and close: (n_cylinders, 2) each, by cylinder number.
+
+    Opening is in [0, 360), closing after it, up to 360 more.
+    """
+
+    transfer: NDArray[np.float64]
     exhaust: NDArray[np.float64]
 
 
@@ -106,6 +117,47 @@ class ValveTiming:
     def _given(self) -> tuple[str, str, str, str]:
         first, second, third, fourth = (_inputs.angle(name, getattr(self, name)) for name in TIMES)
         return first, second, third, fourth
+
+
+@dataclasses.dataclass(frozen=True)
+class PortTiming:
+    """When the ports of a two-stroke open and close, in degrees of crank angle.
+
+    The piston opens them on its way down and closes them as far after bottom dead centre.
+
+    Parameters
+    ----------
+    transfer_opens_deg
+        Before bottom dead centre.
+    exhaust_opens_deg
+        Before bottom dead centre.
+
+    Each is above 0 and below 180. The defaults are those of an ordinary road engine. With a pin
+    offset, bottom dead centre is where the piston is lowest, and a port of some height is open a
+    little longer to one side of it than to the other: that is left out.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> racing = cp.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
+    >>> racing.exhaust_opens_deg
+    98.0
+    """
+
+    transfer_opens_deg: Angle = 60.0
+    exhaust_opens_deg: Angle = 85.0
+
+    def __post_init__(self) -> None:
+        for name in PORT_TIMES:
+            value = getattr(self, name)
+            if not isinstance(value, (str, Fraction)):
+                object.__setattr__(self, name, _inputs.number(name, value))
+        _core.port_timing(self._given)
+
+    @property
+    def _given(self) -> tuple[str, str]:
+        transfer, exhaust = (_inputs.angle(name, getattr(self, name)) for name in PORT_TIMES)
+        return transfer, exhaust
 
 
 class Firing(Frozen):
@@ -220,16 +272,17 @@ class Firing(Frozen):
         return tuple(tuple(Gap(*gap) for gap in group) for group in found)
 
     def exhaust_overlaps(
-        self, groups: Groups | None = None, *, timing: ValveTiming | None = None
+        self, groups: Groups | None = None, *, timing: ValveTiming | PortTiming | None = None
     ) -> tuple[tuple[Overlap, ...], ...]:
-        """Return where exhaust valves of a group are open at one time.
+        """Return where exhaust valves, or ports, of a group are open at one time.
 
         Parameters
         ----------
         groups
             As in :meth:`gaps`.
         timing
-            When valves open and close; by default ``ValveTiming()``.
+            When valves open and close; by default ``ValveTiming()``, of a two-stroke
+            ``PortTiming()``.
 
         Examples
         --------
@@ -239,7 +292,11 @@ class Firing(Frozen):
         >>> max(left, key=lambda each: each.overlap_deg)
         Overlap(before=5, after=7, gap_deg=90.0, overlap_deg=150.0)
         """
-        found = self._core.exhaust_overlaps(_groups(groups), _timing(timing)._given)
+        listed = _groups(groups)
+        if self.strokes == 2:
+            found = self._core.port_overlaps(listed, _port_timing(timing)._given)
+        else:
+            found = self._core.valve_overlaps(listed, _timing(timing)._given)
         return tuple(tuple(Overlap(*each) for each in group) for group in found)
 
     # --- strokes and valves ---------------------------------------------------------------------
@@ -280,6 +337,23 @@ class Firing(Frozen):
         """
         return Valves(*self._core.valves(_timing(timing)._given))
 
+    def ports(self, timing: PortTiming | None = None) -> Ports:
+        """Return when ports open and close; of a two-stroke.
+
+        Parameters
+        ----------
+        timing
+            When ports open and close; by default ``PortTiming()``.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> f = cp.Engine.preset("single").firing("1", strokes=2)
+        >>> f.ports().exhaust  # opens 85° before, closes 85° after bottom dead centre
+        array([[ 95., 265.]])
+        """
+        return Ports(*self._core.ports(_port_timing(timing)._given))
+
     # --- tables and pictures --------------------------------------------------------------------
 
     def to_pandas(self) -> pd.DataFrame:
@@ -296,22 +370,28 @@ class Firing(Frozen):
         )
         return table
 
-    def plot(self, ax: Axes | None = None, *, timing: ValveTiming | None = None) -> Axes:
-        """Draw when the valves of each cylinder are open, over a cycle; return the axes.
+    def plot(
+        self, ax: Axes | None = None, *, timing: ValveTiming | PortTiming | None = None
+    ) -> Axes:
+        """Draw when the valves or ports of each cylinder are open, over a cycle; return the axes.
 
-        Intake is blue, exhaust red, a firing a black mark. Of a two-stroke, power strokes are
-        drawn.
+        Intake or transfer is blue, exhaust red, a firing a black mark.
 
         Parameters
         ----------
         ax
             Axes to draw on; by default new ones.
         timing
-            When valves open and close; by default ``ValveTiming()``.
+            When valves open and close; by default ``ValveTiming()``, of a two-stroke
+            ``PortTiming()``.
         """
         from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.firing(self, ax, _timing(timing))
+        if self.strokes == 2:
+            ports = self.ports(_port_timing(timing))
+            return _plots.firing(self, ax, "transfer open", ports.transfer, ports.exhaust)
+        valves = self.valves(_timing(timing))
+        return _plots.firing(self, ax, "intake open", valves.intake, valves.exhaust)
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""
@@ -482,11 +562,21 @@ def _again(engine: Engine, strokes: int, revolutions: tuple[int, ...]) -> Firing
     return Firing(_core.Firing.with_later(engine._core, strokes, later), engine)
 
 
-def _timing(timing: ValveTiming | None) -> ValveTiming:
+def _timing(timing: object) -> ValveTiming:
     if timing is None:
         return ValveTiming()
     if not isinstance(timing, ValveTiming):
-        raise InputError(f"timing = {_inputs.shorten(timing)}: give a crankpin.ValveTiming")
+        cure = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
+        raise InputError(f"timing = {_inputs.shorten(timing)}: {cure}")
+    return timing
+
+
+def _port_timing(timing: object) -> PortTiming:
+    if timing is None:
+        return PortTiming()
+    if not isinstance(timing, PortTiming):
+        cure = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
+        raise InputError(f"timing = {_inputs.shorten(timing)}: {cure}")
     return timing
 
 

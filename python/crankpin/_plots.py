@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
     from crankpin._balance import Balance
     from crankpin._engine import Engine
-    from crankpin._firing import Firing, ValveTiming
+    from crankpin._firing import Firing
+    from crankpin._rank import Ranking
     from crankpin._sweep import Quantity, Sweep
     from crankpin._waveform import Waveform
 
@@ -128,20 +129,19 @@ def _summed(waveform: Waveform, kind: Quantity) -> str:
 # --- firing: a row for each cylinder -------------------------------------------------------------
 
 
-def firing(firing: Firing, ax: Axes | None, timing: ValveTiming) -> Axes:
-    """Draw the periods in which valves are open over a cycle, a row for each cylinder."""
+def firing(
+    firing: Firing,
+    ax: Axes | None,
+    inlet: str,
+    inlets: NDArray[np.float64],
+    exhausts: NDArray[np.float64],
+) -> Axes:
+    """Draw the periods in which cylinders breathe over a cycle, a row for each cylinder."""
     ax = _given_or_new(ax)
     cycle = 180.0 * firing.strokes
     # Bank by bank: who shares a manifold as most engines have it stands together.
     rows = [cylinder - 1 for bank in firing.banks for cylinder in bank]
-    if firing.strokes == 4:
-        valves = firing.valves(timing)
-        bars = [
-            ("intake open", COLOURS[0], valves.intake),
-            ("exhaust open", RED, valves.exhaust),
-        ]
-    else:
-        bars = [("power stroke", COLOURS[1], firing.strokes_deg()["power"])]
+    bars = [(inlet, COLOURS[0], inlets), ("exhaust open", RED, exhausts)]
     height = 0.8 / len(bars)
     for k, (name, colour, periods) in enumerate(bars):
         for row, (start, end) in enumerate(periods[rows].tolist()):
@@ -475,6 +475,82 @@ def _colour_scale(
     bar.ax.minorticks_off()
     bar.outline.set_visible(False)
     bar.set_label(_dimension(dim, unit=True))
+
+
+# --- ranking: curves over bank angle, their lowest points ringed ---------------------------------
+
+
+def ranking(ranking: Ranking, ax: Axes | None) -> Axes:
+    """Draw the first objective of each engine over bank angle, a ring where it is best.
+
+    Engines that were taken as they are: a dot each over their own bank angles, or, where these do
+    not tell them apart, below each other.
+    """
+    ax = _given_or_new(ax)
+    names, shared = _short_names(list(ranking.names))
+    title, _, common = shared.rpartition(", ")
+    title = ranking.names[0] if len(names) == 1 else title or f"{len(names)} engines"
+    heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
+    angles = ranking.bank_angles_deg
+    along: Literal["x", "y"] = "y"
+    if angles is not None:
+        _angle_curves(ax, angles, names, heights)
+        # Between the given angles an engine may be better than at them.
+        rings = [(angle, each.value) for each in ranking for angle in each.bank_angles_deg]
+    else:
+        first = {each.name for each in ranking if each.place == 1}
+        places = ranking._own_angles_deg
+        if np.unique(places[np.isfinite(places)]).size < 2:
+            places, along = np.arange(len(names), dtype=np.float64), "x"
+        rings = [
+            (float(places[k]), float(heights[k, 0]))
+            for k, name in enumerate(ranking.names)
+            if name in first
+        ]
+        angles = places
+        _dot(ax, places, heights[:, 0], along, {"color": COLOURS[0], "markersize": 4, "zorder": 3})
+    ring = {"color": "black", "markerfacecolor": "none", "markersize": 11, "zorder": 4}
+    _dot(ax, [place for place, _ in rings], [value for _, value in rings], along, ring)
+    label = f"{ranking.by[0]}, {ranking.unit}".rstrip(", ")
+    if along == "x":
+        _dress(ax, "x")
+        ax.set_yticks(range(len(names)), names)
+        ax.set_ylim(len(names) - 0.5, -0.5)
+        ax.set_xlabel(label)
+    else:
+        _dress(ax)
+        _degrees(ax, angles[np.isfinite(angles)])
+        ax.set_xlabel(f"bank angle, {ranking.hold} held" if ranking.hold else "bank angle")
+        ax.set_ylabel(label)
+    if not (heights < 0.0).any():
+        largest = float(np.nanmax(np.append(heights, 0.0)))
+        _from_zero(ax, largest, along)
+    ax.set_title(f"{title}\n{_tables.cut(ranking._told(1), 80)}", loc="left", fontsize=11)
+    if len(ax.get_legend_handles_labels()[1]) > 1:
+        ax.legend(loc="best", fontsize=8, title=common or None, title_fontsize=8)
+    return ax
+
+
+def _dot(ax: Axes, places: Any, values: Any, along: str, style: dict[str, Any]) -> None:  # noqa: ANN401
+    across, up = (values, places) if along == "x" else (places, values)
+    ax.plot(across, up, marker="o", linestyle="", clip_on=False, **style)
+
+
+def _angle_curves(
+    ax: Axes, angles: NDArray[np.float64], names: list[str], heights: NDArray[np.float64]
+) -> None:
+    few = len(names) <= len(COLOURS)
+    colours: Sequence[Any] = COLOURS if few else _viridis(len(names))
+    in_order = np.argsort(angles, kind="stable")
+    for k, (name, row) in enumerate(zip(names, heights, strict=True)):
+        style: dict[str, Any] = {"color": colours[k], "zorder": 3, "clip_on": False}
+        if few:
+            # A curve under another one is seen through its gaps.
+            style |= {"label": name, "linestyle": "-" if k % 2 == 0 else DASHES[1]}
+            style |= {"marker": "o", "markersize": 3.2} if len(angles) <= FEW_POINTS else {}
+        else:
+            style |= {"linewidth": 0.8}
+        ax.plot(angles[in_order], row[in_order], **style)
 
 
 # --- what all have in common --------------------------------------------------------------------

@@ -84,6 +84,18 @@ def both_open(way: Way, pair: tuple[int, int], exhaust_opens: int, exhaust_close
     return len(open_[0] & open_[1])
 
 
+def both_ports_open(way: Way, pair: tuple[int, int], opens: int) -> int:
+    """For how many degrees of a turn both exhaust ports are open, counted one by one.
+
+    A piston uncovers its port some degrees before bottom dead centre and covers it as many after.
+    """
+    first, second = (
+        {int(way.times[number - 1] + 180 + k) % 360 for k in range(-opens, opens)}
+        for number in pair
+    )
+    return len(first & second)
+
+
 def pins(
     firing_order: str,
     intervals: Sequence[Fraction | int],

@@ -144,6 +144,46 @@ def peaks_as_printed(
     return peaks
 
 
+# --- what a designer would have least -----------------------------------------------------------
+
+
+def longest_moment(
+    v_angles_deg: ArrayLike = V_ANGLES_DEG,
+    firing_orders: Sequence[Sequence[int]] = FIRING_ORDERS,
+    a2: float = ROD_RATIO,
+    n_samples: int = 36,
+) -> Array:
+    """Longest moment of both orders together among a few crank angles, (n_firing, n_angle), N m."""
+    angles = np.asarray(v_angles_deg, dtype=np.float64)
+    wt = 2.0 * np.pi * np.arange(n_samples) / n_samples
+    longest = np.empty((len(firing_orders), angles.size))
+    for i, firing_order in enumerate(firing_orders):
+        for j, angle in enumerate(angles):
+            px, py, sx, sy = components(wt, float(angle), firing_order, a2)
+            longest[i, j] = np.hypot(px + sx, py + sy).max()
+    return longest
+
+
+def primary_against_crank(
+    v_angles_deg: ArrayLike = V_ANGLES_DEG,
+    firing_orders: Sequence[Sequence[int]] = FIRING_ORDERS,
+    n_samples: int = 36,
+) -> Array:
+    """Primary moment that no counterweight on the crank can take, (n_firing, n_angle), N m.
+
+    The mean of (X + iY) e^{i wt}: from X, the bisector, to Y, on its left, is the way that the
+    crank turns, and what turns against it goes with e^{-i wt}.
+    """
+    angles = np.asarray(v_angles_deg, dtype=np.float64)
+    wt = 2.0 * np.pi * np.arange(n_samples) / n_samples
+    against = np.empty((len(firing_orders), angles.size))
+    for i, firing_order in enumerate(firing_orders):
+        for j, angle in enumerate(angles):
+            px, py, _, _ = components(wt, float(angle), firing_order)
+            against[i, j] = abs(np.mean((px + 1j * py) * np.exp(1j * wt)))
+    return against
+
+
 # --- the same without samples -------------------------------------------------------------------
 
 

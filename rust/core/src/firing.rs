@@ -97,12 +97,12 @@ pub struct Gap {
     pub gap: Angle,
 }
 
-/// Two cylinders whose exhaust valves are open at one time.
+/// Two cylinders whose exhaust valves, or ports, are open at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// Index of the cylinder whose valve is open.
+    /// Index of the cylinder whose exhaust is open.
     pub before: usize,
-    /// Index of the one whose valve opens.
+    /// Index of the one whose exhaust opens.
     pub after: usize,
     /// Crank angle from one opening to the other.
     pub gap: Angle,
@@ -143,6 +143,27 @@ impl ValveTiming {
     }
 }
 
+/// When the ports of a two-stroke open and close.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PortTiming {
+    transfer: Angle,
+    exhaust: Angle,
+}
+
+impl PortTiming {
+    /// Each opens before bottom dead centre by its angle, and closes as much after it.
+    pub fn new(transfer_opens: Angle, exhaust_opens: Angle) -> Result<Self> {
+        let given = [("transfer_opens_deg", transfer_opens), ("exhaust_opens_deg", exhaust_opens)];
+        for (argument, angle) in given {
+            if !(0.0 < angle.degrees() && angle.degrees() < 180.0) {
+                let cure = "give degrees above 0 and below 180";
+                return Err(Error::value(argument, angle, cure));
+            }
+        }
+        Ok(Self { transfer: transfer_opens, exhaust: exhaust_opens })
+    }
+}
+
 /// From opening to closing, or from beginning to end of a stroke: the first within a cycle, the
 /// second after it.
 pub type Period = [Angle; 2];
@@ -156,6 +177,15 @@ pub struct Valves {
     /// Of the intake valves.
     pub intake: Periods,
     /// Of the exhaust valves.
+    pub exhaust: Periods,
+}
+
+/// Periods in which ports are open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ports {
+    /// Of the transfer ports.
+    pub transfer: Periods,
+    /// Of the exhaust ports.
     pub exhaust: Periods,
 }
 
@@ -438,7 +468,8 @@ impl Firing {
     /// When valves are open; of a four-stroke.
     pub fn valves(&self, timing: &ValveTiming) -> Result<Valves> {
         if self.strokes == Strokes::Two {
-            let cure = "valves are those of a four-stroke; a two-stroke breathes through ports";
+            let cure = "valves are those of a four-stroke; a two-stroke breathes through ports: \
+                        Firing.ports, PortTiming";
             return Err(Error::value("strokes", 2, cure));
         }
         let mut valves = Valves { intake: Vec::new(), exhaust: Vec::new() };
@@ -453,13 +484,26 @@ impl Firing {
         Ok(valves)
     }
 
-    /// Where exhaust valves of a group are open at one time.
-    pub fn exhaust_overlaps(
-        &self,
-        groups: &[Vec<usize>],
-        timing: &ValveTiming,
-    ) -> Result<Vec<Vec<Overlap>>> {
-        let open = self.valves(timing)?.exhaust;
+    /// When ports are open; of a two-stroke.
+    pub fn ports(&self, timing: &PortTiming) -> Result<Ports> {
+        if self.strokes == Strokes::Four {
+            let cure = "ports are those of a two-stroke; a four-stroke breathes through valves: \
+                        Firing.valves, ValveTiming";
+            return Err(Error::value("strokes", 4, cure));
+        }
+        let open = |half: Angle| -> Periods {
+            let tops = self.angles().into_iter().zip(self.engine.placements());
+            tops.map(|(firing, placement)| {
+                self.period(firing + top_to_bottom(placement) - half, half + half)
+            })
+            .collect()
+        };
+        Ok(Ports { transfer: open(timing.transfer), exhaust: open(timing.exhaust) })
+    }
+
+    /// Where of a group two are open at one time; a period for each cylinder of the engine.
+    #[must_use]
+    pub fn overlaps(&self, groups: &[Vec<usize>], open: &[Period]) -> Vec<Vec<Overlap>> {
         let length = |i: usize| open[i][1] - open[i][0];
         let mut found = Vec::new();
         for group in groups {
@@ -485,7 +529,7 @@ impl Firing {
             }
             found.push(overlaps);
         }
-        Ok(found)
+        found
     }
 
     fn cycle(&self) -> Angle {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::firing::{self, NamedOrder, Period, ValveTiming};
+use crankpin_core::firing::{self, NamedOrder, Period, PortTiming, ValveTiming};
 use crankpin_core::layout::Strokes;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
@@ -20,6 +20,9 @@ pub struct Firing(core::Firing);
 /// Opening and closing angles: before top, after bottom, before bottom, after top dead centre.
 type Timing = (Angle, Angle, Angle, Angle);
 
+/// Opening angles of transfer and exhaust ports before bottom dead centre.
+type PortOpenings = (Angle, Angle);
+
 /// Groups of cylinders by number.
 type Groups = Option<Vec<Vec<usize>>>;
 
@@ -33,6 +36,10 @@ fn timing(
     (intake_opens, intake_closes, exhaust_opens, exhaust_closes): Timing,
 ) -> PyResult<ValveTiming> {
     ValveTiming::new(intake_opens.0, intake_closes.0, exhaust_opens.0, exhaust_closes.0).or_raise()
+}
+
+fn ports((transfer_opens, exhaust_opens): PortOpenings) -> PyResult<PortTiming> {
+    PortTiming::new(transfer_opens.0, exhaust_opens.0).or_raise()
 }
 
 fn column(
@@ -143,9 +150,30 @@ impl Firing {
         Ok((periods(py, &valves.intake), periods(py, &valves.exhaust)))
     }
 
-    fn exhaust_overlaps(&self, groups: Groups, given: Timing) -> PyResult<Vec<Vec<Overlap>>> {
+    fn ports<'py>(
+        &self,
+        py: Python<'py>,
+        given: PortOpenings,
+    ) -> PyResult<Two<'py, PyArray2<f64>>> {
+        let found = self.0.ports(&ports(given)?).or_raise()?;
+        Ok((periods(py, &found.transfer), periods(py, &found.exhaust)))
+    }
+
+    fn valve_overlaps(&self, groups: Groups, given: Timing) -> PyResult<Vec<Vec<Overlap>>> {
+        let valves = self.0.valves(&timing(given)?).or_raise()?;
+        self.overlaps(groups, &valves.exhaust)
+    }
+
+    fn port_overlaps(&self, groups: Groups, given: PortOpenings) -> PyResult<Vec<Vec<Overlap>>> {
+        let ports = self.0.ports(&ports(given)?).or_raise()?;
+        self.overlaps(groups, &ports.exhaust)
+    }
+}
+
+impl Firing {
+    fn overlaps(&self, groups: Groups, open: &[Period]) -> PyResult<Vec<Vec<Overlap>>> {
         let groups = self.0.groups(groups.as_deref()).or_raise()?;
-        let found = self.0.exhaust_overlaps(&groups, &timing(given)?).or_raise()?;
+        let found = self.0.overlaps(&groups, open);
         let figures = |each: &firing::Overlap| {
             (each.before + 1, each.after + 1, each.gap.degrees(), each.overlap.degrees())
         };
@@ -157,6 +185,12 @@ impl Firing {
 #[pyfunction]
 pub fn valve_timing(given: Timing) -> PyResult<()> {
     timing(given).map(drop)
+}
+
+/// Raise if ports cannot open and close so.
+#[pyfunction]
+pub fn port_timing(given: PortOpenings) -> PyResult<()> {
+    ports(given).map(drop)
 }
 
 /// Crankpins that a firing order needs, and no pin splits.

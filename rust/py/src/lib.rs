@@ -41,6 +41,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(balance::balance, module)?)?;
     module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
     module.add_function(wrap_pyfunction!(firing::valve_timing, module)?)?;
+    module.add_function(wrap_pyfunction!(firing::port_timing, module)?)?;
     module.add_function(wrap_pyfunction!(firing::inline_throws, module)?)?;
     module.add_function(wrap_pyfunction!(firing::vee_throws, module)?)?;
     module.add_function(wrap_pyfunction!(vanishing::vanishing, module)?)?;

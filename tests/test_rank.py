@@ -1,0 +1,503 @@
+"""Does a ranking choose what a plain loop does, tell all that ties, and find what lies between?"""
+
+# ruff: noqa: ANN401 - options and angles are of any type
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+from rederivation import ijesc
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+CYLINDER = cp.Cylinder(ijesc.CRANK_RADIUS, ijesc.ROD_LENGTH, ijesc.MASS)
+MASS_RADIUS = ijesc.MASS * ijesc.CRANK_RADIUS
+AS_PRINTED = {1: MASS_RADIUS, 2: MASS_RADIUS * ijesc.ROD_RATIO}  # a_2 = lambda, kg m
+NAMES = ["-".join(map(str, order)) for order in ijesc.FIRING_ORDERS]
+V6 = {
+    name: cp.Engine.from_firing_order(
+        CYLINDER, name, bank_angle_deg=60, rule="ijesc", spacing=ijesc.SPACING
+    )
+    for name in NAMES
+}
+SHARED = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13)
+I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="I4")
+
+# A few dozen roundings of 1.1e-16, relative to the largest value.
+ROUNDING = 1e-13
+
+
+def paper(**options: Any) -> cp.Ranking:
+    """The paper's four engines at its seventeen angles, with its data."""
+    given: dict[str, Any] = {"rpm": ijesc.RPM, "bank_angle_deg": ijesc.V_ANGLES_DEG, "hold": "pins"}
+    given |= {"orders": (1, 2), "spectrum": AS_PRINTED, "reference_z": 0.0}
+    return cp.rank(V6, **given | options)
+
+
+def angles(ranking: cp.Ranking) -> dict[str, tuple[float, ...]]:
+    return {choice.name: choice.bank_angles_deg for choice in ranking}
+
+
+def parts_left(balance: cp.Balance) -> int:
+    """How many of the paper's four figures, M_px, M_py, M_sx, M_sy, are not zero."""
+    return int(np.count_nonzero(balance.moment_peak_xy))
+
+
+# --- the paper's choice -------------------------------------------------------------------------
+
+
+def test_the_paper_s_choice() -> None:
+    """It takes the angle at which most of a table's four figures are zero.
+
+    IJESC, section V: 90 degrees for 1-3-5-2-4-6, where the secondary moment in X is zero; 60 for
+    1-4-5-2-3-6, where the primary in X and the secondary in Y are; 120 for 1-6-5-4-3-2, where by
+    Table III both in Y are. For 1-5-3-6-2-4 it says 10 to 40 degrees: the one zero of Table IV is
+    at 90, where its primary moment is the largest.
+    """
+    ranking = paper(by=parts_left)
+    assert angles(ranking) == {
+        "1-3-5-2-4-6": (90.0,),
+        "1-4-5-2-3-6": (60.0,),
+        "1-6-5-4-3-2": (120.0,),
+        "1-5-3-6-2-4": (90.0,),
+    }
+    assert [choice.value for choice in ranking] == [2, 2, 3, 3]
+    assert [choice.place for choice in ranking] == [1, 1, 3, 3]
+    # Its own tables, computed as it did, say the same; sin and cos leave less than 1e-11 N m.
+    counted = np.count_nonzero(ijesc.peaks_as_printed() > 1e-9, axis=-1)
+    np.testing.assert_array_equal(paper(by=parts_left).values, counted)
+    last = paper(by="moment_peak_vector_1")
+    fourth = last.values[NAMES.index("1-5-3-6-2-4")]
+    assert ijesc.V_ANGLES_DEG[fourth.argmax()] == 90.0
+    assert dict(angles(last))["1-5-3-6-2-4"] == (10.0, 170.0)
+
+
+def test_thirty_six_crank_angles_choose_as_the_true_peaks_do() -> None:
+    """... among the paper's angles, though they are up to 0.8 % too low."""
+    ranking = paper()
+    sampled = ijesc.longest_moment(n_samples=36)
+    chosen = {
+        name: (float(ijesc.V_ANGLES_DEG[row.argmin()]),)
+        for name, row in zip(NAMES, sampled, strict=True)
+    }
+    assert angles(ranking) == chosen
+    assert chosen == {
+        "1-3-5-2-4-6": (80.0,),
+        "1-4-5-2-3-6": (40.0,),
+        "1-6-5-4-3-2": (140.0,),
+        "1-5-3-6-2-4": (10.0,),
+    }
+    order = [NAMES[k] for k in sampled.min(axis=1).argsort()]
+    assert [choice.name for choice in ranking] == order
+    miss = 1.0 - sampled / ranking.values
+    assert miss.min() > -ROUNDING
+    # The squared length is a polynomial of degree 4, which at half a step from its peak has lost at
+    # most 1 - cos(4 h/2) of what lies between it and minus itself: of the length, that once.
+    assert 0.005 < miss.max() < 1.0 - np.cos(2.0 * np.deg2rad(10.0))
+
+
+def test_values_are_the_limit_of_many_crank_angles() -> None:
+    sampled = ijesc.longest_moment(n_samples=3600)
+    np.testing.assert_allclose(paper().values, sampled, rtol=1.0 - np.cos(2.0 * np.deg2rad(0.1)))
+
+
+def test_what_counterweights_leave_is_what_turns_against_the_crank() -> None:
+    ranking = paper(by="moment_after_counterweight")
+    against = ijesc.primary_against_crank()
+    atol = ROUNDING * float(against.max())
+    np.testing.assert_allclose(ranking.values, against, rtol=0, atol=atol)
+    assert angles(ranking) == {
+        "1-3-5-2-4-6": (90.0,),
+        "1-4-5-2-3-6": (30.0,),
+        "1-6-5-4-3-2": (150.0,),
+        "1-5-3-6-2-4": (10.0, 170.0),
+    }
+    assert [choice.value for choice in ranking][:3] == [0.0] * 3  # exactly
+    assert [choice.place for choice in ranking] == [1, 1, 1, 4]
+
+
+def test_between_the_paper_s_angles() -> None:
+    """The lowest points are those of a loop over a fine grid."""
+    refined = paper(refine=True)
+    fine = np.arange(10.0, 170.001, 0.05)
+    loop = paper(bank_angle_deg=fine).values
+    for choice, coarse in zip(refined, paper(), strict=True):
+        (angle,) = choice.bank_angles_deg
+        row = loop[NAMES.index(choice.name)]
+        assert choice.value <= row.min()
+        assert abs(angle - fine[row.argmin()]) <= 0.05
+        assert choice.value <= coarse.value
+
+
+# --- objectives ---------------------------------------------------------------------------------
+
+# Objective → the same as a function of a balance.
+SAME: dict[str, Any] = {
+    "moment_sum_peak_vector": lambda b: b.moment_sum_peak_vector,
+    "force_sum_peak_vector": lambda b: b.force_sum_peak_vector,
+    "moment_sum_peak_xy": lambda b: b.moment_sum_peak_xy.max(),
+    "force_sum_peak_xy": lambda b: b.force_sum_peak_xy.max(),
+    "torque_sum_peak": lambda b: b.torque_sum_peak,
+    "moment_after_counterweight": lambda b: abs(b.backward_moment[0]),
+    "force_after_counterweight": lambda b: abs(b.backward_force[0]),
+    "moment_peak_vector_1": lambda b: b.moment_peak_vector[0],
+    "moment_peak_vector_6": lambda b: b.moment_peak_vector[3],
+    "force_peak_vector_2": lambda b: b.force_peak_vector[1],
+    "torque_peak_2": lambda b: b.torque_peak[1],
+    "unevenness_deg": lambda b: b.engine.firing_orders()[0].unevenness_deg,
+}
+ODD = SHARED.replace(
+    cylinder=[CYLINDER.replace(reciprocating_mass=mass) for mass in (1, 1.1, 1.2, 1.3, 1.4, 1.5)]
+)
+
+
+@pytest.mark.parametrize("hold", ["pins", "firing"])
+@pytest.mark.parametrize("name", SAME)
+def test_a_function_agrees_with_the_name(name: str, hold: Any) -> None:
+    engines = {"shared": SHARED, "odd": ODD, "split": cp.Engine.preset("v6-60")}
+    given: dict[str, Any] = {"rpm": 5000, "hold": hold}
+    given |= {"bank_angle_deg": [0, 33.3, 60, 90, 123, 180]}
+    by_name = cp.rank(engines, by=name, **given)
+    by_function = cp.rank(engines, by=SAME[name], **given)
+    largest = max(float(by_name.values.max()), 1.0)
+    np.testing.assert_allclose(
+        by_name.values, by_function.values, rtol=ROUNDING, atol=ROUNDING * largest
+    )
+    assert angles(by_name) == angles(by_function)
+    assert [choice.place for choice in by_name] == [choice.place for choice in by_function]
+    np.testing.assert_array_equal(by_name.table[name], by_name.values)
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_engines_as_they_are(name: str) -> None:
+    engines = [SHARED, I4, cp.Engine.preset("v8-crossplane")]
+    ranking = cp.rank(engines, rpm=3000, by=name)
+    expected = [SAME[name](engine.balance(3000)) for engine in engines]
+    assert ranking.values.shape == (3, 1)
+    # Relative to the largest force of one cylinder, 6.6 kN, times some levers.
+    np.testing.assert_allclose(ranking.values[:, 0], expected, rtol=ROUNDING, atol=1e-9)
+    assert ranking.bank_angles_deg is None
+    places = {choice.engine: choice.bank_angles_deg for choice in ranking}
+    assert places == {SHARED: (60.0,), I4: (), engines[2]: (90.0,)}
+
+
+def test_the_table_has_the_objectives_that_are_known() -> None:
+    ranking = paper(by=[parts_left, "moment_peak_vector_2"], spectrum=None)
+    assert list(ranking.table) == [
+        "parts_left",
+        "moment_peak_vector_2",
+        "moment_sum_peak_vector",
+        "moment_after_counterweight",
+        "force_sum_peak_vector",
+        "force_after_counterweight",
+        "force_peak_vector_2",
+        "torque_sum_peak",
+        "unevenness_deg",
+    ]
+    for name in itertools.islice(ranking.table, 1, None):
+        np.testing.assert_array_equal(ranking.table[name], paper(by=name, spectrum=None).values)
+    known = paper().table
+    assert "torque_sum_peak" not in known  # a spectrum of forces tells nothing of it
+    assert "moment_peak_vector_2" not in paper(orders=[1]).table
+    assert "unevenness_deg" not in cp.rank(cp.Engine.preset("v12-60"), rpm=5000).table
+
+
+# --- what is least ------------------------------------------------------------------------------
+
+
+def of_tables(*tables: list[list[float]], **options: Any) -> cp.Ranking:
+    """Ranking by given numbers: a row for each engine, columns for 10, 20, 30 … degrees."""
+
+    def look_up(table: list[list[float]]) -> Any:
+        return lambda b: table[int(b.engine.name)][round(b.engine.bank_angle_deg / 10.0) - 1]
+
+    engines = [SHARED.replace(name=f"{k}") for k in range(len(tables[0]))]
+    at = 10.0 * np.arange(1, len(tables[0][0]) + 1)
+    given: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": at, "hold": "pins"}
+    return cp.rank(engines, **given | {"by": [look_up(table) for table in tables]} | options)
+
+
+def found(ranking: cp.Ranking) -> list[tuple[int, str, tuple[float, ...]]]:
+    return [(each.place, each.name, each.bank_angles_deg) for each in ranking]
+
+
+def test_all_that_ties_is_told() -> None:
+    table = [[3.0, 2.0, 4.0, 2.0], [5.0, 1.0, 1.0 + 4e-9, 1.0 + 6e-9], [2.0, 2.0, 9.0, 9.0]]
+    # 5e-9 is a billionth of the largest, 5; then of 9 with rtol given for it.
+    assert found(of_tables(table, rtol=5e-9 / 9.0)) == [
+        (1, "1", (20.0, 30.0)),
+        (2, "0", (20.0, 40.0)),
+        (2, "2", (10.0, 20.0)),
+    ]
+    assert found(of_tables(table, rtol=0))[0] == (1, "1", (20.0,))
+    assert found(of_tables(table))[0] == (1, "1", (20.0, 30.0, 40.0))  # 9e-9 by default
+
+
+def test_ties_are_told_apart_by_the_next_objective() -> None:
+    first = [[1.0, 1.0, 2.0], [1.0, 3.0, 1.0], [0.0, 5.0, 5.0]]
+    second = [[4.0, 3.0, 0.0], [2.0, 0.0, 2.0], [9.0, 0.0, 0.0]]
+    ranking = of_tables(first, second)
+    assert found(ranking) == [(1, "2", (10.0,)), (2, "1", (10.0, 30.0)), (3, "0", (20.0,))]
+    assert [choice.values for choice in ranking] == [(0.0, 9.0), (1.0, 2.0), (1.0, 3.0)]
+    assert ranking[1].value == 1.0
+    assert ranking.by == ("objective", "objective_2")
+
+
+@pytest.mark.parametrize("unwanted", [np.nan, np.inf])
+def test_what_is_unwanted_is_not_chosen(unwanted: float) -> None:
+    ranking = of_tables([[unwanted] * 2, [1.0, unwanted], [unwanted, 0.5], [unwanted] * 2])
+    assert found(ranking) == [(1, "2", (20.0,)), (2, "1", (10.0,)), (3, "0", ()), (3, "3", ())]
+    assert ranking[2].value == np.inf
+    assert ranking[2].engine == ranking.engines[0]
+    assert "–" in repr(ranking)
+    ranking.plot()
+
+
+def test_values_below_zero_are_less() -> None:
+    assert found(of_tables([[0.0, 1.0], [0.0, -1.0]])) == [(1, "1", (20.0,)), (2, "0", (10.0,))]
+
+
+def test_a_choice_hands_back_its_engine() -> None:
+    ranking = paper(by=["moment_after_counterweight", "moment_peak_vector_2"])
+    for choice in ranking:
+        assert choice.engine.bank_angle_deg == pytest.approx(choice.bank_angles_deg[0], abs=1e-12)
+        b = choice.engine.balance(ijesc.RPM, [1, 2], spectrum=AS_PRINTED, reference_z=0.0)
+        again = (abs(b.backward_moment[0]), b.moment_peak_vector[1])
+        assert choice.values == pytest.approx(again, rel=ROUNDING)
+    assert ranking.best(2) == (ranking[0], ranking[1])
+    assert ranking.best(0) == ()
+    assert list(ranking) == [ranking[k] for k in range(len(ranking))]
+
+
+def test_angles_in_any_order_and_twice() -> None:
+    ranking = paper(bank_angle_deg=[170, 30, 10, 30, 170, 90], by="moment_after_counterweight")
+    assert angles(ranking)["1-4-5-2-3-6"] == (30.0,)
+    assert angles(ranking)["1-5-3-6-2-4"] == (10.0, 170.0)
+    again = paper(bank_angle_deg=[170, 31, 10, 31, 170, 91], refine=True)
+    fine = paper(bank_angle_deg=np.arange(10.0, 170.01, 0.05))
+    assert again[0].bank_angles_deg == fine[0].bank_angles_deg == (10.0,)
+
+
+# --- between the angles -------------------------------------------------------------------------
+
+
+def by_angle(function: Any, at: Any, **options: Any) -> cp.Choice:
+    """The choice where the objective is a function of the bank angle."""
+    return cp.rank(
+        SHARED,
+        rpm=1000,
+        bank_angle_deg=at,
+        hold="pins",
+        by=lambda b: float(function(np.ptp(b.engine.bank_deg))),
+        **{"refine": True} | options,
+    )[0]
+
+
+def test_a_point_is_found_exactly() -> None:
+    """Where the backward part vanishes: 30, 90 and 150 degrees, from angles that miss them."""
+    ranking = paper(by="moment_after_counterweight", bank_angle_deg=range(3, 178, 7), refine=True)
+    assert angles(ranking) == {
+        "1-3-5-2-4-6": (90.0,),
+        "1-4-5-2-3-6": (30.0,),
+        "1-6-5-4-3-2": (150.0,),
+        "1-5-3-6-2-4": (3.0,),
+    }
+    assert [choice.value for choice in ranking][:3] == [0.0] * 3
+
+
+def test_a_smooth_dip_is_found() -> None:
+    choice = by_angle(lambda a: 1.0 - np.cos(np.deg2rad(a - 47.123456)) + 1.0, range(0, 181, 20))
+    (angle,) = choice.bank_angles_deg
+    # cos is 1 to rounding, 1.1e-16, within 1.5e-8 rad; the search stops at 1e-14: 1.4e-7 rad.
+    assert angle == pytest.approx(47.123456, abs=np.degrees(2e-7))
+    assert choice.value == pytest.approx(1.0, abs=1e-13)
+
+
+def test_all_equal_dips_are_found() -> None:
+    choice = by_angle(lambda a: abs((a - 33.25) * (a - 120.5)) + 1.0, range(0, 181, 15))
+    assert choice.bank_angles_deg == (33.25, 120.5)
+
+
+def test_a_dip_lower_than_that_at_the_lowest_angle_is_found() -> None:
+    """The lowest given angle, 100, stands in the shallower of two dips."""
+    choice = by_angle(lambda a: min(abs(a - 24.75) + 1.0, abs(a - 100.0) + 2.0), range(0, 181, 10))
+    assert choice.bank_angles_deg == (24.75,)
+    assert choice.value == pytest.approx(1.0)
+
+
+def test_dips_between_two_equal_angles_are_one() -> None:
+    choice = by_angle(lambda a: (a - 45.0) ** 2, range(0, 181, 10))
+    assert choice.bank_angles_deg == pytest.approx((45.0,), abs=1e-5)
+    # A point at an angle that rounds to no short number, come upon from both sides.
+    point = 33.0 + 12345.0 / 2**16
+    at = point + np.array([-31.7, -10.0, 10.0, 47.3])
+    choice = by_angle(lambda a: 1.0 + abs(a - point), at)
+    assert choice.bank_angles_deg == pytest.approx((point,), abs=1e-9)
+
+
+def test_a_given_angle_that_ties_with_the_bottom_of_its_dip_is_kept() -> None:
+    choice = by_angle(lambda a: 1.0 + (a - 60.001234) ** 2, range(0, 181, 20))
+    assert choice.bank_angles_deg == (60.0,)  # 1.5e-6 above the bottom: 1.1e-10 of the largest
+
+
+def test_an_angle_is_not_rounded_out_of_the_range() -> None:
+    choice = by_angle(lambda a: max(10.45, a), [10.4, 60.4, 90.0])
+    assert 10.4 <= choice.bank_angles_deg[0] <= 10.45
+
+
+def test_a_dip_of_one_angle_among_the_unwanted() -> None:
+    choice = by_angle(lambda a: 1.0 if a == 50.0 else np.inf, [30.0, 50.0, 80.0])
+    assert choice.bank_angles_deg == (50.0,)
+
+
+@pytest.mark.parametrize("at", [[60.0], [60.0, 60.0], range(0, 181, 20)])
+def test_nothing_is_made_up_where_it_is_flat(at: Any) -> None:
+    refined, given = by_angle(lambda _: 7.0, at), by_angle(lambda _: 7.0, at, refine=False)
+    assert refined == given
+    assert refined.bank_angles_deg == tuple(sorted(set(map(float, at))))
+
+
+def test_nothing_beyond_the_given_angles() -> None:
+    for function, best in ((lambda a: a, 40.0), (lambda a: -a, 80.0)):
+        assert by_angle(function, [40.0, 60.0, 80.0]).bank_angles_deg == (best,)
+
+
+def test_dips_beside_what_is_unwanted() -> None:
+    choice = by_angle(lambda a: abs(a - 52.5) if a > 50.0 else np.nan, range(0, 181, 20))
+    assert choice.bank_angles_deg == (52.5,)
+
+
+# --- searches -----------------------------------------------------------------------------------
+
+
+def test_a_search_is_ranked_arrangement_by_arrangement() -> None:
+    search = cp.search_arrangements(14, alternating=True)
+    given: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "rpm": 3000}
+    ranking = cp.rank(search, by="moment_peak_vector_2", **given)
+    assert ranking.engines == tuple(search.engine(k, CYLINDER, 0.1) for k in range(len(search)))
+    scale = MASS_RADIUS * (2 * np.pi * 3000 / 60) ** 2 * 0.1 * CYLINDER.harmonics(2)[0]
+    # The longest second-order moment of each, in its units, at least the longer of two axes.
+    longer = np.array([max(each.second_order) for each in search])
+    assert (ranking.values[:, 0] / scale >= longer * (1.0 - 1e-12) - 1e-12).all()
+    within = [each for each in ranking if each.bank_angles_deg and 5 < each.bank_angles_deg[0] < 60]
+    assert round(within[0].bank_angles_deg[0], 2) == 9.13  # the paper's, its section 5
+    after = cp.rank(search, by="moment_after_counterweight", **given)
+    assert {choice.place for choice in after} == {1}
+    # Angles of the search are rounded to 1.4e-14 of a degree or so.
+    assert after.values.max() < 1e-12 * scale / CYLINDER.harmonics(2)[0] * 10.0
+
+
+def test_a_search_with_too_many_angles_is_refused() -> None:
+    with pytest.raises(cp.InputError, match="engines is a search with"):
+        cp.rank(cp.search_arrangements(18), cylinder=CYLINDER, spacing=0.1, rpm=3000)
+
+
+# --- tables and pictures ------------------------------------------------------------------------
+
+
+def test_what_is_shown() -> None:
+    ranking = paper(by=["moment_after_counterweight", parts_left])
+    title, head, *rows = repr(ranking).splitlines()
+    assert title.startswith(
+        "Ranked by first-order rocking moment after the best counterweight, then"
+    )
+    assert "5000 rpm, pins held" in title
+    assert head.split("  ")[0] == "place"
+    assert len(rows) == 4
+    assert rows[0].split() == ["1", "1-3-5-2-4-6", "90", "0", "3"]
+    html = ranking._repr_html_()
+    assert html.count("<tr>") == 5
+    assert "1-6-5-4-3-2" in html
+    flat = cp.rank({"<b>": SHARED}, rpm=1, bank_angle_deg=range(181), hold="pins", by=lambda _: 0)
+    assert "0, 1, 2, 3, 4, 5 and 175 more" in repr(flat)
+    assert "<b>" not in flat._repr_html_()
+
+
+def test_a_long_ranking_is_cut_in_text() -> None:
+    search = cp.search_arrangements(14, alternating=True)
+    ranking = cp.rank(search, cylinder=CYLINDER, spacing=0.1, rpm=3000)
+    assert "10 of 218" in repr(ranking)
+    assert len(repr(ranking).splitlines()) == 12
+    assert ranking._repr_html_().count("<tr>") == 51
+
+
+def test_to_pandas_and_xarray() -> None:
+    ranking = paper(by=parts_left)
+    frame = ranking.to_pandas()
+    assert list(frame.index.names) == ["engine", "bank_angle_deg"]
+    assert list(frame.columns) == list(ranking.table)
+    assert frame.loc[("1-4-5-2-3-6", 60.0), "parts_left"] == 2.0
+    dataset = ranking.to_xarray()
+    assert dataset.moment_sum_peak_vector.dims == ("engine", "bank_angle_deg")
+    assert dataset.moment_sum_peak_vector.attrs["units"] == "N m"
+    assert dataset.unevenness_deg.attrs["units"] == "degree"
+    assert dataset.attrs == {"rpm": ijesc.RPM, "hold": "pins"}
+    np.testing.assert_array_equal(dataset.parts_left, ranking.values)
+    alone = cp.rank([SHARED, I4], rpm=3000)
+    assert alone.to_pandas().shape == (2, 8)
+    assert alone.to_xarray().moment_sum_peak_vector.dims == ("engine",)
+    np.testing.assert_array_equal(alone.to_xarray().bank_angle_deg, [60.0, np.nan])
+
+
+def test_curves_and_rings() -> None:
+    ranking = paper(refine=True)
+    ax = ranking.plot()
+    *curves, rings = ax.lines
+    for curve, values in zip(curves, ranking.values, strict=True):
+        np.testing.assert_array_equal(curve.get_xydata(), np.c_[ijesc.V_ANGLES_DEG, values])
+    best = [(choice.bank_angles_deg[0], choice.value) for choice in ranking]
+    np.testing.assert_array_equal(rings.get_xydata(), best)
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == NAMES
+    assert ax.get_ylabel() == "moment_sum_peak_vector, N·m"
+    assert ax.get_xlabel() == "bank angle, pins held"
+    assert ranking.plot(ax) is ax
+
+
+def test_engines_as_they_are_are_dots() -> None:
+    search = cp.search_arrangements(8)
+    ranking = cp.rank(search, cylinder=CYLINDER, spacing=0.1, rpm=3000)
+    dots, rings = ranking.plot().lines
+    assert len(dots.get_xdata()) == len(search)
+    first = [choice for choice in ranking if choice.place == 1]
+    assert len(rings.get_xdata()) == len(first)
+    names = ["I4", "I6"]
+    ax = cp.rank({"I4": I4, "I6": cp.Engine.preset("i6")}, rpm=3000).plot()
+    assert [text.get_text() for text in ax.get_yticklabels()] == names
+
+
+# --- the rest -----------------------------------------------------------------------------------
+
+
+def test_engines_that_cannot_be_turned_are_refused() -> None:
+    with pytest.raises(cp.InputError, match="bank"):
+        cp.rank([SHARED, I4], rpm=1000, bank_angle_deg=[60], hold="pins")
+
+
+def test_a_warning_of_units_comes_once_and_points_here() -> None:
+    millimetres = SHARED.replace(cylinder=cp.Cylinder(45, 158, 1.487))
+    with pytest.warns(UserWarning, match="mean piston speed") as caught:
+        cp.rank(millimetres, rpm=5000, by=["torque_sum_peak", lambda b: b.rpm])
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+
+
+def test_errors_of_a_function_come_through() -> None:
+    def fail(_: cp.Balance) -> float:
+        raise ZeroDivisionError("mine")
+
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        cp.rank(SHARED, rpm=1000, by=fail)
+
+
+@pytest.fixture(autouse=True)
+def _agg() -> Iterator[None]:
+    mpl.use("agg")
+    yield
+    plt.close("all")
