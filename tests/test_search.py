@@ -13,7 +13,7 @@ from typing import Literal
 import crankpin as cp
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import ito
 from rederivation import search as numpy_search
