@@ -14,6 +14,7 @@ mod magnitude;
 mod moments;
 mod packing;
 mod ring;
+mod same;
 mod throws;
 mod window;
 
