@@ -131,3 +131,29 @@ def test_what_is_too_large_is_refused_by_name() -> None:
         cp.search_arrangements(30)
     with pytest.raises(cp.InputError, match="progress = 3: give True"):
         cp.search_arrangements(6, progress=3)  # type: ignore[arg-type]
+
+
+def test_an_arrangement_hands_back_its_engine() -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    for search in SEARCHES.values():
+        for k in range(0, len(search), 1 + len(search) // 20):
+            engine = search[k].engine(cylinder, spacing=0.1)
+            assert engine == search.engine(k, cylinder, 0.1)
+            balance = engine.balance(rpm=3000, orders=[1, 2])
+            assert balance.backward_moment[0] == 0
+            scale = 0.5 * 0.045 * (3000 * np.pi / 30) ** 2 * 0.1
+            forward = abs(balance.forward_moment[0]) / scale
+            # the angle is rounded once, sums of at most 7 terms of at most 3
+            assert forward == pytest.approx(search[k].counterweight, abs=1e-13)
+            second = abs(balance.moment[1]) / (scale * cylinder.harmonics([2])[0].real)
+            assert second == pytest.approx(search[k].second_order, abs=1e-12)
+
+
+def test_arrangements_of_ones_own() -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    own = cp.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
+    engine = own.engine(cylinder, 0.1)
+    assert engine.balance(rpm=3000, orders=[1]).backward_moment[0] == 0
+    uneven = cp.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
+    with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
+        uneven.engine(cylinder, 0.1)
