@@ -139,7 +139,8 @@ def tables(maps: list[Map]) -> str:
     lines.append("|---|---:|---|---|---:|---:|")
     for case in CASES:
         promise = "exact" if case.promise == 0 else f"{case.promise:.0e}"
-        figures = f"{case.method} | {shown(case.plain())} | {shown(case.ours())}"
+        method = case.method.replace("|", r"\|")
+        figures = f"{method} | {shown(case.plain())} | {shown(case.ours())}"
         lines.append(f"| {case.condition} | {promise} | {case.reason} | {figures} |")
     return "\n".join(lines) + "\n"
 

@@ -83,7 +83,7 @@ def parts(draw: st.DrawFn) -> list[Parts]:
     """One to eight cylinders, each its own or all alike."""
     count = draw(st.integers(1, 8))
     shared = draw(st.one_of(st.none(), cylinders()))
-    masses = st.one_of(st.just(0.0), numbers(0.0, 5.0))
+    masses = st.one_of(st.just(0.0), numbers(1e-30, 5.0))
     return [
         Parts(
             *(shared or draw(cylinders())),
