@@ -75,7 +75,7 @@ def cylinders(draw: st.DrawFn) -> tuple[float, float, float, float]:
     rod = draw(numbers(0.01, 3.0))
     offset = rod * draw(st.one_of(st.just(0.0), numbers(-0.5, 0.5)))
     radius = (rod - abs(offset)) * draw(numbers(1e-3, 0.9))
-    return radius, rod, draw(numbers(0.0, 20.0)), offset
+    return radius, rod, draw(st.just(0.0) | numbers(1e-30, 20.0)), offset
 
 
 @st.composite
