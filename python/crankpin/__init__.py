@@ -11,7 +11,7 @@ counter-clockwise.
 
 from crankpin._balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin._core import InputError, __version__
-from crankpin._cylinder import Cylinder, slider_crank_harmonics
+from crankpin._cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin._engine import Engine
 from crankpin._exact import ClosedForm, VanishingOrders
 from crankpin._firing import (
@@ -49,6 +49,7 @@ __all__ = [
     "PortTiming",
     "Ports",
     "Ranking",
+    "Rod",
     "Sweep",
     "Throws",
     "ValveTiming",

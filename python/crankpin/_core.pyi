@@ -30,6 +30,7 @@ __all__ = [
     "motion",
     "offset_table",
     "port_timing",
+    "rod_parts",
     "valve_timing",
     "vanishing",
     "vee_throws",
@@ -39,7 +40,7 @@ __all__ = [
 __version__: str
 SCHEMA: int
 
-_Parts: TypeAlias = tuple[float, float, float, float]
+_Parts: TypeAlias = tuple[float, float, float, float, float]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
 _Complex: TypeAlias = NDArray[np.complex128]
 _Real: TypeAlias = NDArray[np.float64]
@@ -261,6 +262,7 @@ def vee_throws(
 def exact_angle(argument: str, degrees: float | str) -> str: ...
 def angular_speed(rpm: float) -> float: ...
 def check_cylinder(parts: _Parts) -> None: ...
+def rod_parts(rod: tuple[float, float, float, float]) -> tuple[float, float, float]: ...
 def motion(parts: _Parts, theta_deg: _Real) -> _Real: ...
 def cylinder_harmonics(parts: _Parts, orders: Sequence[int]) -> _Complex: ...
 def cylinder_torque_harmonics(

@@ -21,7 +21,8 @@ class Cylinder:
 
     The rod counts as two masses: one that moves with the piston and one that turns with the
     crankpin. For forces and moments that is exact, for any rod. The turning mass belongs to the
-    throw: engines take it as ``rotating_mass``.
+    throw: engines take it as ``rotating_mass``. For torques the rod's moment of inertia counts too:
+    ``rod_inertia_excess`` is what it has beyond its two masses. :meth:`from_rod` takes a whole rod.
 
     Parameters
     ----------
@@ -34,6 +35,10 @@ class Cylinder:
     pin_offset
         Offset e (désaxé) of the piston pin's path from the crank's axis, m; positive on the side to
         which the crankpin swings after top dead centre.
+    rod_inertia_excess
+        J = I - m·a·b, kg m²: the moment of inertia of the rod about its centre of mass less that
+        of its two masses there, a and b their distances from it. Mostly negative, as a rod's mass
+        is not all at its ends. Torques depend on it, forces and moments do not.
 
     Raises
     ------
@@ -54,15 +59,59 @@ class Cylinder:
     rod_length: float
     reciprocating_mass: float
     pin_offset: float = 0.0
+    rod_inertia_excess: float = 0.0
+
+    @classmethod
+    def from_rod(
+        cls, rod: Rod, crank_radius: float, piston_mass: float, pin_offset: float = 0.0
+    ) -> Cylinder:
+        """Return a cylinder with a rod of known mass and inertia.
+
+        The engine's ``rotating_mass`` is then ``rod.rotating_mass``, and what else turns with the
+        pin.
+
+        Parameters
+        ----------
+        rod
+            The connecting rod.
+        crank_radius
+            Crank radius r, m.
+        piston_mass
+            Mass of piston, pin and rings, without any of the rod, kg.
+        pin_offset
+            As in :class:`Cylinder`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> rod = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+        >>> cylinder = cp.Cylinder.from_rod(rod, crank_radius=0.045, piston_mass=0.4)
+        >>> round(cylinder.reciprocating_mass, 9), round(cylinder.rod_inertia_excess, 9)
+        (0.6, -0.0005)
+        """
+        if not isinstance(rod, Rod):
+            raise _core.InputError(f"rod = {_inputs.shorten(rod)}: give a Rod")
+        mass = _inputs.number("piston_mass", piston_mass)
+        if not mass >= 0.0:
+            raise _core.InputError(f"piston_mass = {mass!r}: give a number that is zero or more")
+        reciprocating = mass + rod.reciprocating_mass
+        return cls(crank_radius, rod.length, reciprocating, pin_offset, rod.inertia_excess)
 
     def __post_init__(self) -> None:
-        for name in ("crank_radius", "rod_length", "reciprocating_mass", "pin_offset"):
-            object.__setattr__(self, name, _inputs.number(name, getattr(self, name)))
+        for field in dataclasses.fields(self):
+            value = _inputs.number(field.name, getattr(self, field.name))
+            object.__setattr__(self, field.name, value)
         _core.check_cylinder(self._parts)
 
     @property
-    def _parts(self) -> tuple[float, float, float, float]:
-        return (self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)
+    def _parts(self) -> tuple[float, float, float, float, float]:
+        return (
+            self.crank_radius,
+            self.rod_length,
+            self.reciprocating_mass,
+            self.pin_offset,
+            self.rod_inertia_excess,
+        )
 
     @property
     def rod_ratio(self) -> float:
@@ -158,8 +207,14 @@ class Cylinder:
         """Return the harmonics of roll torque and crank torque over m·r²·ω², each (n_orders,).
 
         Roll torque is that of the inertia force on the block about +z, crank torque that on the
-        crank. Without pin offset one is minus the other; an offset adds the moment of the force
-        about the crank's axis.
+        crank. With neither pin offset nor rod inertia one is minus the other. Their sum is what
+        all inertia forces do about the crank's axis: an offset adds the moment of the force along
+        the bore, a rod the couple that swings it.
+
+        Raises
+        ------
+        InputError
+            If there is rod inertia and no reciprocating mass to compare it with.
 
         Examples
         --------
@@ -173,6 +228,73 @@ class Cylinder:
     def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
         theta = _inputs.array("theta_deg", theta_deg)
         return _core.motion(self._parts, theta.ravel())[:, column].reshape(theta.shape)
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Rod:
+    """A rigid connecting rod, and the two masses and the inertia that stand in for it.
+
+    It moves as a mass at either end and, for torques, an inertia that swings with it and has no
+    mass. Both ends' masses together have the rod's mass and centre of mass, and exert its forces
+    and moments exactly; ``inertia_excess`` makes up for their moment of inertia.
+
+    Parameters
+    ----------
+    mass
+        Mass m, kg.
+    inertia
+        Moment of inertia I about the centre of mass, about an axis parallel to the crank, kg m².
+    length
+        Length l between the centres of its eyes, m.
+    to_crankpin
+        Distance a from the crankpin's eye to the centre of mass, m; 0 to l.
+
+    Raises
+    ------
+    InputError
+        If a figure is not finite or has the wrong sign, or the centre of mass is not between the
+        eyes.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> rod = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+    >>> [round(mass, 9) for mass in (rod.reciprocating_mass, rod.rotating_mass)]
+    [0.2, 0.4]
+    """
+
+    mass: float
+    inertia: float
+    length: float
+    to_crankpin: float
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            value = _inputs.number(field.name, getattr(self, field.name))
+            object.__setattr__(self, field.name, value)
+        _core.rod_parts(self._figures)
+
+    @property
+    def _figures(self) -> tuple[float, float, float, float]:
+        return (self.mass, self.inertia, self.length, self.to_crankpin)
+
+    @property
+    def reciprocating_mass(self) -> float:
+        """Mass that moves with the piston, m·a/l, kg."""
+        return _core.rod_parts(self._figures)[0]
+
+    @property
+    def rotating_mass(self) -> float:
+        """Mass that turns with the crankpin, m·(l - a)/l, kg."""
+        return _core.rod_parts(self._figures)[1]
+
+    @property
+    def inertia_excess(self) -> float:
+        """Inertia beyond that of the two masses, I - m·a·(l - a), kg m²; mostly negative.
+
+        Zero where the two are equal within rounding.
+        """
+        return _core.rod_parts(self._figures)[2]
 
 
 @overload

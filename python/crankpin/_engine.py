@@ -895,7 +895,7 @@ class Engine(Frozen):
         return 4.0 * self._core.largest_crank_radius * rpm / 60.0
 
 
-def parts(cylinder: Cylinder) -> tuple[float, float, float, float]:
+def parts(cylinder: Cylinder) -> tuple[float, float, float, float, float]:
     """Return the figures of a cylinder, or say that it is none."""
     if not isinstance(cylinder, Cylinder):
         raise InputError(f"cylinder = {_inputs.shorten(cylinder)}: give a crankpin.Cylinder")
@@ -904,7 +904,7 @@ def parts(cylinder: Cylinder) -> tuple[float, float, float, float]:
 
 def _each(
     cylinder: Cylinder | Sequence[Cylinder], count: int
-) -> list[tuple[float, float, float, float]]:
+) -> list[tuple[float, float, float, float, float]]:
     if isinstance(cylinder, Cylinder):
         return [parts(cylinder)] * count
     listed = _inputs.items(

@@ -34,6 +34,13 @@ struct Parts {
     reciprocating_mass: f64,
     #[serde(default)]
     pin_offset: f64,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    rod_inertia_excess: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 #[derive(Serialize, Deserialize)]
@@ -78,11 +85,13 @@ impl Parts {
             rod_length: cylinder.rod_length(),
             reciprocating_mass: cylinder.reciprocating_mass(),
             pin_offset: cylinder.pin_offset(),
+            rod_inertia_excess: cylinder.rod_inertia_excess(),
         }
     }
 
     fn cylinder(&self) -> Result<Cylinder> {
-        Cylinder::new(self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)
+        Cylinder::new(self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)?
+            .with_rod_inertia_excess(self.rod_inertia_excess)
     }
 }
 
@@ -184,8 +193,11 @@ mod tests {
     use proptest::prelude::*;
 
     fn engines() -> impl Strategy<Value = Engine> {
-        let cylinder = (1e-3..1.0, 1.01..9.0, 0.0..1e3, -0.009..0.009)
-            .prop_map(|(r, l, m, e)| Cylinder::new(r, r * l, m, r * e).unwrap());
+        let inertia = prop_oneof![Just(0.0), -9.0..9.0];
+        let cylinder = (1e-3..1.0, 1.01..9.0, 0.0..1e3, -0.009..0.009, inertia);
+        let cylinder = cylinder.prop_map(|(r, l, m, e, j)| {
+            Cylinder::new(r, r * l, m, r * e).unwrap().with_rod_inertia_excess(j).unwrap()
+        });
         let place = (cylinder, -720.0..720.0, -720_i64..720, 1_i64..40, -9.0..9.0, 0.0..9.0);
         let place = place.prop_map(|(cylinder, tdc, bank, parts, z, rotating_mass)| Placement {
             cylinder,

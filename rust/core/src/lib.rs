@@ -8,7 +8,7 @@
 //! [`firing`] (what follows from [`engine`] and [`layout`] alone);
 //! [`extrema`] finds the peak of a sum of orders for the last three.
 //! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`]
-//! → [`slider_crank`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders sit),
+//! → [`slider_crank`], [`rod`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders sit),
 //! [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON)
 //! → [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of
 //! orders for these three; [`vanishing`] proves which orders are zero, [`closed_form`] writes out
@@ -35,6 +35,7 @@ pub mod harmonics;
 pub mod layout;
 pub mod limits;
 pub mod rational;
+pub mod rod;
 pub mod search;
 mod simd;
 pub mod slider_crank;

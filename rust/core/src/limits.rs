@@ -42,6 +42,16 @@ pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
     Err(Error::figure(argument, value, "give a number that is zero or more"))
 }
 
+/// A moment of inertia of either sign: zero, or of the size of a mass times a length squared.
+pub fn inertia(argument: &str, value: f64) -> Result<f64> {
+    let (least, most) = (SMALLEST.powi(3), LARGEST.powi(3));
+    if value == 0.0 || (least..=most).contains(&value.abs()) {
+        return Ok(value);
+    }
+    let cure = format!("give zero, or a number of magnitude {least:.0e} to {most:.0e}");
+    Err(Error::figure(argument, value, cure))
+}
+
 /// A length that is more than zero.
 pub fn length(argument: &str, value: f64) -> Result<f64> {
     if (SMALLEST..=LARGEST).contains(&value) {

@@ -15,6 +15,7 @@ pub struct Cylinder {
     rod_length: f64,
     reciprocating_mass: f64,
     pin_offset: f64,
+    rod_inertia_excess: f64,
 }
 
 impl Cylinder {
@@ -29,12 +30,25 @@ impl Cylinder {
         limits::length("rod_length", rod_length)?;
         limits::not_negative("reciprocating_mass", reciprocating_mass)?;
         limits::finite("pin_offset", pin_offset)?;
-        let cylinder = Self { crank_radius, rod_length, reciprocating_mass, pin_offset };
+        let cylinder = Self {
+            crank_radius,
+            rod_length,
+            reciprocating_mass,
+            pin_offset,
+            rod_inertia_excess: 0.0,
+        };
         let reach = rod_length - pin_offset.abs();
         if crank_radius >= reach {
             return Err(Error::CannotTurn { crank_radius, rod_length, pin_offset, reach });
         }
         Ok(cylinder)
+    }
+
+    /// With a rod whose moment of inertia about its centre of mass, I, is not that of two masses at
+    /// its ends: I − m·a·b in kg·m², a and b the distances of the rod's m from them. Mostly below 0.
+    pub fn with_rod_inertia_excess(self, excess: f64) -> Result<Self> {
+        limits::inertia("rod_inertia_excess", excess)?;
+        Ok(Self { rod_inertia_excess: excess, ..self })
     }
 
     /// Crank radius r, half the stroke, m.
@@ -61,6 +75,18 @@ impl Cylinder {
         self.pin_offset
     }
 
+    /// The rod's moment of inertia beyond that of its two masses, kg·m²; torque alone depends on it.
+    #[must_use]
+    pub fn rod_inertia_excess(&self) -> f64 {
+        self.rod_inertia_excess
+    }
+
+    /// Whether it is other than zero.
+    #[must_use]
+    pub fn has_rod_inertia(&self) -> bool {
+        self.rod_inertia_excess != 0.0
+    }
+
     /// λ = r/l.
     #[must_use]
     pub fn rod_ratio(&self) -> f64 {
@@ -71,6 +97,12 @@ impl Cylinder {
     #[must_use]
     pub fn first_order(&self) -> f64 {
         self.reciprocating_mass * self.crank_radius
+    }
+
+    /// m·r², the size of the torques over ω², kg·m².
+    #[must_use]
+    pub fn second_moment(&self) -> f64 {
+        self.first_order() * self.crank_radius
     }
 
     /// The proportions that fix the motion.

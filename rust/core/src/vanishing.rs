@@ -21,7 +21,7 @@ use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::rational::{Multiples, Ratio, WITHIN_ULP, common_multiple, recognise};
-use crate::slider_crank::Proportions;
+use crate::slider_crank::{Cylinder, Proportions};
 
 /// What is known of a sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -218,11 +218,14 @@ struct Layout<'a> {
     tdcs: Vec<Direct>,
     /// m·r of cylinders, then of what turns with their pins.
     forces: Multiples,
-    /// m·r².
+    /// m·r²; 1 where there is rod inertia.
     torques: Multiples,
     places: Places,
     /// Indices of equal proportions, and of those equal but for the sign of the offset.
     groups: Vec<(usize, usize)>,
+    /// The same of whole cylinders with rod inertia: its torque has harmonics of its own, so that only
+    /// the sum with that of the masses has one phase.
+    rods: Vec<Option<(usize, usize)>>,
 }
 
 fn first_equal<T: PartialEq>(values: &[T]) -> Vec<usize> {
@@ -235,11 +238,22 @@ impl<'a> Layout<'a> {
         let mut forces: Vec<f64> = placements.iter().map(|p| p.cylinder.first_order()).collect();
         let torques: Vec<f64> = placements
             .iter()
-            .map(|p| p.cylinder.first_order() * p.cylinder.crank_radius())
+            .map(|p| if p.cylinder.has_rod_inertia() { 1.0 } else { p.cylinder.second_moment() })
             .collect();
         forces.extend(placements.iter().map(|p| p.rotating_mass * p.cylinder.crank_radius()));
         let proportions: Vec<Proportions> =
             placements.iter().map(|p| p.cylinder.proportions()).collect();
+        let cylinders: Vec<Cylinder> = placements.iter().map(|p| p.cylinder).collect();
+        let figures: Vec<[f64; 5]> = cylinders
+            .iter()
+            .map(|c| {
+                let (masses, rod_inertia) = (c.second_moment(), c.rod_inertia_excess());
+                let offset = c.pin_offset().abs();
+                [c.crank_radius(), c.rod_length(), offset, masses, rod_inertia]
+            })
+            .collect();
+        let rods = first_equal(&cylinders).into_iter().zip(first_equal(&figures));
+        let rods = rods.zip(&cylinders).map(|(rod, c)| c.has_rod_inertia().then_some(rod));
         let sizes: Vec<(f64, f64)> = proportions.iter().map(|p| (p.rod, p.offset.abs())).collect();
         Self {
             engine,
@@ -249,6 +263,7 @@ impl<'a> Layout<'a> {
             torques: Multiples::of_figures(&torques),
             places: Places::new(engine, reference),
             groups: first_equal(&proportions).into_iter().zip(first_equal(&sizes)).collect(),
+            rods: rods.collect(),
         }
     }
 
@@ -263,6 +278,9 @@ impl<'a> Layout<'a> {
         let (offset, odd) = (self.offset(i), order % 2 == 1);
         let sign = if offset < 0.0 { -1 } else { 1 };
         if torque {
+            let of_rod =
+                self.rods[i].map(|(group, mirrored)| (group + 2 * count, mirrored + 2 * count));
+            let (group, mirrored) = of_rod.unwrap_or((group, mirrored));
             return match view {
                 View::Whole => vec![(group, 1)],
                 // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
@@ -394,6 +412,9 @@ impl<'a> Layout<'a> {
         }
         if self.groups.iter().any(|&(group, _)| group != self.groups[0].0) {
             found.push("slider-cranks of different proportions".to_owned());
+        }
+        if self.rods.iter().any(|&rod| rod != self.rods[0]) {
+            found.push("rods of different moments of inertia".to_owned());
         }
         if self.forces.units.len() > 1 {
             found.push("masses times radius that are no rational multiples of each other".into());

@@ -10,6 +10,7 @@ use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::limits;
+use crate::rod::Swing;
 use crate::simd::vectorised;
 use crate::slider_crank::Proportions;
 
@@ -58,6 +59,7 @@ pub fn exact(
                 lever: p.z - reference,
                 force,
                 torque: force * p.cylinder.crank_radius(),
+                rod_inertia: p.cylinder.rod_inertia_excess() * square,
                 rotating: p.rotating_mass * p.cylinder.crank_radius() * square,
             }
         })
@@ -69,6 +71,7 @@ pub fn exact(
                 for source in &sources {
                     if asked.torque {
                         source.add::<true>(units, rows);
+                        source.add_rod_inertia(units, rows);
                     } else {
                         source.add::<false>(units, rows);
                     }
@@ -155,6 +158,8 @@ struct Source {
     force: f64,
     /// m·r²·ω².
     torque: f64,
+    /// That of the rod beyond its two masses, times ω².
+    rod_inertia: f64,
     /// Rotating mass times r·ω².
     rotating: f64,
 }
@@ -181,6 +186,26 @@ impl Source {
                 roll[i] += torque * (motion.velocity + self.proportions.offset);
                 crank[i] -= torque * motion.velocity;
             }
+        }
+    }
+}
+
+impl Source {
+    #[inline(always)]
+    fn add_rod_inertia(&self, units: &Units, rows: &mut Rows) {
+        if self.rod_inertia == 0.0 {
+            return;
+        }
+        let [.., roll, crank] = &mut rows.columns;
+        for i in 0..BLOCK {
+            let (sin, cos) = (units.sin[i], units.cos[i]);
+            let swing = Swing::new(
+                &self.proportions,
+                sin * self.phase.re + cos * self.phase.im,
+                cos * self.phase.re - sin * self.phase.im,
+            );
+            roll[i] += self.rod_inertia * swing.roll();
+            crank[i] += self.rod_inertia * swing.crank();
         }
     }
 }

@@ -71,12 +71,14 @@ pub fn angles(angles: Vec<Angle>) -> Vec<core::Angle> {
     angles.into_iter().map(|angle| angle.0).collect()
 }
 
-/// Crank radius, rod length, reciprocating mass, pin offset.
-pub type Parts = (f64, f64, f64, f64);
+/// Crank radius, rod length, reciprocating mass, pin offset, excess of rod inertia.
+pub type Parts = (f64, f64, f64, f64, f64);
 
 /// The core's cylinder.
-pub fn cylinder((radius, rod, mass, offset): Parts) -> PyResult<core::Cylinder> {
-    core::Cylinder::new(radius, rod, mass, offset).or_raise()
+pub fn cylinder((radius, rod, mass, offset, rod_inertia): Parts) -> PyResult<core::Cylinder> {
+    core::Cylinder::new(radius, rod, mass, offset)
+        .and_then(|cylinder| cylinder.with_rod_inertia_excess(rod_inertia))
+        .or_raise()
 }
 
 /// The core's spectrum from (order, amplitude) pairs.

@@ -299,7 +299,8 @@ impl Engine {
     #[getter]
     fn cylinders(&self) -> Vec<Parts> {
         let parts = |c: core::Cylinder| {
-            (c.crank_radius(), c.rod_length(), c.reciprocating_mass(), c.pin_offset())
+            let rod_inertia = c.rod_inertia_excess();
+            (c.crank_radius(), c.rod_length(), c.reciprocating_mass(), c.pin_offset(), rod_inertia)
         };
         self.0.placements().iter().map(|p| parts(p.cylinder)).collect()
     }

@@ -1,7 +1,7 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{Complex64, angle, limits};
+use crankpin_core::{Complex64, angle, limits, rod};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -13,6 +13,15 @@ use crate::interrupt;
 #[pyfunction]
 pub fn check_cylinder(parts: Parts) -> PyResult<()> {
     cylinder(parts).map(drop)
+}
+
+/// Reciprocating mass, rotating mass and excess of inertia of a rod: mass, inertia, length, distance
+/// of the centre of mass from the crankpin.
+#[pyfunction]
+pub fn rod_parts(rod: (f64, f64, f64, f64)) -> PyResult<(f64, f64, f64)> {
+    let (mass, inertia, length, to_crankpin) = rod;
+    let rod = rod::Rod::new(mass, inertia, length, to_crankpin).or_raise()?;
+    Ok((rod.reciprocating_mass(), rod.rotating_mass(), rod.inertia_excess()))
 }
 
 /// Position (m), velocity (m/rad) and acceleration (m/rad²) at crank angles: columns of (n, 3).
@@ -66,7 +75,8 @@ pub fn cylinder_torque_harmonics(
     orders: Vec<u32>,
 ) -> PyResult<(Bound<'_, PyArray1<Complex64>>, Bound<'_, PyArray1<Complex64>>)> {
     limits::orders(&orders).or_raise()?;
-    let torque = torque::torque(&cylinder(parts)?.proportions(), &orders);
+    let cylinder = cylinder(parts)?;
+    let torque = torque::over_second_moment(&cylinder, &orders).or_raise()?;
     Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 

@@ -12,7 +12,7 @@ use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::harmonics;
 use crate::limits;
-use crate::slider_crank::Proportions;
+use crate::slider_crank::{Cylinder, Proportions};
 
 /// Orders above the last one looked at add less than this part of a sum's largest term: a tenth of
 /// what rounding does.
@@ -66,23 +66,34 @@ fn candidates(rtol: f64, engine: &Engine, sums: &Sums) -> Result<Vec<u32>> {
         let rotating = engine.placements().iter().any(|p| p.rotating_mass > 0.0);
         return Ok(spectrum.orders_with(rotating));
     }
-    let proportions = sums.groups.iter().map(|group| group.proportions);
-    let count = engine.placements().len();
-    Ok((1..=highest(rtol, NEGLIGIBLE, count, proportions, sums.torque)?).collect())
+    let placements = engine.placements();
+    let allowed = scales(engine, sums.reference);
+    let cylinders = sums.groups.iter().map(|group| {
+        let members = group.members.iter().map(|&i| rod_share(&placements[i].cylinder, &allowed));
+        (group.proportions, members.fold(0.0, f64::max))
+    });
+    Ok((1..=highest(rtol, NEGLIGIBLE, placements.len(), cylinders, sums.torque)?).collect())
 }
 
-/// The last order worth a look, for so many cylinders of these proportions: the rest is `negligible`,
-/// or at least within the tolerance.
+/// Size of a rod's inertia over what a tolerance of torque is relative to.
+pub(crate) fn rod_share(cylinder: &Cylinder, scales: &[f64; 3]) -> f64 {
+    let inertia = cylinder.rod_inertia_excess().abs();
+    if inertia == 0.0 { 0.0 } else { inertia / scales[2] }
+}
+
+/// The last order worth a look, for so many cylinders of these proportions and shares of rod inertia:
+/// the rest is `negligible`, or at least within the tolerance.
 pub(crate) fn highest(
     rtol: f64,
     negligible: f64,
     count: usize,
-    proportions: impl Iterator<Item = Proportions>,
+    cylinders: impl Iterator<Item = (Proportions, f64)>,
     torque: bool,
 ) -> Result<u32> {
     let (needed, enough) = (0.25 * rtol / count as f64, negligible.min(0.25 * rtol) / count as f64);
     let mut highest = 1;
-    for proportions in proportions {
+    for (proportions, rod_share) in cylinders {
+        let torque = torque.then_some(rod_share);
         let last = match harmonics::highest_order(&proportions, enough, torque) {
             Some(order) => order,
             // A rest that is not negligible still is within the tolerance.
@@ -104,15 +115,21 @@ pub(crate) fn tail(proportions: &Proportions, highest: u32, torque: bool) -> [f6
     [known(harmonics::tail_bound(proportions, highest)), of_torque.unwrap_or(0.0)]
 }
 
+/// The same of the torque of a rod's inertia, over it and ω².
+pub(crate) fn rod_tail(proportions: &Proportions, highest: u32) -> f64 {
+    harmonics::rod::tail_bound(proportions, highest).unwrap_or(f64::INFINITY)
+}
+
 /// What a tolerance is relative to, over ω²: the largest m·r of a cylinder, times the longest lever,
-/// times its crank radius.
+/// times its crank radius. Where rod inertia makes more of order 1, what it makes: about J·r/l.
 pub(crate) fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
     let mut largest = [0.0_f64; 3];
     for p in engine.placements() {
         let radius = p.cylinder.crank_radius();
         let force = p.cylinder.first_order().max(p.rotating_mass * radius);
         largest[0] = largest[0].max(force);
-        largest[2] = largest[2].max(force * radius);
+        let of_rod = p.cylinder.rod_inertia_excess().abs() * p.cylinder.rod_ratio();
+        largest[2] = largest[2].max(force * radius).max(of_rod);
     }
     largest[1] = largest[0] * engine.longest_lever(reference);
     largest

@@ -7,7 +7,7 @@ use super::{Balance, Shake, Torque, choice};
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::engine::{Engine, Placement};
-use crate::harmonics;
+use crate::harmonics::{self, torque::TorqueHarmonics};
 use crate::rational::common_multiple;
 use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
@@ -199,13 +199,18 @@ impl<'a> Sums<'a> {
         };
         for group in &self.groups {
             let harmonics = harmonics::torque::torque(&group.proportions, orders);
-            for (k, &n) in orders.iter().enumerate() {
-                let (sum, size) = self.turning(group, n);
-                let (sum, size) = (sum * square, size * square);
-                torque.roll[k] += sum * harmonics.roll[k];
-                torque.crank[k] += sum * harmonics.crank[k];
-                torque.zero_bound[k] +=
-                    size * harmonics.roll[k].norm().max(harmonics.crank[k].norm());
+            self.add_torques(
+                &mut torque,
+                group,
+                orders,
+                square,
+                &harmonics,
+                Cylinder::second_moment,
+            );
+            if self.has_rod_inertia(group) {
+                let harmonics = harmonics::rod::torque(&group.proportions, orders);
+                let inertia = Cylinder::rod_inertia_excess;
+                self.add_torques(&mut torque, group, orders, square, &harmonics, inertia);
             }
         }
         for (k, &n) in orders.iter().enumerate() {
@@ -216,16 +221,40 @@ impl<'a> Sums<'a> {
         torque
     }
 
-    /// Σ m·r² e^{−in·tdc} of a group, and Σ|terms|.
-    fn turning(&self, group: &Group, order: u32) -> (Complex64, f64) {
+    /// Torques of a group, whose harmonics count with m·r², or with the rod's inertia.
+    fn add_torques(
+        &self,
+        torque: &mut Torque,
+        group: &Group,
+        orders: &[u32],
+        square: f64,
+        harmonics: &TorqueHarmonics,
+        weight: fn(&Cylinder) -> f64,
+    ) {
+        for (k, &n) in orders.iter().enumerate() {
+            let (sum, size) = self.turning(group, n, weight);
+            let (sum, size) = (sum * square, size * square);
+            torque.roll[k] += sum * harmonics.roll[k];
+            torque.crank[k] += sum * harmonics.crank[k];
+            torque.zero_bound[k] += size * harmonics.roll[k].norm().max(harmonics.crank[k].norm());
+        }
+    }
+
+    /// Σ weight·e^{−in·tdc} of a group, and Σ|terms|.
+    fn turning(&self, group: &Group, order: u32, weight: fn(&Cylinder) -> f64) -> (Complex64, f64) {
         let (mut sum, mut size) = (Complex64::default(), 0.0);
         for &i in &group.members {
             let Placement { cylinder, tdc, .. } = &self.engine.placements()[i];
-            let weight = cylinder.first_order() * cylinder.crank_radius();
+            let weight = weight(cylinder);
             sum += tdc.cis(-i64::from(order)) * weight;
-            size += weight;
+            size += weight.abs();
         }
         (sum, size)
+    }
+
+    fn has_rod_inertia(&self, group: &Group) -> bool {
+        let mut members = group.members.iter().map(|&i| &self.engine.placements()[i]);
+        members.any(|placement| placement.cylinder.has_rod_inertia())
     }
 
     /// What orders above `highest` can add to force, moment and torque over ω².
@@ -238,22 +267,27 @@ impl<'a> Sums<'a> {
             for (sum, (most, bound)) in tail.iter_mut().zip(most.into_iter().zip(bounds)) {
                 *sum += if most == 0.0 { 0.0 } else { most * bound };
             }
+            if self.torque && most[3] > 0.0 {
+                tail[2] += most[3] * choice::rod_tail(&group.proportions, highest);
+            }
         }
         tail
     }
 
-    /// What a group's force, moment and torque can be at any order, per unit of its harmonic and ω².
+    /// What a group's force, moment, torque and torque of rod inertia can be at any order, per unit of
+    /// its harmonic and ω².
     ///
     /// Top dead centres that are parts of a turn make layout sums periodic in the order: the largest
     /// of a period, up to `longest`. Otherwise as if nothing cancelled.
-    fn most(&self, group: &Group, longest: u32) -> [f64; 3] {
-        let mut most = [0.0_f64; 3];
+    fn most(&self, group: &Group, longest: u32) -> [f64; 4] {
+        let mut most = [0.0_f64; 4];
         let Some(period) = self.period(group, longest) else {
             for &i in &group.members {
                 let cylinder = self.engine.placements()[i].cylinder;
                 most[0] += cylinder.first_order();
                 most[1] += cylinder.first_order() * self.levers[i].0.abs();
-                most[2] += cylinder.first_order() * cylinder.crank_radius();
+                most[2] += cylinder.second_moment();
+                most[3] += cylinder.rod_inertia_excess().abs();
             }
             return most;
         };
@@ -267,8 +301,11 @@ impl<'a> Sums<'a> {
             most[0] = most[0].max(length(&forces));
             most[1] = most[1].max(length(&levered));
             if self.torque {
-                let (sum, size) = self.turning(group, order);
-                most[2] = most[2].max(snapped(sum, size * factor).norm());
+                let weights = [Cylinder::second_moment, Cylinder::rod_inertia_excess];
+                for (most, weight) in most[2..].iter_mut().zip(weights) {
+                    let (sum, size) = self.turning(group, order, weight);
+                    *most = most.max(snapped(sum, size * factor).norm());
+                }
             }
         }
         most

@@ -9,6 +9,7 @@
 //! terms of one sign after the first, so that every order keeps its *relative* accuracy, where a
 //! transform of samples loses high orders to the rounding of the low ones.
 
+pub mod rod;
 mod spike;
 pub mod table;
 pub mod torque;
@@ -271,13 +272,25 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
 }
 
 /// The lowest order above which the rest of the force is below `tolerance` times m·r·ω² and, where it
-/// is wanted, that of the torque below `tolerance` times m·r²·ω²; none that is taken may be.
+/// is wanted, that of the torque below `tolerance` times m·r²·ω²; none that is taken may be. `torque`
+/// is the size of the rod's inertia, beyond that of its two masses, over m·r².
 #[must_use]
-pub fn highest_order(proportions: &Proportions, tolerance: f64, torque: bool) -> Option<u32> {
+pub fn highest_order(
+    proportions: &Proportions,
+    tolerance: f64,
+    torque: Option<f64>,
+) -> Option<u32> {
+    let of_torque = |n: u32, rod_inertia: f64| -> Option<f64> {
+        let of_masses = torque::tail_bound(proportions, n)?;
+        if rod_inertia == 0.0 {
+            return Some(of_masses);
+        }
+        Some(of_masses + rod_inertia * rod::tail_bound(proportions, n)?)
+    };
     let enough = |n: u32| {
         let within = |bound: Option<f64>| bound.is_some_and(|bound| bound <= tolerance);
         within(tail_bound(proportions, n))
-            && (!torque || within(torque::tail_bound(proportions, n)))
+            && torque.is_none_or(|rod_inertia| within(of_torque(n, rod_inertia)))
     };
     if !enough(limits::HIGHEST_ORDER) {
         return None;

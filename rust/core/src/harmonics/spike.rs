@@ -44,7 +44,7 @@ fn odd_integral(above: f64, below: f64, offset: f64, n: u32) -> f64 {
 }
 
 /// Integral over [0, π/2] of a function with a spike of this width at 0 and waves of order n.
-fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
     /// Radians of a wave that one panel of [`GAUSS`] resolves to rounding.
     const WAVE_PER_PANEL: f64 = 4.0;
     let mut edges = vec![FRAC_PI_2];

@@ -1,8 +1,9 @@
 //! Harmonics of the torques that one cylinder's inertia force makes, in closed form.
 
-use super::{Offset, Roots, coefficients};
+use super::{Offset, Roots, coefficients, rod};
 use crate::Complex64;
-use crate::slider_crank::Proportions;
+use crate::error::{Error, Result};
+use crate::slider_crank::{Cylinder, Proportions};
 
 /// Harmonics of the torques that the inertia force makes, over m·r²·ω², as peak phasors.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +47,39 @@ pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
     TorqueHarmonics { roll, crank }
 }
 
+/// Both torques of a cylinder over ω², rod inertia and all, with proportions of their own.
+#[must_use]
+pub fn of_cylinder(
+    cylinder: &Cylinder,
+    proportions: &Proportions,
+    orders: &[u32],
+) -> TorqueHarmonics {
+    let mut sum = torque(proportions, orders);
+    let of_rod = rod::torque(proportions, orders);
+    let (masses, inertia) = (cylinder.second_moment(), cylinder.rod_inertia_excess());
+    for (sum, of_rod) in [(&mut sum.roll, of_rod.roll), (&mut sum.crank, of_rod.crank)] {
+        for (value, of_rod) in sum.iter_mut().zip(of_rod) {
+            *value = *value * masses + of_rod * inertia;
+        }
+    }
+    sum
+}
+
+/// Both torques of a cylinder over m·r²·ω², rod inertia and all.
+pub fn over_second_moment(cylinder: &Cylinder, orders: &[u32]) -> Result<TorqueHarmonics> {
+    let (proportions, masses) = (cylinder.proportions(), cylinder.second_moment());
+    if !cylinder.has_rod_inertia() {
+        return Ok(torque(&proportions, orders));
+    }
+    if masses == 0.0 {
+        let cure = "torques of rod inertia are over m·r² of a mass above zero";
+        return Err(Error::figure("reciprocating_mass", 0.0, cure));
+    }
+    let TorqueHarmonics { roll, crank } = of_cylinder(cylinder, &proportions, orders);
+    let over = |values: Vec<Complex64>| values.into_iter().map(|value| value / masses).collect();
+    Ok(TorqueHarmonics { roll: over(roll), crank: over(crank) })
+}
+
 /// Bound of what orders above `highest` can add to either torque over m·r²·ω².
 ///
 /// Order n is `i n/2 (i(h'ₙ₋₁ − h'ₙ₊₁) + Cₙ) − e aₙ` with |h'ₖ| = |aₖ|/k, and the rational part
@@ -63,7 +97,7 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
 }
 
 /// `h'² = u²cos²θ/h²` as a Fourier series.
-struct RationalPart {
+pub(super) struct RationalPart {
     rod: f64,
     offset: f64,
     roots: Roots,
@@ -71,7 +105,7 @@ struct RationalPart {
 }
 
 impl RationalPart {
-    fn new(proportions: &Proportions) -> Self {
+    pub fn new(proportions: &Proportions) -> Self {
         let Offset { size, mirrored, above, below } = Offset::new(proportions);
         Self { rod: proportions.rod, offset: size, roots: Roots::new(size, above, below), mirrored }
     }
@@ -81,7 +115,7 @@ impl RationalPart {
     /// h'² = −cos²θ + (l/2r)·(cos²θ/(A − sin θ) + cos²θ/(B + sin θ)), and cos²θ/(A − sin θ) =
     /// sin θ + A − (A² − 1)/(A − sin θ), whose order n ≥ 2 is −(1 − p₁²) p₁ⁿ⁻¹ (−i)ⁿ and whose
     /// order 1 is −i p₁²; the other fraction has p₂ and iⁿ.
-    fn harmonic(&self, n: u32) -> Complex64 {
+    pub fn harmonic(&self, n: u32) -> Complex64 {
         let Roots { p1, p2, difference, .. } = self.roots;
         let power = |p: f64, k: u32| p.powf(f64::from(k));
         if n % 2 == 1 {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::harmonics::proportions;
 use super::{Axes, Quantity, Sweep};
-use crate::balance::{highest, most_left_out, scales, tail, tolerance};
+use crate::balance::{highest, most_left_out, rod_share, rod_tail, scales, tail, tolerance};
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
 use crate::error::Result;
@@ -91,8 +91,12 @@ impl Sweep {
             return Ok(spectrum.orders_with(placements().any(|p| p.rotating_mass > 0.0)));
         }
         let most = self.engines.iter().map(|engine| engine.placements().len()).max().unwrap_or(1);
-        let worst: Vec<Proportions> =
-            placements().map(|p| self.slowest(p)).collect::<Result<_>>()?;
+        let worst = self.engines.iter().enumerate().flat_map(|(k, engine)| {
+            let allowed = scales(engine, self.references[k]);
+            let share = move |p: &crate::Placement| rod_share(&p.cylinder, &allowed);
+            engine.placements().iter().map(move |p| Ok((self.slowest(p)?, share(p))))
+        });
+        let worst: Vec<(Proportions, f64)> = worst.collect::<Result<_>>()?;
         let last = highest(rtol, NEGLIGIBLE * rtol, most, worst.into_iter(), self.torque)?;
         Ok((1..=last).collect())
     }
@@ -123,6 +127,10 @@ impl Sweep {
             rest[0] += first_order * force;
             rest[1] += first_order * force * (placement.z - self.references[engine]).abs();
             rest[2] += first_order * placement.cylinder.crank_radius() * torque;
+            let inertia = placement.cylinder.rod_inertia_excess().abs();
+            if self.torque && inertia > 0.0 {
+                rest[2] += inertia * rod_tail(&self.slowest(placement)?, last);
+            }
         }
         Ok(rest)
     }

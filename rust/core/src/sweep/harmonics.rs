@@ -61,6 +61,9 @@ impl Sweep {
             let (ratio, offset) = (ratios[point / offsets.len()], offsets[point % offsets.len()]);
             let proportions = proportions(cylinder, ratio, offset)?;
             Ok(match quantity {
+                Quantity::Torque if cylinder.has_rod_inertia() => {
+                    torque::of_cylinder(cylinder, &proportions, &self.orders).roll
+                }
                 Quantity::Torque => torque::torque(&proportions, &self.orders).roll,
                 _ => harmonics::coefficients(&proportions, &self.orders),
             })

@@ -95,6 +95,11 @@ impl EnginePlan {
         for placement in placements {
             let cylinder = placement.cylinder;
             let same = |other: &Cylinder| {
+                if quantity == Quantity::Torque
+                    && (other.has_rod_inertia() || cylinder.has_rod_inertia())
+                {
+                    return *other == cylinder;
+                }
                 other.crank_radius() == cylinder.crank_radius()
                     && other.rod_length() == cylinder.rod_length()
                     && other.pin_offset() == cylinder.pin_offset()
@@ -108,7 +113,9 @@ impl EnginePlan {
         let groups = groups.into_iter().map(|(cylinder, members)| {
             let weight = |p: &Placement| match quantity {
                 _ if by_spectrum => 1.0,
-                Quantity::Torque => p.cylinder.first_order() * p.cylinder.crank_radius(),
+                // In the harmonics.
+                Quantity::Torque if p.cylinder.has_rod_inertia() => 1.0,
+                Quantity::Torque => p.cylinder.second_moment(),
                 _ => p.cylinder.first_order(),
             };
             let terms = layout.terms(&members, weight, [0.5, 0.5]);

@@ -1,0 +1,97 @@
+//! The connecting rod: what stands in for it, how it swings, and the torques of its own inertia.
+//!
+//! A rigid rod moves as two masses at its ends and a massless flywheel of inertia J, J = I − m·a·b,
+//! that swings with it: by −φ about +z, sin φ = (r sin θ − e)/l. To swing the flywheel takes a couple
+//! of two forces across the bore, at the crankpin and at the piston pin: none on the engine as a
+//! whole, a torque −J ω² φ''φ' on the crank, and J ω² φ''(1 + φ') on the block.
+
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Proportions;
+
+/// A rigid rod.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rod {
+    mass: f64,
+    inertia: f64,
+    to_crankpin: f64,
+    to_piston_pin: f64,
+}
+
+impl Rod {
+    /// Mass in kg, moment of inertia about the centre of mass in kg·m², length between the centres of
+    /// the eyes and the centre of mass's distance from the crankpin's in m.
+    pub fn new(mass: f64, inertia: f64, length: f64, to_crankpin: f64) -> Result<Self> {
+        limits::not_negative("mass", mass)?;
+        limits::inertia("inertia", inertia)?;
+        limits::length("length", length)?;
+        if inertia < 0.0 {
+            return Err(Error::figure("inertia", inertia, "give a number that is zero or more"));
+        }
+        if !(0.0..=length).contains(&to_crankpin) {
+            let cure = format!("give metres, 0 to length = {length:?}");
+            return Err(Error::figure("to_crankpin", to_crankpin, cure));
+        }
+        Ok(Self { mass, inertia, to_crankpin, to_piston_pin: length - to_crankpin })
+    }
+
+    /// Mass that moves with the piston, kg.
+    #[must_use]
+    pub fn reciprocating_mass(&self) -> f64 {
+        self.mass * (self.to_crankpin / (self.to_crankpin + self.to_piston_pin))
+    }
+
+    /// Mass that turns with the crankpin, kg.
+    #[must_use]
+    pub fn rotating_mass(&self) -> f64 {
+        self.mass * (self.to_piston_pin / (self.to_crankpin + self.to_piston_pin))
+    }
+
+    /// I − m·a·b, kg·m²; zero where rounding is all there is.
+    #[must_use]
+    pub fn inertia_excess(&self) -> f64 {
+        let excess = self.inertia - self.mass * self.to_crankpin * self.to_piston_pin;
+        if excess.abs() <= 4.0 * f64::EPSILON * self.inertia { 0.0 } else { excess }
+    }
+}
+
+/// φ and its derivatives by crank angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// dφ/dθ.
+    pub velocity: f64,
+    /// d²φ/dθ².
+    pub acceleration: f64,
+}
+
+impl Swing {
+    /// Where the crank has the given sine and cosine.
+    #[must_use]
+    #[inline(always)]
+    pub fn new(proportions: &Proportions, sin: f64, cos: f64) -> Self {
+        let (above, below) = (proportions.above.high, proportions.below.high);
+        // 1 ∓ sin θ by cos²θ/(1 ± sin θ), as in the piston's motion.
+        let (near, far) = (cos * cos / (1.0 + sin.abs()), 1.0 + sin.abs());
+        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        let height_squared = (above + to_above) * (below + to_below);
+        let inverse = 1.0 / height_squared.sqrt();
+        // h³φ'' = cos²θ(sin θ − e/r) − h² sin θ, in which 1 cancels out of l/r ± e/r.
+        let bend =
+            0.5 * (below * to_above * to_above - above * to_below * to_below) - above * below * sin;
+        Self { velocity: cos * inverse, acceleration: bend * inverse * inverse * inverse }
+    }
+
+    /// Torque on the block over J·ω².
+    #[must_use]
+    #[inline(always)]
+    pub fn roll(&self) -> f64 {
+        self.acceleration * (1.0 + self.velocity)
+    }
+
+    /// Torque on the crank over J·ω².
+    #[must_use]
+    #[inline(always)]
+    pub fn crank(&self) -> f64 {
+        -self.acceleration * self.velocity
+    }
+}
