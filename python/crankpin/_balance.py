@@ -43,7 +43,7 @@ class ErrorBound(NamedTuple):
     moment: float
     """N·m."""
     torque: float | None
-    """N·m; None where a spectrum of forces was given, which tells nothing of it."""
+    """N·m; None where torque was not asked for, or a spectrum of forces tells nothing of it."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -122,7 +122,7 @@ class Balance(Frozen):
         rpm: float,
         reference_z: float | None,
         spectrum: Spectrum | None,
-        how: Mapping[str, float],
+        how: Mapping[str, Any],
     ) -> None:
         if not isinstance(core, _core.Balance):
             raise _core.InputError(f"Balance({_inputs.shorten(core)}): use Engine.balance")
@@ -133,8 +133,8 @@ class Balance(Frozen):
         )
 
     _core: _core.Balance
-    _how: dict[str, float]
-    """The tolerance by which orders were chosen, if they were."""
+    _how: dict[str, Any]
+    """Whether torque was asked for; the tolerance by which orders were chosen, if they were."""
 
     # --- phasors --------------------------------------------------------------------------------
 
@@ -145,13 +145,28 @@ class Balance(Frozen):
 
     @cached_property
     def omitted(self) -> tuple[int, ...]:
-        """With ``orders="auto"``: orders that were looked at and left out."""
+        """With ``orders="auto"``: orders left out that are not zero, until the rest is negligible.
+
+        All orders above add less than 1e-17 of what ``rtol`` is relative to; ``error_bound`` has
+        them in it.
+        """
         return tuple(self._core.omitted)
 
     @property
     def error_bound(self) -> ErrorBound:
-        """With ``orders="auto"``: what all orders left out can add at any crank angle."""
-        return error_bound(self._core, torque_known=self.spectrum is None)
+        """With ``orders="auto"``: what all orders left out can add at any crank angle.
+
+        Rounding is not in it: sums that vanish to within ``force_zero_bound`` count as zero.
+        """
+        return error_bound(self._core, torque_known=self._has_torque)
+
+    @property
+    def _has_torque(self) -> bool:
+        return self.spectrum is None and bool(self._how["torque"])
+
+    def _need_torque(self) -> None:
+        if not self._has_torque:
+            raise no_torque(by_spectrum=self.spectrum is not None)
 
     @cached_property
     def force(self) -> NDArray[np.complex128]:
@@ -167,13 +182,15 @@ class Balance(Frozen):
     def torque(self) -> NDArray[np.complex128]:
         """Roll torque of the inertia forces on the block about +z, N·m: (n_orders,).
 
-        InputError where a spectrum of forces was given, which tells nothing of it.
+        InputError where it was not asked for, or a spectrum of forces tells nothing of it.
         """
+        self._need_torque()
         return self._core.roll_torque()
 
     @cached_property
     def crank_torque(self) -> NDArray[np.complex128]:
         """Torque of the inertia forces on the crank about +z, N·m: (n_orders,)."""
+        self._need_torque()
         return self._core.crank_torque()
 
     @cached_property
@@ -209,6 +226,7 @@ class Balance(Frozen):
     @cached_property
     def torque_zero_bound(self) -> NDArray[np.float64]:
         """What rounding can leave of a torque that vanishes, N·m: (n_orders,)."""
+        self._need_torque()
         return self._core.zero_bound("torque")
 
     # --- peaks ----------------------------------------------------------------------------------
@@ -271,6 +289,7 @@ class Balance(Frozen):
     @cached_property
     def torque_sum_peak(self) -> float:
         """Largest roll torque of all orders together, N·m; a true extremum."""
+        self._need_torque()
         return self._core.torque_sum_peak()
 
     def order(self, order: int) -> OrderBalance:
@@ -310,7 +329,7 @@ class Balance(Frozen):
             "moment_x": self.moment[:, 0],
             "moment_y": self.moment[:, 1],
         }
-        if self.spectrum is None:
+        if self._has_torque:
             columns["torque"] = self.torque
         table: pd.DataFrame = pandas.DataFrame(
             columns, index=pandas.Index(self.orders, name="order")
@@ -323,7 +342,7 @@ class Balance(Frozen):
             "force": (("order", "axis"), self.force, {"units": "N"}),
             "moment": (("order", "axis"), self.moment, {"units": "N m"}),
         }
-        if self.spectrum is None:
+        if self._has_torque:
             variables["torque"] = (("order",), self.torque, {"units": "N m"})
         coords = {
             "order": ("order", list(self.orders), {"units": "1/rev"}),
@@ -350,7 +369,7 @@ class Balance(Frozen):
     def _table(self) -> _tables.Table:
         header = ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m"]
         columns = [self.force_peak_xy, self.moment_peak_xy]
-        if self.spectrum is None:
+        if self._has_torque:
             header.append("|M_z| N·m")
             columns.append(self.torque_peak[:, None])
         rows = np.hstack(columns)
@@ -377,7 +396,7 @@ class Balance(Frozen):
         return (self.engine, self.rpm, self.orders, self.reference_z, self.spectrum, self._how)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        orders = "auto" if self._how else self.orders
+        orders = "auto" if "rtol" in self._how else self.orders
         spectrum = None if self.spectrum is None else dict(self.spectrum)
         how = self._how | {"reference_z": self.reference_z}
         return (_again, (self.engine, self.rpm, orders, spectrum, how))
@@ -387,6 +406,15 @@ def _again(
     engine: Engine, rpm: float, orders: Orders, spectrum: Spectrum | None, how: dict[str, Any]
 ) -> Balance:
     return engine.balance(rpm, orders, spectrum=spectrum, **how)
+
+
+def no_torque(*, by_spectrum: bool) -> _core.InputError:
+    """Return the error that says why there is no torque."""
+    if by_spectrum:
+        return _core.InputError(
+            "spectrum = given: a spectrum of forces tells nothing of torque; leave it out"
+        )
+    return _core.InputError("torque = False: it was not asked for; give torque=True")
 
 
 def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:

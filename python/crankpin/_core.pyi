@@ -179,15 +179,21 @@ class Sweep:
         rod_ratio: _Real | None,
         pin_offset: _Real | None,
         rpm: _Real,
-        orders: Sequence[int],
+        orders: Sequence[int] | None,
+        rtol: float,
         reference_z: float | None,
         spectrum: _Pairs | None,
+        torque: bool,
         swept: Sequence[bool],
     ) -> Sweep: ...
     @property
     def shape(self) -> list[int]: ...
     @property
     def orders(self) -> list[int]: ...
+    @property
+    def omitted(self) -> list[int]: ...
+    @property
+    def error_bound(self) -> list[float]: ...
     @property
     def mean_piston_speed(self) -> float: ...
     def axis(self, name: str) -> _Real: ...
@@ -269,6 +275,7 @@ def balance(
     rtol: float,
     reference_z: float | None,
     spectrum: _Pairs | None,
+    torque: bool,
 ) -> Balance: ...
 def vanishing(
     engine: Engine, orders: Sequence[int], reference_z: float | None
@@ -291,4 +298,5 @@ def waveform(
     rtol: float,
     reference_z: float | None,
     spectrum: _Pairs | None,
+    torque: bool,
 ) -> _WaveformParts: ...

@@ -623,6 +623,7 @@ class Engine(Frozen):
         rtol: float = 1e-9,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
+        torque: bool = True,
     ) -> Balance:
         """Return how the engine shakes, order by order.
 
@@ -643,6 +644,9 @@ class Engine(Frozen):
             Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
             slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still turns
             with the pins; torque is not known then.
+        torque
+            Whether torque is wanted. If not, it is neither worked out nor counted where orders are
+            chosen.
 
         Returns
         -------
@@ -667,9 +671,10 @@ class Engine(Frozen):
         rtol = _inputs.number("rtol", rtol)
         plane = _inputs.optional_number("reference_z", reference_z)
         pairs = _inputs.spectrum(spectrum)
-        core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs)
+        torque = _inputs.flag("torque", torque)
+        core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs, torque)
         _inputs.warn_of_units(self._mean_piston_speed(rpm))
-        how = {"rtol": rtol} if wanted is None else {}
+        how: dict[str, Any] = ({"rtol": rtol} if wanted is None else {}) | {"torque": torque}
         return Balance(core, self, rpm, plane, None if pairs is None else dict(pairs), how)
 
     def waveform(
@@ -681,6 +686,7 @@ class Engine(Frozen):
         rtol: float = 1e-6,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
+        torque: bool = True,
     ) -> Waveform:
         """Return force, moment and torque at given crank angles.
 
@@ -692,8 +698,10 @@ class Engine(Frozen):
             Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
         orders
             None for exact kinematics; whole numbers for the sum of those orders; ``"auto"`` for the
-            fewest that reach ``rtol``, with what is left out in ``omitted`` and ``error_bound``.
-        rtol, reference_z, spectrum
+            fewest that reach ``rtol``, with what is left out in ``omitted`` and ``error_bound``, or
+            for exact kinematics where that costs less than their sum: ``orders`` of the result is
+            None then, ``omitted`` empty and ``error_bound`` zero.
+        rtol, reference_z, spectrum, torque
             As in :meth:`balance`; a spectrum asks for orders.
 
         Returns
@@ -726,9 +734,10 @@ class Engine(Frozen):
             _inputs.number("rtol", rtol),
             _inputs.optional_number("reference_z", reference_z),
             _inputs.spectrum(spectrum),
+            _inputs.flag("torque", torque),
         )
         _inputs.warn_of_units(self._mean_piston_speed(rpm))
-        return Waveform(self, rpm, theta, waveform)
+        return Waveform(self, rpm, theta, waveform, by_spectrum=spectrum is not None)
 
     # --- when it fires --------------------------------------------------------------------------
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from crankpin import _core, _inputs, _tables
+from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
 
@@ -46,8 +47,10 @@ def sweep(
     rod_ratio: ArrayLike | None = None,
     pin_offset: ArrayLike | None = None,
     orders: Orders = (1, 2, 4, 6),
+    rtol: float = 1e-9,
     reference_z: float | None = None,
     spectrum: Spectrum | None = None,
+    torque: bool = True,
 ) -> Sweep:
     """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
 
@@ -70,9 +73,13 @@ def sweep(
     pin_offset
         Pin offset of every cylinder, m.
     orders
-        Whole multiples of crank speed.
-    reference_z, spectrum
+        Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
+        point, each order counted with its worst point. Choosing takes about the time of a sweep of
+        all orders that may matter, at one speed.
+    rtol, reference_z, spectrum
         As in :meth:`Engine.balance`.
+    torque
+        Whether torque will be asked for. If not, it is not counted where orders are chosen.
 
     Returns
     -------
@@ -94,6 +101,8 @@ def sweep(
     ('bank_angle_deg', 'order', 'axis')
     >>> s.moment.shape
     (17, 2, 2)
+    >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
+    (1, 2, 4)
     """
     listed, names = _listed(engines)
     given = {
@@ -107,6 +116,8 @@ def sweep(
         None if values is None or name == "rpm" else _inputs.vector(name, values)
         for name, values in given.items()
     ]
+    wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)
+    torque = _inputs.flag("torque", torque)
     core = _core.Sweep(
         [engine._core for engine in listed],
         axes[0],
@@ -114,13 +125,22 @@ def sweep(
         axes[1],
         axes[2],
         _inputs.vector("rpm", rpm),
-        _inputs.explicit_orders(orders),
+        wanted,
+        rtol,
         _inputs.optional_number("reference_z", reference_z),
         _inputs.spectrum(spectrum),
+        torque,
         [names is not None, *(ranks.get(name, 0) > 0 for name in given)],
     )
     _inputs.warn_of_units(core.mean_piston_speed)
-    arguments = {"hold": hold, "reference_z": reference_z, "spectrum": spectrum}
+    arguments = {
+        "hold": hold,
+        "orders": "auto" if wanted is None else tuple(wanted),
+        "rtol": rtol,
+        "reference_z": reference_z,
+        "spectrum": spectrum,
+        "torque": torque,
+    }
     return Sweep(core, listed, names, ranks, arguments)
 
 
@@ -175,6 +195,21 @@ class Sweep(Frozen):
     def orders(self) -> tuple[int, ...]:
         """Multiples of crank speed."""
         return tuple(self._core.orders)
+
+    @cached_property
+    def omitted(self) -> tuple[int, ...]:
+        """With ``orders="auto"``: orders left out that are not zero at some point.
+
+        Orders above the last one looked at add less than a hundredth of ``rtol``.
+        """
+        return tuple(self._core.omitted)
+
+    @cached_property
+    def error_bound(self) -> ErrorBound:
+        """With ``orders="auto"``: what all orders left out can add at any point."""
+        force, moment, torque = self._core.error_bound
+        known = self._arguments["torque"] and self._arguments["spectrum"] is None
+        return ErrorBound(force, moment, torque if known else None)
 
     @cached_property
     def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
@@ -364,7 +399,7 @@ class Sweep(Frozen):
         }
         return (
             _again,
-            (self.engines, self._names, self._arguments | axes | {"orders": self.orders}),
+            (self.engines, self._names, self._arguments | axes),
         )
 
     def __repr__(self) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _inputs, _tables
-from crankpin._balance import ErrorBound, error_bound
+from crankpin._balance import ErrorBound, error_bound, no_torque
 from crankpin._core import InputError
 from crankpin._frozen import Frozen
 
@@ -47,11 +47,12 @@ class Waveform(Frozen):
     moment: NDArray[np.float64]
     """Rocking moment about x (pitch) and y (yaw), N·m: (n_theta, 2)."""
     orders: tuple[int, ...] | None
-    """Orders that were summed; None for exact kinematics."""
+    """Orders that were summed; None for exact kinematics, which ``orders="auto"`` takes where it
+    costs less."""
     omitted: tuple[int, ...]
-    """With ``orders="auto"``: orders that were looked at and left out."""
+    """With ``orders="auto"``: orders left out that are not zero; see :attr:`Balance.omitted`."""
     error_bound: ErrorBound
-    """With ``orders="auto"``: what all orders left out can add at any crank angle."""
+    """With ``orders="auto"``: what all orders left out can add; see :attr:`Balance.error_bound`."""
 
     def __init__(
         self,
@@ -59,6 +60,8 @@ class Waveform(Frozen):
         rpm: float,
         theta_deg: NDArray[np.float64],
         parts: _core._WaveformParts,
+        *,
+        by_spectrum: bool,
     ) -> None:
         if not isinstance(parts, tuple):
             raise InputError(f"Waveform({_inputs.shorten(parts)}): use Engine.waveform")
@@ -66,13 +69,14 @@ class Waveform(Frozen):
         theta = theta_deg.copy()
         theta.setflags(write=False)
         known = torque is not None
-        exact = ErrorBound(0.0, 0.0, 0.0)
+        exact = ErrorBound(0.0, 0.0, 0.0 if known else None)
         self._set(
             engine=engine,
             rpm=rpm,
             theta_deg=theta,
             force=force,
             moment=moment,
+            _by_spectrum=by_spectrum,
             _torque=torque,
             _crank_torque=crank_torque,
             orders=None if balance is None else tuple(balance.orders),
@@ -80,6 +84,7 @@ class Waveform(Frozen):
             error_bound=exact if balance is None else error_bound(balance, torque_known=known),
         )
 
+    _by_spectrum: bool
     _torque: NDArray[np.float64] | None
     _crank_torque: NDArray[np.float64] | None
 
@@ -87,14 +92,19 @@ class Waveform(Frozen):
     def torque(self) -> NDArray[np.float64]:
         """Roll torque of the inertia forces on the block about +z, N·m: (n_theta,).
 
-        InputError where a spectrum of forces was given, which tells nothing of it.
+        InputError where it was not asked for, or a spectrum of forces tells nothing of it.
         """
-        return _known(self._torque)
+        return self._known(self._torque)
 
     @property
     def crank_torque(self) -> NDArray[np.float64]:
         """Torque of the inertia forces on the crank about +z, N·m: (n_theta,)."""
-        return _known(self._crank_torque)
+        return self._known(self._crank_torque)
+
+    def _known(self, torque: NDArray[np.float64] | None) -> NDArray[np.float64]:
+        if torque is None:
+            raise no_torque(by_spectrum=self._by_spectrum)
+        return torque
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a crank angle (needs pandas)."""
@@ -158,11 +168,3 @@ def _again(state: dict[str, Any]) -> Waveform:
             value.setflags(write=False)
     waveform._set(**state)
     return waveform
-
-
-def _known(torque: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    if torque is None:
-        raise InputError(
-            "spectrum = given: a spectrum of forces tells nothing of torque; leave it out"
-        )
-    return torque

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::limits::HIGHEST_ORDER;
+
 /// The result of anything that takes a caller's figures.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -46,6 +48,17 @@ pub enum Error {
         expected: usize,
         /// What the lists run over.
         item: &'static str,
+    },
+    /// A tolerance that no number of orders we sum can reach.
+    #[error(
+        "rtol = {rtol:?}: more than {HIGHEST_ORDER} orders would be needed at a rod ratio of \
+         {rod_ratio:?}; ask for exact kinematics or a larger rtol"
+    )]
+    TooManyOrders {
+        /// The tolerance asked for.
+        rtol: f64,
+        /// Crank radius over rod length.
+        rod_ratio: f64,
     },
     /// A result that would not fit in memory.
     #[error(

@@ -44,7 +44,7 @@ pub mod vanishing;
 pub mod waveform;
 
 pub use angle::Angle;
-pub use balance::{Balance, Orders};
+pub use balance::{Asked, Balance, Orders};
 pub use cancel::Cancel;
 pub use engine::{Engine, Hold, Placement};
 pub use error::{Error, Result};

@@ -43,4 +43,13 @@ impl Spectrum {
     pub fn orders(&self) -> Vec<u32> {
         self.0.keys().copied().collect()
     }
+
+    /// The orders that may matter: those named, and the first where mass turns with the pins.
+    pub(crate) fn orders_with(&self, rotating: bool) -> Vec<u32> {
+        let mut orders = self.orders();
+        if rotating && !self.0.contains_key(&1) {
+            orders.insert(0, 1);
+        }
+        orders
+    }
 }

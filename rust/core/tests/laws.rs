@@ -3,15 +3,17 @@
 use std::f64::consts::TAU;
 
 use crankpin_core::angle::cis_degrees;
-use crankpin_core::balance::{Shake, balance};
+use crankpin_core::balance::{self, Shake, balance};
 use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Quantity};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Sweep, waveform,
+    Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Sweep,
+    waveform,
 };
 use proptest::prelude::*;
 
 const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
+const ASKED: Asked = Asked { rpm: 3000.0, reference_z: Some(0.0), spectrum: None, torque: true };
 
 /// Moving parts of a usual engine, offset or not.
 fn cylinders(offset: bool) -> impl Strategy<Value = Cylinder> {
@@ -226,10 +228,10 @@ proptest! {
     fn orders_and_kinematics_agree_and_keep_their_energy(engine in engines(true)) {
         let thetas: Vec<f64> = (0..256).map(|k| f64::from(k) * 360.0 / 256.0).collect();
         let cancel = Cancel::new();
-        let exact = waveform::exact(&engine, 3000.0, &thetas, Some(0.0), &cancel).unwrap();
+        let exact = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
         let all = Orders::Given((1..=120).collect());
         let summed =
-            waveform::from_orders(&engine, 3000.0, &thetas, &all, Some(0.0), None, &cancel).unwrap();
+            waveform::from_orders(&engine, &ASKED, &thetas, &all, &cancel).unwrap();
         // λ ≤ 1/1.8 and e ≤ r/2: order 120 is below 1e-20; 120 powers of e^{iθ} lose 120 roundings.
         let tolerance = 1e-12 * size(&engine);
         for (a, b) in exact.force.iter().zip(&summed.force) {
@@ -256,11 +258,18 @@ proptest! {
         let rtol = 10_f64.powi(-digits);
         let thetas: Vec<f64> = (0..90).map(|k| f64::from(k) * 4.0).collect();
         let cancel = Cancel::new();
-        let exact = waveform::exact(&engine, 3000.0, &thetas, Some(0.0), &cancel).unwrap();
+        let exact = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
         let orders = Orders::Auto { rtol };
+        let chosen = balance::of(&engine, &ASKED, &orders).unwrap();
+        let cheaper = waveform::from_orders(&engine, &ASKED, &thetas, &orders, &cancel).unwrap();
+        if let Some(balance) = &cheaper.balance {
+            prop_assert_eq!(balance, &chosen);
+        } else {
+            prop_assert_eq!(&cheaper, &exact);
+        }
+        let orders = Orders::Given(chosen.orders.clone());
         let summed =
-            waveform::from_orders(&engine, 3000.0, &thetas, &orders, Some(0.0), None, &cancel).unwrap();
-        let chosen = summed.balance.unwrap();
+            waveform::from_orders(&engine, &ASKED, &thetas, &orders, &cancel).unwrap();
         let rounding = 1e-13 * size(&engine);
         for (a, b, bound) in [
             (&exact.force, &summed.force, chosen.force.error_bound),

@@ -3,7 +3,7 @@
 use crankpin_core as core;
 use crankpin_core::balance::{Ellipse, Orders, Shake};
 use crankpin_core::extrema::PeakFinder;
-use crankpin_core::{Complex64, Error};
+use crankpin_core::{Asked, Complex64, Error};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -29,12 +29,12 @@ pub fn balance(
     rtol: f64,
     reference_z: Option<f64>,
     spectrum: Option<Vec<(u32, Complex64)>>,
+    torque: bool,
 ) -> PyResult<Balance> {
     let orders = self::orders(orders, rtol);
     let spectrum = self::spectrum(spectrum)?;
-    core::balance::balance(&engine.get().0, rpm, &orders, reference_z, spectrum.as_ref())
-        .or_raise()
-        .map(Balance)
+    let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
+    core::balance::of(&engine.get().0, &asked, &orders).or_raise().map(Balance)
 }
 
 /// ω in rad/s.
@@ -68,8 +68,8 @@ impl Balance {
 
     fn torque(&self) -> PyResult<&core::balance::Torque> {
         self.0.torque.as_ref().ok_or_else(|| {
-            let cure = "a spectrum of forces tells nothing of torque; leave it out";
-            python_error(Error::value("spectrum", "given", cure))
+            // The wrapper in Python says why.
+            python_error(Error::value("torque", "not known", "ask for force and moment"))
         })
     }
 }

@@ -64,15 +64,18 @@ impl Sweep {
     #[new]
     #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
     fn new(
+        py: Python<'_>,
         engines: Vec<Engine>,
         bank_angle_deg: Option<PyReadonlyArray1<'_, f64>>,
         held: Option<&str>,
         rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
         pin_offset: Option<PyReadonlyArray1<'_, f64>>,
         rpm: PyReadonlyArray1<'_, f64>,
-        orders: Vec<u32>,
+        orders: Option<Vec<u32>>,
+        rtol: f64,
         reference_z: Option<f64>,
         spectrum: Option<Vec<(u32, Complex64)>>,
+        torque: bool,
         swept: [bool; 5],
     ) -> PyResult<Self> {
         let list = |values: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
@@ -97,10 +100,17 @@ impl Sweep {
             pin_offset: list(pin_offset)?,
             rpm: rpm.as_slice()?.to_vec(),
         };
-        let engines = engines.into_iter().map(|engine| engine.0).collect();
+        let engines: Vec<_> = engines.into_iter().map(|engine| engine.0).collect();
         let spectrum = self::spectrum(spectrum)?;
-        let sweep = core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise()?;
-        Ok(Self { sweep, swept })
+        let sweep = if let Some(orders) = orders {
+            core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise()?
+        } else {
+            // How much there is to do shows only as the orders are worked out.
+            interrupt::run(py, usize::MAX, |cancel| {
+                core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
+            })?
+        };
+        Ok(Self { sweep: if torque { sweep } else { sweep.without_torque() }, swept })
     }
 
     /// Lengths of engine, bank angle, rod ratio, pin offset, speed.
@@ -112,6 +122,17 @@ impl Sweep {
     #[getter]
     fn orders(&self) -> Vec<u32> {
         self.sweep.orders().to_vec()
+    }
+
+    #[getter]
+    fn omitted(&self) -> Vec<u32> {
+        self.sweep.omitted().to_vec()
+    }
+
+    /// Of force, moment and torque.
+    #[getter]
+    fn error_bound(&self) -> [f64; 3] {
+        self.sweep.error_bound()
     }
 
     #[getter]

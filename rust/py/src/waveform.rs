@@ -1,7 +1,7 @@
 //! Waveforms at given crank angles.
 
 use crankpin_core as core;
-use crankpin_core::Complex64;
+use crankpin_core::{Asked, Complex64};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -19,7 +19,7 @@ type Parts<'py> = (
     Option<Balance>,
 );
 
-/// From exact kinematics, or (`summed`) as a sum of orders.
+/// From exact kinematics, or (`summed`) as a sum of orders, unless chosen ones cost more.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn waveform<'py>(
@@ -32,18 +32,19 @@ pub fn waveform<'py>(
     rtol: f64,
     reference_z: Option<f64>,
     spectrum: Option<Vec<(u32, Complex64)>>,
+    torque: bool,
 ) -> PyResult<Parts<'py>> {
     let engine = &engine.get().0;
     let thetas = theta_deg.as_slice()?.to_vec();
     let spectrum = self::spectrum(spectrum)?;
     let steps = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
     let waveform = interrupt::run(py, steps, |cancel| {
+        let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
         if !summed {
-            return core::waveform::exact(engine, rpm, &thetas, reference_z, cancel);
+            return core::waveform::exact(engine, &asked, &thetas, cancel);
         }
         let orders = balance::orders(orders, rtol);
-        let spectrum = spectrum.as_ref();
-        core::waveform::from_orders(engine, rpm, &thetas, &orders, reference_z, spectrum, cancel)
+        core::waveform::from_orders(engine, &asked, &thetas, &orders, cancel)
     })?;
     Ok((
         frozen(py, waveform.force),

@@ -1,55 +1,58 @@
 //! The fewest orders that reach a tolerance, and the bound of what they leave out.
+//!
+//! What is left out is at most the sum of the sizes of its orders, |forward| + |backward| after the
+//! layout's cancellations. Orders are worked out as far as what is above them all is negligible, and
+//! that rest is bounded in closed form; so the bound is loose only where orders that are left out do
+//! not peak together.
 
+use super::fewest::most_left_out;
 use super::sums::Sums;
 use super::{Balance, Shake};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::harmonics;
-use crate::spectrum::Spectrum;
+use crate::limits;
+use crate::slider_crank::Proportions;
 
-/// The fewest orders within `rtol`.
-pub(super) fn within(
-    rtol: f64,
-    engine: &Engine,
-    omega: f64,
-    reference: f64,
-    spectrum: Option<&Spectrum>,
-) -> Result<Balance> {
-    if !(1e-15..1.0).contains(&rtol) {
-        return Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"));
+/// Orders above the last one looked at add less than this part of a sum's largest term: a tenth of
+/// what rounding does.
+const NEGLIGIBLE: f64 = 1e-17;
+
+/// A tolerance that can be reached.
+pub(crate) fn tolerance(rtol: f64) -> Result<f64> {
+    if (1e-15..1.0).contains(&rtol) {
+        return Ok(rtol);
     }
-    let sums = Sums::new(engine, reference, spectrum);
-    let count = engine.placements().len() as f64;
-    let candidates = candidates(engine, &sums, 0.25 * rtol / count)?;
+    Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"))
+}
+
+/// The fewest orders within `rtol`, the same at every speed.
+pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Result<Balance> {
+    let candidates = candidates(tolerance(rtol)?, engine, sums)?;
     let last = candidates.last().copied().unwrap_or(1);
-    let whole = sums.balance(&candidates, omega);
-    let tail = if spectrum.is_some() { [0.0; 3] } else { sums.tail(last, omega) };
-    let allowed = sums.largest(reference).map(|largest| rtol * largest * omega * omega);
-    // Each candidate's share of force, moment and torque.
+    let whole = sums.balance(&candidates, 1.0);
+    let tail = if sums.spectrum.is_some() { [0.0; 3] } else { sums.tail(last) };
+    let allowed = scales(engine, sums.reference).map(|largest| rtol * largest);
+    let share = |sizes: &[f64; 3]| -> Vec<f64> {
+        let shares = sizes.iter().zip(&allowed);
+        shares.map(|(&size, &allowed)| if size == 0.0 { 0.0 } else { size / allowed }).collect()
+    };
     let sizes: Vec<[f64; 3]> = (0..candidates.len()).map(|k| whole.sizes(k)).collect();
-    let weight = |&k: &usize| {
-        let shares = sizes[k].iter().zip(&allowed);
-        shares
-            .map(|(&size, &allowed)| if size == 0.0 { 0.0 } else { size / allowed })
-            .fold(0.0, f64::max)
-    };
-    let mut by_size: Vec<usize> = (0..candidates.len()).collect();
-    by_size.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
-    let (mut bounds, mut left_out) = (tail, 0);
-    for &k in &by_size {
-        let more: [f64; 3] = std::array::from_fn(|i| bounds[i] + sizes[k][i]);
-        if more.iter().zip(&allowed).any(|(more, allowed)| more > allowed) {
-            break;
-        }
-        (bounds, left_out) = (more, left_out + 1);
-    }
-    let pick = |indices: &[usize]| {
-        let mut picked: Vec<u32> = indices.iter().map(|&k| candidates[k]).collect();
-        picked.sort_unstable();
-        picked
-    };
-    let mut balance = sums.balance(&pick(&by_size[left_out..]), omega);
-    balance.omitted = pick(&by_size[..left_out]);
+    let shares: Vec<Vec<f64>> = sizes.iter().map(share).collect();
+    let left_out = most_left_out(&shares, &share(&tail));
+    // From the highest order, mostly the smallest, down.
+    let bounds: [f64; 3] = std::array::from_fn(|sum| {
+        let rest: f64 = left_out.iter().rev().map(|&k| sizes[k][sum]).sum();
+        (tail[sum] + rest) * omega * omega
+    });
+    let mut kept = candidates.clone();
+    kept.retain(|n| left_out.binary_search_by(|&k| candidates[k].cmp(n)).is_err());
+    let mut balance = sums.balance(&kept, omega);
+    balance.omitted = left_out
+        .into_iter()
+        .filter(|&k| sizes[k].iter().any(|&size| size > 0.0))
+        .map(|k| candidates[k])
+        .collect();
     [balance.force.error_bound, balance.moment.error_bound] = [bounds[0], bounds[1]];
     if let Some(torque) = &mut balance.torque {
         torque.error_bound = bounds[2];
@@ -57,20 +60,62 @@ pub(super) fn within(
     Ok(balance)
 }
 
-/// Orders that may matter: those of the spectrum, or all whose harmonics are not below `tolerance`.
-fn candidates(engine: &Engine, sums: &Sums, tolerance: f64) -> Result<Vec<u32>> {
+/// Orders that may matter: those of the spectrum, or all up to where the rest is negligible.
+fn candidates(rtol: f64, engine: &Engine, sums: &Sums) -> Result<Vec<u32>> {
     if let Some(spectrum) = sums.spectrum {
-        let mut orders = spectrum.orders();
-        if !orders.contains(&1) && engine.placements().iter().any(|p| p.rotating_mass > 0.0) {
-            orders.insert(0, 1);
-        }
-        return Ok(orders);
+        let rotating = engine.placements().iter().any(|p| p.rotating_mass > 0.0);
+        return Ok(spectrum.orders_with(rotating));
     }
+    let proportions = sums.groups.iter().map(|group| group.proportions);
+    let count = engine.placements().len();
+    Ok((1..=highest(rtol, NEGLIGIBLE, count, proportions, sums.torque)?).collect())
+}
+
+/// The last order worth a look, for so many cylinders of these proportions: the rest is `negligible`,
+/// or at least within the tolerance.
+pub(crate) fn highest(
+    rtol: f64,
+    negligible: f64,
+    count: usize,
+    proportions: impl Iterator<Item = Proportions>,
+    torque: bool,
+) -> Result<u32> {
+    let (needed, enough) = (0.25 * rtol / count as f64, negligible.min(0.25 * rtol) / count as f64);
     let mut highest = 1;
-    for group in &sums.groups {
-        highest = highest.max(harmonics::highest_order(&group.proportions, tolerance)?);
+    for proportions in proportions {
+        let last = match harmonics::highest_order(&proportions, enough, torque) {
+            Some(order) => order,
+            // A rest that is not negligible still is within the tolerance.
+            None if harmonics::highest_order(&proportions, needed, torque).is_some() => {
+                limits::HIGHEST_ORDER
+            }
+            None => return Err(Error::TooManyOrders { rtol, rod_ratio: 1.0 / proportions.rod }),
+        };
+        highest = highest.max(last);
     }
-    Ok((1..=highest).collect())
+    Ok(highest)
+}
+
+/// Bounds of what orders above `highest` add to one cylinder's force over m·r·ω² and, where it is
+/// wanted, to either torque over m·r²·ω².
+pub(crate) fn tail(proportions: &Proportions, highest: u32, torque: bool) -> [f64; 2] {
+    let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY);
+    let of_torque = torque.then(|| known(harmonics::torque::tail_bound(proportions, highest)));
+    [known(harmonics::tail_bound(proportions, highest)), of_torque.unwrap_or(0.0)]
+}
+
+/// What a tolerance is relative to, over ω²: the largest m·r of a cylinder, times the longest lever,
+/// times its crank radius.
+pub(crate) fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
+    let mut largest = [0.0_f64; 3];
+    for p in engine.placements() {
+        let radius = p.cylinder.crank_radius();
+        let force = p.cylinder.first_order().max(p.rotating_mass * radius);
+        largest[0] = largest[0].max(force);
+        largest[2] = largest[2].max(force * radius);
+    }
+    largest[1] = largest[0] * engine.longest_lever(reference);
+    largest
 }
 
 impl Balance {

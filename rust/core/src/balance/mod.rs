@@ -8,12 +8,15 @@
 //! i·(z − z₀) times its force.
 
 mod choice;
+mod fewest;
 mod sums;
 
 use std::f64::consts::FRAC_PI_2;
 
 use ndarray::{Array1, Array2};
 
+pub(crate) use self::choice::{highest, scales, tail, tolerance};
+pub(crate) use self::fewest::most_left_out;
 use self::sums::Sums;
 pub(crate) use self::sums::{snapped, zero_factor};
 use crate::Complex64;
@@ -70,13 +73,13 @@ pub struct Torque {
 pub struct Balance {
     /// Orders, ascending where they were chosen here.
     pub orders: Vec<u32>,
-    /// Orders that were looked at and left out.
+    /// Orders that were looked at and left out, of those that are not zero.
     pub omitted: Vec<u32>,
     /// Shaking force, N.
     pub force: Shake,
     /// Rocking moment, N·m.
     pub moment: Shake,
-    /// Torque, N·m; a spectrum given by the user tells nothing of it.
+    /// Torque, N·m; none where it was not asked for, or a spectrum of forces tells nothing of it.
     pub torque: Option<Torque>,
 }
 
@@ -127,8 +130,21 @@ pub fn angular_speed(rpm: f64) -> Result<f64> {
     Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)
 }
 
-/// How the engine shakes at `rpm`, about the plane z = `reference_z` (default: half-way between
-/// the first and the last cylinder). A spectrum stands in for every cylinder's slider-crank.
+/// What is asked of an engine, besides orders.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked<'a> {
+    /// Crank speed.
+    pub rpm: f64,
+    /// Plane about which moments are taken; by default half-way between the first and the last
+    /// cylinder.
+    pub reference_z: Option<f64>,
+    /// Stands in for every cylinder's slider-crank.
+    pub spectrum: Option<&'a Spectrum>,
+    /// Whether torques are wanted too.
+    pub torque: bool,
+}
+
+/// How the engine shakes at `rpm`, about the plane z = `reference_z`, torques and all.
 pub fn balance(
     engine: &Engine,
     rpm: f64,
@@ -136,16 +152,22 @@ pub fn balance(
     reference_z: Option<f64>,
     spectrum: Option<&Spectrum>,
 ) -> Result<Balance> {
-    let omega = angular_speed(rpm)?;
-    let reference = engine.reference(reference_z)?;
+    of(engine, &Asked { rpm, reference_z, spectrum, torque: true }, orders)
+}
+
+/// How the engine shakes.
+pub fn of(engine: &Engine, asked: &Asked, orders: &Orders) -> Result<Balance> {
+    let omega = angular_speed(asked.rpm)?;
+    let reference = engine.reference(asked.reference_z)?;
+    let sums = || Sums::new(engine, reference, asked.spectrum, asked.torque);
     match orders {
         Orders::Given(orders) => {
             limits::orders(orders)?;
             let cure = "give fewer orders";
             limits::result_size("orders", &[orders.len(), 8], size_of::<Complex64>(), cure)?;
-            Ok(Sums::new(engine, reference, spectrum).balance(orders, omega))
+            Ok(sums().balance(orders, omega))
         }
-        Orders::Auto { rtol } => choice::within(*rtol, engine, omega, reference, spectrum),
+        Orders::Auto { rtol } => choice::within(*rtol, &sums(), engine, omega),
     }
 }
 

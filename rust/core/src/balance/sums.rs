@@ -3,10 +3,12 @@
 use nalgebra::Vector2;
 use ndarray::{Array1, Array2};
 
-use super::{Balance, Shake, Torque};
+use super::{Balance, Shake, Torque, choice};
 use crate::Complex64;
+use crate::angle::Angle;
 use crate::engine::{Engine, Placement};
 use crate::harmonics;
+use crate::rational::common_multiple;
 use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
 
@@ -95,24 +97,34 @@ impl Planar {
 pub(super) struct Sums<'a> {
     engine: &'a Engine,
     pub spectrum: Option<&'a Spectrum>,
+    /// Whether torques are wanted, and known.
+    pub torque: bool,
     pub groups: Vec<Group>,
     bores: Vec<Complex64>,
     /// Lever about the reference plane, and the size its rounding is relative to.
     levers: Vec<(f64, f64)>,
+    pub reference: f64,
 }
 
 impl<'a> Sums<'a> {
-    pub fn new(engine: &'a Engine, reference: f64, spectrum: Option<&'a Spectrum>) -> Self {
+    pub fn new(
+        engine: &'a Engine,
+        reference: f64,
+        spectrum: Option<&'a Spectrum>,
+        torque: bool,
+    ) -> Self {
         let placements = engine.placements();
         Self {
             engine,
             spectrum,
+            torque: torque && spectrum.is_none(),
             groups: groups(placements.iter().map(|p| p.cylinder)),
             bores: placements.iter().map(|p| p.bank.cis(1)).collect(),
             levers: placements
                 .iter()
                 .map(|p| (p.z - reference, p.z.abs() + reference.abs()))
                 .collect(),
+            reference,
         }
     }
 
@@ -140,7 +152,7 @@ impl<'a> Sums<'a> {
             store(&mut force, k, &forces, square, factor);
             store(&mut moment, k, &levered.quarter_turned(), square, factor);
         }
-        let torque = self.spectrum.is_none().then(|| self.torque(orders, square));
+        let torque = self.torque.then(|| self.torques(orders, square));
         Balance { orders: orders.to_vec(), omitted: Vec::new(), force, moment, torque }
     }
 
@@ -178,7 +190,7 @@ impl<'a> Sums<'a> {
         }
     }
 
-    fn torque(&self, orders: &[u32], square: f64) -> Torque {
+    fn torques(&self, orders: &[u32], square: f64) -> Torque {
         let mut torque = Torque {
             roll: Array1::default(orders.len()),
             crank: Array1::default(orders.len()),
@@ -188,13 +200,8 @@ impl<'a> Sums<'a> {
         for group in &self.groups {
             let harmonics = harmonics::torque::torque(&group.proportions, orders);
             for (k, &n) in orders.iter().enumerate() {
-                let (mut sum, mut size) = (Complex64::default(), 0.0);
-                for &i in &group.members {
-                    let Placement { cylinder, tdc, .. } = &self.engine.placements()[i];
-                    let weight = cylinder.first_order() * cylinder.crank_radius() * square;
-                    sum += tdc.cis(-i64::from(n)) * weight;
-                    size += weight;
-                }
+                let (sum, size) = self.turning(group, n);
+                let (sum, size) = (sum * square, size * square);
                 torque.roll[k] += sum * harmonics.roll[k];
                 torque.crank[k] += sum * harmonics.crank[k];
                 torque.zero_bound[k] +=
@@ -209,35 +216,74 @@ impl<'a> Sums<'a> {
         torque
     }
 
-    /// What orders above `highest` can add to force, moment and torque.
-    pub fn tail(&self, highest: u32, omega: f64) -> [f64; 3] {
+    /// Σ m·r² e^{−in·tdc} of a group, and Σ|terms|.
+    fn turning(&self, group: &Group, order: u32) -> (Complex64, f64) {
+        let (mut sum, mut size) = (Complex64::default(), 0.0);
+        for &i in &group.members {
+            let Placement { cylinder, tdc, .. } = &self.engine.placements()[i];
+            let weight = cylinder.first_order() * cylinder.crank_radius();
+            sum += tdc.cis(-i64::from(order)) * weight;
+            size += weight;
+        }
+        (sum, size)
+    }
+
+    /// What orders above `highest` can add to force, moment and torque over ω².
+    pub fn tail(&self, highest: u32) -> [f64; 3] {
         let mut tail = [0.0; 3];
-        for Group { proportions, members } in &self.groups {
-            let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY) * omega * omega;
-            let force = known(harmonics::tail_bound(proportions, highest));
-            let torque = known(harmonics::torque::tail_bound(proportions, highest));
-            for &i in members {
-                let cylinder = self.engine.placements()[i].cylinder;
-                let first_order = cylinder.first_order();
-                tail[0] += first_order * force;
-                tail[1] += first_order * force * self.levers[i].0.abs();
-                tail[2] += first_order * cylinder.crank_radius() * torque;
+        for group in &self.groups {
+            let [force, torque] = choice::tail(&group.proportions, highest, self.torque);
+            let bounds = [force, force, torque];
+            let most = self.most(group, highest);
+            for (sum, (most, bound)) in tail.iter_mut().zip(most.into_iter().zip(bounds)) {
+                *sum += if most == 0.0 { 0.0 } else { most * bound };
             }
         }
         tail
     }
 
-    /// Largest m·r of a cylinder, times the longest lever, times its crank radius.
-    pub fn largest(&self, reference: f64) -> [f64; 3] {
-        let mut largest = [0.0_f64; 3];
-        for p in self.engine.placements() {
-            let radius = p.cylinder.crank_radius();
-            let force = p.cylinder.first_order().max(p.rotating_mass * radius);
-            largest[0] = largest[0].max(force);
-            largest[2] = largest[2].max(force * radius);
+    /// What a group's force, moment and torque can be at any order, per unit of its harmonic and ω².
+    ///
+    /// Top dead centres that are parts of a turn make layout sums periodic in the order: the largest
+    /// of a period, up to `longest`. Otherwise as if nothing cancelled.
+    fn most(&self, group: &Group, longest: u32) -> [f64; 3] {
+        let mut most = [0.0_f64; 3];
+        let Some(period) = self.period(group, longest) else {
+            for &i in &group.members {
+                let cylinder = self.engine.placements()[i].cylinder;
+                most[0] += cylinder.first_order();
+                most[1] += cylinder.first_order() * self.levers[i].0.abs();
+                most[2] += cylinder.first_order() * cylinder.crank_radius();
+            }
+            return most;
+        };
+        for order in 1..=period {
+            let factor = zero_factor(self.bores.len(), order);
+            let length = |sum: &Planar| {
+                let bound = sum.size * factor;
+                snapped(sum.forward, bound).norm() + snapped(sum.backward_conj, bound).norm()
+            };
+            let (forces, levered) = self.reciprocating(group, order);
+            most[0] = most[0].max(length(&forces));
+            most[1] = most[1].max(length(&levered));
+            if self.torque {
+                let (sum, size) = self.turning(group, order);
+                most[2] = most[2].max(snapped(sum, size * factor).norm());
+            }
         }
-        largest[1] = largest[0] * self.engine.longest_lever(reference);
-        largest
+        most
+    }
+
+    /// After how many orders the layout sums of a group come again.
+    fn period(&self, group: &Group, longest: u32) -> Option<u32> {
+        let mut period = 1;
+        for &i in &group.members {
+            let Angle::Turns(_, parts) = self.engine.placements()[i].tdc else {
+                return None;
+            };
+            period = common_multiple(period, i128::from(parts))?;
+        }
+        u32::try_from(period).ok().filter(|&period| period <= longest)
     }
 }
 

@@ -16,7 +16,6 @@ pub mod torque;
 use self::spike::spike_integral;
 use crate::Complex64;
 use crate::double::Double;
-use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Proportions;
 
@@ -239,21 +238,17 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
     bound.is_finite().then_some(bound)
 }
 
-/// The lowest order above which the rest of the force is below `tolerance` times m·r·ω² and that of
-/// the torque below `tolerance` times m·r²·ω².
-pub fn highest_order(proportions: &Proportions, tolerance: f64) -> Result<u32> {
+/// The lowest order above which the rest of the force is below `tolerance` times m·r·ω² and, where it
+/// is wanted, that of the torque below `tolerance` times m·r²·ω²; none that is taken may be.
+#[must_use]
+pub fn highest_order(proportions: &Proportions, tolerance: f64, torque: bool) -> Option<u32> {
     let enough = |n: u32| {
         let within = |bound: Option<f64>| bound.is_some_and(|bound| bound <= tolerance);
-        within(tail_bound(proportions, n)) && within(torque::tail_bound(proportions, n))
+        within(tail_bound(proportions, n))
+            && (!torque || within(torque::tail_bound(proportions, n)))
     };
     if !enough(limits::HIGHEST_ORDER) {
-        let cure = format!(
-            "more than {} orders would be needed at a rod ratio of {}; ask for exact kinematics or \
-             a larger rtol",
-            limits::HIGHEST_ORDER,
-            1.0 / proportions.rod
-        );
-        return Err(Error::figure("rtol", tolerance, cure));
+        return None;
     }
     let (mut low, mut high) = (0, limits::HIGHEST_ORDER);
     while low < high {
@@ -264,5 +259,5 @@ pub fn highest_order(proportions: &Proportions, tolerance: f64) -> Result<u32> {
             low = middle + 1;
         }
     }
-    Ok(high.max(1))
+    Some(high.max(1))
 }

@@ -8,6 +8,7 @@
 //! firing held they are cosine and sine of γ. The four are worked out once for all engines.
 
 mod block;
+mod choice;
 mod harmonics;
 mod plan;
 mod run;
@@ -63,6 +64,10 @@ pub struct Sweep {
     spectrum: Option<Spectrum>,
     /// ω² of each speed.
     squares: Vec<f64>,
+    /// Whether torque is wanted.
+    torque: bool,
+    omitted: Vec<u32>,
+    error_bound: [f64; 3],
 }
 
 /// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
@@ -101,7 +106,17 @@ impl Sweep {
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         let references = references.collect::<Result<_>>()?;
         let replaced = axes.rod_ratio.is_some() || axes.pin_offset.is_some();
-        let sweep = Self { engines, axes, orders, references, spectrum, squares };
+        let sweep = Self {
+            engines,
+            axes,
+            orders,
+            references,
+            spectrum,
+            squares,
+            torque: true,
+            omitted: Vec::new(),
+            error_bound: [0.0; 3],
+        };
         if replaced {
             sweep.check_geometry()?;
         }
@@ -134,6 +149,24 @@ impl Sweep {
     #[must_use]
     pub fn orders(&self) -> &[u32] {
         &self.orders
+    }
+
+    /// Orders that were looked at and left out, of those that are not zero everywhere.
+    #[must_use]
+    pub fn omitted(&self) -> &[u32] {
+        &self.omitted
+    }
+
+    /// What orders left out can add to force, moment and torque at any crank angle of any point.
+    #[must_use]
+    pub fn error_bound(&self) -> [f64; 3] {
+        self.error_bound
+    }
+
+    /// The same, and no torque can be asked of it.
+    #[must_use]
+    pub fn without_torque(self) -> Self {
+        Self { torque: false, ..self }
     }
 
     /// What is swept.
@@ -224,6 +257,9 @@ impl Sweep {
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
     {
+        if quantity == Quantity::Torque && !self.torque {
+            return Err(Error::value("torque", "False", "it was not asked for; give torque=True"));
+        }
         let shape = [&self.shape()[..], tail].concat();
         let cure = "sweep one axis in parts";
         limits::result_size("sweep", &shape, size_of::<T>(), cure)?;

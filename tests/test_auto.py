@@ -1,0 +1,376 @@
+"""Does ``orders="auto"`` take the fewest orders, and is its bound true and tight?
+
+What is left out is found from the sum of all other orders, up to one above which nothing is left,
+so that it is seen far below the rounding of a waveform.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from crankpin._engine import Hold
+    from numpy.typing import NDArray
+
+RPM = 100.0
+OMEGA = RPM * 2.0 * np.pi / 60.0
+QUANTITIES = ("force", "moment", "torque")
+
+examples = settings(max_examples=60, deadline=None, derandomize=True)
+
+
+def scales(engine: cp.Engine) -> dict[str, float]:
+    """What rtol is relative to."""
+    pairs = list(zip(engine.cylinders, engine.rotating_mass, strict=True))
+    each = [max(c.reciprocating_mass, mass) * c.crank_radius for c, mass in pairs]
+    force = max(each) * OMEGA**2
+    torque = max(f * c.crank_radius for f, (c, _) in zip(each, pairs, strict=True)) * OMEGA**2
+    lever = float(np.abs(engine.z - engine.reference_z).max())
+    return {"force": force, "moment": force * lever, "torque": torque}
+
+
+def top(engine: cp.Engine) -> int:
+    """An order above which every force is below 1e-22 of the first, by the largest root."""
+    arms = [(c.rod_length - abs(c.pin_offset)) / c.crank_radius for c in engine.cylinders]
+    root = max(arm - (arm**2 - 1.0) ** 0.5 for arm in arms)
+    # The square of an order, which stands before the root's power, is 1e7 at most.
+    return int((22.0 + 7.0) * np.log(10.0) / -np.log(root)) + 8
+
+
+def peak(turning: NDArray[Any], against: NDArray[Any], orders: tuple[int, ...]) -> float:
+    """Largest length over the turn of the sum of orders, from samples."""
+    samples = 8 * max(orders)
+    spectrum = np.zeros(samples, complex)
+    spectrum[list(orders)] = turning
+    spectrum[[-n for n in orders]] = against
+    return float(np.abs(np.fft.ifft(spectrum) * samples).max())
+
+
+def left_out(engine: cp.Engine, kept: tuple[int, ...]) -> dict[str, float]:
+    """What all orders but these add to force, moment and either torque at the worst crank angle."""
+    rest = tuple(n for n in range(1, max(top(engine), *kept, 1) + 1) if n not in kept)
+    b = engine.balance(RPM, rest)
+    torques = (peak(t / 2, t.conj() / 2, rest) for t in (b.torque, b.crank_torque))
+    return {
+        "force": peak(b.forward_force, b.backward_force, rest),
+        "moment": peak(b.forward_moment, b.backward_moment, rest),
+        "torque": max(torques),
+    }
+
+
+def with_rod(engine: cp.Engine, rod_ratio: float, offset: float) -> cp.Engine:
+    """The engine with other rods; the offset as a part of what can turn."""
+    cylinders = [
+        cp.Cylinder(
+            c.crank_radius,
+            c.crank_radius / rod_ratio,
+            c.reciprocating_mass,
+            offset * c.crank_radius * (1.0 / rod_ratio - 1.0),
+        )
+        for c in engine.cylinders
+    ]
+    return engine.replace(cylinder=cylinders)
+
+
+# --- the bound ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.1])
+@pytest.mark.parametrize("name", cp.presets())
+def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
+    for rod_ratio in (0.1, 0.3, 0.6, 0.9, 0.99):
+        engine = with_rod(cp.Engine.preset(name), rod_ratio, offset)
+        scale = scales(engine)
+        for rtol in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-14):
+            b = engine.balance(RPM, "auto", rtol=rtol)
+            for quantity, true in left_out(engine, b.orders).items():
+                bound = getattr(b.error_bound, quantity)
+                # Each of the sums is rounded.
+                assert true <= bound * (1.0 + 1e-12), (rod_ratio, rtol, quantity)
+                assert bound <= rtol * scale[quantity] * (1.0 + 1e-12)
+                # A tenth of rounding is added for all that is above the last order looked at.
+                assert bound <= 10.0 * true + 1e-17 * scale[quantity], (rod_ratio, rtol, quantity)
+
+
+def numbers(low: float, high: float) -> st.SearchStrategy[float]:
+    """Floats of a range."""
+    return st.floats(low, high, allow_nan=False, allow_subnormal=False)
+
+
+ANGLES = st.one_of(
+    numbers(0.0, 360.0), st.integers(0, 23).map(lambda k: 15.0 * k), st.just("360/7")
+)
+
+
+@st.composite
+def engines(draw: st.DrawFn) -> cp.Engine:
+    """One to six cylinders, each its own or all alike, anywhere."""
+    count = draw(st.integers(1, 6))
+    one = st.tuples(numbers(0.1, 0.9), numbers(-0.5, 0.5), numbers(0.1, 2.0))
+    shared = draw(st.one_of(st.none(), one))
+    cylinders = []
+    for _ in range(count):
+        slant, offset, mass = shared or draw(one)
+        # The crank takes this part of what the offset leaves of a rod of 0.15 m.
+        radius = 0.15 * (1.0 - abs(offset)) * slant
+        cylinders.append(cp.Cylinder(radius, 0.15, mass, 0.15 * offset))
+    return cp.Engine.from_lists(
+        cylinders,
+        tdc_deg=[draw(ANGLES) for _ in range(count)],
+        bank_deg=[draw(ANGLES) for _ in range(count)],
+        z=[draw(numbers(-1.0, 1.0)) for _ in range(count)],
+        rotating_mass=[draw(st.one_of(st.just(0.0), numbers(0.0, 2.0))) for _ in range(count)],
+    )
+
+
+TOLERANCES = st.sampled_from([1e-2, 1e-4, 1e-7, 1e-10, 1e-13])
+
+
+@examples
+@given(engines(), TOLERANCES)
+def test_the_bound_holds_for_any_engine(engine: cp.Engine, rtol: float) -> None:
+    b = engine.balance(RPM, "auto", rtol=rtol)
+    for quantity, true in left_out(engine, b.orders).items():
+        bound = getattr(b.error_bound, quantity)
+        assert true <= bound * (1.0 + 1e-12) + 1e-18 * scales(engine)[quantity]
+        assert bound <= rtol * scales(engine)[quantity] * (1.0 + 1e-12)
+
+
+@examples
+@given(engines(), TOLERANCES)
+def test_the_bound_holds_against_kinematics(engine: cp.Engine, rtol: float) -> None:
+    theta = np.linspace(0.0, 360.0, 97)
+    b = engine.balance(RPM, "auto", rtol=rtol)
+    exact = engine.waveform(RPM, theta)
+    summed = engine.waveform(RPM, theta, b.orders) if b.orders else None
+    for quantity, scale in scales(engine).items():
+        off = getattr(exact, quantity) - (getattr(summed, quantity) if summed else 0.0)
+        length = np.abs(off) if quantity == "torque" else np.hypot(*off.T)
+        # Near a rod ratio of 0.9 accelerations are some 20 times the first order's, and angles are
+        # rounded to 1e-15 rad of slopes as much again; of up to six cylinders.
+        rounding = 1e-12 * len(engine) * (scale + scales(engine)["force"] * (quantity == "moment"))
+        assert length.max() <= getattr(b.error_bound, quantity) + rounding
+
+
+@examples
+@given(
+    engines(),
+    st.dictionaries(st.integers(1, 40), numbers(1e-9, 1.0), min_size=1, max_size=12),
+    TOLERANCES,
+)
+def test_the_bound_holds_for_spectra(
+    engine: cp.Engine, spectrum: dict[int, float], rtol: float
+) -> None:
+    b = engine.balance(RPM, "auto", rtol=rtol, spectrum=spectrum)
+    listed = tuple(sorted({1, *spectrum} - set(b.orders)))
+    assert b.error_bound.torque is None
+    if listed:
+        rest = engine.balance(RPM, listed, spectrum=spectrum)
+        force = peak(rest.forward_force, rest.backward_force, listed)
+        moment = peak(rest.forward_moment, rest.backward_moment, listed)
+        assert force <= b.error_bound.force * (1.0 + 1e-12)
+        assert moment <= b.error_bound.moment * (1.0 + 1e-12)
+
+
+def test_what_cancels_at_every_order_has_no_bound() -> None:
+    """Parts of a turn make the layout's sums periodic in the order: zero in one, zero in all."""
+    assert cp.Engine.preset("boxer-6").balance(RPM, "auto").error_bound.force == 0.0
+    assert cp.Engine.preset("i6").balance(RPM, "auto").error_bound.moment == 0.0
+    assert cp.Engine.preset("i6").balance(RPM, "auto").error_bound.force > 0.0
+
+
+# --- the fewest ---------------------------------------------------------------------------------
+
+
+def fewest(engine: cp.Engine, rtol: float, *, torque: bool) -> int:
+    """Try every set of orders that could be left out, by the same bound."""
+    wanted = QUANTITIES if torque else QUANTITIES[:2]
+    scale = scales(engine)
+    everything = tuple(range(1, top(engine) + 1))
+    b = engine.balance(RPM, everything)
+    sizes = {
+        "force": b.force_peak_vector,
+        "moment": b.moment_peak_vector,
+        "torque": np.maximum(np.abs(b.torque), np.abs(b.crank_torque)),
+    }
+    parts = np.array(
+        [sizes[q] / (rtol * scale[q]) if scale[q] else 0.0 * sizes[q] for q in wanted]
+    ).T
+    worst = parts.max(axis=1)
+    needed = int((worst > 1.0).sum())
+    # The small ones are left out by any best set of at most twelve that are not.
+    open_ = sorted(np.flatnonzero((worst <= 1.0) & (worst > 1e-5)), key=lambda k: -worst[k])[:12]
+    small = parts[[k for k in np.flatnonzero(worst <= 1.0) if k not in open_]].sum(axis=0)
+    assert (small < 0.5).all()
+    for kept in range(len(open_) + 1):
+        for some in itertools.combinations(open_, len(open_) - kept):
+            if (parts[list(some)].sum(axis=0) + small <= 1.0).all():
+                return needed + kept
+    raise AssertionError
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(engines(), st.sampled_from([3e-2, 1e-3, 1e-5]), st.booleans())
+def test_no_fewer_orders_would_do(engine: cp.Engine, rtol: float, torque: bool) -> None:
+    b = engine.balance(RPM, "auto", rtol=rtol, torque=torque)
+    assert len(b.orders) == fewest(engine, rtol, torque=torque)
+
+
+def test_cancellations_save_orders() -> None:
+    """A V12 is two inline sixes: only every sixth order is left."""
+    for rtol in (1e-2, 1e-4):
+        v12 = cp.Engine.preset("v12-60").balance(RPM, "auto", rtol=rtol, torque=False)
+        single = cp.Engine.preset("single").balance(RPM, "auto", rtol=rtol, torque=False)
+        assert len(v12.orders) < len(single.orders)
+        assert all(n % 6 == 0 for n in v12.orders)
+
+
+@pytest.mark.parametrize("rpm", [0.0, 1.0, 6000.0])
+def test_speed_changes_no_choice(rpm: float) -> None:
+    v6 = cp.Engine.preset("v6-60")
+    assert v6.balance(rpm, "auto").orders == v6.balance(RPM, "auto").orders
+
+
+# --- torque only when asked ---------------------------------------------------------------------
+
+
+def test_torque_counts_only_when_asked() -> None:
+    i6 = cp.Engine.preset("i6")
+    with_torque, without = (i6.balance(RPM, "auto", torque=asked) for asked in (True, False))
+    assert {3, 9} <= set(with_torque.orders)
+    assert not {3, 9} & set(without.orders)
+    assert without.error_bound.torque is None
+    explicit = i6.balance(RPM, [6], torque=False)
+    w = i6.waveform(RPM, [0.0], torque=False)
+    s = cp.sweep(i6, rpm=RPM, torque=False)
+    for result in (without, explicit, w, s):
+        with pytest.raises(cp.InputError, match="torque=True"):
+            _ = result.torque
+    np.testing.assert_array_equal(w.force, i6.waveform(RPM, [0.0]).force)
+    assert w.error_bound == (0.0, 0.0, None)
+    assert "torque" not in explicit.to_pandas()
+    assert "torque" not in explicit.to_xarray()
+    assert "M_z" not in repr(explicit)
+
+
+# --- waveforms: whichever costs less --------------------------------------------------------------
+
+
+def test_kinematics_are_taken_where_they_cost_less() -> None:
+    theta = np.arange(0.0, 360.0, 7.0)
+    near = with_rod(cp.Engine.preset("i4"), 0.99, 0.0)  # some seventy orders, or four cylinders
+    w = near.waveform(RPM, theta, "auto", rtol=1e-12)
+    assert w.orders is None
+    assert w.omitted == ()
+    assert w.error_bound == (0.0, 0.0, 0.0)
+    np.testing.assert_array_equal(w.moment, near.waveform(RPM, theta).moment)
+    far = cp.Engine.preset("v12-60")  # twelve cylinders, or a few orders
+    w = far.waveform(RPM, theta, "auto", rtol=1e-6)
+    b = far.balance(RPM, "auto", rtol=1e-6)
+    assert (w.orders, w.omitted, w.error_bound) == (b.orders, b.omitted, b.error_bound)
+    assert w.orders is not None
+
+
+def test_kinematics_are_taken_where_no_orders_suffice() -> None:
+    stuck = with_rod(cp.Engine.preset("i4"), 1.0 - 1e-12, 0.0)
+    with pytest.raises(cp.InputError, match="rtol"):
+        stuck.balance(RPM, "auto")
+    assert stuck.waveform(RPM, [0.0, 1.0], "auto").orders is None
+
+
+def test_a_spectrum_is_always_summed() -> None:
+    w = cp.Engine.preset("single").waveform(RPM, [0.0], "auto", spectrum={1: 1.0, 2: 0.3, 4: 0.1})
+    assert w.orders == (1, 2, 4)
+
+
+# --- sweeps -------------------------------------------------------------------------------------
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(
+    st.sampled_from(["v6-60", "v8-crossplane", "v10-90", "v14-9.13", "w16"]),
+    st.lists(numbers(0.1, 0.9), min_size=1, max_size=3),
+    st.one_of(st.none(), st.lists(numbers(-0.5, 0.5), min_size=1, max_size=2)),
+    st.sampled_from(["pins", "firing"]),
+    st.booleans(),
+    st.sampled_from([1e-2, 1e-5, 1e-9]),
+)
+def test_sweeps_reach_the_tolerance_everywhere(
+    name: str,
+    ratios: list[float],
+    offsets: list[float] | None,
+    hold: Hold,
+    torque: bool,
+    rtol: float,
+) -> None:
+    engine = cp.Engine.preset(name)
+    radius = engine.cylinders[0].crank_radius
+    # Parts of what the longest crank of the sweep leaves.
+    room = radius * (1.0 / max(ratios) - 1.0)
+    if name == "w16" and offsets is None:
+        offsets = [0.0]  # its own offsets take short rods only
+    offsets = None if offsets is None else [room * offset for offset in offsets]
+    angles = None if name == "w16" else [30.0, 90.0, 117.3]
+    s = cp.sweep(
+        engine,
+        rpm=[RPM, 0.5 * RPM],
+        bank_angle_deg=angles,
+        hold=hold if angles else None,
+        rod_ratio=ratios,
+        pin_offset=offsets,
+        orders="auto",
+        rtol=rtol,
+        torque=torque,
+    )
+    wanted = QUANTITIES if torque else QUANTITIES[:2]
+    for angle, ratio, offset in itertools.product(angles or [None], ratios, offsets or [None]):
+        there = engine if angle is None else engine.with_bank_angle(angle, hold=hold)
+        cylinders = [
+            cp.Cylinder(
+                c.crank_radius,
+                c.crank_radius / ratio,
+                c.reciprocating_mass,
+                c.pin_offset if offset is None else offset,
+            )
+            for c in there.cylinders
+        ]
+        there = there.replace(cylinder=cylinders)
+        rest = tuple(n for n in range(1, top(there) + 1) if n not in s.orders)
+        b = there.balance(RPM, rest)
+        true = {
+            "force": peak(b.forward_force, b.backward_force, rest),
+            "moment": peak(b.forward_moment, b.backward_moment, rest),
+            "torque": peak(b.torque / 2, b.torque.conj() / 2, rest),
+        }
+        for quantity in wanted:
+            bound, scale = getattr(s.error_bound, quantity), scales(engine)[quantity]
+            assert true[quantity] <= bound * (1.0 + 1e-12) + 1e-14 * scale
+            assert bound <= rtol * scale * (1.0 + 1e-12)
+
+
+def test_a_sweep_of_one_point_is_a_balance() -> None:
+    i4 = cp.Engine.preset("i4")
+    for rtol in (1e-2, 1e-6, 1e-12):
+        s = cp.sweep(i4, rpm=RPM, orders="auto", rtol=rtol, torque=False)
+        assert s.orders == i4.balance(RPM, "auto", rtol=rtol, torque=False).orders
+
+
+def test_the_largest_rod_ratio_is_the_worst() -> None:
+    """Sizes of all orders of force grow with the rod ratio; the series says so for every order."""
+    ratios = np.linspace(0.01, 0.99, 99)
+    table = np.abs(cp.slider_crank_harmonics(ratios, range(2, 41, 2)))
+    assert (np.diff(table, axis=0) > 0.0).all()
+
+
+def test_a_sweep_always_has_an_order() -> None:
+    boxer = cp.Engine.preset("boxer-6")
+    s = cp.sweep(boxer, rpm=RPM, orders="auto", rtol=0.99, torque=False)
+    assert len(s.orders) == 1
+    assert s.force_peak_vector.shape == (1,)
