@@ -553,8 +553,8 @@ def _dips(
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
     rpm = swept.fixed["rpm"]
-    how = swept._arguments
-    return sweep([engine], rpm=rpm, bank_angle_deg=angles, orders=swept.orders, **how)
+    how = swept._arguments | {"orders": swept.orders}
+    return sweep([engine], rpm=rpm, bank_angle_deg=angles, **how)
 
 
 # --- engines and angles -------------------------------------------------------------------------
