@@ -23,7 +23,7 @@ LEAST_ERROR = 1e-17
 NO_DIGIT = 1.0
 """An error from which a run has failed."""
 BAND = (NO_DIGIT, 30.0)
-COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#7B4A12", "#56B4E9", "#7F7F7F", "#E69F00")
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#B0A000", "#56B4E9", "#7F7F7F", "#E69F00")
 MARKERS = "os^vDP<>"
 
 
@@ -105,5 +105,5 @@ def save(figure: Figure, path: Path, dpi: int = 110) -> None:
     """Write a small PNG: charts need few colours."""
     figure.savefig(path, dpi=dpi)
     with Image.open(path) as image:
-        few_colours = image.convert("RGB").quantize(64)
+        few_colours = image.convert("RGB").quantize(128)
     few_colours.save(path, optimize=True)

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 import all as charts
+import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
@@ -68,6 +69,23 @@ def test_harmonics(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             assert row["outcome"] == "refuses"
 
 
+# Worst error of orders 2, 4, 6, 8 at λ = 0.3 with the best setting, to a power of ten.
+BEST = {
+    # λ²ᵏ after twelve terms, times coefficients that grow
+    "series in λ": 1e-12,
+    "series in λ, plain Python": 1e-12,
+    # rounding of the first orders, 64 times and 1 times, over a₈ = 1e-5
+    "FFT of positions": 1e-9,
+    "FFT of accelerations": 1e-12,
+    # rounding over p⁻¹⁶
+    "elliptic integrals, recurrence up": 1e-3,
+    # rounding
+    "recurrence down": 1e-14,
+    "hyp2f1": 1e-14,
+    "crankpin": 1e-15,
+}
+
+
 @pytest.mark.parametrize("method", harmonics.METHODS, ids=lambda method: method.name)
 def test_every_setting_of_the_harmonics(method: harmonics.methods.Method) -> None:
     region = "λ = 0.15 … 0.45"
@@ -76,8 +94,7 @@ def test_every_setting_of_the_harmonics(method: harmonics.methods.Method) -> Non
         relative, absolute = harmonics.errors(harmonics.Run(region, 1, method, setting))
         assert relative.shape == absolute.shape == (1, 4)
         found.append(float(relative.max()))
-    # a knob turned up helps, until rounding
-    assert not min(found) > found[0]
+    assert np.nanmin(found) <= BEST[method.name]
     if method.name == "crankpin":
         asked = [1e-14 if rtol is None else rtol for rtol in method.knobs]
         # rounding of the powers

@@ -215,8 +215,8 @@ def slider_crank_harmonics(
         pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
     rtol
         What every order may be off by, relative to itself: 1e-15 to below 1. By default all digits
-        come. Fewer save little: at 1e-3 a sixth of the time for rod ratios about 0.3, a third for
-        0.6 to 0.99. With ``pin_offset_ratio`` all digits come anyway.
+        come. Fewer save little: at 1e-3 a tenth of the time for many rod ratios about 0.3, a third
+        for 0.6 to 0.99, nothing for a single one. With ``pin_offset_ratio`` all digits come anyway.
 
     Returns
     -------
