@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 TESTS = Path(__file__).parent.parent / "tests"
 sys.path.insert(0, str(TESTS))
 
-from rederivation import harmonics_mp, ito, kinematics  # noqa: E402 - from the tests beside us
+from rederivation import harmonics_mp, ijesc, ito, kinematics  # noqa: E402 - from the tests beside us
 
-__all__ = ["TESTS", "harmonics_mp", "ito", "kinematics", "relative_errors"]
+__all__ = ["TESTS", "harmonics_mp", "ijesc", "ito", "kinematics", "relative_errors"]
 
 UNDERFLOW = 1e-300
 """Below it doubles lose their last digits."""

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import crankpin as cp
@@ -67,24 +68,52 @@ def _columns(ratios: Array, orders: Sequence[int], even: Callable[[int], Array])
 # --- harmonics ------------------------------------------------------------------------------------
 
 
-def series(ratios: Array, orders: Sequence[int], terms: int) -> Array:
-    """Textbook series in λ: √(1 − λ² sin²θ) by the binomial theorem, so many terms to an order.
+@lru_cache
+def series_coefficients(order: int, terms: int) -> tuple[float, ...]:
+    """Coefficients of λⁿ⁻¹, λⁿ⁺¹, … of an even order, so many.
 
     a₂ = λ + λ³/4 + 15λ⁵/128 + …, a₄ = −λ³/4 − 3λ⁵/16 − …; one term of each is what most texts use
     (Taylor, *The Internal Combustion Engine*, vol. 2; Biezeno and Grammel, *Technische Dynamik*).
     """
+    m = order // 2
+    found = []
+    for k in range(m, m + terms):
+        # sin²ᵏθ holds cos 2mθ 2(−1)ᵐ binom(2k, k − m)/4ᵏ times
+        weight = 2.0 * (-1) ** (k + m) * float(special.binom(0.5, k))
+        weight *= math.exp(math.log(math.comb(2 * k, k - m)) - k * math.log(4.0))
+        found.append(order**2 * weight)
+    return tuple(found)
+
+
+def series(ratios: Array, orders: Sequence[int], terms: int) -> Array:
+    """Textbook series in λ: √(1 − λ² sin²θ) by the binomial theorem, so many terms to an order."""
+    square = ratios * ratios
 
     def even(n: int) -> Array:
-        m = n // 2
         total = np.zeros_like(ratios)
-        for k in range(m, m + terms):
-            # sin²ᵏθ holds cos 2mθ 2(−1)ᵐ binom(2k, k − m)/4ᵏ times
-            weight = 2.0 * (-1) ** (k + m) * special.binom(0.5, k)
-            weight *= math.exp(math.log(math.comb(2 * k, k - m)) - k * math.log(4.0))
-            total += weight * ratios ** (2 * k - 1)
-        return n * n * total
+        for coefficient in reversed(series_coefficients(n, terms)):
+            total *= square
+            total += coefficient
+        return np.asarray(total * ratios ** (n - 1))
 
     return _columns(ratios, orders, even)
+
+
+def series_in_python(ratios: Array, orders: Sequence[int], terms: int) -> list[list[float]]:
+    """Sum the same series in plain Python, one rod ratio after the other."""
+    rows = []
+    for ratio in ratios.tolist():
+        row = []
+        for n in orders:
+            if n % 2:
+                row.append(float(n == 1))
+                continue
+            total = 0.0
+            for coefficient in reversed(series_coefficients(n, terms)):
+                total = total * ratio * ratio + coefficient
+            row.append(total * ratio ** (n - 1))
+        rows.append(row)
+    return rows
 
 
 def _turn(samples: int, ratios: Array, offsets: Array | None) -> tuple[Array, Array, Array]:
@@ -115,6 +144,23 @@ def n_is_one(orders: Sequence[int]) -> list[bool]:
     return [n == 1 for n in orders]
 
 
+def _in_blocks(
+    transform: Callable[[Array, Array | None], NDArray[Any]],
+    ratios: Array,
+    samples: int,
+    offsets: Array | None,
+) -> NDArray[Any]:
+    """Transform as many rod ratios at a time as stay in the cache: 128 kB of samples."""
+    rows = max(1, 16384 // samples)
+    parts = range(0, len(ratios), rows)
+    return np.concatenate(
+        [
+            transform(ratios[k : k + rows], None if offsets is None else offsets[k : k + rows])
+            for k in parts
+        ]
+    )
+
+
 def fft_positions(
     ratios: Array, orders: Sequence[int], samples: int, offsets: Array | None = None
 ) -> NDArray[Any]:
@@ -122,19 +168,27 @@ def fft_positions(
 
     Rounding of the position, 1/λ, goes into every order alike: order n loses it n²/aₙ times.
     """
-    _, _, height = _turn(samples, ratios, offsets)
-    return _transformed(height, orders, offsets, 2)
+
+    def transform(ratios: Array, offsets: Array | None) -> NDArray[Any]:
+        _, _, height = _turn(samples, ratios, offsets)
+        return _transformed(height, orders, offsets, 2)
+
+    return _in_blocks(transform, ratios, samples, offsets)
 
 
 def fft_accelerations(
     ratios: Array, orders: Sequence[int], samples: int, offsets: Array | None = None
 ) -> NDArray[Any]:
     """Transform so many samples of the rod's part of the acceleration, −h''."""
-    theta, lateral, height = _turn(samples, ratios, offsets)
-    # h h' = −u u', h h'' = −u'² − u u'' − h'² with u = sin θ − e/r
-    slope = -lateral * np.cos(theta) / height
-    bend = (np.cos(theta) ** 2 - lateral * np.sin(theta) + slope**2) / height
-    return _transformed(bend, orders, offsets, 0)
+
+    def transform(ratios: Array, offsets: Array | None) -> NDArray[Any]:
+        theta, lateral, height = _turn(samples, ratios, offsets)
+        # h h' = −u u', h h'' = −u'² − u u'' − h'² with u = sin θ − e/r
+        slope = -lateral * np.cos(theta) / height
+        bend = (np.cos(theta) ** 2 - lateral * np.sin(theta) + slope**2) / height
+        return _transformed(bend, orders, offsets, 0)
+
+    return _in_blocks(transform, ratios, samples, offsets)
 
 
 def _first_two(ratios: Array) -> tuple[Array, Array]:
@@ -175,14 +229,13 @@ def recurrence_downwards(ratios: Array, orders: Sequence[int], ahead: int) -> Ar
     for m in range(top + ahead, 0, -1):
         below = -(4 * alpha * m * here + beta * (2 * m + 3) * above) / (beta * (2 * m - 3))
         above, here = here, below
-        kept[m - 1] = here
+        if m <= top + 1:
+            kept[m - 1] = here
         size = np.abs(here)
         scale = np.where(size > 1e200, 1 / size, 1.0)
         if np.any(scale != 1.0):
             above, here = above * scale, here * scale
-            # only what is asked for is kept to scale
-            kept = {k: v * scale for k, v in kept.items() if k <= top}
-        kept.pop(top + 1, None)
+            kept = {k: v * scale for k, v in kept.items()}
     start = 2 / np.pi * special.ellipe(m2) / kept[0]
     return _columns(ratios, orders, lambda n: 2 * n * n * kept[n // 2] * start / ratios)
 
@@ -203,11 +256,11 @@ def hypergeometric(ratios: Array, orders: Sequence[int], _knob: None = None) -> 
 
 
 def crankpin(
-    ratios: Array, orders: Sequence[int], _knob: None = None, offsets: Array | None = None
+    ratios: Array, orders: Sequence[int], rtol: float | None = None, offsets: Array | None = None
 ) -> NDArray[Any]:
-    """Ask crankpin."""
+    """Ask crankpin, for all digits or within a tolerance."""
     if offsets is None:
-        return cp.slider_crank_harmonics(ratios, orders)
+        return cp.slider_crank_harmonics(ratios, orders, rtol=rtol)
     return cp.slider_crank_harmonics(ratios, orders, offsets)
 
 

@@ -3,7 +3,7 @@
 ``python benchmarks/search.py`` prints three tables: times of the search beside NumPy and numba with
 the same exact method; pairs found against the tolerance of a comparison of computed magnitudes; the
 least distance between different magnitudes beside rounding. Raw figures and a picture go to
-``--out``. ``--v26`` adds the gap of a V-26 (minutes, 8 GB).
+``--out``. ``--v26`` adds the gap of a V-26 (minutes, 8 GB), ``--quick`` leaves out V-18 and V-22.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -53,10 +53,14 @@ def alternating_banks() -> search.Banks:
     return search.Banks(rows.T.astype(search.WHOLE), np.full(len(rows), 7))
 
 
-def cases() -> list[Case]:
-    """List V-10 to V-22."""
+ENGINES = ((5, False), (7, True), (7, False), (9, False), (11, False))
+"""Throws, and whether the cylinders of a bank alternate: V-10 to V-22."""
+
+
+def cases(engines: Iterable[tuple[int, bool]] = ENGINES) -> list[Case]:
+    """List the arrangements of each."""
     made = []
-    for throws, alternating in ((5, False), (7, True), (7, False), (9, False), (11, False)):
+    for throws, alternating in engines:
         name = f"V-{2 * throws}{' alternating' * alternating}"
         start = time.perf_counter()
         banks = alternating_banks() if alternating else search.banks(throws)
@@ -203,7 +207,7 @@ def picture(raw: list[list[object]], names: list[str], path: Path) -> None:
     """Error of the count against tolerance, and time against error."""
     plt.rcParams |= {"axes.grid": True, "axes.axisbelow": True, "grid.color": "#dddddd"}
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
-    for name, color in zip(names, COLORS, strict=True):
+    for name, color in zip(names, COLORS, strict=False):
         for method, line in (("double", "-"), ("single", ":")):
             rows = [row for row in raw if row[:2] == [name, method]]
             error = np.array([abs(row[3] / row[4] - 1) for row in rows])  # type: ignore[operator]
@@ -278,10 +282,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=HERE / "out", help="folder to write to")
     parser.add_argument("--v26", action="store_true", help="the gap of a V-26 too")
+    parser.add_argument("--quick", action="store_true", help="V-10 and V-14 only")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     print(RAN_ON)
-    engines = cases()
+    engines = cases(ENGINES[:3] if given.quick else ENGINES)
     speed(engines, given.out)
     tolerance(engines, given.out)
     gaps(engines, given.out, given.v26)

@@ -135,3 +135,39 @@ def test_vectorised_as_one_by_one() -> None:
         assert row[0] == 1.0
         assert row[2] == 0.0
         assert cylinder.harmonics([3])[0] == 0
+
+
+@pytest.mark.parametrize("count", [1, 16, 19])
+@settings(max_examples=60, deadline=None)
+@given(
+    ratio=st.one_of(st.floats(1e-6, 0.999), st.floats(1e-12, 1e-3).map(lambda gap: 1 - gap)),
+    digits=st.floats(0.01, 15),
+    order=st.integers(1, 100).map(lambda m: 2 * m),
+)
+def test_a_tolerance_is_kept_by_every_order(
+    count: int, ratio: float, digits: float, order: int
+) -> None:
+    # lanes of sixteen share the number of terms, others go by themselves
+    ratios = np.linspace(ratio / 2, ratio, count) if count > 1 else np.array([ratio])
+    orders = [1, 2, 3, order] if order > 2 else [1, 2, 3]
+    rtol = 10.0**-digits
+    found = cp.slider_crank_harmonics(ratios, orders, rtol=rtol)
+    exact = cp.slider_crank_harmonics(ratios, orders)
+    # rounding of powers up to 200, as above
+    assert np.all(np.abs(found - exact) <= (rtol + 1e-13) * np.abs(exact))
+
+
+def test_a_tolerance_leaves_terms_out() -> None:
+    ratios = np.linspace(0.2, 0.9, 64)
+    exact = cp.slider_crank_harmonics(ratios, [2, 4, 8])
+    for rtol in (1e-3, 1e-6, 1e-9):
+        for many in (True, False):
+            parts = [ratios] if many else np.split(ratios, 64)
+            found = [cp.slider_crank_harmonics(part, [2, 4, 8], rtol=rtol) for part in parts]
+            worst = np.abs(np.concatenate(found) / exact - 1).max()
+            # the bound takes 1/2 for |b_k|, 0.01 after eight terms, and terms fall by 0.155
+            assert 1e-3 * rtol < worst <= rtol
+    with_offset = cp.slider_crank_harmonics(0.3, [2, 3], 0.1, rtol=1e-3)
+    np.testing.assert_array_equal(with_offset, cp.slider_crank_harmonics(0.3, [2, 3], 0.1))
+    with pytest.raises(cp.InputError, match="rtol"):
+        cp.slider_crank_harmonics(0.3, [2, 3], 0.1, rtol=1.0)

@@ -90,6 +90,8 @@ OBJECTS: dict[str, Any] = {
     "Waveform, auto": waveform(orders="auto"),
     "Sweep": sweep(),
     "Sweep of one": cp.sweep(V6, rpm=5000),
+    "SweepWaveform": sweep().waveform(THETA),
+    "SweepWaveform, exact": sweep().waveform(THETA, exact=True),
     "Ranking": ranking(),
     "Ranking, refined, by a function": ranking(by=lambda b: b.rpm / b.orders[0], refine=True),
     "Ranking of what nobody wants": ranking(by=lambda _: np.nan),
@@ -125,7 +127,7 @@ def assert_same(one: Any, other: Any) -> None:
         assert list(one) == list(other)
         for key in one:
             assert_same(one[key], other[key])
-    elif isinstance(one, (cp.OrderBalance, cp.Waveform, cp.Sweep)):
+    elif isinstance(one, (cp.OrderBalance, cp.Waveform, cp.Sweep, cp.SweepWaveform)):
         assert_same(figures(one), figures(other))
     else:
         assert one == other
@@ -663,7 +665,9 @@ EXAMPLES = {name: text for name, text in documented().items() if ">>>" in text}
 
 def test_every_public_object_is_documented_and_the_main_ones_by_example() -> None:
     bare = [name for name, text in documented().items() if not text]
-    fields = {field for kind in (cp.Cylinder, cp.OrderBalance) for field in kind.__annotations__}
+    fields = {
+        field for kind in (cp.Cylinder, cp.OrderBalance, cp.Rod) for field in kind.__annotations__
+    }
     assert {name for name in bare if name.rpartition(".")[2] not in fields} == set()
     for name in ("Cylinder", "Engine", "Engine.vee", "Engine.balance", "sweep", "Sweep", "Balance"):
         assert name in EXAMPLES

@@ -134,7 +134,7 @@ def harmonics(**changes: Any) -> Any:
 
 # For each: function, argument, its bad value, how the message writes that value.
 NOT_NUMBERS = [(NAN, "NaN"), (-INF, "-inf"), (None, "None"), ("wide", "wide"), (1j, "1j")]
-PARTS = ("crank_radius", "rod_length", "reciprocating_mass", "pin_offset")
+PARTS = ("crank_radius", "rod_length", "reciprocating_mass", "pin_offset", "rod_inertia_excess")
 BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     *((cylinder, name, *bad) for name in PARTS for bad in NOT_NUMBERS),
     (cylinder, "crank_radius", 0.0, "0"),
@@ -327,6 +327,9 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (harmonics, "rod_ratio", [[0.1], [0.1, 0.2]], "[[0.1], [0.1, 0.2]]"),
     (harmonics, "orders", "auto", "auto"),
     (harmonics, "orders", [0], "0"),
+    *((harmonics, "rtol", *bad) for bad in NOT_NUMBERS if bad[0] is not None),
+    (harmonics, "rtol", 1e-16, "1e-16"),
+    (harmonics, "rtol", 1.0, "1"),
     (harmonics, "pin_offset_ratio", 2.5, "2.5"),
     (harmonics, "pin_offset_ratio", INF, "inf"),
     (harmonics, "pin_offset_ratio", "left", "left"),
@@ -464,6 +467,11 @@ def grid(**axes: float) -> cp.Sweep:
 
 
 TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
+    "waveforms of a sweep": (
+        lambda: swept(rod_ratio=endless(0.3, 10**5)).waveform(np.arange(7200)).force,
+        "sweep",
+    ),
+    "angles of a sweep": (lambda: swept().waveform(endless(1.0, 10**12)), "theta_deg"),
     "waveform": (lambda: waveform(theta_deg=endless(1.0, 10**12)), "theta_deg"),
     "sum of orders": (lambda: waveform(theta_deg=endless(1.0, 10**12), orders=[1]), "theta_deg"),
     "position": (lambda: CYLINDER.position(endless(1.0, 10**6, 10**6)), "theta_deg"),
@@ -787,6 +795,8 @@ SUBJECTS: dict[str, Any] = {
     "ranking": ranked(by=["force_sum_peak_xy", lambda b: b.rpm], refine=True),
     "ranking, as they are": cp.rank([V6, I4], rpm=1e3, spectrum={1: 1.0, 2: 0.2}),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
+    "waveforms of a sweep": swept().waveform([0.0, 1.0]),
+    "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
 }
 PLAIN = {
     "Choice",
@@ -805,7 +815,8 @@ RESULTS_MADE_ELSEWHERE = {
     "Ranking",
     "Waveform",
     "Sweep",
-}  # by methods of Engine, by sweep and by rank
+    "SweepWaveform",
+}  # by methods of Engine and of Sweep, by sweep and by rank
 
 
 class Target(NamedTuple):
@@ -901,7 +912,7 @@ def finite(value: Any) -> bool:
 
 
 RESULTS = {
-    cp.Cylinder: ["crank_radius", "rod_length", "reciprocating_mass", "pin_offset", "rod_ratio"],
+    cp.Cylinder: [*PARTS, "rod_ratio"],
     cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
     cp.Balance: ["force", "moment", "torque", "crank_torque", "force_peak_vector", "error_bound"],
     cp.VanishingOrders: ["orders", "reference_z"],

@@ -10,6 +10,7 @@ __all__ = [
     "SCHEMA",
     "Balance",
     "BankAngles",
+    "CrankAngles",
     "Engine",
     "Firing",
     "InputError",
@@ -171,6 +172,10 @@ class BankAngles:
     ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...
 
 @final
+class CrankAngles:
+    def __new__(cls, theta_deg: _Real) -> CrankAngles: ...
+
+@final
 class Sweep:
     def __new__(
         cls,
@@ -203,6 +208,17 @@ class Sweep:
     def vector_peaks(self, name: str) -> _Real: ...
     def sum_peaks(self, name: str) -> _Real: ...
     def sum_vector_peaks(self, name: str) -> _Real: ...
+    @property
+    def kinematics_cost_less(self) -> bool: ...
+    def waveform_shape(self, name: str, angles: int) -> list[int]: ...
+    def waveform(
+        self,
+        name: str,
+        angles: CrankAngles,
+        exact: bool,
+        out: _Real,
+        progress: _Progress | None,
+    ) -> None: ...
 
 _Timing: TypeAlias = tuple[str, str, str, str]
 _PortOpenings: TypeAlias = tuple[str, str]
@@ -268,8 +284,10 @@ def cylinder_harmonics(parts: _Parts, orders: Sequence[int]) -> _Complex: ...
 def cylinder_torque_harmonics(
     parts: _Parts, orders: Sequence[int]
 ) -> tuple[_Complex, _Complex]: ...
-def centred_table(rod_ratios: _Real, orders: Sequence[int]) -> _Real: ...
-def offset_table(rod_ratios: _Real, offsets: _Real, orders: Sequence[int]) -> _Complex: ...
+def centred_table(rod_ratios: _Real, orders: Sequence[int], rtol: float | None = None) -> _Real: ...
+def offset_table(
+    rod_ratios: _Real, offsets: _Real, orders: Sequence[int], rtol: float | None = None
+) -> _Complex: ...
 def balance(
     engine: Engine,
     rpm: float,

@@ -299,14 +299,26 @@ class Rod:
 
 @overload
 def slider_crank_harmonics(
-    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: None = None
+    rod_ratio: ArrayLike,
+    orders: Orders,
+    pin_offset_ratio: None = None,
+    *,
+    rtol: float | None = None,
 ) -> NDArray[np.float64]: ...
 @overload
 def slider_crank_harmonics(
-    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike
+    rod_ratio: ArrayLike,
+    orders: Orders,
+    pin_offset_ratio: ArrayLike,
+    *,
+    rtol: float | None = None,
 ) -> NDArray[np.complex128]: ...
 def slider_crank_harmonics(
-    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike | None = None
+    rod_ratio: ArrayLike,
+    orders: Orders,
+    pin_offset_ratio: ArrayLike | None = None,
+    *,
+    rtol: float | None = None,
 ) -> NDArray[Any]:
     r"""Return the harmonics aₙ of a slider-crank's inertia force, exact for any 0 < λ < 1.
 
@@ -323,6 +335,10 @@ def slider_crank_harmonics(
     pin_offset_ratio
         Pin offset / crank radius, |e/r| < 1/λ − 1; broadcast with ``rod_ratio``. Without it the
         pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
+    rtol
+        What every order may be off by, relative to itself: 1e-15 to below 1. By default all digits
+        come. Fewer save little: at 1e-3 a tenth of the time for many rod ratios about 0.3, a third
+        for 0.6 to 0.99, nothing for a single one. With ``pin_offset_ratio`` all digits come anyway.
 
     Returns
     -------
@@ -332,7 +348,8 @@ def slider_crank_harmonics(
     Raises
     ------
     InputError
-        If a rod ratio is not between 0 and 1, or an offset keeps the crank from turning.
+        If a rod ratio is not between 0 and 1, an offset keeps the crank from turning, or ``rtol``
+        is out of range.
 
     Examples
     --------
@@ -341,11 +358,15 @@ def slider_crank_harmonics(
     array([ 1.        ,  0.53555286,  0.        , -0.03842615])
     >>> cp.slider_crank_harmonics([0.25, 0.3], orders=2).shape
     (2, 1)
+    >>> cp.slider_crank_harmonics(0.5, [2], rtol=1e-3).round(4)
+    array([0.5359])
     """
     listed = _inputs.explicit_orders(orders)
     ratios = _inputs.array("rod_ratio", rod_ratio)
+    within = None if rtol is None else _inputs.number("rtol", rtol)
     if pin_offset_ratio is None:
-        return _core.centred_table(ratios.ravel(), listed).reshape(*ratios.shape, len(listed))
+        table = _core.centred_table(ratios.ravel(), listed, within)
+        return table.reshape(*ratios.shape, len(listed))
     offsets = _inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
@@ -354,4 +375,5 @@ def slider_crank_harmonics(
     # Nothing is copied until its size is known to be small enough.
     ratios = _inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = _inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
-    return _core.offset_table(ratios.ravel(), offsets.ravel(), listed).reshape(*shape, len(listed))
+    pairs = _core.offset_table(ratios.ravel(), offsets.ravel(), listed, within)
+    return pairs.reshape(*shape, len(listed))

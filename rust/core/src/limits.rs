@@ -83,6 +83,14 @@ pub fn orders(values: &[u32]) -> Result<()> {
     values.iter().try_for_each(|&n| order(n).map(drop))
 }
 
+/// A relative tolerance that can be reached.
+pub fn tolerance(rtol: f64) -> Result<f64> {
+    if (1e-15..1.0).contains(&rtol) {
+        return Ok(rtol);
+    }
+    Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"))
+}
+
 /// A result of this many elements of `size` bytes fits.
 pub fn result_size(
     argument: &str,

@@ -7,7 +7,7 @@
 
 use crate::error::{Error, Result};
 use crate::limits;
-use crate::slider_crank::Proportions;
+use crate::slider_crank::{Crank, Proportions};
 
 /// A rigid rod.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,7 @@ impl Rod {
 
 /// φ and its derivatives by crank angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swing {
+pub(crate) struct Swing {
     /// dφ/dθ.
     pub velocity: f64,
     /// d²φ/dθ².
@@ -65,14 +65,11 @@ pub struct Swing {
 }
 
 impl Swing {
-    /// Where the crank has the given sine and cosine.
-    #[must_use]
+    /// Where the crank stands so.
     #[inline(always)]
-    pub fn new(proportions: &Proportions, sin: f64, cos: f64) -> Self {
+    pub fn new(proportions: &Proportions, crank: &Crank) -> Self {
         let (above, below) = (proportions.above.high, proportions.below.high);
-        // 1 ∓ sin θ by cos²θ/(1 ± sin θ), as in the piston's motion.
-        let (near, far) = (cos * cos / (1.0 + sin.abs()), 1.0 + sin.abs());
-        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        let Crank { sin, cos, to_above, to_below, .. } = *crank;
         let height_squared = (above + to_above) * (below + to_below);
         let inverse = 1.0 / height_squared.sqrt();
         // h³φ'' = cos²θ(sin θ − e/r) − h² sin θ, in which 1 cancels out of l/r ± e/r.
@@ -82,16 +79,46 @@ impl Swing {
     }
 
     /// Torque on the block over J·ω².
-    #[must_use]
     #[inline(always)]
     pub fn roll(&self) -> f64 {
         self.acceleration * (1.0 + self.velocity)
     }
 
     /// Torque on the crank over J·ω².
-    #[must_use]
     #[inline(always)]
     pub fn crank(&self) -> f64 {
         -self.acceleration * self.velocity
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_rod_as_long_as_the_crank_turns_evenly() {
+        // Up to the reach: φ = θ between the points where it turns back.
+        let swing = |θ: f64| {
+            let proportions = Proportions::new(1.0 - 1e-12, 0.0).unwrap();
+            Swing::new(&proportions, &Crank::new(θ.sin(), θ.cos()))
+        };
+        assert_relative_eq!(swing(0.7).velocity, 1.0, max_relative = 1e-11);
+        assert_relative_eq!(swing(4.0).velocity, -1.0, max_relative = 1e-11);
+        // −sin θ (l²/r² − 1)/h³ with 2·10⁻¹² of a bracket.
+        let expected = -2e-12 * 0.7_f64.tan() / 0.7_f64.cos().powi(2);
+        assert_relative_eq!(swing(0.7).acceleration, expected, max_relative = 1e-4);
+    }
+
+    #[test]
+    fn swing_changes_as_it_moves() {
+        let proportions = Proportions::new(0.4, -0.6).unwrap();
+        let swing = |θ: f64| Swing::new(&proportions, &Crank::new(θ.sin(), θ.cos()));
+        for k in 0..24 {
+            let θ = 0.25 * f64::from(k);
+            let slope = (swing(θ + 1e-5).velocity - swing(θ - 1e-5).velocity) / 2e-5;
+            // A central difference of step 1e-5.
+            assert_relative_eq!(swing(θ).acceleration, slope, epsilon = 1e-9);
+        }
     }
 }

@@ -17,9 +17,12 @@ const ASKED: Asked = Asked { rpm: 3000.0, reference_z: Some(0.0), spectrum: None
 
 /// Moving parts of a usual engine, offset or not.
 fn cylinders(offset: bool) -> impl Strategy<Value = Cylinder> {
-    (0.02..0.2, 1.8..6.0, 0.1..3.0, -0.5..0.5_f64).prop_map(move |(r, l, m, e)| {
+    let rod_inertia = prop_oneof![Just(0.0), -0.3..0.3];
+    let parts = (0.02..0.2, 1.8..6.0, 0.1..3.0, -0.5..0.5_f64, rod_inertia);
+    parts.prop_map(move |(r, l, m, e, j)| {
         let pin_offset = if offset { r * e } else { 0.0 };
-        Cylinder::new(r, r * l, m, pin_offset).unwrap()
+        let cylinder = Cylinder::new(r, r * l, m, pin_offset).unwrap();
+        cylinder.with_rod_inertia_excess(j * m * r * r).unwrap()
     })
 }
 
@@ -107,6 +110,8 @@ proptest! {
                 c.reciprocating_mass() * factor,
                 c.pin_offset() * factor,
             ).unwrap();
+            let rod_inertia = c.rod_inertia_excess() * factor.powi(3);
+            let cylinder = cylinder.with_rod_inertia_excess(rod_inertia).unwrap();
             Placement { cylinder, rotating_mass: p.rotating_mass * factor, ..*p }
         });
         let before = of(&engine);
@@ -301,6 +306,11 @@ proptest! {
         let tail: f64 =
             harmonics::coefficients(&proportions, &orders).iter().map(|a| a.norm()).sum();
         prop_assert!(tail <= harmonics::tail_bound(&proportions, highest).unwrap());
+        let of_rod = harmonics::rod::torque(&proportions, &orders);
+        let bound = harmonics::rod::tail_bound(&proportions, highest).unwrap();
+        for harmonics in [of_rod.roll, of_rod.crank] {
+            prop_assert!(harmonics.iter().map(|a| a.norm()).sum::<f64>() <= bound);
+        }
     }
 
     #[test]
@@ -326,7 +336,9 @@ proptest! {
             let there = engine.with_bank_angle(Angle::from_degrees(angle).unwrap(), hold).unwrap();
             let there = changed(&there, |p| {
                 let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
-                Placement { cylinder: Cylinder::new(r, r / ratio, m, -offset).unwrap(), ..*p }
+                let cylinder = Cylinder::new(r, r / ratio, m, -offset).unwrap();
+                let rod_inertia = p.cylinder.rod_inertia_excess();
+                Placement { cylinder: cylinder.with_rod_inertia_excess(rod_inertia).unwrap(), ..*p }
             });
             let orders = Orders::Given(ORDERS.to_vec());
             let alone = balance(&there, 3000.0, &orders, Some(0.1), None).unwrap();

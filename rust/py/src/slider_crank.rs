@@ -80,27 +80,35 @@ pub fn cylinder_torque_harmonics(
     Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 
-/// Harmonics without offset for many rod ratios: (n, `n_orders`).
+/// Harmonics without offset for many rod ratios, within a tolerance or to all digits: (n, `n_orders`).
 #[pyfunction]
+#[pyo3(signature = (rod_ratios, orders, rtol=None))]
 pub fn centred_table<'py>(
     py: Python<'py>,
     rod_ratios: PyReadonlyArray1<'py, f64>,
     orders: Vec<u32>,
+    rtol: Option<f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let ratios = rod_ratios.as_slice()?.to_vec();
     let steps = ratios.len() * orders.len();
-    let table = interrupt::run(py, steps, |cancel| table::centred_table(&ratios, &orders, cancel))?;
+    let table = interrupt::run(py, steps, |cancel| match rtol {
+        Some(rtol) => table::centred_table_within(&ratios, &orders, rtol, cancel),
+        None => table::centred_table(&ratios, &orders, cancel),
+    })?;
     Ok(PyArray2::from_owned_array(py, table))
 }
 
-/// Harmonics for many pairs of rod ratio and offset over r: (n, `n_orders`).
+/// Harmonics for many pairs of rod ratio and offset over r, to all digits: (n, `n_orders`).
 #[pyfunction]
+#[pyo3(signature = (rod_ratios, offsets, orders, rtol=None))]
 pub fn offset_table<'py>(
     py: Python<'py>,
     rod_ratios: PyReadonlyArray1<'py, f64>,
     offsets: PyReadonlyArray1<'py, f64>,
     orders: Vec<u32>,
+    rtol: Option<f64>,
 ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
+    rtol.map(limits::tolerance).transpose().or_raise()?;
     let (ratios, offsets) = (rod_ratios.as_slice()?.to_vec(), offsets.as_slice()?.to_vec());
     let steps = ratios.len() * orders.len() * 32;
     let table = interrupt::run(py, steps, |cancel| {

@@ -18,17 +18,9 @@ use crate::slider_crank::{Cylinder, Proportions};
 /// what rounding does.
 const NEGLIGIBLE: f64 = 1e-17;
 
-/// A tolerance that can be reached.
-pub(crate) fn tolerance(rtol: f64) -> Result<f64> {
-    if (1e-15..1.0).contains(&rtol) {
-        return Ok(rtol);
-    }
-    Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"))
-}
-
 /// The fewest orders within `rtol`, the same at every speed.
 pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Result<Balance> {
-    let candidates = candidates(tolerance(rtol)?, engine, sums)?;
+    let candidates = candidates(limits::tolerance(rtol)?, engine, sums)?;
     let last = candidates.last().copied().unwrap_or(1);
     let whole = sums.balance(&candidates, 1.0);
     let tail = if sums.spectrum.is_some() { [0.0; 3] } else { sums.tail(last) };

@@ -15,7 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use ndarray::{Array1, Array2};
 
-pub(crate) use self::choice::{highest, rod_share, rod_tail, scales, tail, tolerance};
+pub(crate) use self::choice::{highest, rod_share, rod_tail, scales, tail};
 pub(crate) use self::fewest::most_left_out;
 use self::sums::Sums;
 pub(crate) use self::sums::{snapped, zero_factor};
@@ -24,6 +24,7 @@ use crate::engine::Engine;
 use crate::error::Result;
 use crate::extrema::PeakFinder;
 use crate::limits;
+pub(crate) use crate::limits::tolerance;
 use crate::spectrum::Spectrum;
 
 /// Which orders to give.

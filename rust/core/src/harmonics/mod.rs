@@ -30,12 +30,18 @@ const SERIES_TERMS_PER_ORDER: f64 = 4.0;
 /// With more terms than this their roundings would pass a few units in the last place.
 const LONGEST_PLAIN_SERIES: f64 = 100.0;
 
+/// The tolerance that leaves nothing out but what rounding loses anyway.
+const ALL_DIGITS: f64 = 0.0;
+
 /// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
 #[must_use]
 pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
     if proportions.offset == 0.0 {
         let centred = Centred::new(proportions);
-        return orders.iter().map(|&n| Complex64::new(centred.coefficient(n), 0.0)).collect();
+        return orders
+            .iter()
+            .map(|&n| Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
+            .collect();
     }
     Offset::new(proportions).coefficients(orders)
 }
@@ -44,6 +50,14 @@ pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64>
 #[inline(always)]
 fn next_term(j: f64, m: f64) -> f64 {
     ((j - 0.5) * (j + m - 0.5)) / ((j + 1.0) * (j + m + 1.0))
+}
+
+/// What may be missing from `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}` to keep it within a relative tolerance.
+///
+/// That sum's rest falls with p; at p = 1, where the height of the rod is |cos φ|, it is
+/// `(4/π)/((4m² − 1)|b_m|)`, and √m times that rises from 0.849 at m = 1.
+fn may_be_missing(n: u32, rtol: f64) -> f64 {
+    0.8 * rtol / (0.5 * f64::from(n)).sqrt()
 }
 
 /// `(−1)^{m+1} n² |b_m|`, n = 2m.
@@ -107,27 +121,35 @@ impl Centred {
         Self { root, reach: proportions.above.high, fourth }
     }
 
-    fn coefficient(&self, n: u32) -> f64 {
+    /// Within a relative tolerance, or to all digits.
+    fn coefficient(&self, n: u32, rtol: f64) -> f64 {
         if n % 2 == 1 {
             return if n == 1 { 1.0 } else { 0.0 };
         }
-        let count = (NEGLIGIBLE_LOG / -self.fourth.high.ln()).ceil();
+        // The terms fall faster than p⁴ⁱ, so that what follows one is below it over 1 − p⁴.
+        let last = may_be_missing(n, rtol) * (1.0 - self.fourth.high);
+        let digits = NEGLIGIBLE_LOG.min(-last.ln());
+        let count = (digits / -self.fourth.high.ln()).ceil();
         if count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n) {
             let reach = self.reach;
             return spike_integral(reach, reach, 0.0, n)
                 * if n.is_multiple_of(4) { 1.0 } else { -1.0 };
         }
-        let rest = if count > LONGEST_PLAIN_SERIES { self.long_series(n) } else { self.series(n) };
+        let rest = if count > LONGEST_PLAIN_SERIES {
+            self.long_series(n, last)
+        } else {
+            self.series(n, last)
+        };
         leading(n) * self.root.power(n - 1) * rest
     }
 
-    /// `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}`.
-    fn series(&self, n: u32) -> f64 {
+    /// `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}`, of the terms above the last that may be missing.
+    fn series(&self, n: u32, last: f64) -> f64 {
         let m = f64::from(n / 2);
         let mut term = 0.5 * (m - 0.5) / (m + 1.0) * self.fourth.high;
         let mut sum = 0.0;
         let mut j = 1.0;
-        while term > sum * f64::EPSILON / 16.0 {
+        while term > last.max(sum * f64::EPSILON / 16.0) {
             sum += term;
             term *= next_term(j, m) * self.fourth.high;
             j += 1.0;
@@ -136,13 +158,13 @@ impl Centred {
     }
 
     /// The same to twice the digits: with many terms the sum nears 1, and their roundings add up.
-    fn long_series(&self, n: u32) -> f64 {
+    fn long_series(&self, n: u32, last: f64) -> f64 {
         let m = f64::from(n / 2);
         let first = Double { high: 0.5 * (m - 0.5), low: 0.0 };
         let mut term = first.over(m + 1.0).times(self.fourth);
         let mut sum = Double { high: 0.0, low: 0.0 };
         let mut j = 1.0;
-        while term.high > sum.high * f64::EPSILON / 16.0 {
+        while term.high > last.max(sum.high * f64::EPSILON / 16.0) {
             sum = sum.plus(term.high);
             sum.low += term.low;
             // Both products are whole numbers over 4, hence exact.

@@ -145,3 +145,26 @@ impl<'a> Swing<'a> {
         Complex64::new(if n.is_multiple_of(4) { -magnitude } else { magnitude }, 0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_and_quadrature_meet() {
+        // Where the series has 1900 terms.
+        for share in [0.0, 1e-6, 0.5, -0.9] {
+            let rod_ratio = 1.0 / (1.0 + 5e-5 / (1.0 - f64::abs(share)));
+            let reach = Proportions::new(rod_ratio, 0.0).unwrap().above.high;
+            let proportions = Proportions::new(rod_ratio, share * reach).unwrap();
+            let orders: Vec<u32> = (1..40).collect();
+            let swing = Swing::new(&proportions);
+            for (&n, by_series) in orders.iter().zip(swing.velocities(&orders)) {
+                let by_panels = swing.turned(n, swing.integral(n));
+                // A few units of order 1, which is 4/π.
+                let apart = (by_series - by_panels).norm();
+                assert!(apart < 1e-15, "{share} {n}: {by_series} {by_panels}");
+            }
+        }
+    }
+}

@@ -1,9 +1,13 @@
 //! Harmonics of many slider-cranks at once.
 
+use std::f64::consts::LN_2;
+
 use ndarray::{Array2, Axis, parallel::prelude::*};
 use rayon::slice::ParallelSlice;
 
-use super::{Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, next_term};
+use super::{
+    ALL_DIGITS, Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, may_be_missing, next_term,
+};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
@@ -16,10 +20,25 @@ const LARGEST_PLAIN_POWER: u32 = 15;
 
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
+    centred(rod_ratios, orders, ALL_DIGITS, cancel)
+}
+
+/// The same, each within `rtol` of itself: as many terms as that takes.
+pub fn centred_table_within(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    rtol: f64,
+    cancel: &Cancel,
+) -> Result<Array2<f64>> {
+    centred(rod_ratios, orders, limits::tolerance(rtol)?, cancel)
+}
+
+fn centred(rod_ratios: &[f64], orders: &[u32], rtol: f64, cancel: &Cancel) -> Result<Array2<f64>> {
     let mut table = checked_table::<f64>(rod_ratios.len(), orders)?;
-    let longest = Horner::tables(orders);
+    // Fewer go by themselves.
+    let longest = if rod_ratios.len() < LANES { Vec::new() } else { Horner::tables(orders, rtol) };
     fill(&mut table, rod_ratios, cancel, |rod_ratios, rows| {
-        centred_rows(rod_ratios, orders, &longest, rows)
+        centred_rows(rod_ratios, orders, &longest, rows, rtol)
     })?;
     Ok(table)
 }
@@ -79,6 +98,7 @@ fn centred_rows(
     orders: &[u32],
     tables: &[Horner],
     rows: &mut [f64],
+    rtol: f64,
 ) -> Result<()> {
     rod_ratios.iter().try_for_each(|&rod_ratio| Proportions::check_rod_ratio(rod_ratio))?;
     let width = orders.len();
@@ -95,7 +115,7 @@ fn centred_rows(
                         };
                         let centred = Centred::new(&proportions);
                         for (&n, value) in orders.iter().zip(row) {
-                            *value = centred.coefficient(n);
+                            *value = centred.coefficient(n, rtol);
                         }
                     }
                 }
@@ -125,6 +145,7 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
         of_square[lane] = rest / square;
     }
     let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let (decay, rest) = (-largest.ln(), -(1.0 - largest).ln());
     for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
         if n == 1 || n % 2 == 1 {
             let value = if n == 1 { 1.0 } else { 0.0 };
@@ -132,7 +153,7 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             continue;
         }
         let mut sum = [0.0; LANES];
-        for &t in table.terms[..table.needed(largest)].iter().rev() {
+        for &t in table.terms[..table.needed(decay, rest)].iter().rev() {
             for lane in 0..LANES {
                 sum[lane] = (sum[lane] + t) * fourth[lane];
             }
@@ -169,6 +190,8 @@ struct Horner {
     leading: f64,
     /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …
     terms: Vec<f64>,
+    /// −log of what may be missing from `1 − Σ`.
+    digits: f64,
 }
 
 impl Horner {
@@ -177,12 +200,12 @@ impl Horner {
     /// p⁴ there: p = 0.62678…
     const LARGEST_FOURTH: f64 = 0.155;
 
-    fn tables(orders: &[u32]) -> Vec<Self> {
+    fn tables(orders: &[u32], rtol: f64) -> Vec<Self> {
         let count = (NEGLIGIBLE_LOG / -Self::LARGEST_FOURTH.ln()).ceil() as usize;
-        orders.iter().map(|&n| Self::new(n, count)).collect()
+        orders.iter().map(|&n| Self::new(n, count, rtol)).collect()
     }
 
-    fn new(n: u32, count: usize) -> Self {
+    fn new(n: u32, count: usize, rtol: f64) -> Self {
         let m = f64::from(n / 2);
         let mut term = 0.5 * (m - 0.5) / (m + 1.0);
         let mut terms = Vec::with_capacity(count);
@@ -190,13 +213,16 @@ impl Horner {
             terms.push(term);
             term *= next_term(j as f64, m);
         }
-        Self { leading: leading(n), terms }
+        Self { leading: leading(n), terms, digits: -may_be_missing(n, rtol).ln() }
     }
 
-    /// How many terms matter for a given p⁴.
+    /// How many terms matter, from the logarithms of 1/p⁴ and of 1/(1 − p⁴).
+    ///
+    /// After k terms what is missing is below |b_{k+1}| p^{4(k+1)}/(1 − p⁴), and |b| ≤ 1/2.
     #[inline(always)]
-    fn needed(&self, fourth: f64) -> usize {
-        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil();
+    fn needed(&self, decay: f64, rest: f64) -> usize {
+        let within = (self.digits + rest - LN_2) / decay - 1.0;
+        let count = (NEGLIGIBLE_LOG / decay).min(within).ceil();
         (count as usize).min(self.terms.len())
     }
 }
