@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
+from crankpin import _core, _inputs, _progress, _tables
 from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from crankpin._engine import Hold
     from crankpin._inputs import Orders, Spectrum
+    from crankpin._progress import Progress
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 Quantity: TypeAlias = Literal["force", "moment", "torque"]
@@ -51,6 +52,7 @@ def sweep(
     reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
+    progress: Progress = False,
 ) -> Sweep:
     """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
 
@@ -80,6 +82,9 @@ def sweep(
         As in :meth:`Engine.balance`.
     torque
         Whether torque will be asked for. If not, it is not counted where orders are chosen.
+    progress
+        True for a tqdm bar while values are worked out, or a function of (steps done, steps in all)
+        that is called now and then; what it raises stops the work.
 
     Returns
     -------
@@ -104,6 +109,7 @@ def sweep(
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
     (1, 2, 4)
     """
+    shown = _progress.checked(progress)
     listed, names = _listed(engines)
     given = {
         "bank_angle_deg": bank_angle_deg,
@@ -141,7 +147,7 @@ def sweep(
         "spectrum": spectrum,
         "torque": torque,
     }
-    return Sweep(core, listed, names, ranks, arguments)
+    return Sweep(core, listed, names, ranks, arguments, shown)
 
 
 class Sweep(Frozen):
@@ -171,11 +177,17 @@ class Sweep(Frozen):
         names: Sequence[str] | None,
         ranks: dict[str, int],
         arguments: dict[str, Any],
+        progress: Progress,
     ) -> None:
         if not isinstance(core, _core.Sweep):
             raise _core.InputError(f"Sweep({_inputs.shorten(core)}): use crankpin.sweep")
         self._set(
-            _core=core, engines=tuple(engines), _names=names, _ranks=ranks, _arguments=arguments
+            _core=core,
+            engines=tuple(engines),
+            _names=names,
+            _ranks=ranks,
+            _arguments=arguments,
+            _progress=progress,
         )
 
     _core: _core.Sweep
@@ -184,6 +196,7 @@ class Sweep(Frozen):
     _ranks: dict[str, int]
     """Quantity → 1 where it is swept, 0 where it was given as a single value."""
     _arguments: dict[str, Any]
+    _progress: Progress
 
     @property
     def hold(self) -> Hold | None:
@@ -237,71 +250,71 @@ class Sweep(Frozen):
     @cached_property
     def force(self) -> NDArray[np.complex128]:
         """Peak phasors of the shaking force along x and y, N: (…, n_orders, 2)."""
-        return self._core.phasors("force")
+        return self._phasors("force")
 
     @cached_property
     def moment(self) -> NDArray[np.complex128]:
         """Peak phasors of the rocking moment about x and y, N·m: (…, n_orders, 2)."""
-        return self._core.phasors("moment")
+        return self._phasors("moment")
 
     @cached_property
     def torque(self) -> NDArray[np.complex128]:
         """Peak phasors of the roll torque on the block, N·m: (…, n_orders)."""
-        return self._core.phasors("torque")
+        return self._phasors("torque")
 
     # --- peaks of each order --------------------------------------------------------------------
 
     @cached_property
     def force_peak_xy(self) -> NDArray[np.float64]:
         """Largest force of each order along x and along y, N: (…, n_orders, 2)."""
-        return self._core.peaks("force")
+        return self._figures("force", "amplitude")
 
     @cached_property
     def moment_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment of each order about x and about y, N·m: (…, n_orders, 2)."""
-        return self._core.peaks("moment")
+        return self._figures("moment", "amplitude")
 
     @cached_property
     def torque_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of each order, N·m: (…, n_orders)."""
-        return self._core.peaks("torque")
+        return self._figures("torque", "amplitude")
 
     @cached_property
     def force_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of each order, N: (…, n_orders)."""
-        return self._core.vector_peaks("force")
+        return self._figures("force", "length")
 
     @cached_property
     def moment_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of each order, N·m: (…, n_orders)."""
-        return self._core.vector_peaks("moment")
+        return self._figures("moment", "length")
 
     # --- peaks of the sum of orders -------------------------------------------------------------
 
     @cached_property
     def force_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest force along x and along y of all orders together, N: (…, 2); true extrema."""
-        return self._core.sum_peaks("force")
+        return self._figures("force", "sum")
 
     @cached_property
     def moment_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment about x and y of all orders together, N·m: (…, 2); true extrema."""
-        return self._core.sum_peaks("moment")
+        return self._figures("moment", "sum")
 
     @cached_property
     def torque_sum_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of all orders together, N·m: (…); true extrema."""
-        return self._core.sum_peaks("torque")
+        return self._figures("torque", "sum")
 
     @cached_property
     def force_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of all orders together, N: (…); true extrema."""
-        return self._core.sum_vector_peaks("force")
+        return self._figures("force", "length of sum")
 
     @cached_property
     def moment_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of all orders together, N·m: (…); true extrema."""
-        return self._core.sum_vector_peaks("moment")
+        return self._figures("moment", "length of sum")
 
     # --- tables and pictures --------------------------------------------------------------------
 
@@ -386,6 +399,14 @@ class Sweep(Frozen):
         from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
 
         return _plots.sweep(self, quantity, x)
+
+    def _phasors(self, quantity: Quantity) -> NDArray[np.complex128]:
+        with _progress.shown(self._progress, f"{quantity}, phasors") as told:
+            return self._core.phasors(quantity, told)
+
+    def _figures(self, quantity: Quantity, which: str) -> NDArray[np.float64]:
+        with _progress.shown(self._progress, f"{quantity}, {which}") as told:
+            return self._core.peaks(quantity, which, told)
 
     def _peaks(self, quantity: Quantity) -> NDArray[np.float64]:
         _inputs.one_of("quantity", quantity, _ORDER_DIMS)

@@ -19,7 +19,7 @@ pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Res
     let mut table = checked_table::<f64>(rod_ratios.len(), orders)?;
     let longest = Horner::tables(orders);
     fill(&mut table, rod_ratios, cancel, |rod_ratios, rows| {
-        centred_rows(rod_ratios, orders, &longest, rows)
+        centred_rows(rod_ratios, orders, &longest, rows, cancel)
     })?;
     Ok(table)
 }
@@ -35,6 +35,7 @@ pub fn offset_table(
     let pairs: Vec<(f64, f64)> = rod_ratios.iter().copied().zip(offsets.iter().copied()).collect();
     fill(&mut table, &pairs, cancel, |pairs, rows| {
         for (&(rod_ratio, offset), row) in pairs.iter().zip(rows.chunks_exact_mut(orders.len())) {
+            cancel.check()?;
             row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
         }
         Ok(())
@@ -60,12 +61,13 @@ fn fill<I: Sync, T: Send + Sync>(
     if inputs.len() <= CHUNK {
         return rows(inputs, table.as_slice_mut().unwrap_or_default());
     }
+    cancel.expect(inputs.len().div_ceil(CHUNK));
     table
         .axis_chunks_iter_mut(Axis(0), CHUNK)
         .into_par_iter()
         .zip(inputs.par_chunks(CHUNK))
         .try_for_each(|(mut block, inputs)| {
-            cancel.check()?;
+            cancel.step()?;
             rows(inputs, block.as_slice_mut().unwrap_or_default())
         })
 }
@@ -73,12 +75,13 @@ fn fill<I: Sync, T: Send + Sync>(
 /// How many rod ratios go through a polynomial side by side.
 const LANES: usize = 16;
 
-/// The rows of a block of rod ratios, in lanes; a lane near λ = 1 goes by itself.
+/// The rows of a block of rod ratios, in lanes; one near λ = 1 goes by itself.
 fn centred_rows(
     rod_ratios: &[f64],
     orders: &[u32],
     tables: &[Horner],
     rows: &mut [f64],
+    cancel: &Cancel,
 ) -> Result<()> {
     for &rod_ratio in rod_ratios {
         if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
@@ -89,28 +92,32 @@ fn centred_rows(
     vectorised(
         #[inline(always)]
         || {
-            for (lanes, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
-                if lanes.len() == LANES && lanes.iter().all(|&λ| λ <= Horner::LARGEST_ROD_RATIO) {
-                    lanes_of_rows(lanes, orders, tables, rows);
-                } else {
-                    for (&λ, row) in lanes.iter().zip(rows.chunks_exact_mut(width)) {
-                        let Ok(proportions) = Proportions::new(λ, 0.0) else {
-                            continue;
-                        };
-                        let centred = Centred::new(&proportions);
-                        for (&n, value) in orders.iter().zip(row) {
-                            *value = centred.coefficient(n);
-                        }
+            for (ratios, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
+                let near_one = |λ: f64| λ > Horner::LARGEST_ROD_RATIO;
+                // What a lane is given does not show in others: rows depend on their own ratio alone.
+                let mut lanes = [0.5; LANES];
+                for (lane, &λ) in lanes.iter_mut().zip(ratios) {
+                    *lane = if near_one(λ) { 0.5 } else { λ };
+                }
+                lanes_of_rows(&lanes, orders, tables, rows);
+                for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
+                    if !near_one(λ) {
+                        continue;
+                    }
+                    cancel.check()?;
+                    let centred = Centred::new(&Proportions::new(λ, 0.0)?);
+                    for (&n, value) in orders.iter().zip(row) {
+                        *value = centred.coefficient(n);
                     }
                 }
             }
+            Ok(())
         },
-    );
-    Ok(())
+    )
 }
 
 #[inline(always)]
-fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
+fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
     let width = orders.len();
     let mut p = [0.0; LANES];
     for (p, &λ) in p.iter_mut().zip(rod_ratios) {
@@ -136,9 +143,11 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             continue;
         }
         let mut sum = [0.0; LANES];
-        for &t in table.terms[..table.needed(largest)].iter().rev() {
+        let needed = table.terms.iter().take_while(|(_, from)| largest > *from).count();
+        for &(term, from) in table.terms[..needed].iter().rev() {
             for lane in 0..LANES {
-                sum[lane] = (sum[lane] + t) * fourth[lane];
+                let term = if fourth[lane] > from { term } else { 0.0 };
+                sum[lane] = (sum[lane] + term) * fourth[lane];
             }
         }
         let mut power = p;
@@ -162,8 +171,9 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             }
         }
         for lane in 0..LANES {
-            rows[lane * width + column] = table.leading * power[lane] * (1.0 - sum[lane]);
+            power[lane] = table.leading * power[lane] * (1.0 - sum[lane]);
         }
+        rows.iter_mut().skip(column).step_by(width).zip(power).for_each(|(v, p)| *v = p);
     }
 }
 
@@ -171,8 +181,8 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
 struct Horner {
     /// `±n²·|b_m|`, with b the coefficients of √(1 − x) and n = 2m.
     leading: f64,
-    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …
-    terms: Vec<f64>,
+    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …, and the p⁴ above which the term matters.
+    terms: Vec<(f64, f64)>,
 }
 
 impl Horner {
@@ -191,16 +201,9 @@ impl Horner {
         let mut term = 0.5 * (m - 0.5) / (m + 1.0);
         let mut terms = Vec::with_capacity(count);
         for j in 1..=count {
-            terms.push(term);
+            terms.push((term, (-NEGLIGIBLE_LOG / (j as f64 - 1.0)).exp()));
             term *= next_term(j as f64, m);
         }
         Self { leading: leading(n), terms }
-    }
-
-    /// How many terms matter for a given p⁴.
-    #[inline(always)]
-    fn needed(&self, fourth: f64) -> usize {
-        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil();
-        (count as usize).min(self.terms.len())
     }
 }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::harmonics::proportions;
-use super::{Axes, Quantity, Sweep};
+use super::{Axes, Figure, Quantity, Sweep};
 use crate::balance::{highest, most_left_out, scales, tail, tolerance};
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
@@ -34,7 +34,7 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<Self> {
         let rtol = tolerance(rtol)?;
-        let mut sweep = Self::new(engines, axes, vec![1], reference_z, spectrum)?;
+        let mut sweep = Self::new(engines, axes, vec![1], reference_z, spectrum, cancel)?;
         sweep.torque = torque;
         let candidates = sweep.candidates(rtol)?;
         let quantities: &[Quantity] = if torque && sweep.spectrum.is_none() {
@@ -174,10 +174,11 @@ impl Sweep {
                         omitted: Vec::new(),
                         error_bound: [0.0; 3],
                     };
-                    let sizes = match quantity {
-                        Quantity::Torque => part.peaks(quantity, cancel)?,
-                        _ => part.vector_peaks(quantity, cancel)?,
+                    let figure = match quantity {
+                        Quantity::Torque => Figure::Amplitude,
+                        _ => Figure::Length,
                     };
+                    let sizes = part.peaks(quantity, figure, cancel)?;
                     for (k, size) in sizes.iter().enumerate() {
                         let worst = &mut worst[k % candidates.len()];
                         *worst = worst.max(*size);
