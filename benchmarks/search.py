@@ -276,7 +276,7 @@ def gap_of_v26() -> list[object]:
 def main() -> None:
     """Print all tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, default=HERE / "results", help="folder to write to")
+    parser.add_argument("--out", type=Path, default=HERE / "out", help="folder to write to")
     parser.add_argument("--v26", action="store_true", help="the gap of a V-26 too")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)

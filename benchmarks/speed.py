@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import crankpin as cp
+import methods
 import mpmath
 import numpy as np
 from _timing import interleaved, least, machine, milliseconds, print_table
 from numpy.typing import NDArray
-from scipy import special
 
 Array = NDArray[np.float64]
 
@@ -169,32 +169,6 @@ ORDERS = (2, 4, 6, 8)
 RATIOS = np.random.default_rng(2017).uniform(0.15, 0.45, 100_000)
 
 
-def harmonics_fft() -> Array:
-    """Transform 64 samples of the rod's height, n² times."""
-    theta = 2 * np.pi * np.arange(64) / 64
-    height = np.sqrt(1 / RATIOS[:, None] ** 2 - np.sin(theta) ** 2)
-    order = np.array(ORDERS)
-    spectrum: Array = np.fft.rfft(height)[:, order].real * order**2 / 32
-    return spectrum
-
-
-def harmonics_hypergeometric() -> Array:
-    """Use the closed form in SciPy's hypergeometric function of λ²."""
-    columns = []
-    for n in ORDERS:
-        m = n // 2
-        leading = (-1) ** (m + 1) * n**2 * abs(special.binom(0.5, m)) * 2 / 4**m
-        columns.append(
-            leading * RATIOS ** (n - 1) * special.hyp2f1(m - 0.5, m + 0.5, n + 1, RATIOS**2)
-        )
-    return np.stack(columns, axis=1)
-
-
-def harmonics_crankpin() -> Array:
-    """Ask crankpin."""
-    return cp.slider_crank_harmonics(RATIOS, ORDERS)
-
-
 def harmonics_reference(count: int) -> Array:
     """Return the harmonics of the first rod ratios at 40 digits."""
     mpmath.mp.dps = 40
@@ -224,15 +198,15 @@ def harmonics_reference(count: int) -> Array:
 def harmonics() -> None:
     """Print the table of harmonics."""
     reference = harmonics_reference(300)
-    methods: dict[str, Callable[[], Array]] = {
-        "NumPy, FFT of 64 samples": harmonics_fft,
-        "SciPy, hyp2f1": harmonics_hypergeometric,
-        "crankpin.slider_crank_harmonics": harmonics_crankpin,
+    compared: dict[str, Callable[[], Array]] = {
+        "NumPy, FFT of 64 samples": lambda: methods.fft_positions(RATIOS, ORDERS, 64),
+        "SciPy, hyp2f1": lambda: methods.hypergeometric(RATIOS, ORDERS),
+        "crankpin.slider_crank_harmonics": lambda: methods.crankpin(RATIOS, ORDERS),
     }
-    times = interleaved(methods, rounds=5, seconds=2)
+    times = interleaved(compared, rounds=5, seconds=2)
     ours = times["crankpin.slider_crank_harmonics"]
     rows = []
-    for name, run in methods.items():
+    for name, run in compared.items():
         errors = np.abs(run()[:300] / reference - 1).max(axis=0)
         listed = [f"{error:.0e}" for error in errors]
         rows.append([name, milliseconds(times[name]), f"{times[name] / ours:.3g} ×", *listed])

@@ -126,7 +126,7 @@ def engines(draw: st.DrawFn) -> cp.Engine:
         tdc_deg=[draw(ANGLES) for _ in range(count)],
         bank_deg=[draw(ANGLES) for _ in range(count)],
         z=[draw(numbers(-1.0, 1.0)) for _ in range(count)],
-        rotating_mass=[draw(st.one_of(st.just(0.0), numbers(0.0, 2.0))) for _ in range(count)],
+        rotating_mass=[draw(st.one_of(st.just(0.0), numbers(1e-30, 2.0))) for _ in range(count)],
     )
 
 

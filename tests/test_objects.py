@@ -45,7 +45,7 @@ ODD = cp.Engine.from_lists(
     tdc_deg=["360/7", Fraction(1, 3), 51.4],
     bank_deg=[Fraction(-720, 11), "-1/1000000", 0.1],
     z=[0.0, 0.1, 1.0 / 3.0],
-    rotating_mass=[0.0, 0.1, 5e-324],
+    rotating_mass=[0.0, 0.1, 1e-30],
     name='quotes " and \\ and\nlines, Ω',
 )
 SPECTRUM = {1: 0.5, 2: 0.1 + 0.05j}

@@ -501,3 +501,19 @@ def _agg() -> Iterator[None]:
     mpl.use("agg")
     yield
     plt.close("all")
+
+
+def test_some_arrangements_of_a_search() -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    chosen = cp.search_arrangements(14, alternating=True).best(within=(30, 90), count=4)
+    by_arrangement = cp.rank(
+        chosen, cylinder=cylinder, spacing=0.1, rpm=3000, by="moment_peak_vector_2"
+    )
+    engines = [one.engine(cylinder, 0.1) for one in chosen]
+    by_engine = cp.rank(engines, rpm=3000, by="moment_peak_vector_2")
+    assert [one.value for one in by_arrangement] == [one.value for one in by_engine]
+    assert {one.engine for one in by_arrangement} == set(engines)
+    with pytest.raises(cp.InputError, match="spacing = None"):
+        cp.rank(chosen, cylinder=cylinder, rpm=3000)
+    with pytest.raises(cp.InputError, match=r"spacing = 0\.1: is for arrangements"):
+        cp.rank(engines, spacing=0.1, rpm=3000)

@@ -7,8 +7,9 @@ ValueError (InputError is one), OSError or ImportError, within seconds. A panic 
 is none of these, nor is MemoryError.
 
 By default that takes a few seconds, the same calls each time. ``CRANKPIN_FUZZ_SECONDS=600 pytest
-tests/test_robustness.py -k fuzz`` goes on with other calls, a seed after the other, for as long;
-a failure prints the call, which fails by itself.
+tests/test_robustness.py -k fuzz_for_a_while`` goes on with other calls, a seed after the other, for
+as long with each of engine files, builders, harmonics and everything; ``-k "fuzz_for_a_while and
+builders"`` is one of them. A failure prints the call, which fails by itself.
 """
 
 # ruff: noqa: ANN401 - arguments of any type are the point
@@ -295,7 +296,6 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked, "by", lambda _: [1.0, 2.0], "[1.0, 2.0]"),
     (ranked, "by", lambda _: -INF, "-inf"),
     (ranked, "orders", [1, 4], "[1, 4]"),
-    (ranked, "orders", "auto", "auto"),
     (ranked, "rpm", [1000.0, 2000.0], "[1000.0, 2000.0]"),
     (ranked, "rpm", NAN, "NaN"),
     (ranked, "bank_angle_deg", [60, 190], "190"),
@@ -950,6 +950,10 @@ def problem(call: Call) -> str:
     return found and f"{call!r} {found}"
 
 
+def call_hostile(call: Call) -> None:
+    assert not problem(call)
+
+
 def close_pictures() -> None:
     if "matplotlib.pyplot" in sys.modules:
         sys.modules["matplotlib.pyplot"].close("all")
@@ -999,7 +1003,7 @@ def test_results_cannot_be_made_of_anything(name: str, value: Any) -> None:
 @hostile(1200)
 @given(calls(TARGETS))
 def test_fuzz_calls(call: Call) -> None:
-    assert not problem(call)
+    call_hostile(call)
 
 
 @hostile(40)
@@ -1051,11 +1055,12 @@ def damaged(draw: st.DrawFn, text: str) -> str:
     return text[:start] + piece + text[end:]
 
 
-@hostile(400)
-@given(damaged(TOML), damaged(JSON))
-@example("\ufeff" + TOML, "\ufeff" + JSON)
-def test_fuzz_files(toml: str, json_: str) -> None:
-    for read, text in ((cp.Engine.from_toml, toml), (cp.Engine.from_json, json_)):
+DAMAGED = st.tuples(damaged(TOML), damaged(JSON))
+
+
+def read_damaged(texts: tuple[str, str]) -> None:
+    """Each text is refused, or gives a sound engine that reads back."""
+    for read, text in zip((cp.Engine.from_toml, cp.Engine.from_json), texts, strict=True):
         try:
             engine = read(text)
         except ValueError:
@@ -1064,9 +1069,38 @@ def test_fuzz_files(toml: str, json_: str) -> None:
         assert read(engine.to_toml() if read == cp.Engine.from_toml else engine.to_json()) == engine
 
 
+@hostile(400)
+@given(DAMAGED)
+@example(("\ufeff" + TOML, "\ufeff" + JSON))
+def test_fuzz_files(texts: tuple[str, str]) -> None:
+    read_damaged(texts)
+
+
+def named(*names: str) -> st.SearchStrategy[Call]:
+    """Calls of the targets whose label ends in one of the names."""
+    chosen = [each for each in TARGETS if each.label.rpartition(".")[2] in names]
+    assert len({each.label.rpartition(".")[2] for each in chosen}) == len(names)
+    return calls(chosen)
+
+
+BUILDERS = (
+    *("Cylinder", "from_lists", "inline", "vee", "flat", "boxer", "from_firing_order", "preset"),
+    *("throws", "replace", "with_bank_angle", "with_first_tdc"),
+)
+HARMONICS = ("slider_crank_harmonics", "harmonics", "torque_harmonics")
+FUZZED: dict[str, tuple[st.SearchStrategy[Any], Callable[[Any], None]]] = {
+    "engine files": (DAMAGED, read_damaged),
+    "builders": (named(*BUILDERS), call_hostile),
+    "harmonics": (named(*HARMONICS), call_hostile),
+    "everything": (calls(TARGETS), call_hostile),
+}
+
+
 @pytest.mark.skipif(SECONDS == 0, reason="CRANKPIN_FUZZ_SECONDS is not set")
-def test_fuzz_for_a_while() -> None:
-    """Other calls, a seed after the other, until the time is up."""
+@pytest.mark.parametrize("what", FUZZED)
+def test_fuzz_for_a_while(what: str) -> None:
+    """Other examples, a seed after the other, until the time is up."""
+    examples, check = FUZZED[what]
     end = time.monotonic() + SECONDS
     for number in itertools.count():
         if time.monotonic() > end:
@@ -1074,9 +1108,9 @@ def test_fuzz_for_a_while() -> None:
 
         @seed(number)
         @settings(hostile(1000), derandomize=False)
-        @given(calls(TARGETS))
-        def more(call: Call) -> None:
+        @given(examples)
+        def more(example_: Any) -> None:
             if time.monotonic() < end:
-                assert not problem(call)
+                check(example_)
 
         more()

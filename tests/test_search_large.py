@@ -71,10 +71,11 @@ def test_a_window_has_its_own_arrangements() -> None:
 
 
 def test_v22() -> None:
-    """The count of pairs is that of exact keys in NumPy (``benchmarks/search.py``)."""
+    """Pairs and angles are those of exact keys in NumPy (``benchmarks/search.py``, a minute)."""
     assert V22.candidates == 39_916_800**2
     assert V22.qualifying == 1_854_562_160
     assert V22.balanced == 0
+    assert len(V22) == 19_996_384
 
 
 PROGRAM = """
@@ -131,3 +132,29 @@ def test_what_is_too_large_is_refused_by_name() -> None:
         cp.search_arrangements(30)
     with pytest.raises(cp.InputError, match="progress = 3: give True"):
         cp.search_arrangements(6, progress=3)  # type: ignore[arg-type]
+
+
+def test_an_arrangement_hands_back_its_engine() -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    for search in SEARCHES.values():
+        for k in range(0, len(search), 1 + len(search) // 20):
+            engine = search[k].engine(cylinder, spacing=0.1)
+            assert engine == search.engine(k, cylinder, 0.1)
+            balance = engine.balance(rpm=3000, orders=[1, 2])
+            assert balance.backward_moment[0] == 0
+            scale = 0.5 * 0.045 * (3000 * np.pi / 30) ** 2 * 0.1
+            forward = abs(balance.forward_moment[0]) / scale
+            # the angle is rounded once, sums of at most 7 terms of at most 3
+            assert forward == pytest.approx(search[k].counterweight, abs=1e-13)
+            second = abs(balance.moment[1]) / (scale * cylinder.harmonics([2])[0].real)
+            assert second == pytest.approx(search[k].second_order, abs=1e-12)
+
+
+def test_arrangements_of_ones_own() -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    own = cp.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
+    engine = own.engine(cylinder, 0.1)
+    assert engine.balance(rpm=3000, orders=[1]).backward_moment[0] == 0
+    uneven = cp.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
+    with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
+        uneven.engine(cylinder, 0.1)

@@ -75,7 +75,7 @@ def cylinders(draw: st.DrawFn) -> tuple[float, float, float, float]:
     rod = draw(numbers(0.01, 3.0))
     offset = rod * draw(st.one_of(st.just(0.0), numbers(-0.5, 0.5)))
     radius = (rod - abs(offset)) * draw(numbers(1e-3, 0.9))
-    return radius, rod, draw(numbers(0.0, 20.0)), offset
+    return radius, rod, draw(st.just(0.0) | numbers(1e-30, 20.0)), offset
 
 
 @st.composite
@@ -83,7 +83,7 @@ def parts(draw: st.DrawFn) -> list[Parts]:
     """One to eight cylinders, each its own or all alike."""
     count = draw(st.integers(1, 8))
     shared = draw(st.one_of(st.none(), cylinders()))
-    masses = st.one_of(st.just(0.0), numbers(0.0, 5.0))
+    masses = st.one_of(st.just(0.0), numbers(1e-30, 5.0))
     return [
         Parts(
             *(shared or draw(cylinders())),

@@ -17,6 +17,7 @@ __all__ = [
     "Sweep",
     "__version__",
     "angular_speed",
+    "arrangement",
     "balance",
     "centred_table",
     "check_cylinder",
@@ -167,7 +168,6 @@ class BankAngles:
     def solution(
         self, k: int
     ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...
-    def engine(self, k: int, parts: _Parts, spacing: float) -> Engine: ...
 
 @final
 class Sweep:
@@ -297,3 +297,11 @@ def waveform(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> _WaveformParts: ...
+def arrangement(
+    held: str,
+    bank_angle: float,
+    first: Sequence[str],
+    second: Sequence[str],
+    parts: _Parts,
+    spacing: float,
+) -> Engine: ...

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from crankpin import _inputs, _objectives, _tables
 from crankpin._core import InputError
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
-from crankpin._search import ArrangementSearch
+from crankpin._search import Arrangement, ArrangementSearch
 from crankpin._sweep import Sweep, sweep
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class Choice:
 
 
 def rank(
-    engines: Engines | ArrangementSearch,
+    engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
     *,
     rpm: float,
     bank_angle_deg: ArrayLike | None = None,
@@ -80,9 +80,9 @@ def rank(
     Parameters
     ----------
     engines
-        An engine, several, or a mapping name → engine, such as one for each firing order; or an
-        :class:`ArrangementSearch`, of which all arrangements are taken (for some of them give what
-        its ``engine`` returns).
+        An engine, several, or a mapping name → engine, such as one for each firing order; or
+        arrangements: some of a search, such as its :meth:`~ArrangementSearch.best`, or all of an
+        :class:`ArrangementSearch`.
     rpm
         Crank speed.
     bank_angle_deg
@@ -98,7 +98,7 @@ def rank(
     reference_z, spectrum
         As in :meth:`Engine.balance`.
     cylinder, spacing
-        Of the engines of a search, as in :meth:`ArrangementSearch.engine`.
+        Of the engines of arrangements, as in :meth:`Arrangement.engine`.
     refine
         Look between the bank angles too: each dip of the first objective is followed down to its
         lowest point. Without it only the given angles are looked at. Dips that lie wholly between
@@ -172,18 +172,12 @@ def rank(
     if not 0.0 <= tolerance < 1.0:
         raise InputError(f"rtol = {_inputs.shorten(rtol)}: give 0 or more, less than 1")
     between = _inputs.flag("refine", refine)
-    if isinstance(engines, ArrangementSearch):
-        engines = _arrangements(engines, cylinder, spacing)
-    else:
-        for name, value in (("cylinder", cylinder), ("spacing", spacing)):
-            if value is not None:
-                cure = "is for an ArrangementSearch; engines have theirs, leave it out"
-                raise InputError(f"{name} = {_inputs.shorten(value)}: {cure}")
+    of_engines = _engines(engines, cylinder, spacing)
     with warnings.catch_warnings():
         # Once for the whole call, below.
         warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
         swept = sweep(
-            [engines] if isinstance(engines, Engine) else engines,
+            of_engines,
             rpm=_inputs.number("rpm", rpm),
             bank_angle_deg=(
                 None if bank_angle_deg is None else _inputs.vector("bank_angle_deg", bank_angle_deg)
@@ -559,28 +553,41 @@ def _dips(
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
     rpm = swept.fixed["rpm"]
-    how = swept._arguments
-    return sweep([engine], rpm=rpm, bank_angle_deg=angles, orders=swept.orders, **how)
+    how = swept._arguments | {"orders": swept.orders}
+    return sweep([engine], rpm=rpm, bank_angle_deg=angles, **how)
 
 
 # --- engines and angles -------------------------------------------------------------------------
 
 
-def _arrangements(
-    search: ArrangementSearch, cylinder: object, spacing: object
-) -> dict[str, Engine]:
+def _engines(
+    given: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
+    cylinder: object,
+    spacing: object,
+) -> Engines:
+    """Return engines, or those of arrangements."""
+    if isinstance(given, ArrangementSearch) and len(given) > _inputs.MOST_ITEMS:
+        raise InputError(
+            f"engines is a search with {len(given)} bank angles, more than {_inputs.MOST_ITEMS}: "
+            "give those of interest, such as its best(count=100) or within(60, 61)"
+        )
+    arrangements: list[Arrangement] = []
+    if isinstance(given, Arrangement):
+        arrangements = [given]
+    elif isinstance(given, ArrangementSearch | Sequence):
+        arrangements = [one for one in given if isinstance(one, Arrangement)]
+    if not arrangements:
+        for name, value in (("cylinder", cylinder), ("spacing", spacing)):
+            if value is not None:
+                cure = "is for arrangements; engines have theirs, leave it out"
+                raise InputError(f"{name} = {_inputs.shorten(value)}: {cure}")
+        return cast("Engines", [given] if isinstance(given, Engine) else given)
     for name, value in (("cylinder", cylinder), ("spacing", spacing)):
         if value is None:
-            cure = "the arrangements of a search need one, as ArrangementSearch.engine does"
-            raise InputError(f"{name} = None: {cure}")
-    if len(search) > _inputs.MOST_ITEMS:
-        raise InputError(
-            f"engines is a search with {len(search)} bank angles, more than {_inputs.MOST_ITEMS}: "
-            "give those of interest, made by ArrangementSearch.engine"
-        )
+            raise InputError(f"{name} = None: arrangements need one, as Arrangement.engine does")
     return {
-        f"arrangement {k}, {angle:.6g}°": search.engine(k, cylinder, spacing)  # type: ignore[arg-type]
-        for k, angle in enumerate(search.bank_angles_deg)
+        f"arrangement {k}, {one.bank_angle_deg:.6g}°": one.engine(cylinder, spacing)  # type: ignore[arg-type]
+        for k, one in enumerate(arrangements)
     }
 
 

@@ -36,19 +36,48 @@ class Arrangement:
     bank_angle_deg: float
     """Angle between the banks, degrees."""
     first_deg: tuple[float, ...]
-    """Phases of the first bank's throws, front to flywheel, degrees: pins, or minus the TDCs."""
+    """Phases of the right bank's throws, front to flywheel, degrees: pins, or minus the TDCs."""
     second_deg: tuple[float, ...]
-    """Phases of the second bank's throws."""
+    """Phases of the left bank's throws."""
     counterweight: float
     """First-order moment that a counterweight takes away, over m·r·ω²·spacing."""
     second_order: tuple[float, float]
     """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
+    hold: Hold = "firing"
+    """What phases are of: the top dead centres (at minus them), or the crankpins."""
 
     @property
     def near_circular(self) -> bool:
         """Whether the two second-order moments differ by a tenth of the larger at most."""
         low, high = sorted(self.second_order)
         return high - low <= 0.1 * high
+
+    def engine(self, cylinder: Cylinder, spacing: float) -> Engine:
+        """Return the vee, numbered along the crank, odd cylinders in the right bank.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        spacing
+            Distance between neighbouring throws, m.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> (best,) = cp.search_arrangements(cylinders=14).best(within=(60, 90))
+        >>> engine = best.engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
+        >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+        array([0.+0.j])
+        """
+        angle = _inputs.number("bank_angle_deg", self.bank_angle_deg)
+        banks = (
+            _inputs.angles("first_deg", self.first_deg),
+            _inputs.angles("second_deg", self.second_deg),
+        )
+        distance = _inputs.number("spacing", spacing)
+        held = _inputs.text("hold", self.hold)
+        return Engine(_core.arrangement(held, angle, *banks, parts(cylinder), distance))
 
 
 def search_arrangements(
@@ -225,7 +254,9 @@ class ArrangementSearch(Frozen):
         angle, first, second, counterweight, second_order = self._angles.solution(
             self._index(index)
         )
-        return Arrangement(angle, tuple(first), tuple(second), counterweight, second_order)
+        return Arrangement(
+            angle, tuple(first), tuple(second), counterweight, second_order, self.hold
+        )
 
     def __iter__(self) -> Iterator[Arrangement]:
         return (self[k] for k in range(len(self)))
@@ -238,7 +269,7 @@ class ArrangementSearch(Frozen):
 
     def best(
         self,
-        by: str = "second_order",
+        by: str | Callable[[Arrangement], float] = "second_order",
         *,
         within: tuple[float, float] = (0.0, 180.0),
         count: int = 1,
@@ -249,7 +280,8 @@ class ArrangementSearch(Frozen):
         ----------
         by
             ``"second_order"``: the larger of the two second-order moments;
-            ``"counterweight"``: the first-order moment that a counterweight has to take away.
+            ``"counterweight"``: the first-order moment that a counterweight has to take away;
+            or any function of an :class:`Arrangement`.
         within
             Bank angles to look at, degrees.
         count
@@ -262,26 +294,15 @@ class ArrangementSearch(Frozen):
         >>> round(search.best(within=(5, 60))[0].bank_angle_deg, 2)
         9.13
         """
-        measure = _MEASURES[_inputs.one_of("by", by, _MEASURES)]
+        measure = by if callable(by) else _MEASURES[_inputs.one_of("by", by, _MEASURES)]
         wanted = _inputs.number("count", count)
         if not wanted >= 0:
             raise _core.InputError(f"count = {_inputs.shorten(count)}: give 0 or more")
         return tuple(heapq.nsmallest(int(wanted), self._from(*_window(within)), key=measure))
 
     def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
-        """Return the vee of an index, numbered along the crank, odd cylinders in the first bank.
-
-        Parameters
-        ----------
-        index
-            Into this sequence.
-        cylinder
-            Moving parts of every cylinder.
-        spacing
-            Distance between neighbouring throws, m.
-        """
-        distance = _inputs.number("spacing", spacing)
-        return Engine(self._angles.engine(self._index(index), parts(cylinder), distance))
+        """Return the vee of an index: :meth:`Arrangement.engine` of it."""
+        return self[index].engine(cylinder, spacing)
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""

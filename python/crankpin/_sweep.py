@@ -107,7 +107,7 @@ def sweep(
     >>> s.moment.shape
     (17, 2, 2)
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
-    (1, 2, 4)
+    (1, 2, 4, 6)
     """
     shown = _progress.checked(progress)
     listed, names = _listed(engines)

@@ -17,14 +17,16 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import mpmath as mp  # type: ignore[import-untyped]
 
-TABLE = Path(__file__).parent.parent / "data" / "harmonics_50_digits.csv"
+DATA = Path(__file__).parent.parent / "data"
+TABLE = DATA / "harmonics_50_digits.csv"
+HARD_TABLE = DATA / "harmonics_where_methods_fail.csv"
 MAX_ORDER = 40
 DIGITS = 50
 
@@ -33,6 +35,11 @@ ROD_RATIOS = (
     *(0.6, 0.75, 0.9, 0.95, 0.99, 0.999),
 )
 OFFSETS_OVER_ROD = (0.0, 1e-12, 1e-8, 1e-4, 0.01, 0.05, 0.2)
+
+HARD_ORDERS = (*range(1, 9), 20, 21, 40, 41, 100, 101, 150, 199, 200)
+HARD_ROD_RATIOS = (1e-8, 1e-3, 0.3, 0.6, 0.9, 0.99, 0.999, 1 - 2e-5, 1 - 1e-6, 1 - 1e-12)
+HARD_SHARES = (1e-12, 1e-6, 0.5, 1 - 1e-3, 1 - 1e-6, 1 - 1e-9)
+"""Of the offset at which the crank cannot turn any more, l - r."""
 
 Real = Any  # mpmath carries no types
 Harmonics = tuple[tuple[Real, Real], ...]  # (real, imaginary) parts of a_1 ... a_max
@@ -185,35 +192,104 @@ def harmonic_by_gauss_legendre(
         return 2 * order**2 * half_turn / mp.pi
 
 
+@lru_cache(maxsize=256)
+def harmonics_by_recurrence(
+    rod_ratio: float, offset_over_radius: float = 0.0, max_order: int = 200, digits: int = DIGITS
+) -> Harmonics:
+    """The same from three Fourier coefficients of d, for rod ratios next to 1 and high orders.
+
+    d = sqrt(Q) with Q = q0 + q1 s - s^2, s = sin theta, gives 2 Q d' = Q' d, and with c_n the
+    coefficient of e^{in theta}: sum over j = -2 ... 2 of Q_j (2n - 3j) c_{n-j} = 0. Upwards that
+    loses digits, as the c fall and the recurrence's other solutions rise: as many are added as
+    that takes. The spikes of d'' at sin theta = +-1 are left to panels that halve towards them.
+    """
+    with mp.workdps(digits + 40):
+        above = 1 / mp.mpf(rod_ratio) + mp.mpf(offset_over_radius)
+        below = 1 / mp.mpf(rod_ratio) - mp.mpf(offset_over_radius)
+        lost = max_order * (mp.acosh(above) + mp.acosh(below)) / mp.log(10)
+        small = -math.log10(abs(offset_over_radius)) if offset_over_radius else 0.0
+    with mp.workdps(digits + 20 + int(lost) + int(max(small, 0.0))):
+        above = 1 / mp.mpf(rod_ratio) + mp.mpf(offset_over_radius)
+        below = 1 / mp.mpf(rod_ratio) - mp.mpf(offset_over_radius)
+        c = [_rod_height_coefficient(above, below, n) for n in range(3)]
+        q0 = above * below - mp.mpf(1) / 2
+        q1 = (above - below) / mp.mpc(0, 2)
+        fourier = {-2: mp.mpf(1) / 4, -1: -q1, 0: q0, 1: q1, 2: mp.mpf(1) / 4}
+        for n in range(1, max_order - 1):
+            known = {j: c[n - j] if n >= j else mp.conj(c[j - n]) for j in range(-1, 3)}
+            total = sum(fourier[j] * (2 * n - 3 * j) * known[j] for j in known)
+            c.append(-total / (fourier[-2] * (2 * n + 6)))
+        found = []
+        for order in range(1, max_order + 1):
+            value = 2 * order**2 * c[order]
+            if order % 2 == 0:
+                found.append((value.real, mp.mpf(0)))
+            else:
+                found.append((mp.mpf(1 if order == 1 else 0), value.imag))
+    return tuple(found)
+
+
+def _rod_height_coefficient(above: Real, below: Real, order: int) -> Real:
+    """Coefficient of e^{in theta} of sqrt((A - sin theta)(B + sin theta)), by quadrature.
+
+    Over a quarter turn from each of sin theta = 1 and -1, where 1 - sin theta = 2 sin^2(phi/2).
+    """
+
+    def quarter(near: Real, far: Real) -> Real:
+        def integrand(phi: Real) -> Real:
+            sine, cosine = mp.sin(phi / 2) ** 2, mp.cos(phi / 2) ** 2
+            height = mp.sqrt((near - 1 + 2 * sine) * (far - 1 + 2 * cosine))
+            return height * mp.cos(order * phi)
+
+        edges = [mp.pi / 2]
+        while edges[-1] > mp.sqrt(2 * (near - 1)) / 2:
+            edges.append(edges[-1] / 2)
+        return mp.quad(integrand, [mp.mpf(0), *reversed(edges)], method="gauss-legendre")
+
+    # theta = pi/2 - phi, and -pi/2 + phi: e^{-in theta} is even in phi times (-i)^n and i^n
+    total = (-1j) ** order * quarter(above, below) + 1j**order * quarter(below, above)
+    return total / mp.pi
+
+
 class ReferenceRow(NamedTuple):
-    """One row of the stored table: the significant part of a_1 ... a_40 as decimal strings."""
+    """One row of a stored table: the significant parts of the a_n as decimal strings."""
 
     rod_ratio: float
     offset_over_radius: float
+    orders: tuple[int, ...]
     digits: tuple[str, ...]
-    """entry n - 1: real part of a_n for even n, imaginary part for odd n (a_1's real part is 1)"""
+    """of each order: real part of a_n for even n, imaginary for odd n; a_1 has 1 as real part"""
 
     def coefficients(self) -> list[complex]:
-        """a_1 ... a_40 rounded to double precision."""
-        parts = [float(text) for text in self.digits]
+        """The a_n rounded to double precision."""
+        parts = [(n, float(text)) for n, text in zip(self.orders, self.digits, strict=True)]
         return [
             complex(part, 0.0) if n % 2 == 0 else complex(1.0 if n == 1 else 0.0, part)
-            for n, part in enumerate(parts, start=1)
+            for n, part in parts
         ]
 
 
 def reference_table(path: Path = TABLE) -> list[ReferenceRow]:
-    """The stored table; its rod ratios and offsets over radius are doubles written in full."""
+    """A stored table; its rod ratios and offsets over radius are doubles written in full."""
     with path.open(newline="") as file:
         rows = csv.reader(file)
-        next(rows)
-        return [ReferenceRow(float(lam), float(e), tuple(rest)) for lam, e, *rest in rows]
+        orders = tuple(int(name.partition("_")[2]) for name in next(rows)[2:])
+        return [ReferenceRow(float(lam), float(e), orders, tuple(rest)) for lam, e, *rest in rows]
 
 
 def grid() -> list[tuple[float, float]]:
     """Rod ratio and offset over radius of every row, the latter (e/l)/lambda, rounded."""
     pairs = [(lam, e / lam) for lam in ROD_RATIOS for e in OFFSETS_OVER_ROD]
     return [pair for pair in pairs if is_admissible(*pair)]
+
+
+def hard_grid() -> list[tuple[float, float]]:
+    """Rod ratio and offset over radius where methods fail: near both ends of either."""
+    pairs = [(lam, 0.0) for lam in HARD_ROD_RATIOS]
+    for lam in (0.3, 0.9, 0.999, 1 - 1e-6, 1 - 1e-12):
+        # 1 - lam is exact next to 1
+        pairs += [(lam, share * (1 - lam) / lam) for share in HARD_SHARES]
+    return pairs
 
 
 def significant_parts(values: Harmonics) -> list[Real]:
@@ -223,14 +299,33 @@ def significant_parts(values: Harmonics) -> list[Real]:
 
 def write_reference_table(path: Path = TABLE) -> None:
     """Compute the grid and store fifty digits of each coefficient, one row per slider-crank."""
+    rows = ((lam, e, significant_parts(harmonics(lam, e))) for lam, e in grid())
+    _write(path, range(1, MAX_ORDER + 1), rows)
+
+
+def write_hard_table(path: Path = HARD_TABLE) -> None:
+    """The same for the hard grid, orders up to 200; takes minutes."""
+    _write(path, HARD_ORDERS, map(_hard_row, hard_grid()))
+
+
+def _hard_row(pair: tuple[float, float]) -> tuple[float, float, list[Real]]:
+    lam, e = pair
+    # Samples of a turn grow without bound towards the crank that cannot turn, digits of the
+    # recurrence towards the long rod.
+    method = harmonics if _decay(lam, e) > 0.05 else harmonics_by_recurrence
+    parts = significant_parts(method(lam, e, max(HARD_ORDERS)))
+    return lam, e, [parts[order - 1] for order in HARD_ORDERS]
+
+
+def _write(path: Path, orders: Iterable[int], rows: Iterable[tuple[float, float, Any]]) -> None:
     with path.open("w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
-        orders = [f"{'real' if n % 2 == 0 else 'imag'}_{n}" for n in range(1, MAX_ORDER + 1)]
-        out.writerow(["rod_ratio", "offset_over_radius", *orders])
-        for lam, e in grid():
-            parts = significant_parts(harmonics(lam, e))
+        names = [f"{'real' if n % 2 == 0 else 'imag'}_{n}" for n in orders]
+        out.writerow(["rod_ratio", "offset_over_radius", *names])
+        for lam, e, parts in rows:
             out.writerow([repr(lam), repr(e), *(mp.nstr(part, DIGITS) for part in parts)])
 
 
 if __name__ == "__main__":
     write_reference_table()
+    write_hard_table()

@@ -35,6 +35,14 @@ impl Double {
         Self::sum(sum.high, sum.low + self.low)
     }
 
+    /// Times another, to twice a double's digits.
+    #[must_use]
+    #[inline]
+    pub fn times(self, other: Self) -> Self {
+        let product = Self::product(self.high, other.high);
+        Self::sum(product.high, product.low + (self.high * other.low + self.low * other.high))
+    }
+
     /// Over a double, to twice its digits.
     #[must_use]
     #[inline]
@@ -56,7 +64,9 @@ mod tests {
         assert_eq!(square.low, f64::EPSILON * f64::EPSILON);
         let third = Double { high: 1.0, low: 0.0 }.over(3.0);
         let back = Double::product(third.high, 3.0).plus(3.0 * third.low);
+        let whole = third.times(Double { high: 3.0, low: 0.0 });
         // twice 53 bits, three roundings
+        assert!((whole.high - 1.0).abs() + whole.low.abs() < 1e-31);
         assert!((back.high - 1.0).abs() + back.low.abs() < 1e-31);
     }
 }

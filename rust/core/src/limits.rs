@@ -6,8 +6,9 @@ use crate::error::{Error, Result};
 /// Largest magnitude of a length, mass or speed. Its fifth power (m·r²·ω²) and the square of that
 /// stay below the largest double.
 pub const LARGEST: f64 = 1e30;
-/// Smallest crank radius and rod length; ratios of two lengths neither overflow nor vanish.
-pub const SMALLEST_LENGTH: f64 = 1e-30;
+/// Smallest crank radius and rod length, and mass or speed above 0: no ratio of two overflows, and
+/// no product of five falls below the smallest double of full precision.
+pub const SMALLEST: f64 = 1e-30;
 /// Most cylinders in an engine.
 pub const MOST_CYLINDERS: usize = 1000;
 /// Longest name and source of an engine, bytes: files and copies go through a text of limited size.
@@ -29,8 +30,12 @@ pub fn finite(argument: &str, value: f64) -> Result<f64> {
     ))
 }
 
-/// A finite figure that is zero or more.
+/// A mass or a speed: zero, or from [`SMALLEST`] to [`LARGEST`].
 pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
+    if value > 0.0 && value < SMALLEST {
+        let cure = format!("give zero, or a number from {SMALLEST:e} to {LARGEST:e}");
+        return Err(Error::figure(argument, value, cure));
+    }
     if value >= 0.0 {
         return finite(argument, value);
     }
@@ -39,10 +44,10 @@ pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
 
 /// A length that is more than zero.
 pub fn length(argument: &str, value: f64) -> Result<f64> {
-    if (SMALLEST_LENGTH..=LARGEST).contains(&value) {
+    if (SMALLEST..=LARGEST).contains(&value) {
         return Ok(value);
     }
-    let cure = format!("give metres, between {SMALLEST_LENGTH:e} and {LARGEST:e}");
+    let cure = format!("give metres, between {SMALLEST:e} and {LARGEST:e}");
     Err(Error::figure(argument, value, cure))
 }
 

@@ -107,11 +107,7 @@ pub struct Proportions {
 impl Proportions {
     /// From λ = r/l and e/r.
     pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
-        if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
-            let cure = "give crank radius over rod length, more than 0 and less than 1";
-            return Err(Error::figure("rod_ratio", rod_ratio, cure));
-        }
-        limits::length("rod_ratio", rod_ratio)?;
+        Self::check_rod_ratio(rod_ratio)?;
         limits::finite("pin_offset_ratio", offset)?;
         let reach = Double::sum(1.0, -rod_ratio);
         let shift = Double::product(offset, rod_ratio);
@@ -126,6 +122,16 @@ impl Proportions {
             return Err(Error::figure("pin_offset_ratio", offset, cure));
         }
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
+    }
+
+    /// A ratio of two lengths with which the crank turns.
+    pub fn check_rod_ratio(rod_ratio: f64) -> Result<()> {
+        if (limits::SMALLEST..1.0).contains(&rod_ratio) {
+            return Ok(());
+        }
+        let least = limits::SMALLEST;
+        let cure = format!("give crank radius over rod length, at least {least:e} and less than 1");
+        Err(Error::figure("rod_ratio", rod_ratio, cure))
     }
 
     /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank

@@ -100,10 +100,6 @@ impl BankAngles {
         let [about_x, about_y] = found.second_order;
         Ok((found.bank_angle, first, second, found.counterweight, (about_x, about_y)))
     }
-
-    fn engine(&self, k: usize, parts: Parts, spacing: f64) -> PyResult<Engine> {
-        self.found(k)?.engine(cylinder(parts)?, spacing).or_raise().map(Engine::from)
-    }
 }
 
 impl BankAngles {
@@ -112,4 +108,20 @@ impl BankAngles {
             python_error(Error::value("index", k, "there are fewer bank angles than that"))
         })
     }
+}
+
+/// The vee of two banks' phases, the right one first.
+#[pyfunction]
+pub fn arrangement(
+    held: &str,
+    bank_angle: f64,
+    first: Vec<Angle>,
+    second: Vec<Angle>,
+    parts: Parts,
+    spacing: f64,
+) -> PyResult<Engine> {
+    let banks = [angles(first), angles(second)];
+    search::vee(hold(held)?, bank_angle, &banks, cylinder(parts)?, spacing)
+        .or_raise()
+        .map(Engine::from)
 }

@@ -26,6 +26,9 @@ const LONGEST_SERIES: f64 = 2000.0;
 /// ... unless the order is so high that its coefficient has decayed, which the quadrature, exact
 /// relative to the spike only, would not resolve.
 const SERIES_TERMS_PER_ORDER: f64 = 4.0;
+/// With more terms than this their roundings would pass a few units in the last place.
+const LONGEST_PLAIN_SERIES: f64 = 100.0;
+
 /// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
 #[must_use]
 pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
@@ -89,35 +92,64 @@ impl Root {
 struct Centred {
     root: Root,
     reach: f64,
-    fourth: f64,
+    /// p⁴.
+    fourth: Double,
 }
 
 impl Centred {
     fn new(proportions: &Proportions) -> Self {
         let root = Root::new(proportions.above);
-        Self { root, reach: proportions.above.high, fourth: root.p.powi(4) }
+        let square = Double::product(root.p, root.p);
+        let fourth = Double::product(square.high, square.high);
+        let rest = 2.0 * square.high * square.low + 4.0 * root.correction * fourth.high;
+        let fourth = Double::sum(fourth.high, fourth.low + rest);
+        Self { root, reach: proportions.above.high, fourth }
     }
 
     fn coefficient(&self, n: u32) -> f64 {
         if n % 2 == 1 {
             return if n == 1 { 1.0 } else { 0.0 };
         }
-        let count = (NEGLIGIBLE_LOG / -self.fourth.ln()).ceil();
+        let count = (NEGLIGIBLE_LOG / -self.fourth.high.ln()).ceil();
         if count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n) {
             let reach = self.reach;
             return spike_integral(reach, reach, 0.0, n)
                 * if n.is_multiple_of(4) { 1.0 } else { -1.0 };
         }
+        let rest = if count > LONGEST_PLAIN_SERIES { self.long_series(n) } else { self.series(n) };
+        leading(n) * self.root.power(n - 1) * rest
+    }
+
+    /// `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}`.
+    fn series(&self, n: u32) -> f64 {
         let m = f64::from(n / 2);
-        let mut term = 0.5 * (m - 0.5) / (m + 1.0) * self.fourth;
+        let mut term = 0.5 * (m - 0.5) / (m + 1.0) * self.fourth.high;
         let mut sum = 0.0;
         let mut j = 1.0;
         while term > sum * f64::EPSILON / 16.0 {
             sum += term;
-            term *= next_term(j, m) * self.fourth;
+            term *= next_term(j, m) * self.fourth.high;
             j += 1.0;
         }
-        leading(n) * self.root.power(n - 1) * (1.0 - sum)
+        1.0 - sum
+    }
+
+    /// The same to twice the digits: with many terms the sum nears 1, and their roundings add up.
+    fn long_series(&self, n: u32) -> f64 {
+        let m = f64::from(n / 2);
+        let first = Double { high: 0.5 * (m - 0.5), low: 0.0 };
+        let mut term = first.over(m + 1.0).times(self.fourth);
+        let mut sum = Double { high: 0.0, low: 0.0 };
+        let mut j = 1.0;
+        while term.high > sum.high * f64::EPSILON / 16.0 {
+            sum = sum.plus(term.high);
+            sum.low += term.low;
+            // Both products are whole numbers over 4, hence exact.
+            let ratio = Double { high: (j - 0.5) * (j + m - 0.5), low: 0.0 };
+            term = term.times(ratio.over((j + 1.0) * (j + m + 1.0))).times(self.fourth);
+            j += 1.0;
+        }
+        Double::sum(1.0, -sum.high).plus(-sum.low).high
     }
 }
 

@@ -83,11 +83,7 @@ fn centred_rows(
     rows: &mut [f64],
     cancel: &Cancel,
 ) -> Result<()> {
-    for &rod_ratio in rod_ratios {
-        if !(rod_ratio > 0.0 && rod_ratio < 1.0) {
-            return Proportions::new(rod_ratio, 0.0).map(drop);
-        }
-    }
+    rod_ratios.iter().try_for_each(|&rod_ratio| Proportions::check_rod_ratio(rod_ratio))?;
     let width = orders.len();
     vectorised(
         #[inline(always)]

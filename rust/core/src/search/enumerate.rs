@@ -177,8 +177,6 @@ struct Walk<'a> {
     fields: Box<[[[u64; 16]; 16]; MOST_PAIRS]>,
     /// What a pair of throws of weights w and −w adds by itself.
     alone: Box<[[[u64; 16]; 16]; MOST_PAIRS]>,
-    /// Phases that the front throw may take, by index.
-    first: [bool; 16],
 }
 
 impl<'a> Walk<'a> {
@@ -189,11 +187,7 @@ impl<'a> Walk<'a> {
             weights: [0; MOST_PAIRS],
             fields: Box::new([[[0; 16]; 16]; MOST_PAIRS]),
             alone: Box::new([[[0; 16]; 16]; MOST_PAIRS]),
-            first: [false; 16],
         };
-        for (first, phase) in walk.first.iter_mut().zip(&images.distinct) {
-            *first = bank.first_phases().contains(phase);
-        }
         for (k, &weight) in bank.weights()[..bank.throws() / 2].iter().enumerate() {
             let w = weight as u64;
             walk.weights[k] = w;
@@ -260,13 +254,11 @@ impl<'a> Walk<'a> {
         result
     }
 
-    /// Every next pair of throws that no image comes before.
+    /// Every next pair of throws that no image comes before. Images have the front throw turned back
+    /// to a first phase: with another one there, an image comes before.
     #[inline]
     fn pairs(&self, node: &Node, mut found: impl FnMut(Pair)) {
         for front in node.pool.open(0) {
-            if node.pairs == 0 && !self.first[front] {
-                continue;
-            }
             let mut one = node.pool.clone();
             one.take(0, front);
             for rear in one.open(1) {

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::enumerate::{Entries, Entry, LARGEST_SEARCH, classes, key, packed};
 use super::images::Image;
 use super::moments::{Moments, NEAR, fold};
+use super::same::Same;
 use super::window::Wanted;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
@@ -113,44 +114,35 @@ impl Families<'_> {
             cancel.step()?;
             let small = families.iter().copied().filter(|family| family.is_small()).collect();
             let mut distinct = Vec::with_capacity(families.len());
-            self.join(&mut distinct, families.iter().filter(|family| !family.is_small()));
+            join(&mut distinct, families.iter().filter(|f| !f.is_small()), &mut Same::new(self));
             Ok([distinct, small])
         });
         let mut all: Vec<Family> = Vec::new();
         let mut small = Vec::new();
+        let mut same = Same::new(self);
         for [distinct, of_small] in parts.collect::<Result<Vec<_>>>()? {
             // Only what is close to the joint can be there already.
             let close = |family: &Family| {
                 all.last().is_some_and(|last| family.folded() - last.folded() <= CLOSE)
             };
             let joint = distinct.partition_point(close);
-            self.join(&mut all, &distinct[..joint]);
+            join(&mut all, &distinct[..joint], &mut same);
             all.extend(&distinct[joint..]);
             small.extend(of_small);
         }
-        self.insert(&mut all, &small);
+        self.insert(&mut all, &small, &mut same);
         Ok(all)
     }
 
-    /// Append ascending families that are not there yet.
-    fn join<'f>(self, to: &mut Vec<Family>, families: impl IntoIterator<Item = &'f Family>) {
-        for &family in families {
-            let close = to.iter().rev().take_while(|o| family.folded() - o.folded() <= CLOSE);
-            if !close.into_iter().any(|&other| self.same(family, other)) {
-                to.push(family);
-            }
-        }
-    }
-
     /// Insert families of small |Z|, of which there are few: rounding may have put them anywhere near.
-    fn insert(self, to: &mut Vec<Family>, families: &[Family]) {
+    fn insert(self, to: &mut Vec<Family>, families: &[Family], same: &mut Same<'_>) {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
             let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
             let (low, high) = (family.folded() - NEAR / size, family.folded() + NEAR / size);
             let start = to.partition_point(|other| other.folded() < low);
             let close = to[start..].iter().take_while(|other| other.folded() <= high);
-            if !close.chain(&new).any(|&other| self.same(family, other)) {
+            if !close.chain(&new).any(|&other| same.angle(family, other)) {
                 new.push(family);
             }
         }
@@ -236,32 +228,19 @@ impl Families<'_> {
         let (second, image) = family.second();
         PI + self.moments.seen(argument(second), image) - argument(family.first())
     }
+}
 
-    /// Whether two folded angles are equal: −Z₂Z̄₁/|Z|² up to a turn and conjugation.
-    fn same(self, a: Family, b: Family) -> bool {
-        let ring = &self.moments.ring;
-        let at = |place: usize| packed(self.entries.all[place]);
-        let first = |f: Family| self.moments.combination(at(f.first()), Image::ITSELF);
-        let product = |family: Family| {
-            let (second, image) = family.second();
-            let second = self.moments.combination(at(second), image);
-            ring.times_conjugate(&second, &first(family))
-        };
-        let (mut x, mut y) = (product(a), product(b));
-        let class = |family: Family| key(self.entries.all[family.first()]);
-        if class(a) != class(b) {
-            // x/|x|² = y/|y|²: multiplied out, |y|² being its own conjugate.
-            let square = |family: Family| ring.times_conjugate(&first(family), &first(family));
-            x = ring.times_conjugate(&x, &square(b));
-            y = ring.times_conjugate(&y, &square(a));
+/// Append ascending families that are not there yet.
+fn join<'a>(
+    to: &mut Vec<Family>,
+    families: impl IntoIterator<Item = &'a Family>,
+    same: &mut Same<'_>,
+) {
+    for &family in families {
+        let mut close = to.iter().rev().take_while(|o| family.folded() - o.folded() <= CLOSE);
+        if !close.any(|&other| same.angle(family, other)) {
+            to.push(family);
         }
-        let wanted = ring.remainder(&x);
-        let mirrored = ring.conjugate(&y);
-        // The turn between them is known from the angles; which it is exactly is what is asked.
-        let (of_a, of_b) = (self.angle(a), self.angle(b));
-        [(y, of_a - of_b), (mirrored, of_a + of_b)].iter().any(|(other, apart)| {
-            ring.remainder(&ring.turned(other, self.moments.turns_in(*apart))) == wanted
-        })
     }
 }
 

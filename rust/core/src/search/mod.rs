@@ -14,7 +14,9 @@ mod magnitude;
 mod moments;
 mod packing;
 mod ring;
+mod same;
 mod throws;
+mod vee;
 mod window;
 
 use std::f64::consts::PI;
@@ -30,13 +32,13 @@ use self::images::Image;
 use self::magnitude::Magnitude;
 use self::moments::Moments;
 pub use self::throws::{Arrangement, Bank};
+pub use self::vee::vee;
 use self::window::Wanted;
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::cancel::Cancel;
-use crate::engine::{Engine, Hold, Placement};
+use crate::engine::{Engine, Hold};
 use crate::error::{Error, Result};
-use crate::limits;
 use crate::slider_crank::Cylinder;
 
 /// All arrangements of one bank, grouped by |Z|.
@@ -56,12 +58,10 @@ pub struct Solution {
     pub hold: Hold,
     /// |α|, degrees.
     pub bank_angle: f64,
-    /// Phases of both banks' throws, front to flywheel, in multiples of 1/`parts` of a turn.
+    /// Phases of both banks' throws, the right one first, front to flywheel, in multiples of 1/`parts` of a turn.
     pub banks: [Arrangement; 2],
     /// Parts of a turn.
     pub parts: u32,
-    /// α, degrees; below zero where the first bank is the left one.
-    pub signed_angle: f64,
     /// Moment that a counterweight on the crank takes away, over m·r·ω²·spacing.
     pub counterweight: f64,
     /// Second-order moments about x and y, over m·r·ω²·spacing·a₂.
@@ -141,13 +141,13 @@ impl Search {
     pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
         let origin = angles.get(k)?;
         let parts = self.bank().parts;
-        let banks = self.banks(origin);
+        let mut banks = self.banks(origin);
         let weights = self.bank().weights();
         let moment = |phases: &[u32], order: i64| -> Complex64 {
             let unit = |p: u32| Angle::Turns(i64::from(p), i64::from(parts)).cis(order);
             phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
         };
-        let orders = [1, 2].map(|order| banks.each_ref().map(|phases| moment(phases, order)));
+        let mut orders = [1, 2].map(|order| banks.each_ref().map(|phases| moment(phases, order)));
         let condition = (-orders[0][1] / orders[0][0]).arg();
         let angle = match self.hold {
             Hold::Firing => condition,
@@ -155,6 +155,14 @@ impl Search {
             Hold::Pins if origin.beyond => 0.5 * condition - PI.copysign(condition),
             Hold::Pins => 0.5 * condition,
         };
+        // Seen the other way round, the left bank is the first.
+        if angle < 0.0 {
+            banks.swap(0, 1);
+            for of_banks in &mut orders {
+                of_banks.swap(0, 1);
+            }
+        }
+        let angle = angle.abs();
         let half = 0.5 * angle;
         // Bores at 90° ∓ α/2. With the pins held a cylinder's phase turns with its bore.
         let [[first, second], [z1, z2]] =
@@ -163,16 +171,14 @@ impl Search {
                 [a * Complex64::cis(turned), b * Complex64::cis(-turned)]
             });
         // F_y with cos α/2, F_x with ± sin α/2.
-        let second_order =
-            [(z1 + z2).norm() * half.cos().abs(), (z1 - z2).norm() * half.sin().abs()];
+        let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin()];
         // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
         Some(Solution {
             hold: self.hold,
-            bank_angle: angle.to_degrees().abs(),
+            bank_angle: angle.to_degrees(),
             banks,
             parts,
-            signed_angle: angle.to_degrees(),
             counterweight: forward,
             second_order,
         })
@@ -201,28 +207,11 @@ impl Search {
 }
 
 impl Solution {
-    /// The vee: cylinders numbered along the crank, odd ones in the first bank.
+    /// The vee: cylinders numbered along the crank, odd ones in the right bank.
     pub fn engine(&self, cylinder: Cylinder, spacing: f64) -> Result<Engine> {
-        limits::finite("spacing", spacing)?;
-        let half = Angle::from_degrees(0.5 * self.signed_angle)?;
-        let upright = Angle::Turns(1, 4);
-        let placements = (0..2 * self.banks[0].len()).map(|i| {
-            let (throw, bank) = (i / 2, i % 2);
-            let phase = Angle::Turns(i64::from(self.banks[bank][throw]), i64::from(self.parts));
-            let bore = if bank == 0 { upright - half } else { upright + half };
-            Placement {
-                cylinder,
-                tdc: match self.hold {
-                    Hold::Firing => -phase,
-                    Hold::Pins => bore - phase,
-                },
-                bank: bore,
-                z: throw as f64 * spacing,
-                rotating_mass: 0.0,
-            }
-        });
-        let name = format!("V{} {:.2}°", 2 * self.banks[0].len(), self.bank_angle);
-        Engine::new(name, "crankpin's search of arrangements", placements.collect())
+        let phase = |&p: &u32| Angle::Turns(i64::from(p), i64::from(self.parts));
+        let banks = self.banks.each_ref().map(|phases| phases.iter().map(phase).collect());
+        vee(self.hold, self.bank_angle, &banks, cylinder, spacing)
     }
 }
 

@@ -131,12 +131,14 @@ impl Moments {
     }
 
     /// 2Z of an image as a combination of roots of unity.
-    pub(super) fn combination(&self, packed: Packed, image: Image) -> Vec<i64> {
-        let mut combination = vec![0; self.bank.parts as usize];
-        for (phase, weight) in self.images.phases(packed, image).into_iter().zip(&self.weights) {
-            combination[phase as usize] += weight;
+    pub(super) fn combination(&self, packed: Packed, image: Image, combination: &mut Vec<i64>) {
+        combination.clear();
+        combination.resize(self.bank.parts as usize, 0);
+        let sign = if image.reversed { -1 } else { 1 };
+        for (throw, weight) in self.weights.iter().enumerate() {
+            let phase = self.images.seen(self.images.distinct[index(packed, throw)], image);
+            combination[phase as usize] += sign * weight;
         }
-        combination
     }
 }
 

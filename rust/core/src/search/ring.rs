@@ -44,6 +44,11 @@ impl Ring {
     /// Remainder of Σ cₖζᵏ: equal for equal numbers.
     pub(super) fn remainder(&self, combination: &[i64]) -> Vec<i64> {
         let mut remainder = vec![0; self.powers[0].len()];
+        self.reduce(combination, &mut remainder);
+        remainder
+    }
+
+    fn reduce(&self, combination: &[i64], remainder: &mut [i64]) {
         for (&coefficient, power) in combination.iter().zip(&self.powers) {
             if coefficient != 0 {
                 for (term, &unit) in remainder.iter_mut().zip(power) {
@@ -51,33 +56,31 @@ impl Ring {
                 }
             }
         }
-        remainder
+    }
+
+    /// Whether a combination is zero.
+    pub(super) fn vanishes(&self, combination: &[i64], remainder: &mut Vec<i64>) -> bool {
+        remainder.clear();
+        remainder.resize(self.powers[0].len(), 0);
+        self.reduce(combination, remainder);
+        remainder.iter().all(|&term| term == 0)
     }
 
     /// Product of two combinations, the second conjugated, as a combination.
-    pub(super) fn times_conjugate(&self, a: &[i64], b: &[i64]) -> Vec<i64> {
-        let mut product = vec![0; self.parts];
+    pub(super) fn times_conjugate(&self, a: &[i64], b: &[i64], product: &mut Vec<i64>) {
+        product.clear();
+        product.resize(self.parts, 0);
         for (j, &y) in b.iter().enumerate().filter(|(_, y)| **y != 0) {
             // ζⁱ⁻ʲ: rotated left by j.
             let (before, after) = a.split_at(j);
-            let rotated = after.iter().chain(before);
-            for (term, x) in product.iter_mut().zip(rotated) {
+            let (start, end) = product.split_at_mut(after.len());
+            for (term, x) in start.iter_mut().zip(after) {
+                *term += x * y;
+            }
+            for (term, x) in end.iter_mut().zip(before) {
                 *term += x * y;
             }
         }
-        product
-    }
-
-    /// The complex conjugate.
-    pub(super) fn conjugate(&self, combination: &[i64]) -> Vec<i64> {
-        (0..self.parts).map(|k| combination[(self.parts - k) % self.parts]).collect()
-    }
-
-    /// Times ζ^by.
-    pub(super) fn turned(&self, combination: &[i64], by: usize) -> Vec<i64> {
-        let mut turned = combination.to_vec();
-        turned.rotate_right(by % self.parts);
-        turned
     }
 }
 
@@ -93,7 +96,8 @@ mod tests {
             let mut one = vec![0; parts as usize];
             one[parts as usize - 1] = 1;
             // ζ^{N−1}·conj(ζ^{N−1}) = 1
-            let product = ring.times_conjugate(&one, &one);
+            let mut product = Vec::new();
+            ring.times_conjugate(&one, &one, &mut product);
             assert_eq!(ring.remainder(&product), ring.powers[0]);
         }
     }

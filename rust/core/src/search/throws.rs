@@ -91,17 +91,6 @@ impl Bank {
         self.turns
     }
 
-    /// Phases the front throw need take: one for each way that turning the crank does not reach.
-    #[must_use]
-    pub fn first_phases(&self) -> Vec<u32> {
-        let period = self.parts / self.turns();
-        let mut first: Vec<u32> = self.phases.iter().map(|phase| phase % period).collect();
-        first.sort_unstable();
-        first.dedup();
-        first.retain(|phase| self.phases.contains(phase));
-        first
-    }
-
     /// Sum of a phase and its mirror image, where the crank running backward has the same phases.
     #[must_use]
     pub fn mirror(&self) -> Option<u32> {
@@ -323,6 +312,6 @@ pub(super) mod tests {
     fn a_bank_of_an_inline_six_has_its_phases_twice() {
         let bank = Bank::even_firing(6, false).unwrap();
         assert_eq!((bank.phases.clone(), bank.parts), (vec![0, 0, 1, 1, 2, 2], 3));
-        assert_eq!((bank.turns(), bank.first_phases()), (3, vec![0]));
+        assert_eq!(bank.turns(), 3);
     }
 }

@@ -1,0 +1,49 @@
+//! The engine that an arrangement is of.
+
+use crate::angle::Angle;
+use crate::engine::{Engine, Hold, Placement};
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Cylinder;
+
+/// The vee of two banks, the right one first, by the phases of their throws; cylinders are numbered
+/// along the crank, odd ones in the right bank. The bank angle is in degrees.
+pub fn vee(
+    hold: Hold,
+    bank_angle: f64,
+    banks: &[Vec<Angle>; 2],
+    cylinder: Cylinder,
+    spacing: f64,
+) -> Result<Engine> {
+    limits::finite("spacing", spacing)?;
+    limits::finite("bank_angle_deg", bank_angle)?;
+    let throws = banks[0].len();
+    if banks[1].len() != throws {
+        return Err(Error::Length {
+            argument: "second_deg".into(),
+            found: banks[1].len(),
+            reference: "first_deg".into(),
+            expected: throws,
+            item: "throw",
+        });
+    }
+    let half = Angle::from_degrees(0.5 * bank_angle)?;
+    let upright = Angle::Turns(1, 4);
+    let placements = (0..2 * throws).map(|i| {
+        let (throw, bank) = (i / 2, i % 2);
+        let phase = banks[bank][throw];
+        let bore = if bank == 0 { upright - half } else { upright + half };
+        Placement {
+            cylinder,
+            tdc: match hold {
+                Hold::Firing => -phase,
+                Hold::Pins => bore - phase,
+            },
+            bank: bore,
+            z: throw as f64 * spacing,
+            rotating_mass: 0.0,
+        }
+    });
+    let name = format!("V{} {bank_angle:.2}°", 2 * throws);
+    Engine::new(name, "crankpin's search of arrangements", placements.collect())
+}
