@@ -223,7 +223,9 @@ def slider_crank_harmonics(
     listed = _inputs.explicit_orders(orders)
     ratios = _inputs.array("rod_ratio", rod_ratio)
     if pin_offset_ratio is None:
-        return _core.centred_table(ratios.ravel(), listed).reshape(*ratios.shape, len(listed))
+        return _core.centred_table(_inputs.contiguous(ratios).reshape(-1), listed).reshape(
+            *ratios.shape, len(listed)
+        )
     offsets = _inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
@@ -232,4 +234,5 @@ def slider_crank_harmonics(
     # Nothing is copied until its size is known to be small enough.
     ratios = _inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = _inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
-    return _core.offset_table(ratios.ravel(), offsets.ravel(), listed).reshape(*shape, len(listed))
+    ratios, offsets = (_inputs.contiguous(a).reshape(-1) for a in (ratios, offsets))
+    return _core.offset_table(ratios, offsets, listed).reshape(*shape, len(listed))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._chunks import Chunks
     from crankpin._engine import Hold
     from crankpin._inputs import Orders, Spectrum
     from crankpin._progress import Progress
@@ -39,6 +40,7 @@ UNITS = {
 }
 
 
+@overload
 def sweep(
     engines: Engines,
     *,
@@ -53,7 +55,41 @@ def sweep(
     spectrum: Spectrum | None = None,
     torque: bool = True,
     progress: Progress = False,
-) -> Sweep:
+    chunks: None = None,
+) -> Sweep: ...
+@overload
+def sweep(
+    engines: Engines,
+    *,
+    rpm: ArrayLike,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    rod_ratio: ArrayLike | None = None,
+    pin_offset: ArrayLike | None = None,
+    orders: Orders = (1, 2, 4, 6),
+    rtol: float = 1e-9,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+    chunks: Chunks,
+) -> xr.Dataset: ...
+def sweep(
+    engines: Engines,
+    *,
+    rpm: ArrayLike,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    rod_ratio: ArrayLike | None = None,
+    pin_offset: ArrayLike | None = None,
+    orders: Orders = (1, 2, 4, 6),
+    rtol: float = 1e-9,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+    chunks: Chunks | None = None,
+) -> Sweep | xr.Dataset:
     """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
 
     No crank angle is sampled: each point is a layout sum times a harmonic. Every array argument is
@@ -85,10 +121,17 @@ def sweep(
     progress
         True for a tqdm bar while values are worked out, or a function of (steps done, steps in all)
         that is called now and then; what it raises stops the work.
+    chunks
+        Leaves the work to dask (needs dask and xarray): points to a chunk of each swept dimension,
+        or a mapping dimension → points, dimensions that it leaves out staying whole, or ``"auto"``.
+        The result may be larger than memory; each chunk is an ordinary sweep, in any of dask's
+        schedulers, and its values have the same bits as those of one sweep of everything.
 
     Returns
     -------
     Sweep
+        Or with ``chunks`` an :class:`xarray.Dataset` of dask arrays: phasors and peaks, named as
+        the attributes of :class:`Sweep`.
 
     Raises
     ------
@@ -147,7 +190,16 @@ def sweep(
         "spectrum": spectrum,
         "torque": torque,
     }
-    return Sweep(core, listed, names, ranks, arguments, shown)
+    whole = Sweep(core, listed, names, ranks, arguments, shown)
+    if chunks is None:
+        return whole
+    if shown is not False:
+        raise _core.InputError(
+            "progress: dask tells it itself, by dask.diagnostics.ProgressBar; leave it out"
+        )
+    from crankpin import _chunks  # noqa: PLC0415 - it makes sweeps
+
+    return _chunks.dataset(whole, chunks)
 
 
 class Sweep(Frozen):
@@ -333,23 +385,30 @@ class Sweep(Frozen):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
-        variables: dict[str, Any] = {}
-        for quantity in quantities or ("force", "moment"):
-            dims, units = self.dims(quantity), {"units": UNITS[quantity]}
-            suffix = "" if quantity == "torque" else "_xy"
-            summed = tuple(dim for dim in dims if dim != "order")
-            variables[quantity] = (dims, getattr(self, quantity), units)
-            for name, of in (
-                (f"{quantity}_peak{suffix}", dims),
-                (f"{quantity}_sum_peak{suffix}", summed),
-            ):
-                variables[name] = (of, getattr(self, name), units)
+        wanted = quantities or ("force", "moment")
+        variables = {
+            variable.name: (
+                self._variable_dims(variable),
+                getattr(self, variable.name),
+                variable.attributes,
+            )
+            for variable in variables_of(*wanted)
+            if "vector" not in variable.name
+        }
+        return self._dataset(variables, wanted)
+
+    def _variable_dims(self, variable: Variable) -> tuple[str, ...]:
+        """Return the names of a variable's dimensions."""
+        return (*self.coords, *variable.dims)
+
+    def _dataset(self, variables: dict[str, Any], quantities: Sequence[Quantity]) -> xr.Dataset:
+        """Return variables with this sweep's coordinates."""
         coords: dict[str, Any] = {
             name: (name, values, {"units": UNITS[name]} if name in UNITS else {})
             for name, values in self.coords.items()
         }
         coords["order"] = ("order", list(self.orders), {"units": UNITS["order"]})
-        if any(quantity != "torque" for quantity in quantities or ("force",)):
+        if any(quantity != "torque" for quantity in quantities):
             coords["axis"] = ("axis", ["x", "y"])
         attributes: dict[str, Any] = dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
         dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
@@ -436,13 +495,40 @@ _ORDER_DIMS: dict[str, tuple[str, ...]] = {
 }
 
 
+class Variable(NamedTuple):
+    """What a sweep tells of a quantity: an attribute and the dimensions after the swept ones."""
+
+    name: str
+    quantity: Quantity
+    dims: tuple[str, ...]
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What an xarray variable is labelled with."""
+        return {"units": UNITS[self.quantity]}
+
+
+def variables_of(*quantities: Quantity) -> Iterator[Variable]:
+    """Yield phasors and peaks of some quantities."""
+    for quantity in quantities:
+        dims = _ORDER_DIMS[_inputs.one_of("quantity", quantity, _ORDER_DIMS)]
+        yield Variable(quantity, quantity, dims)
+        if quantity == "torque":
+            yield Variable("torque_peak", quantity, dims)
+            yield Variable("torque_sum_peak", quantity, ())
+            continue
+        yield Variable(f"{quantity}_peak_xy", quantity, dims)
+        yield Variable(f"{quantity}_sum_peak_xy", quantity, ("axis",))
+        yield Variable(f"{quantity}_peak_vector", quantity, ("order",))
+        yield Variable(f"{quantity}_sum_peak_vector", quantity, ())
+
+
 def _again(
     engines: tuple[Engine, ...], names: Sequence[str] | None, arguments: dict[str, Any]
 ) -> Sweep:
-    if names is None:
-        return sweep(engines[0], **arguments)
-    again = sweep(engines, **arguments)
-    again._set(_names=names)
+    again: Sweep = sweep(engines[0] if names is None else engines, **arguments)
+    if names is not None:
+        again._set(_names=names)
     return again
 
 

@@ -69,8 +69,7 @@ fn copied(values: &[f64], cancel: &Cancel) -> core::Result<Vec<f64>> {
 }
 
 impl Sweep {
-    /// A result in `NumPy`'s own memory: it asks for large pages, which are several times faster to
-    /// come by and to give back.
+    /// A result, of the dimensions that are swept.
     fn values<'py, T: Element + Send>(
         &self,
         py: Python<'py>,
@@ -83,18 +82,14 @@ impl Sweep {
         let kept = |axis: usize| self.swept.get(axis).copied().unwrap_or(true);
         let kept: Vec<usize> =
             shape.iter().enumerate().filter(|&(axis, _)| kept(axis)).map(|(_, &n)| n).collect();
-        let numpy = py.import("numpy")?;
-        let values = numpy.call_method1("zeros", (kept, numpy::dtype::<T>(py)))?;
-        let values = values.cast_into::<PyArrayDyn<T>>()?;
-        let mut writable = values.readwrite();
-        let out = writable.as_slice_mut()?;
         let each = match figure {
             Figure::Amplitude | Figure::Length => 8,
             Figure::Sum | Figure::LengthOfSum => PEAK_STEPS,
         };
         let points = self.sweep.shape().iter().fold(each, |size, &n| size.saturating_mul(n));
-        interrupt::watched(py, points, progress, |cancel| write(out, cancel))?;
-        writable.make_nonwriteable();
+        let values: Bound<'py, PyArrayDyn<T>> =
+            interrupt::written(py, kept, points, progress, write)?;
+        values.readwrite().make_nonwriteable();
         Ok(values)
     }
 }

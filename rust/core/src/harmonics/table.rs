@@ -1,7 +1,9 @@
 //! Harmonics of many slider-cranks at once.
 
-use ndarray::{Array2, Axis, parallel::prelude::*};
-use rayon::slice::ParallelSlice;
+use std::ops::Range;
+
+use ndarray::Array2;
+use rayon::prelude::*;
 
 use super::{Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, next_term};
 use crate::Complex64;
@@ -16,60 +18,69 @@ const LARGEST_PLAIN_POWER: u32 = 15;
 
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
-    let mut table = checked_table::<f64>(rod_ratios.len(), orders)?;
-    let longest = Horner::tables(orders);
-    fill(&mut table, rod_ratios, cancel, |rod_ratios, rows| {
-        centred_rows(rod_ratios, orders, &longest, rows, cancel)
-    })?;
+    check_size::<f64>(rod_ratios.len(), orders)?;
+    let mut table = Array2::default((rod_ratios.len(), orders.len()));
+    write_centred(rod_ratios, orders, table.as_slice_mut().unwrap_or_default(), cancel)?;
     Ok(table)
 }
 
-/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns).
-pub fn offset_table(
+/// [`centred_table`] into memory that is there, row by row.
+pub fn write_centred(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    out: &mut [f64],
+    cancel: &Cancel,
+) -> Result<()> {
+    let longest = Horner::tables(orders);
+    fill(rod_ratios.len(), orders.len(), out, cancel, |range, rows| {
+        centred_rows(&rod_ratios[range], orders, &longest, rows, cancel)
+    })
+}
+
+/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns), into memory that is
+/// there.
+pub fn write_offset(
     rod_ratios: &[f64],
     offsets: &[f64],
     orders: &[u32],
+    out: &mut [Complex64],
     cancel: &Cancel,
-) -> Result<Array2<Complex64>> {
-    let mut table = checked_table::<Complex64>(rod_ratios.len(), orders)?;
-    let pairs: Vec<(f64, f64)> = rod_ratios.iter().copied().zip(offsets.iter().copied()).collect();
-    fill(&mut table, &pairs, cancel, |pairs, rows| {
-        for (&(rod_ratio, offset), row) in pairs.iter().zip(rows.chunks_exact_mut(orders.len())) {
+) -> Result<()> {
+    let pairs = rod_ratios.len().min(offsets.len());
+    fill(pairs, orders.len(), out, cancel, |range, rows| {
+        let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
+        for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
             cancel.check()?;
             row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
         }
         Ok(())
-    })?;
-    Ok(table)
+    })
 }
 
-fn checked_table<T: Clone + Default>(rows: usize, orders: &[u32]) -> Result<Array2<T>> {
+/// A table of numbers of type `T` is not too large.
+pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
     limits::orders(orders)?;
     let cure = "split rod_ratio into parts";
-    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)?;
-    Ok(Array2::default((rows, orders.len())))
+    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)
 }
 
 /// Fill the rows of a table in parallel, chunk by chunk.
-fn fill<I: Sync, T: Send + Sync>(
-    table: &mut Array2<T>,
-    inputs: &[I],
+fn fill<T: Send>(
+    rows: usize,
+    width: usize,
+    out: &mut [T],
     cancel: &Cancel,
-    rows: impl Fn(&[I], &mut [T]) -> Result<()> + Sync,
+    write: impl Fn(Range<usize>, &mut [T]) -> Result<()> + Sync,
 ) -> Result<()> {
     const CHUNK: usize = 2048;
-    if inputs.len() <= CHUNK {
-        return rows(inputs, table.as_slice_mut().unwrap_or_default());
+    if rows <= CHUNK {
+        return write(0..rows, out);
     }
-    cancel.expect(inputs.len().div_ceil(CHUNK));
-    table
-        .axis_chunks_iter_mut(Axis(0), CHUNK)
-        .into_par_iter()
-        .zip(inputs.par_chunks(CHUNK))
-        .try_for_each(|(mut block, inputs)| {
-            cancel.step()?;
-            rows(inputs, block.as_slice_mut().unwrap_or_default())
-        })
+    cancel.expect(rows.div_ceil(CHUNK));
+    out.par_chunks_mut(CHUNK * width).enumerate().try_for_each(|(chunk, out)| {
+        cancel.step()?;
+        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+    })
 }
 
 /// How many rod ratios go through a polynomial side by side.
