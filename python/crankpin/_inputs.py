@@ -33,7 +33,7 @@ FASTEST_PISTON = 60.0
 MOST_NUMBERS = 2**27
 """Numbers in an array that is taken: a gibibyte."""
 
-PIECE = 2**20
+PIECE = 2**18
 """Numbers converted or copied between two looks at Ctrl-C."""
 
 MOST_ITEMS = 10_000

@@ -7,14 +7,13 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
-import numpy as np
-
 from crankpin import _core, _inputs, _progress, _tables
 from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
@@ -160,20 +159,20 @@ def sweep(
         "pin_offset": pin_offset,
         "rpm": rpm,
     }
-    ranks = {name: np.ndim(values) for name, values in given.items() if values is not None}
-    axes = [
-        None if values is None or name == "rpm" else _inputs.vector(name, values)
-        for name, values in given.items()
-    ]
+    arrays = {
+        name: _inputs.array(name, values) for name, values in given.items() if values is not None
+    }
+    ranks = {name: values.ndim for name, values in arrays.items()}
+    axes = {name: _inputs.vector(name, values) for name, values in arrays.items()}
     wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)
     torque = _inputs.flag("torque", torque)
     core = _core.Sweep(
         [engine._core for engine in listed],
-        axes[0],
+        axes.get("bank_angle_deg"),
         None if hold is None else _inputs.text("hold", hold, 'give "pins" or "firing"'),
-        axes[1],
-        axes[2],
-        _inputs.vector("rpm", rpm),
+        axes.get("rod_ratio"),
+        axes.get("pin_offset"),
+        axes["rpm"],
         wanted,
         rtol,
         _inputs.optional_number("reference_z", reference_z),

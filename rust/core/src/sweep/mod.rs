@@ -76,6 +76,8 @@ pub struct Sweep {
     orders: Vec<u32>,
     references: Vec<f64>,
     spectrum: Option<Spectrum>,
+    /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
+    extremes: [Option<f64>; 2],
     /// ω² of each speed.
     squares: Vec<f64>,
     /// Whether torque is wanted.
@@ -132,19 +134,20 @@ impl Sweep {
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         let references = references.collect::<Result<_>>()?;
         let replaced = axes.rod_ratio.is_some() || axes.pin_offset.is_some();
-        let sweep = Self {
+        let mut sweep = Self {
             engines,
             axes,
             orders,
             references,
             spectrum,
+            extremes: [None; 2],
             squares,
             torque: true,
             omitted: Vec::new(),
             error_bound: [0.0; 3],
         };
         if replaced {
-            sweep.check_geometry(cancel)?;
+            sweep.extremes = sweep.check_geometry(cancel)?;
         }
         Ok(sweep)
     }
@@ -383,8 +386,8 @@ impl Sweep {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
 
-    /// Every slider-crank of the sweep can turn: where the extreme ones can, all can.
-    fn check_geometry(&self, cancel: &Cancel) -> Result<()> {
+    /// Every slider-crank of the sweep can turn: where the extreme ones can, all can. Returns them.
+    fn check_geometry(&self, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
         let (ratios, offsets) = (self.axes.rod_ratio.as_deref(), self.axes.pin_offset.as_deref());
         let extreme_ratios = ends(ratios, cancel)?;
         let extreme_offsets = ends(offsets, cancel)?;
@@ -406,7 +409,9 @@ impl Sweep {
             }
             return Err(error);
         }
-        Ok(())
+        let [least, most] = extreme_offsets;
+        let farthest = least.zip(most).map(|(a, b)| if -a > b { a } else { b });
+        Ok([extreme_ratios[1], farthest])
     }
 }
 
