@@ -7,6 +7,8 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
+import numpy as np
+
 from crankpin import _core, _inputs, _progress, _tables
 from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
@@ -14,7 +16,6 @@ from crankpin._frozen import Frozen
 from crankpin._sweep_waveform import SweepWaveform
 
 if TYPE_CHECKING:
-    import numpy as np
     import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
