@@ -34,6 +34,14 @@ LONG_CALLS = {
         "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
         "by=lambda balance: balance.rpm)"
     ),
+    "waveforms of a sweep": (
+        "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000), orders=range(1, 300))"
+        ".waveform(np.linspace(0, 720, 2000)).force for _ in range(100)]"
+    ),
+    "waveforms of a sweep by kinematics": (
+        "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000))"
+        ".waveform(np.linspace(0, 720, 2000), exact=True).force for _ in range(100)]"
+    ),
     "waveform as a sum of orders": (
         "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),

@@ -90,6 +90,8 @@ OBJECTS: dict[str, Any] = {
     "Waveform, auto": waveform(orders="auto"),
     "Sweep": sweep(),
     "Sweep of one": cp.sweep(V6, rpm=5000),
+    "SweepWaveform": sweep().waveform(THETA),
+    "SweepWaveform, exact": sweep().waveform(THETA, exact=True),
     "Ranking": ranking(),
     "Ranking, refined, by a function": ranking(by=lambda b: b.rpm / b.orders[0], refine=True),
     "Ranking of what nobody wants": ranking(by=lambda _: np.nan),
@@ -125,7 +127,7 @@ def assert_same(one: Any, other: Any) -> None:
         assert list(one) == list(other)
         for key in one:
             assert_same(one[key], other[key])
-    elif isinstance(one, (cp.OrderBalance, cp.Waveform, cp.Sweep)):
+    elif isinstance(one, (cp.OrderBalance, cp.Waveform, cp.Sweep, cp.SweepWaveform)):
         assert_same(figures(one), figures(other))
     else:
         assert one == other

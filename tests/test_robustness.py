@@ -467,6 +467,11 @@ def grid(**axes: float) -> cp.Sweep:
 
 
 TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
+    "waveforms of a sweep": (
+        lambda: swept(rod_ratio=endless(0.3, 10**5)).waveform(np.arange(7200)).force,
+        "sweep",
+    ),
+    "angles of a sweep": (lambda: swept().waveform(endless(1.0, 10**12)), "theta_deg"),
     "waveform": (lambda: waveform(theta_deg=endless(1.0, 10**12)), "theta_deg"),
     "sum of orders": (lambda: waveform(theta_deg=endless(1.0, 10**12), orders=[1]), "theta_deg"),
     "position": (lambda: CYLINDER.position(endless(1.0, 10**6, 10**6)), "theta_deg"),
@@ -790,6 +795,8 @@ SUBJECTS: dict[str, Any] = {
     "ranking": ranked(by=["force_sum_peak_xy", lambda b: b.rpm], refine=True),
     "ranking, as they are": cp.rank([V6, I4], rpm=1e3, spectrum={1: 1.0, 2: 0.2}),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
+    "waveforms of a sweep": swept().waveform([0.0, 1.0]),
+    "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
 }
 PLAIN = {
     "Choice",
@@ -808,7 +815,8 @@ RESULTS_MADE_ELSEWHERE = {
     "Ranking",
     "Waveform",
     "Sweep",
-}  # by methods of Engine, by sweep and by rank
+    "SweepWaveform",
+}  # by methods of Engine and of Sweep, by sweep and by rank
 
 
 class Target(NamedTuple):

@@ -29,6 +29,7 @@ from crankpin._presets import presets
 from crankpin._rank import Choice, Ranking, rank
 from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin._sweep import Sweep, sweep
+from crankpin._sweep_waveform import SweepWaveform
 from crankpin._waveform import Waveform
 
 __all__ = [
@@ -50,6 +51,7 @@ __all__ = [
     "Ports",
     "Ranking",
     "Sweep",
+    "SweepWaveform",
     "Throws",
     "ValveTiming",
     "Valves",

@@ -10,6 +10,7 @@ __all__ = [
     "SCHEMA",
     "Balance",
     "BankAngles",
+    "CrankAngles",
     "Engine",
     "Firing",
     "InputError",
@@ -170,6 +171,10 @@ class BankAngles:
     ) -> tuple[float, list[float], list[float], float, tuple[float, float]]: ...
 
 @final
+class CrankAngles:
+    def __new__(cls, theta_deg: _Real) -> CrankAngles: ...
+
+@final
 class Sweep:
     def __new__(
         cls,
@@ -202,6 +207,17 @@ class Sweep:
     def vector_peaks(self, name: str) -> _Real: ...
     def sum_peaks(self, name: str) -> _Real: ...
     def sum_vector_peaks(self, name: str) -> _Real: ...
+    @property
+    def kinematics_cost_less(self) -> bool: ...
+    def waveform_shape(self, name: str, angles: int) -> list[int]: ...
+    def waveform(
+        self,
+        name: str,
+        angles: CrankAngles,
+        exact: bool,
+        out: _Real,
+        progress: _Progress | None,
+    ) -> None: ...
 
 _Timing: TypeAlias = tuple[str, str, str, str]
 _PortOpenings: TypeAlias = tuple[str, str]

@@ -67,6 +67,17 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.ascontiguousarray(found)
 
 
+def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return an array that results of this shape can be written to."""
+    cure = f"give a writeable C-contiguous array of float64, of shape {shape}"
+    if not isinstance(values, np.ndarray):
+        raise InputError(f"{name} = {shorten(values)}: {cure}")
+    if values.dtype != np.float64 or values.shape != shape or not values.flags.carray:
+        kind = "" if values.flags.carray else ", not writeable or not contiguous"
+        raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {cure}")
+    return values
+
+
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return a float."""
     try:

@@ -13,6 +13,7 @@ from crankpin import _core, _inputs, _tables
 from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
+from crankpin._sweep_waveform import SweepWaveform
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,17 +26,6 @@ if TYPE_CHECKING:
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 Quantity: TypeAlias = Literal["force", "moment", "torque"]
-
-UNITS = {
-    "bank_angle_deg": "degree",
-    "rod_ratio": "1",
-    "pin_offset": "m",
-    "rpm": "1/min",
-    "order": "1/rev",
-    "force": "N",
-    "moment": "N m",
-    "torque": "N m",
-}
 
 
 def sweep(
@@ -303,6 +293,50 @@ class Sweep(Frozen):
         """Longest moment of all orders together, N·m: (…); true extrema."""
         return self._core.sum_vector_peaks("moment")
 
+    # --- over crank angle -----------------------------------------------------------------------
+
+    def waveform(
+        self, theta_deg: ArrayLike | None = None, *, exact: bool | None = None
+    ) -> SweepWaveform:
+        """Return force, moment and torque over crank angle at every point.
+
+        As sums of the sweep's orders, or by exact kinematics. Orders that the layout cancels are
+        not summed, cylinders that move alike are worked out once.
+
+        Parameters
+        ----------
+        theta_deg
+            Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
+        exact
+            True for exact kinematics, False for the sum of orders. By default the sum, unless its
+            orders were chosen with ``orders="auto"`` and kinematics cost less.
+
+        Returns
+        -------
+        SweepWaveform
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, or exact kinematics are asked of a spectrum.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4, i6 = cp.Engine.preset("i4"), cp.Engine.preset("i6")
+        >>> s = cp.sweep([i4, i6], rpm=[3000, 6000], orders="auto", rtol=1e-9)
+        >>> s.waveform(range(360)).torque.shape
+        (2, 2, 360)
+        """
+        theta = _inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+        by_spectrum = self._arguments["spectrum"] is not None
+        if exact is None:
+            exact = self._arguments["orders"] == "auto" and self._core.kinematics_cost_less
+        elif _inputs.flag("exact", exact) and by_spectrum:
+            cure = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
+            raise _core.InputError(f"exact = True: {cure}")
+        return SweepWaveform(self, theta, exact=bool(exact))
+
     # --- tables and pictures --------------------------------------------------------------------
 
     def to_xarray(self, *quantities: Quantity) -> xr.Dataset:
@@ -322,7 +356,7 @@ class Sweep(Frozen):
         """
         variables: dict[str, Any] = {}
         for quantity in quantities or ("force", "moment"):
-            dims, units = self.dims(quantity), {"units": UNITS[quantity]}
+            dims, units = self.dims(quantity), {"units": _tables.XARRAY_UNITS[quantity]}
             suffix = "" if quantity == "torque" else "_xy"
             summed = tuple(dim for dim in dims if dim != "order")
             variables[quantity] = (dims, getattr(self, quantity), units)
@@ -331,16 +365,17 @@ class Sweep(Frozen):
                 (f"{quantity}_sum_peak{suffix}", summed),
             ):
                 variables[name] = (of, getattr(self, name), units)
-        coords: dict[str, Any] = {
-            name: (name, values, {"units": UNITS[name]} if name in UNITS else {})
-            for name, values in self.coords.items()
-        }
-        coords["order"] = ("order", list(self.orders), {"units": UNITS["order"]})
+        coords = _tables.coordinates(self.coords)
+        coords["order"] = ("order", list(self.orders), {"units": _tables.XARRAY_UNITS["order"]})
         if any(quantity != "torque" for quantity in quantities or ("force",)):
             coords["axis"] = ("axis", ["x", "y"])
-        attributes: dict[str, Any] = dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, self._attributes)
         return dataset
+
+    @property
+    def _attributes(self) -> dict[str, Any]:
+        """What holds for the whole of a dataset."""
+        return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
 
     def to_pandas(self, quantity: Quantity = "moment") -> pd.DataFrame:
         """Return the peaks of each order as a table, one row a swept point (needs pandas).

@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -35,6 +35,19 @@ UNITS = {"force": "N", "moment": "N·m", "torque": "N·m"}
 NAMES = {"force": "shaking force", "moment": "rocking moment", "torque": "roll torque"}
 """Quantity → what it is called."""
 
+XARRAY_UNITS = {
+    "bank_angle_deg": "degree",
+    "rod_ratio": "1",
+    "pin_offset": "m",
+    "rpm": "1/min",
+    "theta_deg": "degree",
+    "order": "1/rev",
+    "force": "N",
+    "moment": "N m",
+    "torque": "N m",
+}
+"""Dimension or quantity → unit, as xarray's users write it."""
+
 SWEPT = {
     "bank_angle_deg": ("bank angle", "°"),
     "rod_ratio": ("rod ratio", ""),
@@ -48,6 +61,14 @@ HELD = {
     "firing": "top dead centres held as the bank angle changes",
 }
 """What a change of bank angle leaves as it is."""
+
+
+def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
+    """Return coordinates with their units, as xarray takes them."""
+    return {
+        name: (name, values, {"units": XARRAY_UNITS[name]} if name in XARRAY_UNITS else {})
+        for name, values in coords.items()
+    }
 
 
 def pandas() -> Any:  # noqa: ANN401 - a module

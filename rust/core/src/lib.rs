@@ -1,18 +1,12 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`] → [`slider_crank`], [`harmonics`] (one cylinder)
-//! → [`engine`] (where the cylinders sit), [`layout`] (engines from a few figures),
-//! [`engine_file`] (TOML and JSON) → [`balance`] (phasor sums), [`waveform`], [`sweep`];
-//! [`search`] goes through every arrangement;
-//! [`firing`] (what follows from [`engine`] and [`layout`] alone);
-//! [`extrema`] finds the peak of a sum of orders for the last three.
-//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`rational`], [`cyclotomic`]
-//! → [`slider_crank`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders sit),
-//! [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON)
-//! → [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of
-//! orders for these three; [`vanishing`] proves which orders are zero, [`closed_form`] writes out
-//! the others.
+//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`crank_angles`], [`rational`],
+//! [`cyclotomic`] → [`slider_crank`], [`harmonics`] (one cylinder) → [`engine`] (where the cylinders
+//! sit), [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON) → [`firing`], and
+//! [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of orders
+//! for these three; [`search`] goes through every arrangement; [`vanishing`] proves which orders are
+//! zero, [`closed_form`] writes out the others.
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
@@ -24,6 +18,7 @@ pub mod angle;
 pub mod balance;
 pub mod cancel;
 pub mod closed_form;
+pub mod crank_angles;
 pub mod cyclotomic;
 pub mod double;
 pub mod engine;
@@ -32,6 +27,7 @@ pub mod error;
 pub mod extrema;
 pub mod firing;
 pub mod harmonics;
+mod kinematics;
 pub mod layout;
 pub mod limits;
 pub mod rational;
@@ -46,6 +42,7 @@ pub mod waveform;
 pub use angle::Angle;
 pub use balance::{Asked, Balance, Orders};
 pub use cancel::Cancel;
+pub use crank_angles::CrankAngles;
 pub use engine::{Engine, Hold, Placement};
 pub use error::{Error, Result};
 pub use firing::Firing;

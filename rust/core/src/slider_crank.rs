@@ -139,23 +139,51 @@ impl Proportions {
     #[must_use]
     #[inline]
     pub fn motion(&self, sin: f64, cos: f64) -> Motion {
-        // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor
-        // loses digits where it is small.
-        let squared = cos * cos;
-        let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
-        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        self.motion_at(&Crank::new(sin, cos))
+    }
+
+    /// [`Self::motion`], where the crank stands so.
+    #[inline(always)]
+    pub(crate) fn motion_at(&self, crank: &Crank) -> Motion {
+        let Crank { sin, cos, squared, to_above, to_below } = *crank;
         let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
         let height = height_squared.sqrt();
         let lateral = sin - self.offset;
         // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
-        let velocity = -lateral * cos / height;
-        let acceleration =
-            (lateral * sin - self.rod * self.rod * squared / height_squared) / height;
+        let inverse = 1.0 / height;
+        let steepness = self.rod * inverse;
+        let velocity = -lateral * cos * inverse;
+        let acceleration = (lateral * sin - steepness * steepness * squared) * inverse;
         Motion {
             position: cos + height,
             velocity: velocity - sin,
             acceleration: acceleration - cos,
         }
+    }
+}
+
+/// Where a crank stands, as far as nothing of the rod enters.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Crank {
+    pub sin: f64,
+    pub cos: f64,
+    /// cos²θ.
+    pub squared: f64,
+    /// 1 − sin θ.
+    pub to_above: f64,
+    /// 1 + sin θ.
+    pub to_below: f64,
+}
+
+impl Crank {
+    #[inline(always)]
+    pub fn new(sin: f64, cos: f64) -> Self {
+        // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor
+        // loses digits where it is small.
+        let squared = cos * cos;
+        let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
+        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        Self { sin, cos, squared, to_above, to_below }
     }
 }
 

@@ -1,20 +1,19 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
+use std::ops::Range;
+
 use ndarray::{Array1, Array2};
 use rayon::prelude::*;
 
 use crate::Complex64;
-use crate::angle::{LARGEST_ANGLE, cis_degrees};
 use crate::balance::{self, Asked, Balance, Orders, angular_speed};
 use crate::cancel::Cancel;
+use crate::crank_angles::{CrankAngles, parts};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
+use crate::kinematics::{Alike, BLOCK, Column, Kinematics, Units};
 use crate::limits;
 use crate::simd::vectorised;
-use crate::slider_crank::Proportions;
-
-/// Crank angles that go through a cylinder's kinematics side by side.
-const BLOCK: usize = 256;
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,35 +43,24 @@ pub fn exact(
     }
     let omega = angular_speed(asked.rpm)?;
     let reference = engine.reference(asked.reference_z)?;
-    let square = omega * omega;
-    let sources: Vec<Source> = engine
-        .placements()
-        .iter()
-        .map(|p| {
-            let force = p.cylinder.first_order() * square;
-            Source {
-                proportions: p.cylinder.proportions(),
-                phase: p.tdc.cis(-1),
-                bore: p.bank.cis(1),
-                pin: p.pin().cis(1),
-                lever: p.z - reference,
-                force,
-                torque: force * p.cylinder.crank_radius(),
-                rotating: p.rotating_mass * p.cylinder.crank_radius() * square,
-            }
-        })
-        .collect();
-    let rows = in_blocks(theta_deg, cancel, |units, rows| {
+    let kinematics = Kinematics::new(engine.placements(), reference);
+    let rows = in_blocks(theta_deg, cancel, |angles, range, rows| {
         vectorised(
             #[inline(always)]
             || {
-                for source in &sources {
+                let mut units = Units::START;
+                angles.multiples(1, range, &mut units.cos[..], &mut units.sin[..]);
+                for alike in &kinematics.groups {
                     if asked.torque {
-                        source.add::<true>(units, rows);
+                        rows.add::<true>(alike, omega * omega, &units);
                     } else {
-                        source.add::<false>(units, rows);
+                        rows.add::<false>(alike, omega * omega, &units);
                     }
                 }
+                let [force_x, force_y, moment_x, moment_y, ..] = &mut rows.columns;
+                let [force, moment] = kinematics.rotating.map(|sum| sum * (omega * omega));
+                units.add_turning(force, [force_x, force_y]);
+                units.add_turning(moment, [moment_x, moment_y]);
             },
         );
     })?;
@@ -95,110 +83,94 @@ pub fn from_orders(
         Err(Error::TooManyOrders { .. }) if kinematics => None,
         found => Some(found?),
     };
-    let cylinders = engine.placements().len();
     let balance = balance.filter(|balance| {
-        !kinematics || !kinematics_cost_less(cylinders, balance.orders.len(), asked.torque)
+        !kinematics || !kinematics_cost_less(engine, balance.orders.len(), asked.torque)
     });
     let Some(balance) = balance else {
         return exact(engine, asked, theta_deg, cancel);
     };
-    let rows = in_blocks(theta_deg, cancel, |units, rows| {
-        add_orders(&balance, units, rows);
+    let rows = in_blocks(theta_deg, cancel, |angles, range, rows| {
+        vectorised(
+            #[inline(always)]
+            || rows.add_orders(&balance, angles, range),
+        );
     })?;
     let torque = balance.torque.is_some();
     Ok(rows.waveform(Some(balance), torque))
 }
 
-/// What a cylinder's kinematics and an order of a sum take, in nanoseconds for an angle: slopes
-/// from 1 to 48 cylinders and from 1 to 16 orders, 1024 angles on one core (AMD EPYC, AVX-512).
-const COST: [f64; 2] = [9.0, 5.0];
+/// What the kinematics of cylinders that move alike and an order of a sum take, in nanoseconds for an
+/// angle: slopes from 1 to 48 cylinders and from 1 to 16 orders, 1024 angles on one core (AMD EPYC,
+/// AVX-512).
+const COST: [f64; 2] = [1.5, 2.0];
 /// ... with roll and crank torque.
-const COST_WITH_TORQUE: [f64; 2] = [11.0, 6.0];
+const COST_WITH_TORQUE: [f64; 2] = [1.8, 2.3];
 
-/// Whether the kinematics of so many cylinders take less time than a sum of so many orders.
-fn kinematics_cost_less(cylinders: usize, orders: usize, torque: bool) -> bool {
-    let [cylinder, order] = if torque { COST_WITH_TORQUE } else { COST };
-    cylinder * cylinders as f64 <= order * orders as f64
+/// Whether an engine's kinematics take less time than a sum of so many orders.
+fn kinematics_cost_less(engine: &Engine, orders: usize, torque: bool) -> bool {
+    let [alike, order] = if torque { COST_WITH_TORQUE } else { COST };
+    let groups = Kinematics::new(engine.placements(), 0.0).groups.len();
+    alike * groups as f64 <= order * orders as f64
 }
 
-fn add_orders(balance: &Balance, units: &Units, rows: &mut Rows) {
-    let zero = Complex64::default();
-    for (k, &n) in balance.orders.iter().enumerate() {
-        let torque = balance.torque.as_ref();
-        let columns = if torque.is_some() { 6 } else { 4 };
-        let phasors = [
-            balance.force.xy[[k, 0]],
-            balance.force.xy[[k, 1]],
-            balance.moment.xy[[k, 0]],
-            balance.moment.xy[[k, 1]],
-            torque.map_or(zero, |t| t.roll[k]),
-            torque.map_or(zero, |t| t.crank[k]),
-        ];
-        for i in 0..units.count {
-            let unit = Complex64::new(units.cos[i], units.sin[i]).powu(n);
-            for (column, phasor) in rows.columns.iter_mut().zip(phasors).take(columns) {
-                column[i] += phasor.re * unit.re - phasor.im * unit.im;
-            }
-        }
-    }
+/// Force x, y, moment x, y, roll and crank torque.
+struct Rows {
+    columns: [Column; 6],
 }
 
-/// One cylinder as its kinematics need it.
-struct Source {
-    proportions: Proportions,
-    /// `e^{−i·tdc}`.
-    phase: Complex64,
-    bore: Complex64,
-    pin: Complex64,
-    lever: f64,
-    /// m·r·ω².
-    force: f64,
-    /// m·r²·ω².
-    torque: f64,
-    /// Rotating mass times r·ω².
-    rotating: f64,
-}
-
-impl Source {
+impl Rows {
     #[inline(always)]
-    fn add<const TORQUE: bool>(&self, units: &Units, rows: &mut Rows) {
-        let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut rows.columns;
+    fn add<const TORQUE: bool>(&mut self, alike: &Alike, square: f64, units: &Units) {
+        let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut self.columns;
+        let [force, moment] = alike.along.map(|along| along * square);
+        let (proportions, torque) = (alike.cylinder.proportions(), alike.torque * square);
         for i in 0..BLOCK {
-            let (sin, cos) = (units.sin[i], units.cos[i]);
-            let motion = self.proportions.motion(
-                sin * self.phase.re + cos * self.phase.im,
-                cos * self.phase.re - sin * self.phase.im,
-            );
-            let along = -self.force * motion.acceleration;
-            let x = along * self.bore.re + self.rotating * (self.pin.re * cos - self.pin.im * sin);
-            let y = along * self.bore.im + self.rotating * (self.pin.re * sin + self.pin.im * cos);
-            force_x[i] += x;
-            force_y[i] += y;
-            moment_x[i] -= self.lever * y;
-            moment_y[i] += self.lever * x;
+            let motion = proportions.motion_at(&units.crank(alike.phase, i));
+            force_x[i] += force.re * motion.acceleration;
+            force_y[i] += force.im * motion.acceleration;
+            moment_x[i] += moment.re * motion.acceleration;
+            moment_y[i] += moment.im * motion.acceleration;
             if TORQUE {
-                let torque = self.torque * motion.acceleration;
-                roll[i] += torque * (motion.velocity + self.proportions.offset);
+                let torque = torque * motion.acceleration;
+                roll[i] += torque * (motion.velocity + proportions.offset);
                 crank[i] -= torque * motion.velocity;
             }
         }
     }
+
+    #[inline(always)]
+    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles, range: Range<usize>) {
+        let (mut cos, mut sin) = (Column::ZERO, Column::ZERO);
+        for (k, &order) in balance.orders.iter().enumerate() {
+            angles.multiples(order, range.clone(), &mut cos[..], &mut sin[..]);
+            let zero = Complex64::default();
+            let torque = balance.torque.as_ref();
+            let phasors = [
+                balance.force.xy[[k, 0]],
+                balance.force.xy[[k, 1]],
+                balance.moment.xy[[k, 0]],
+                balance.moment.xy[[k, 1]],
+                torque.map_or(zero, |t| t.roll[k]),
+                torque.map_or(zero, |t| t.crank[k]),
+            ];
+            for (column, phasor) in self.columns.iter_mut().zip(phasors) {
+                if phasor == zero {
+                    continue;
+                }
+                for i in 0..BLOCK {
+                    column[i] += phasor.re * cos[i] - phasor.im * sin[i];
+                }
+            }
+        }
+    }
 }
 
-/// `e^{iθ}` of a block of crank angles.
-struct Units {
-    cos: [f64; BLOCK],
-    sin: [f64; BLOCK],
-    count: usize,
-}
-
-/// Force x, y, moment x, y, roll and crank torque.
-#[derive(Clone)]
-struct Rows {
+/// The columns of all blocks, one after the other.
+struct Joined {
     columns: [Vec<f64>; 6],
 }
 
-impl Rows {
+impl Joined {
     fn waveform(self, balance: Option<Balance>, torque: bool) -> Waveform {
         let [force_x, force_y, moment_x, moment_y, roll, crank] = self.columns;
         let pair = |x: Vec<f64>, y: Vec<f64>| {
@@ -221,32 +193,30 @@ impl Rows {
 fn in_blocks(
     theta_deg: &[f64],
     cancel: &Cancel,
-    add: impl Fn(&Units, &mut Rows) + Sync,
-) -> Result<Rows> {
+    add: impl Fn(&CrankAngles, Range<usize>, &mut Rows) + Sync,
+) -> Result<Joined> {
     let cure = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), cure)?;
-    let block = |thetas: &[f64]| -> Result<Rows> {
+    let angles = CrankAngles::new(theta_deg)?;
+    let block = |range: Range<usize>| -> Result<Rows> {
         cancel.check()?;
-        let mut units = Units { cos: [1.0; BLOCK], sin: [0.0; BLOCK], count: thetas.len() };
-        for (i, &θ) in thetas.iter().enumerate() {
-            if !θ.is_finite() || θ.abs() > LARGEST_ANGLE {
-                let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-                return Err(Error::figure("theta_deg", θ, cure));
-            }
-            let unit = cis_degrees(θ);
-            (units.cos[i], units.sin[i]) = (unit.re, unit.im);
-        }
-        let mut rows = Rows { columns: std::array::from_fn(|_| vec![0.0; BLOCK]) };
-        add(&units, &mut rows);
-        rows.columns.iter_mut().for_each(|column| column.truncate(thetas.len()));
+        let mut rows = Rows { columns: [const { Column::ZERO }; 6] };
+        add(&angles, range, &mut rows);
         Ok(rows)
     };
-    let blocks: Vec<Rows> = if theta_deg.len() <= 4 * BLOCK {
-        theta_deg.chunks(BLOCK).map(block).collect::<Result<_>>()?
+    let ranges = parts(0..angles.len(), BLOCK);
+    let blocks: Vec<Rows> = if ranges.len() <= 4 {
+        ranges.map(block).collect::<Result<_>>()?
     } else {
-        theta_deg.par_chunks(BLOCK).map(block).collect::<Result<_>>()?
+        ranges.collect::<Vec<_>>().into_par_iter().map(block).collect::<Result<_>>()?
     };
-    let join =
-        |column: usize| blocks.iter().flat_map(|b| b.columns[column].iter().copied()).collect();
-    Ok(Rows { columns: std::array::from_fn(join) })
+    let join = |column: usize| {
+        let mut joined = Vec::with_capacity(blocks.len() * BLOCK);
+        for block in &blocks {
+            joined.extend_from_slice(&block.columns[column][..]);
+        }
+        joined.truncate(angles.len());
+        joined
+    };
+    Ok(Joined { columns: std::array::from_fn(join) })
 }

@@ -29,6 +29,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<search::Search>()?;
     module.add_class::<search::BankAngles>()?;
     module.add_class::<sweep::Sweep>()?;
+    module.add_class::<waveform::CrankAngles>()?;
     module.add_class::<firing::Firing>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;

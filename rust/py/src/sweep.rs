@@ -4,12 +4,13 @@ use crankpin_core as core;
 use crankpin_core::sweep::{Axes, Quantity, Values};
 use crankpin_core::{Cancel, Complex64, Error};
 use ndarray::{Array1, IxDyn};
-use numpy::{PyArray, PyArray1, PyArrayDyn, PyReadonlyArray1};
+use numpy::{PyArray, PyArray1, PyArrayDyn, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, frozen, python_error, spectrum};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
+use crate::waveform::CrankAngles;
 
 /// Engines and axes, checked.
 #[pyclass(frozen, module = "crankpin._core")]
@@ -35,6 +36,12 @@ fn quantity(name: &str) -> PyResult<Quantity> {
 const PEAK_STEPS: usize = 400;
 
 impl Sweep {
+    /// Lengths of the axes that are dimensions of a result.
+    fn dimensions(&self, shape: &[usize]) -> Vec<usize> {
+        let kept = |axis: usize| self.swept.get(axis).copied().unwrap_or(true);
+        shape.iter().enumerate().filter(|&(axis, _)| kept(axis)).map(|(_, &n)| n).collect()
+    }
+
     fn values<'py, T: numpy::Element + Send>(
         &self,
         py: Python<'py>,
@@ -44,14 +51,7 @@ impl Sweep {
         let points = self.sweep.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
         let steps = points.saturating_mul(steps_each);
         let values = interrupt::run(py, steps, |cancel| work(&self.sweep, cancel))?;
-        let kept = |axis: usize| self.swept.get(axis).copied().unwrap_or(true);
-        let shape: Vec<usize> = values
-            .shape()
-            .iter()
-            .enumerate()
-            .filter(|&(axis, _)| kept(axis))
-            .map(|(_, &n)| n)
-            .collect();
+        let shape = self.dimensions(values.shape());
         let values = values.into_shape_with_order(IxDyn(&shape)).map_err(|error| {
             python_error(Error::value("sweep", format!("{shape:?}"), error.to_string()))
         })?;
@@ -191,5 +191,36 @@ impl Sweep {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let quantity = quantity(name)?;
         self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_vector_peaks(quantity, cancel))
+    }
+
+    /// Whether exact kinematics take less time than the orders.
+    #[getter]
+    fn kinematics_cost_less(&self) -> bool {
+        self.sweep.kinematics_cost_less()
+    }
+
+    /// Shape of [`Self::waveform`] at so many angles, if there is room for it.
+    fn waveform_shape(&self, name: &str, angles: usize) -> PyResult<Vec<usize>> {
+        let shape = self.sweep.waveform_shape(quantity(name)?, angles).or_raise()?;
+        Ok(self.dimensions(&shape))
+    }
+
+    /// Write values over crank angle to a flat array.
+    fn waveform(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        angles: &Bound<'_, CrankAngles>,
+        exact: bool,
+        mut out: PyReadwriteArray1<'_, f64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let quantity = quantity(name)?;
+        let angles = &angles.get().0;
+        let out = out.as_slice_mut()?;
+        let steps = out.len().saturating_mul(if exact { 8 } else { self.sweep.orders().len() });
+        interrupt::watched(py, steps, progress.as_ref(), |cancel| {
+            self.sweep.waveforms(quantity, angles, exact, out, cancel)
+        })
     }
 }

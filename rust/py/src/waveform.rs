@@ -6,9 +6,21 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::balance::{self, Balance};
-use crate::convert::{frozen, spectrum};
+use crate::convert::{OrRaise, frozen, spectrum};
 use crate::engine::Engine;
 use crate::interrupt;
+
+/// Crank angles, checked.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct CrankAngles(pub core::CrankAngles);
+
+#[pymethods]
+impl CrankAngles {
+    #[new]
+    fn new(theta_deg: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        core::CrankAngles::new(theta_deg.as_slice()?).or_raise().map(Self)
+    }
+}
 
 /// Force, moment, roll torque, crank torque, and the balance whose orders were summed.
 type Parts<'py> = (

@@ -115,7 +115,7 @@ impl Block {
     /// Functions times constants, for every order and angle.
     pub fn evaluate(&mut self) {
         for (order, sums) in self.sums.iter_mut().enumerate() {
-            for i in 0..BLOCK {
+            for i in 0..self.count {
                 let at = turning(&self.functions[order], &self.constants[order], i);
                 for (sum, value) in sums.iter_mut().zip(at) {
                     sum[i] = value;

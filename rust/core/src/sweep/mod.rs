@@ -12,6 +12,7 @@ mod choice;
 mod harmonics;
 mod plan;
 mod run;
+mod waveform;
 
 use std::sync::Arc;
 
@@ -241,6 +242,14 @@ impl Sweep {
         })
     }
 
+    /// Torque may not have been asked for.
+    fn check_asked(&self, quantity: Quantity) -> Result<()> {
+        if quantity == Quantity::Torque && !self.torque {
+            return Err(Error::value("torque", "False", "it was not asked for; give torque=True"));
+        }
+        Ok(())
+    }
+
     /// Trailing axes of a result that has all orders.
     fn by_order(&self, quantity: Quantity) -> Vec<usize> {
         [&[self.orders.len()], quantity.shape()].concat()
@@ -257,9 +266,7 @@ impl Sweep {
     where
         T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
     {
-        if quantity == Quantity::Torque && !self.torque {
-            return Err(Error::value("torque", "False", "it was not asked for; give torque=True"));
-        }
+        self.check_asked(quantity)?;
         let shape = [&self.shape()[..], tail].concat();
         let cure = "sweep one axis in parts";
         limits::result_size("sweep", &shape, size_of::<T>(), cure)?;

@@ -1,0 +1,126 @@
+//! Crank angles, and cosine and sine of their multiples, a column of them at a time.
+
+use std::ops::Range;
+
+use crate::angle::LARGEST_ANGLE;
+use crate::error::{Error, Result};
+use crate::simd::sin_cos_degrees;
+
+/// Crank angles less whole turns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CrankAngles {
+    /// Degrees, in [−180, 180].
+    reduced: Vec<f64>,
+}
+
+impl CrankAngles {
+    /// From degrees.
+    pub fn new(theta_deg: &[f64]) -> Result<Self> {
+        /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
+        if let Some(&θ) = theta_deg.iter().find(|&&θ| !taken(θ)) {
+            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
+            return Err(Error::figure("theta_deg", θ, cure));
+        }
+        // Both terms are multiples of θ's last place, and the difference is less than θ or 180:
+        // nothing is rounded.
+        let reduced = theta_deg.iter().map(|θ| θ - 360.0 * ((θ * (1.0 / 360.0) + ROUND) - ROUND));
+        Ok(Self { reduced: reduced.collect() })
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.reduced.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.reduced.is_empty()
+    }
+
+    /// Cosine and sine of nθ for some of the angles, each to a unit in the last place at any order.
+    #[inline(always)]
+    pub(crate) fn multiples(
+        &self,
+        order: u32,
+        range: Range<usize>,
+        cos: &mut [f64],
+        sin: &mut [f64],
+    ) {
+        let n = f64::from(order);
+        let reduced = self.reduced.get(range).unwrap_or_default();
+        let mut product = [0.0; 64];
+        let parts = reduced.chunks(64).zip(cos.chunks_mut(64)).zip(sin.chunks_mut(64));
+        for ((reduced, cos), sin) in parts {
+            for (product, θ) in product.iter_mut().zip(reduced) {
+                *product = n * θ;
+            }
+            sin_cos_degrees(&product[..reduced.len()], sin, cos);
+            // nθ is the product and what its rounding took, at most 1.2e-10 degrees: 2e-12 rad,
+            // whose square is nothing.
+            for (((cos, sin), product), θ) in cos.iter_mut().zip(sin).zip(&product).zip(reduced) {
+                let rest = n.mul_add(*θ, -product).to_radians();
+                (*cos, *sin) = (rest.mul_add(-*sin, *cos), rest.mul_add(*cos, *sin));
+            }
+        }
+    }
+}
+
+/// A range in parts of at most so many.
+pub(crate) fn parts(
+    range: Range<usize>,
+    length: usize,
+) -> impl ExactSizeIterator<Item = Range<usize>> {
+    let (start, end) = (range.start, range.end);
+    (0..range.len().div_ceil(length))
+        .map(move |k| start + k * length..(start + (k + 1) * length).min(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Angle;
+    use crate::simd::vectorised;
+    use proptest::prelude::*;
+
+    fn multiples(degrees: &[f64], order: u32) -> (Vec<f64>, Vec<f64>) {
+        let angles = CrankAngles::new(degrees).unwrap();
+        let (mut cos, mut sin) = (vec![0.0; degrees.len()], vec![0.0; degrees.len()]);
+        vectorised(
+            #[inline(always)]
+            || angles.multiples(order, 0..degrees.len(), &mut cos, &mut sin),
+        );
+        (cos, sin)
+    }
+
+    proptest! {
+        #[test]
+        fn multiples_are_those_of_the_exact_angle(
+            degrees in prop_oneof![-720.0..720.0, -1e12..1e12, Just(1e-300)],
+            order in 1_u32..10_000,
+        ) {
+            let (cos, sin) = multiples(&[degrees; 65], order);
+            let exact = Angle::Degrees(degrees).cis(i64::from(order));
+            // two units in the last place of numbers below 1: one of each way
+            prop_assert!((cos[64] - exact.re).abs() <= 4.5e-16, "{} {}", cos[64], exact.re);
+            prop_assert!((sin[64] - exact.im).abs() <= 4.5e-16, "{} {}", sin[64], exact.im);
+        }
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let (cos, sin) = multiples(&[0.0, 90.0, 180.0, 270.0, 360.0, -90.0, 1e12 - 280.0], 1);
+        assert_eq!(cos, [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, 1.0].map(|x| x));
+        assert_eq!(sin, [0.0, 1.0, 0.0, -1.0, 0.0, -1.0, 0.0].map(|x| x));
+    }
+
+    #[test]
+    fn no_angle_that_is_none() {
+        for bad in [f64::NAN, f64::INFINITY, 2e12] {
+            assert!(CrankAngles::new(&[0.0, bad]).is_err());
+        }
+    }
+}
