@@ -135,3 +135,15 @@ def test_vectorised_as_one_by_one() -> None:
         assert row[0] == 1.0
         assert row[2] == 0.0
         assert cylinder.harmonics([3])[0] == 0
+
+
+def test_rows_depend_on_their_own_rod_ratio_alone() -> None:
+    """... to the last bit: not on their neighbours, with which they are worked out side by side."""
+    rng = np.random.default_rng(16)
+    ratios = rng.uniform(0.01, 0.95, 100_003)
+    orders = (1, 2, 3, 4, 6, 8, 20)
+    table = cp.slider_crank_harmonics(ratios, orders)
+    mixed = rng.permutation(ratios.size)
+    assert np.array_equal(cp.slider_crank_harmonics(ratios[mixed], orders), table[mixed])
+    for k in range(20):
+        assert np.array_equal(cp.slider_crank_harmonics(ratios[k], orders), table[k])
