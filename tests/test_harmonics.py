@@ -171,3 +171,15 @@ def test_a_tolerance_leaves_terms_out() -> None:
     np.testing.assert_array_equal(with_offset, cp.slider_crank_harmonics(0.3, [2, 3], 0.1))
     with pytest.raises(cp.InputError, match="rtol"):
         cp.slider_crank_harmonics(0.3, [2, 3], 0.1, rtol=1.0)
+
+
+def test_rows_depend_on_their_own_rod_ratio_alone() -> None:
+    """... to the last bit: not on their neighbours, with which they are worked out side by side."""
+    rng = np.random.default_rng(16)
+    ratios = rng.uniform(0.01, 0.95, 100_003)
+    orders = (1, 2, 3, 4, 6, 8, 20)
+    table = cp.slider_crank_harmonics(ratios, orders)
+    mixed = rng.permutation(ratios.size)
+    assert np.array_equal(cp.slider_crank_harmonics(ratios[mixed], orders), table[mixed])
+    for k in range(20):
+        assert np.array_equal(cp.slider_crank_harmonics(ratios[k], orders), table[k])
