@@ -1,8 +1,8 @@
 """All charts: every command one after the other, into one folder.
 
 ``python benchmarks/all.py`` writes raw figures (CSV, with hardware and versions) and pictures to
-``--out``, by default ``benchmarks/out``; ``--quick`` finishes in two to three minutes and shows that
-every command still runs. A command that fails does not keep the others from running.
+``--out``, by default ``benchmarks/out``; ``--quick`` takes two to three minutes and shows that
+every command still runs. One that fails does not keep the others from running.
 """
 
 from __future__ import annotations
