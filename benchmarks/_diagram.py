@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from PIL import Image
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 OURS = "crankpin"
 LEAST_ERROR = 1e-17
@@ -99,11 +96,3 @@ def draw(
 
 
 CENTRED = {"ha": "center", "va": "top", "fontsize": 7, "color": "0.35"}
-
-
-def save(figure: Figure, path: Path, dpi: int = 110) -> None:
-    """Write a small PNG: charts need few colours."""
-    figure.savefig(path, dpi=dpi)
-    with Image.open(path) as image:
-        few_colours = image.convert("RGB").quantize(128)
-    few_colours.save(path, optimize=True)

@@ -1,8 +1,8 @@
 """All charts: every command one after the other, into one folder.
 
 ``python benchmarks/all.py`` writes raw figures (CSV, with hardware and versions) and pictures to
-``--out``, by default ``benchmarks/out``; ``--quick`` finishes in about two minutes and shows that
-every command still runs. A command that fails does not keep the others from running.
+``--out``, by default ``benchmarks/out``; ``--quick`` takes two to three minutes and shows that
+every command still runs. One that fails does not keep the others from running.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def main() -> None:
     """Run all, and tell what was written."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--out", type=Path, default=HERE / "out")
-    parser.add_argument("--quick", action="store_true", help="about two minutes in all")
+    parser.add_argument("--quick", action="store_true", help="two to three minutes in all")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     begun, failed, taken = time.time(), [], []

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import methods
 import mpmath
 import numpy as np
-from _diagram import Point, draw, few, outcome, save
+from _diagram import Point, draw, few, outcome
 from _references import harmonics_mp
 from _timing import interleaved, machine, print_table, write_csv
 from matplotlib.figure import Figure
@@ -250,9 +250,9 @@ def main() -> None:
                 for row in group
             ],
         )
-    save(picture(rows), given.out / "harmonics.png")
+    picture(rows).savefig(given.out / "harmonics.png", dpi=110)
     many = [row for row in rows if row["how_many"] > 1]
-    save(picture(many), given.out / "harmonics_readme.png", dpi=90)
+    picture(many).savefig(given.out / "harmonics_readme.png", dpi=90)
     print(f"\nRaw figures and picture: {given.out}")
 
 

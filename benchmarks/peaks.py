@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import crankpin as cp
 import mpmath
 import numpy as np
-from _diagram import OURS, Point, draw, few, outcome, save
+from _diagram import OURS, Point, draw, few, outcome
 from _references import harmonics_mp, ijesc
 from _timing import interleaved, machine, print_table, write_csv
 from matplotlib.figure import Figure
@@ -346,7 +346,7 @@ def main() -> None:
                 for row in group
             ],
         )
-    save(picture(rows), given.out / "peaks.png")
+    picture(rows).savefig(given.out / "peaks.png", dpi=110)
     print(f"\nRaw figures and picture: {given.out}")
 
 

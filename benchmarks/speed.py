@@ -1,12 +1,17 @@
-"""How fast are the V-angle sweep and the harmonics, beside what one would write in NumPy?
+"""How fast are sweeps, harmonics and small calls, beside what one would write in NumPy?
 
-``python benchmarks/speed.py`` prints both tables: time, ratio and error of each method, on the
-same inputs and for the same results, in one run.
+``python benchmarks/speed.py`` prints the tables, or those that are named: time, ratio and error of
+each method, on the same inputs and for the same results, in one run.
 """
 
 from __future__ import annotations
 
+import argparse
+import os
+import subprocess
+import sys
 from collections.abc import Callable
+from typing import Any
 
 import crankpin as cp
 import methods
@@ -214,11 +219,180 @@ def harmonics() -> None:
     print_table(title, ["method", "time", "of ours", *(f"order {n}" for n in ORDERS)], rows)
 
 
+# --- a million points: bank angle × rod ratio × speed ---------------------------------------------
+
+MANY_ANGLES, MANY_RATIOS = np.linspace(0, 180, 100), np.linspace(0.15, 0.45, 100)
+MANY_RPM = np.linspace(500, 9000, 100)
+MANY_ORDERS = (1, 2, 4, 6)
+V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=SPACING)
+THROWS = np.radians([0.0, 120.0, 240.0])
+SQUARES = (2 * np.pi * MANY_RPM / 60) ** 2
+
+
+def layout() -> NDArray[np.complex128]:
+    """Return moment phasors over m·r·ω²·aₙ of a V6 whose banks share its pins: (100, 4, 2)."""
+    n = np.array(MANY_ORDERS)
+    gamma = np.radians(MANY_ANGLES)[:, None] / 2
+    # pins at throw + 90° − γ₀ where cylinder 1 of the right bank is at TDC at θ = 0
+    pins = THROWS + np.radians(60.0)
+    z = LEVERS[:, None]
+    right, left = (
+        np.exp(-1j * n * (np.pi / 2 + side * gamma)) * (z * np.exp(1j * n * pins[:, None])).sum(0)
+        for side in (-1, 1)
+    )
+    along_x, along_y = np.sin(gamma) * (right - left), np.cos(gamma) * (right + left)
+    return np.stack([-along_y, along_x], axis=-1)
+
+
+def before_speed(sums: NDArray[Any]) -> NDArray[Any]:
+    """Multiply by harmonics: (10 000, 8). They are given, to NumPy's advantage."""
+    harmonics = MASS * RADIUS * cp.slider_crank_harmonics(MANY_RATIOS, MANY_ORDERS)
+    if sums.dtype == np.float64:
+        np.abs(harmonics, out=harmonics)
+    return (sums[:, None] * harmonics[:, :, None]).reshape(10_000, 8)
+
+
+def million_einsum(sums: NDArray[Any]) -> NDArray[Any]:
+    """Write the outer product with ω² by einsum."""
+    product: NDArray[Any] = np.einsum("pk,s->psk", before_speed(sums), SQUARES)
+    return product
+
+
+def million_broadcast(sums: NDArray[Any]) -> NDArray[Any]:
+    """Write the outer product with ω² by broadcasting, long rows innermost."""
+    rows = np.tile(before_speed(sums), (1, 100))
+    np.multiply(rows, np.repeat(SQUARES, 8), out=rows)
+    return rows.reshape(10_000, 100, 8)
+
+
+def million_sweep() -> cp.Sweep:
+    """Return the sweep, nothing of it worked out."""
+    return cp.sweep(
+        V6,
+        rpm=MANY_RPM,
+        bank_angle_deg=MANY_ANGLES,
+        hold="pins",
+        rod_ratio=MANY_RATIOS,
+        orders=MANY_ORDERS,
+    )
+
+
+def fresh(dtype: type) -> NDArray[Any]:
+    """Write a constant to as much new memory as the result takes."""
+    out = np.empty((10_000, 100, 8), dtype)
+    out.fill(1.0)
+    return out
+
+
+def million() -> None:
+    """Print the table of a million points."""
+    rows = []
+    for what, dtype, sums, ours in (
+        ("peaks", float, lambda: np.abs(layout()), lambda: million_sweep().moment_peak_xy),
+        ("phasors", complex, layout, lambda: million_sweep().moment),
+    ):
+        methods: dict[str, Callable[[], Array]] = {
+            "NumPy, broadcast": lambda sums=sums: million_broadcast(sums()),
+            "NumPy, einsum": lambda sums=sums: million_einsum(sums()),
+            "NumPy, the result's memory written once": lambda dtype=dtype: fresh(dtype),
+            "crankpin.sweep(…)": ours,
+        }
+        expected = ours().reshape(10_000, 100, 8)
+        for name, run in list(methods.items())[:2]:
+            error = np.abs(run() - expected).max() / np.abs(expected).max()
+            assert error < 1e-14, (name, error)  # noqa: S101 - both are at rounding
+        times = interleaved(methods, rounds=8, seconds=3)
+        least_of_ours = times["crankpin.sweep(…)"]
+        rows += [
+            [f"{what}: {name}", milliseconds(time), f"{time / least_of_ours:.3g} ×"]
+            for name, time in times.items()
+        ]
+    title = "A million points: 100 bank angles × 100 rod ratios × 100 speeds, 4 orders, x and y"
+    print_table(title, ["method", "time", "of ours"], rows)
+
+
+# --- two threads, small calls ---------------------------------------------------------------------
+
+COMPUTED = {
+    "peaks of sums, 10 000 points": "sweep(rpm=5000).moment_sum_peak_vector",
+    "torque, 1 000 000 points": "cp.sweep(v6, rpm=5000, rod_ratio=many).torque_peak",
+    "peaks, 1 000 000 points of rod ratio": "cp.sweep(v6, rpm=5000, rod_ratio=many).force_peak_xy",
+    "harmonics with an offset, 200 000": "cp.slider_crank_harmonics(many[::5], range(1, 9), 0.01)",
+}
+PROGRAM = """
+import sys, time
+import numpy as np
+import crankpin as cp
+v6 = cp.Engine.preset("v6-60")
+many = np.linspace(0.1, 0.5, 1_000_000)
+def sweep(**how):
+    angles, ratios = np.linspace(0, 180, 100), np.linspace(0.15, 0.45, 100)
+    return cp.sweep(v6, bank_angle_deg=angles, hold="pins", rod_ratio=ratios, **how)
+for line in sys.stdin:
+    start = time.perf_counter()
+    eval(line)
+    print(time.perf_counter() - start, flush=True)
+"""
+
+
+def scaling() -> None:
+    """Print the table of one thread and two, taken in turns."""
+    started = [
+        subprocess.Popen(  # noqa: S603 - this interpreter
+            [sys.executable, "-c", PROGRAM],
+            env=os.environ | {"RAYON_NUM_THREADS": threads},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for threads in ("1", "2")
+    ]
+    rows = []
+    for name, call in COMPUTED.items():
+        best = [float("inf")] * 2
+        for _ in range(25):
+            for k, process in enumerate(started):
+                told, heard = process.stdin, process.stdout
+                assert told is not None  # noqa: S101
+                assert heard is not None  # noqa: S101
+                told.write(call + "\n")
+                told.flush()
+                best[k] = min(best[k], float(heard.readline()))
+        rows.append([name, *map(milliseconds, best), f"{best[0] / best[1]:.2f} ×"])
+    for process in started:
+        process.kill()
+    print_table("One thread and two", ["call", "one", "two", "one / two"], rows)
+
+
+def small() -> None:
+    """Print the time of one balance of a V8."""
+    v8 = cp.Engine.preset("v8-crossplane")
+    calls = {
+        "engine.balance(rpm=3000), four orders": lambda: v8.balance(rpm=3000),
+        "… without torque": lambda: v8.balance(rpm=3000, torque=False),
+        "… and its moment": lambda: v8.balance(rpm=3000).moment,
+    }
+    times = interleaved(calls, rounds=5, seconds=1, runs=2000)
+    rows = [[name, f"{time * 1e6:.1f} µs"] for name, time in times.items()]
+    print_table("One balance of a cross-plane V8", ["call", "time"], rows)
+
+
+TABLES = {
+    "sweeps": sweeps,
+    "harmonics": harmonics,
+    "million": million,
+    "scaling": scaling,
+    "small": small,
+}
+
+
 def main() -> None:
-    """Print both tables."""
+    """Print the tables that are named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("tables", nargs="*", choices=TABLES)
     print(machine())
-    sweeps()
-    harmonics()
+    for name in parser.parse_args().tables or TABLES:
+        TABLES[name]()
 
 
 if __name__ == "__main__":

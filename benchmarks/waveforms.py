@@ -4,7 +4,8 @@
 NumPy and numba (all cores), sums of orders in NumPy, crankpin by orders and by kinematics, into new
 and into given memory, and writing numbers alone; a multibody code (Exudyn, if installed) steps
 one slider-crank. A second panel goes down to one engine, where the cost of a call is all there is.
-It writes ``waveforms.csv`` and ``waveforms.png`` to ``--out``, by default ``benchmarks/out``.
+It writes ``waveforms.csv`` and ``waveforms.png`` to ``--out``, by default ``benchmarks/out``;
+``--quick`` takes 30 engines and few settings.
 
 Errors are against 50 digits at 10 engines × 36 angles, the larger of force over m·r·ω² and moment
 over m·r·ω² times the longest lever. Times are the least of 20 runs or more after a warm-up, of
@@ -98,10 +99,10 @@ def accuracy(of: Scene) -> Callable[[Result], float]:
     return error
 
 
-def chart() -> list[Row]:
-    """Time and error of every method, all at 1000 engines."""
-    of = scene()
-    out = [np.empty((1000, 720, 2)) for _ in range(2)]
+def chart(engines: int, settings: int | None) -> list[Row]:
+    """Time and error of every method at so many engines, at few settings or all."""
+    of = scene(engines)
+    out = [np.empty((engines, 720, 2)) for _ in range(2)]
     error = accuracy(of)
     methods: dict[tuple[str, str], Callable[[], Result]] = {
         ("NumPy, exact", ""): lambda: numpy_exact(of),
@@ -109,9 +110,9 @@ def chart() -> list[Row]:
         ("numba, exact, hoisted", ""): lambda: numba_hoisted(of),
         ("crankpin, exact", ""): lambda: ours_exact(of),
     }
-    for count in COUNTS:
+    for count in COUNTS[:settings]:
         methods["NumPy, orders", str(count)] = lambda count=count: numpy_orders(of, count)  # type: ignore[misc]
-    for rtol in TOLERANCES:
+    for rtol in [*TOLERANCES[:settings], 1e-12] if settings else TOLERANCES:
         knob = f"{rtol:.0e}"
         methods["crankpin, orders", knob] = lambda rtol=rtol: ours(of, rtol)  # type: ignore[misc]
         methods["crankpin, orders, given memory", knob] = lambda rtol=rtol: ours_into(of, rtol, out)  # type: ignore[misc]
@@ -125,7 +126,7 @@ def chart() -> list[Row]:
     errors = {name: error(run()) for name, run in methods.items()}
     best = timed(methods | writing)
     return [
-        (*name, errors.get(name, float("nan")), seconds, 1000) for name, seconds in best.items()
+        (*name, errors.get(name, float("nan")), seconds, engines) for name, seconds in best.items()
     ]
 
 
@@ -136,10 +137,10 @@ def timed(methods: dict[tuple[str, str], Callable[[], Result]]) -> dict[tuple[st
     return {(name.split("\t")[0], name.split("\t")[1]): seconds for name, seconds in best.items()}
 
 
-def by_engines() -> list[Row]:
+def by_engines(most: int) -> list[Row]:
     """Time of a whole call over the number of engines, at 1e-12; set-up of ours is in it."""
     rows: list[Row] = []
-    for engines in ENGINES:
+    for engines in [count for count in ENGINES if count <= most]:
         of = scene(engines)
         methods: dict[tuple[str, str], Callable[[], Result]] = {
             ("NumPy, exact", "by engines"): lambda of=of: numpy_exact(of),  # type: ignore[misc]
@@ -170,7 +171,7 @@ def set_up() -> list[Row]:
     return [("set-up", name, float("nan"), least(run, 0.1), 1) for name, run in runs.items()]
 
 
-def multibody() -> list[Row]:
+def multibody(engines: int, settings: int | None) -> list[Row]:
     """Step a slider-crank of the V8 through time, and add up the engine."""
     try:
         from _slider_crank_exudyn import Parts, support_force  # noqa: PLC0415 - if it is installed
@@ -188,7 +189,7 @@ def multibody() -> list[Row]:
     scale = alike.reciprocating_mass * radius * omega**2
     rows: list[Row] = []
     for name, implicit in (("Exudyn, generalised alpha", True), ("Exudyn, trapezoidal", False)):
-        for steps in STEPS:
+        for steps in STEPS[:settings]:
             times = []
             for _ in range(4):
                 start = time.perf_counter()
@@ -205,11 +206,11 @@ def multibody() -> list[Row]:
                 np.abs(force - exact.force @ [1, 1j]).max() / scale,
                 np.abs(moment - exact.moment @ [1, 1j]).max() / scale / np.abs(levers).max(),
             )
-            rows.append((name, str(steps), float(error), 1000 * min(times[1:]), 1000))
+            rows.append((name, str(steps), float(error), engines * min(times[1:]), engines))
     return rows
 
 
-def draw(rows: list[Row], file: Path) -> None:
+def draw(rows: list[Row], engines: int, file: Path) -> None:
     """Draw time over error, and time over the number of engines."""
     mpl.use("agg")
     import matplotlib.pyplot as plt  # noqa: PLC0415 - after the choice of what draws
@@ -234,8 +235,8 @@ def draw(rows: list[Row], file: Path) -> None:
         xscale="log",
         yscale="log",
         xlabel="worst error, over m·r·ω² of a cylinder (times the longest lever)",
-        ylabel="seconds for 1000 engines",
-        title="720 angles × 1000 cross-plane V8s, force and moment",
+        ylabel=f"seconds for {engines} engines",
+        title=f"720 angles × {engines} cross-plane V8s, force and moment",
     )
     left.invert_xaxis()
     right.set(
@@ -251,7 +252,7 @@ def draw(rows: list[Row], file: Path) -> None:
     figure.savefig(file, dpi=120)
 
 
-def print_ratios(rows: list[Row]) -> None:
+def print_ratios(rows: list[Row], engines: int) -> None:
     """Print how many times as long as ours at 1e-12 the others take."""
     seconds = {(row[0], row[1]): row[3] for row in rows if row[1] != "by engines"}
     errors = {(row[0], row[1]): row[2] for row in rows}
@@ -269,7 +270,7 @@ def print_ratios(rows: list[Row]) -> None:
         if key[0] != "set-up"
     ]
     header = ["method", "time", "of ours, new memory", "of ours, given memory", "error"]
-    print_table("720 angles × 1000 V8s, force and moment", header, listed)
+    print_table(f"720 angles × {engines} V8s, force and moment", header, listed)
     listed = [[row[1], f"{1e6 * row[3]:.4g} µs"] for row in rows if row[0] == "set-up"]
     print_table("Set-up", ["what", "time"], listed)
     listed = [
@@ -282,17 +283,21 @@ def main() -> None:
     """Time, write, draw."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--out", type=Path, default=Path(__file__).parent / "out")
-    out: Path = parser.parse_args().out
+    parser.add_argument("--quick", action="store_true", help="30 engines, few settings")
+    given = parser.parse_args()
+    out: Path = given.out
     out.mkdir(parents=True, exist_ok=True)
-    rows = chart() + by_engines() + set_up() + multibody()
+    engines, settings = (30, 2) if given.quick else (1000, None)
+    rows = chart(engines, settings) + by_engines(engines) + set_up()
+    rows += multibody(engines, settings)
     exudyn = ("exudyn",) if any(row[0].startswith("Exudyn") for row in rows) else ()
     ran_on = machine("numba", *exudyn)
     write_csv(
         out / "waveforms.csv", ran_on, ("method", "knob", "error", "seconds", "engines"), rows
     )
-    draw(rows, out / "waveforms.png")
+    draw(rows, engines, out / "waveforms.png")
     print(ran_on)
-    print_ratios(rows)
+    print_ratios(rows, engines)
 
 
 if __name__ == "__main__":

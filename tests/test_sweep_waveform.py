@@ -18,9 +18,20 @@ CYLINDER = cp.Cylinder(0.045, 0.158, 1.487, pin_offset=0.001)
 V6 = cp.Engine.vee(
     CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13, rotating_mass=0.8
 )
-UNLIKE = V6.replace(
-    cylinder=[CYLINDER.replace(reciprocating_mass=1.0 + 0.1 * k) for k in range(6)], name="unlike"
+UNLIKE = cp.Engine.from_lists(
+    [
+        cp.Cylinder(
+            0.045 + 0.001 * (k % 3), 0.158 + 0.002 * (k % 2), 1.0 + 0.1 * k, 0.001 * (k % 4)
+        )
+        for k in range(6)
+    ],
+    tdc_deg=[0, 0.4, 120, 120.4, 0, 0],
+    bank_deg=[60, 120, 60, 120, 60, 120],
+    z=[0.0, 0.1, 0.2, 0.3, 0.5, 0.7],
+    rotating_mass=[0.0, 0.1, 0.2, 0.3, 0.0, 0.5],
+    name="unlike",
 )
+"""Cylinders that move alike or nearly so, of several kinds."""
 THETA = np.linspace(-360.0, 720.0, 1300)
 """More than a thousand and no multiple of a power of two: the blocks they are done in show."""
 
@@ -89,28 +100,46 @@ def test_every_point_is_that_engine(hold: cp._engine.Hold, how: tuple[int, ...] 
 
 def test_against_the_rederivation() -> None:
     """Forces added up at every angle, in plain NumPy that knows of no crankpin."""
-    ratios = np.array([0.2, 0.29, 0.35])
-    w = cp.sweep(UNLIKE, rpm=4000, rod_ratio=ratios).waveform(THETA, exact=True)
-    for k, ratio in enumerate(ratios):
+    parts = UNLIKE.cylinders
+    radii = np.array([c.crank_radius for c in parts])
+    ratios, theta = [0.2, 0.29, 0.35], np.radians(THETA)
+    as_it_is = cp.sweep(UNLIKE, rpm=[4000.0]).waveform(THETA, exact=True)
+    swept = cp.sweep(UNLIKE, rpm=4000, rod_ratio=ratios).waveform(THETA, exact=True)
+    rods = [np.array([c.rod_length for c in parts]), *(radii / ratio for ratio in ratios)]
+    for k, rod_length in enumerate(rods):
         lists = time_domain.EngineLists(
-            crank_radius=0.045,
-            rod_length=0.045 / ratio,
-            reciprocating_mass=[c.reciprocating_mass for c in UNLIKE.cylinders],
+            crank_radius=radii,
+            rod_length=rod_length,
+            reciprocating_mass=[c.reciprocating_mass for c in parts],
             tdc_deg=UNLIKE.tdc_deg,
             bank_deg=UNLIKE.bank_deg,
             z=UNLIKE.z,
-            pin_offset=0.001,
+            pin_offset=[c.pin_offset for c in parts],
             rotating_mass=UNLIKE.rotating_mass,
         )
-        theta = np.radians(THETA)
         expected = {
             "force": time_domain.force(lists, 4000.0, theta),
             "moment": time_domain.moment(lists, 4000.0, theta),
             "torque": time_domain.roll_torque(lists, 4000.0, theta),
         }
+        w, row = (swept, k - 1) if k else (as_it_is, 0)
         for quantity in QUANTITIES:
-            apart = np.abs(getattr(w, quantity)[k] - expected[quantity]).max()
+            apart = np.abs(getattr(w, quantity)[row] - expected[quantity]).max()
             assert apart <= ROUNDING * size(UNLIKE, 4000.0, quantity)
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_many_points_are_those_of_a_few(exact: bool) -> None:
+    """Tables that many points share hold what each would work out for itself."""
+    ratios, speeds = np.linspace(0.2, 0.35, 150), [1000.0, 3000.0]
+    many = cp.sweep([V6, UNLIKE], rpm=speeds, rod_ratio=ratios, orders=(1, 2, 3, 4, 6))
+    for k in (0, 63, 64, 127, 128, 149):
+        few = cp.sweep([V6, UNLIKE], rpm=speeds, rod_ratio=[ratios[k]], orders=many.orders)
+        for quantity in QUANTITIES:
+            found = many.waveform(THETA, exact=exact).values(quantity)[:, k]
+            expected = few.waveform(THETA, exact=exact).values(quantity)[:, 0]
+            apart = np.abs(found - expected).max()
+            assert apart <= ROUNDING * size(UNLIKE, 3000.0, quantity)
 
 
 @settings(deadline=None, max_examples=30)

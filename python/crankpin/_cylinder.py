@@ -365,7 +365,7 @@ def slider_crank_harmonics(
     ratios = _inputs.array("rod_ratio", rod_ratio)
     within = None if rtol is None else _inputs.number("rtol", rtol)
     if pin_offset_ratio is None:
-        table = _core.centred_table(ratios.ravel(), listed, within)
+        table = _core.centred_table(_inputs.contiguous(ratios).reshape(-1), listed, within)
         return table.reshape(*ratios.shape, len(listed))
     offsets = _inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
@@ -375,5 +375,5 @@ def slider_crank_harmonics(
     # Nothing is copied until its size is known to be small enough.
     ratios = _inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
     offsets = _inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
-    pairs = _core.offset_table(ratios.ravel(), offsets.ravel(), listed, within)
-    return pairs.reshape(*shape, len(listed))
+    ratios, offsets = (_inputs.contiguous(a).reshape(-1) for a in (ratios, offsets))
+    return _core.offset_table(ratios, offsets, listed, within).reshape(*shape, len(listed))

@@ -33,6 +33,9 @@ FASTEST_PISTON = 60.0
 MOST_NUMBERS = 2**27
 """Numbers in an array that is taken: a gibibyte."""
 
+PIECE = 2**18
+"""Numbers converted or copied between two looks at Ctrl-C."""
+
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
 
@@ -41,11 +44,16 @@ MOST_ITEMS = 10_000
 
 
 def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return an array of floats of any shape; without a copy where it is one already."""
+    """Return an array of floats of any shape; without a copy where it is one already.
+
+    What is long goes piece by piece, so that Ctrl-C is answered between.
+    """
+    if isinstance(values, (list, tuple)) and len(values) > MOST_NUMBERS:
+        raise _too_many(name, len(values))
     try:
         if isinstance(values, np.ma.MaskedArray):
             raise TypeError("masked values are no numbers: fill them first")
-        found = np.asarray(values)
+        found = _from_list(values)
         if found.dtype.kind not in "fiub":
             if found.dtype.kind != "O":
                 raise TypeError(f"{found.dtype} is no real number")
@@ -54,9 +62,13 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
     if found.size > MOST_NUMBERS:
-        limit = f"more than the limit of {MOST_NUMBERS}; split it into parts"
-        raise InputError(f"{name} has {found.size} numbers, {limit}")
-    return np.asarray(found, dtype=np.float64)
+        raise _too_many(name, found.size)
+    return found if found.dtype == np.float64 else _copied(found)
+
+
+def contiguous(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the array in one piece; without a copy where it is already."""
+    return values if values.flags.c_contiguous else _copied(values)
 
 
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -64,7 +76,31 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     found = array(name, values)
     if found.ndim > 1:
         raise InputError(f"{name} has shape {found.shape}: give one dimension")
-    return np.ascontiguousarray(found)
+    return contiguous(np.atleast_1d(found))
+
+
+def _from_list(values: ArrayLike) -> NDArray[Any]:
+    if not isinstance(values, (list, tuple)) or len(values) <= PIECE:
+        return np.asarray(values)
+    pieces = [np.asarray(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
+    return np.concatenate(pieces)
+
+
+def _copied(values: NDArray[Any]) -> NDArray[np.float64]:
+    copy = np.empty(values.shape)
+    if values.size <= PIECE:
+        copy[...] = values
+        return copy
+    rows = max(1, PIECE * len(values) // values.size)
+    for k in range(0, len(values), rows):
+        copy[k : k + rows] = values[k : k + rows]
+    return copy
+
+
+def _too_many(name: str, count: int) -> InputError:
+    return InputError(
+        f"{name} has {count} numbers, more than the limit of {MOST_NUMBERS}; split it into parts"
+    )
 
 
 def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:

@@ -554,7 +554,8 @@ def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
     rpm = swept.fixed["rpm"]
     how = swept._arguments | {"orders": swept.orders}
-    return sweep([engine], rpm=rpm, bank_angle_deg=angles, **how)
+    part: Sweep = sweep([engine], rpm=rpm, bank_angle_deg=angles, **how)
+    return part
 
 
 # --- engines and angles -------------------------------------------------------------------------

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
+from crankpin import _core, _inputs, _progress, _tables
 from crankpin._balance import ErrorBound
 from crankpin._engine import Engine
 from crankpin._frozen import Frozen
@@ -21,13 +21,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._chunks import Chunks
     from crankpin._engine import Hold
     from crankpin._inputs import Orders, Spectrum
+    from crankpin._progress import Progress
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 Quantity: TypeAlias = Literal["force", "moment", "torque"]
 
 
+@overload
 def sweep(
     engines: Engines,
     *,
@@ -41,7 +44,42 @@ def sweep(
     reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
-) -> Sweep:
+    progress: Progress = False,
+    chunks: None = None,
+) -> Sweep: ...
+@overload
+def sweep(
+    engines: Engines,
+    *,
+    rpm: ArrayLike,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    rod_ratio: ArrayLike | None = None,
+    pin_offset: ArrayLike | None = None,
+    orders: Orders = (1, 2, 4, 6),
+    rtol: float = 1e-9,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+    chunks: Chunks,
+) -> xr.Dataset: ...
+def sweep(
+    engines: Engines,
+    *,
+    rpm: ArrayLike,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    rod_ratio: ArrayLike | None = None,
+    pin_offset: ArrayLike | None = None,
+    orders: Orders = (1, 2, 4, 6),
+    rtol: float = 1e-9,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+    chunks: Chunks | None = None,
+) -> Sweep | xr.Dataset:
     """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
 
     No crank angle is sampled: each point is a layout sum times a harmonic. Every array argument is
@@ -70,10 +108,20 @@ def sweep(
         As in :meth:`Engine.balance`.
     torque
         Whether torque will be asked for. If not, it is not counted where orders are chosen.
+    progress
+        True for a tqdm bar while values are worked out, or a function of (steps done, steps in all)
+        that is called now and then; what it raises stops the work.
+    chunks
+        Leaves the work to dask (needs dask and xarray): points to a chunk of each swept dimension,
+        or a mapping dimension → points, dimensions that it leaves out staying whole, or ``"auto"``.
+        The result may be larger than memory; each chunk is an ordinary sweep, in any of dask's
+        schedulers, and its values have the same bits as those of one sweep of everything.
 
     Returns
     -------
     Sweep
+        Or with ``chunks`` an :class:`xarray.Dataset` of dask arrays: phasors and peaks, named as
+        the attributes of :class:`Sweep`.
 
     Raises
     ------
@@ -94,6 +142,7 @@ def sweep(
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
     (1, 2, 4, 6)
     """
+    shown = _progress.checked(progress)
     listed, names = _listed(engines)
     given = {
         "bank_angle_deg": bank_angle_deg,
@@ -101,20 +150,20 @@ def sweep(
         "pin_offset": pin_offset,
         "rpm": rpm,
     }
-    ranks = {name: np.ndim(values) for name, values in given.items() if values is not None}
-    axes = [
-        None if values is None or name == "rpm" else _inputs.vector(name, values)
-        for name, values in given.items()
-    ]
+    arrays = {
+        name: _inputs.array(name, values) for name, values in given.items() if values is not None
+    }
+    ranks = {name: values.ndim for name, values in arrays.items()}
+    axes = {name: _inputs.vector(name, values) for name, values in arrays.items()}
     wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)
     torque = _inputs.flag("torque", torque)
     core = _core.Sweep(
         [engine._core for engine in listed],
-        axes[0],
+        axes.get("bank_angle_deg"),
         None if hold is None else _inputs.text("hold", hold, 'give "pins" or "firing"'),
-        axes[1],
-        axes[2],
-        _inputs.vector("rpm", rpm),
+        axes.get("rod_ratio"),
+        axes.get("pin_offset"),
+        axes["rpm"],
         wanted,
         rtol,
         _inputs.optional_number("reference_z", reference_z),
@@ -131,7 +180,16 @@ def sweep(
         "spectrum": spectrum,
         "torque": torque,
     }
-    return Sweep(core, listed, names, ranks, arguments)
+    whole = Sweep(core, listed, names, ranks, arguments, shown)
+    if chunks is None:
+        return whole
+    if shown is not False:
+        raise _core.InputError(
+            "progress: dask tells it itself, by dask.diagnostics.ProgressBar; leave it out"
+        )
+    from crankpin import _chunks  # noqa: PLC0415 - it makes sweeps
+
+    return _chunks.dataset(whole, chunks)
 
 
 class Sweep(Frozen):
@@ -161,11 +219,17 @@ class Sweep(Frozen):
         names: Sequence[str] | None,
         ranks: dict[str, int],
         arguments: dict[str, Any],
+        progress: Progress,
     ) -> None:
         if not isinstance(core, _core.Sweep):
             raise _core.InputError(f"Sweep({_inputs.shorten(core)}): use crankpin.sweep")
         self._set(
-            _core=core, engines=tuple(engines), _names=names, _ranks=ranks, _arguments=arguments
+            _core=core,
+            engines=tuple(engines),
+            _names=names,
+            _ranks=ranks,
+            _arguments=arguments,
+            _progress=progress,
         )
 
     _core: _core.Sweep
@@ -174,6 +238,7 @@ class Sweep(Frozen):
     _ranks: dict[str, int]
     """Quantity → 1 where it is swept, 0 where it was given as a single value."""
     _arguments: dict[str, Any]
+    _progress: Progress
 
     @property
     def hold(self) -> Hold | None:
@@ -227,71 +292,71 @@ class Sweep(Frozen):
     @cached_property
     def force(self) -> NDArray[np.complex128]:
         """Peak phasors of the shaking force along x and y, N: (…, n_orders, 2)."""
-        return self._core.phasors("force")
+        return self._phasors("force")
 
     @cached_property
     def moment(self) -> NDArray[np.complex128]:
         """Peak phasors of the rocking moment about x and y, N·m: (…, n_orders, 2)."""
-        return self._core.phasors("moment")
+        return self._phasors("moment")
 
     @cached_property
     def torque(self) -> NDArray[np.complex128]:
         """Peak phasors of the roll torque on the block, N·m: (…, n_orders)."""
-        return self._core.phasors("torque")
+        return self._phasors("torque")
 
     # --- peaks of each order --------------------------------------------------------------------
 
     @cached_property
     def force_peak_xy(self) -> NDArray[np.float64]:
         """Largest force of each order along x and along y, N: (…, n_orders, 2)."""
-        return self._core.peaks("force")
+        return self._figures("force", "amplitude")
 
     @cached_property
     def moment_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment of each order about x and about y, N·m: (…, n_orders, 2)."""
-        return self._core.peaks("moment")
+        return self._figures("moment", "amplitude")
 
     @cached_property
     def torque_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of each order, N·m: (…, n_orders)."""
-        return self._core.peaks("torque")
+        return self._figures("torque", "amplitude")
 
     @cached_property
     def force_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of each order, N: (…, n_orders)."""
-        return self._core.vector_peaks("force")
+        return self._figures("force", "length")
 
     @cached_property
     def moment_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of each order, N·m: (…, n_orders)."""
-        return self._core.vector_peaks("moment")
+        return self._figures("moment", "length")
 
     # --- peaks of the sum of orders -------------------------------------------------------------
 
     @cached_property
     def force_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest force along x and along y of all orders together, N: (…, 2); true extrema."""
-        return self._core.sum_peaks("force")
+        return self._figures("force", "sum")
 
     @cached_property
     def moment_sum_peak_xy(self) -> NDArray[np.float64]:
         """Largest moment about x and y of all orders together, N·m: (…, 2); true extrema."""
-        return self._core.sum_peaks("moment")
+        return self._figures("moment", "sum")
 
     @cached_property
     def torque_sum_peak(self) -> NDArray[np.float64]:
         """Largest roll torque of all orders together, N·m: (…); true extrema."""
-        return self._core.sum_peaks("torque")
+        return self._figures("torque", "sum")
 
     @cached_property
     def force_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest force of all orders together, N: (…); true extrema."""
-        return self._core.sum_vector_peaks("force")
+        return self._figures("force", "length of sum")
 
     @cached_property
     def moment_sum_peak_vector(self) -> NDArray[np.float64]:
         """Longest moment of all orders together, N·m: (…); true extrema."""
-        return self._core.sum_vector_peaks("moment")
+        return self._figures("moment", "length of sum")
 
     # --- over crank angle -----------------------------------------------------------------------
 
@@ -354,20 +419,27 @@ class Sweep(Frozen):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
-        variables: dict[str, Any] = {}
-        for quantity in quantities or ("force", "moment"):
-            dims, units = self.dims(quantity), {"units": _tables.XARRAY_UNITS[quantity]}
-            suffix = "" if quantity == "torque" else "_xy"
-            summed = tuple(dim for dim in dims if dim != "order")
-            variables[quantity] = (dims, getattr(self, quantity), units)
-            for name, of in (
-                (f"{quantity}_peak{suffix}", dims),
-                (f"{quantity}_sum_peak{suffix}", summed),
-            ):
-                variables[name] = (of, getattr(self, name), units)
+        wanted = quantities or ("force", "moment")
+        variables = {
+            variable.name: (
+                self._variable_dims(variable),
+                getattr(self, variable.name),
+                variable.attributes,
+            )
+            for variable in variables_of(*wanted)
+            if "vector" not in variable.name
+        }
+        return self._dataset(variables, wanted)
+
+    def _variable_dims(self, variable: Variable) -> tuple[str, ...]:
+        """Return the names of a variable's dimensions."""
+        return (*self.coords, *variable.dims)
+
+    def _dataset(self, variables: dict[str, Any], quantities: Sequence[Quantity]) -> xr.Dataset:
+        """Return variables with this sweep's coordinates."""
         coords = _tables.coordinates(self.coords)
         coords["order"] = ("order", list(self.orders), {"units": _tables.XARRAY_UNITS["order"]})
-        if any(quantity != "torque" for quantity in quantities or ("force",)):
+        if any(quantity != "torque" for quantity in quantities):
             coords["axis"] = ("axis", ["x", "y"])
         dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, self._attributes)
         return dataset
@@ -422,6 +494,14 @@ class Sweep(Frozen):
 
         return _plots.sweep(self, quantity, x)
 
+    def _phasors(self, quantity: Quantity) -> NDArray[np.complex128]:
+        with _progress.shown(self._progress, f"{quantity}, phasors") as told:
+            return self._core.phasors(quantity, told)
+
+    def _figures(self, quantity: Quantity, which: str) -> NDArray[np.float64]:
+        with _progress.shown(self._progress, f"{quantity}, {which}") as told:
+            return self._core.peaks(quantity, which, told)
+
     def _peaks(self, quantity: Quantity) -> NDArray[np.float64]:
         _inputs.one_of("quantity", quantity, _ORDER_DIMS)
         name = "torque_peak" if quantity == "torque" else f"{quantity}_peak_xy"
@@ -450,13 +530,40 @@ _ORDER_DIMS: dict[str, tuple[str, ...]] = {
 }
 
 
+class Variable(NamedTuple):
+    """What a sweep tells of a quantity: an attribute and the dimensions after the swept ones."""
+
+    name: str
+    quantity: Quantity
+    dims: tuple[str, ...]
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What an xarray variable is labelled with."""
+        return {"units": _tables.XARRAY_UNITS[self.quantity]}
+
+
+def variables_of(*quantities: Quantity) -> Iterator[Variable]:
+    """Yield phasors and peaks of some quantities."""
+    for quantity in quantities:
+        dims = _ORDER_DIMS[_inputs.one_of("quantity", quantity, _ORDER_DIMS)]
+        yield Variable(quantity, quantity, dims)
+        if quantity == "torque":
+            yield Variable("torque_peak", quantity, dims)
+            yield Variable("torque_sum_peak", quantity, ())
+            continue
+        yield Variable(f"{quantity}_peak_xy", quantity, dims)
+        yield Variable(f"{quantity}_sum_peak_xy", quantity, ("axis",))
+        yield Variable(f"{quantity}_peak_vector", quantity, ("order",))
+        yield Variable(f"{quantity}_sum_peak_vector", quantity, ())
+
+
 def _again(
     engines: tuple[Engine, ...], names: Sequence[str] | None, arguments: dict[str, Any]
 ) -> Sweep:
-    if names is None:
-        return sweep(engines[0], **arguments)
-    again = sweep(engines, **arguments)
-    again._set(_names=names)
+    again: Sweep = sweep(engines[0] if names is None else engines, **arguments)
+    if names is not None:
+        again._set(_names=names)
     return again
 
 

@@ -81,6 +81,11 @@ def xarray() -> Any:  # noqa: ANN401 - a module
     return _optional("xarray")
 
 
+def dask() -> Any:  # noqa: ANN401 - a module
+    """Return dask.array, or say how to get it."""
+    return _optional("dask.array", "dask")
+
+
 def sympy() -> Any:  # noqa: ANN401 - a module
     """Return SymPy, or say how to get it."""
     return _optional("sympy", "exact")

@@ -51,3 +51,9 @@ impl Cancel {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 }
+
+/// Drop what may be gigabytes, which takes most of a second, in a thread of its own.
+pub fn give_back<T: Send + 'static>(value: T) {
+    // Where no thread is to be had it is dropped here.
+    drop(std::thread::Builder::new().spawn(move || drop(value)));
+}

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{self, Shake, balance};
 use crankpin_core::harmonics;
-use crankpin_core::sweep::{Axes, Quantity};
+use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
     Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Sweep,
     waveform,
@@ -326,12 +326,12 @@ proptest! {
             rpm: vec![rpm, 3000.0],
         };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone().into()], axes, ORDERS.to_vec(), Some(0.1), None).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, ORDERS.to_vec(), Some(0.1), None, &Cancel::new()).unwrap();
         let force = sweep.phasors(Quantity::Force, &cancel).unwrap();
         let moment = sweep.phasors(Quantity::Moment, &cancel).unwrap();
         let torque = sweep.phasors(Quantity::Torque, &cancel).unwrap();
-        let peaks = sweep.peaks(Quantity::Moment, &cancel).unwrap();
-        let vectors = sweep.vector_peaks(Quantity::Force, &cancel).unwrap();
+        let peaks = sweep.peaks(Quantity::Moment, Figure::Amplitude, &cancel).unwrap();
+        let vectors = sweep.peaks(Quantity::Force, Figure::Length, &cancel).unwrap();
         for (i, &angle) in angles.iter().enumerate() {
             let there = engine.with_bank_angle(Angle::from_degrees(angle).unwrap(), hold).unwrap();
             let there = changed(&there, |p| {
@@ -367,7 +367,7 @@ proptest! {
             Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, ORDERS.to_vec(), Some(0.0), None).unwrap();
+        let sweep = Sweep::new(engines, axes, ORDERS.to_vec(), Some(0.0), None, &Cancel::new()).unwrap();
         let moment = sweep.phasors(Quantity::Moment, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
@@ -390,8 +390,8 @@ proptest! {
                 rpm: vec![3000.0],
             };
             let engines = vec![engine.clone().into(), engine.clone().into()];
-            let sweep = Sweep::new(engines, axes, vec![1, 2, 4], None, None).unwrap();
-            sweep.sum_peaks(Quantity::Moment, &Cancel::new()).unwrap()
+            let sweep = Sweep::new(engines, axes, vec![1, 2, 4], None, None, &Cancel::new()).unwrap();
+            sweep.peaks(Quantity::Moment, Figure::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);
         let (first, last) = (sweep(&angles[..split]), sweep(&angles[split..]));

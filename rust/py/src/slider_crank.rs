@@ -89,13 +89,12 @@ pub fn centred_table<'py>(
     orders: Vec<u32>,
     rtol: Option<f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let ratios = rod_ratios.as_slice()?.to_vec();
-    let steps = ratios.len() * orders.len();
-    let table = interrupt::run(py, steps, |cancel| match rtol {
-        Some(rtol) => table::centred_table_within(&ratios, &orders, rtol, cancel),
-        None => table::centred_table(&ratios, &orders, cancel),
-    })?;
-    Ok(PyArray2::from_owned_array(py, table))
+    let ratios = rod_ratios.as_slice()?;
+    table::check_size::<f64>(ratios.len(), &orders).or_raise()?;
+    let shape = [ratios.len(), orders.len()];
+    interrupt::written(py, shape, ratios.len() * orders.len(), None, |out, cancel| {
+        table::write_centred(ratios, &orders, rtol, out, cancel)
+    })
 }
 
 /// Harmonics for many pairs of rod ratio and offset over r, to all digits: (n, `n_orders`).
@@ -109,10 +108,10 @@ pub fn offset_table<'py>(
     rtol: Option<f64>,
 ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
     rtol.map(limits::tolerance).transpose().or_raise()?;
-    let (ratios, offsets) = (rod_ratios.as_slice()?.to_vec(), offsets.as_slice()?.to_vec());
-    let steps = ratios.len() * orders.len() * 32;
-    let table = interrupt::run(py, steps, |cancel| {
-        table::offset_table(&ratios, &offsets, &orders, cancel)
-    })?;
-    Ok(PyArray2::from_owned_array(py, table))
+    let (ratios, offsets) = (rod_ratios.as_slice()?, offsets.as_slice()?);
+    table::check_size::<Complex64>(ratios.len(), &orders).or_raise()?;
+    let shape = [ratios.len(), orders.len()];
+    interrupt::written(py, shape, ratios.len() * orders.len() * 32, None, |out, cancel| {
+        table::write_offset(ratios, offsets, &orders, out, cancel)
+    })
 }

@@ -1,10 +1,11 @@
 //! Sweeps.
 
 use crankpin_core as core;
-use crankpin_core::sweep::{Axes, Quantity, Values};
+use crankpin_core::cancel::give_back;
+use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{Cancel, Complex64, Error};
-use ndarray::{Array1, IxDyn};
-use numpy::{PyArray, PyArray1, PyArrayDyn, PyReadonlyArray1, PyReadwriteArray1};
+use ndarray::Array1;
+use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, frozen, python_error, spectrum};
@@ -32,8 +33,41 @@ fn quantity(name: &str) -> PyResult<Quantity> {
     }
 }
 
+fn figure(name: &str) -> PyResult<Figure> {
+    match name {
+        "amplitude" => Ok(Figure::Amplitude),
+        "length" => Ok(Figure::Length),
+        "sum" => Ok(Figure::Sum),
+        "length of sum" => Ok(Figure::LengthOfSum),
+        other => {
+            let cure = "give \"amplitude\", \"length\", \"sum\" or \"length of sum\"";
+            Err(python_error(Error::value("figure", other, cure)))
+        }
+    }
+}
+
 /// Steps that a true peak of a sum of orders costs more than an amplitude.
 const PEAK_STEPS: usize = 400;
+/// Numbers copied between two looks at cancellation.
+const PIECE: usize = 1 << 16;
+
+/// An array's numbers, if there is one.
+fn slice<'a>(values: Option<&'a PyReadonlyArray1<'_, f64>>) -> PyResult<Option<&'a [f64]>> {
+    Ok(values.map(|values| values.as_slice()).transpose()?)
+}
+
+/// A copy that can be stopped.
+fn copied(values: &[f64], cancel: &Cancel) -> core::Result<Vec<f64>> {
+    let mut copy = Vec::with_capacity(values.len());
+    for piece in values.chunks(PIECE) {
+        if let Err(cancelled) = cancel.check() {
+            give_back(copy);
+            return Err(cancelled);
+        }
+        copy.extend_from_slice(piece);
+    }
+    Ok(copy)
+}
 
 impl Sweep {
     /// Lengths of the axes that are dimensions of a result.
@@ -42,20 +76,25 @@ impl Sweep {
         shape.iter().enumerate().filter(|&(axis, _)| kept(axis)).map(|(_, &n)| n).collect()
     }
 
-    fn values<'py, T: numpy::Element + Send>(
+    /// A result, of the dimensions that are swept.
+    fn values<'py, T: Element + Send>(
         &self,
         py: Python<'py>,
-        steps_each: usize,
-        work: impl FnOnce(&core::Sweep, &Cancel) -> core::Result<Values<T>> + Send,
-    ) -> PyResult<Bound<'py, PyArray<T, IxDyn>>> {
-        let points = self.sweep.shape().iter().fold(1_usize, |size, &n| size.saturating_mul(n));
-        let steps = points.saturating_mul(steps_each);
-        let values = interrupt::run(py, steps, |cancel| work(&self.sweep, cancel))?;
-        let shape = self.dimensions(values.shape());
-        let values = values.into_shape_with_order(IxDyn(&shape)).map_err(|error| {
-            python_error(Error::value("sweep", format!("{shape:?}"), error.to_string()))
-        })?;
-        Ok(frozen(py, values))
+        (quantity, figure): (Quantity, Figure),
+        progress: Option<&Py<PyAny>>,
+        write: impl FnOnce(&mut [T], &Cancel) -> core::Result<()> + Send,
+    ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+        self.sweep.check_size(quantity, figure, size_of::<T>()).or_raise()?;
+        let kept = self.dimensions(&self.sweep.result_shape(quantity, figure));
+        let each = match figure {
+            Figure::Amplitude | Figure::Length => 8,
+            Figure::Sum | Figure::LengthOfSum => PEAK_STEPS,
+        };
+        let points = self.sweep.shape().iter().fold(each, |size, &n| size.saturating_mul(n));
+        let values: Bound<'py, PyArrayDyn<T>> =
+            interrupt::written(py, kept, points, progress, write)?;
+        values.readwrite().make_nonwriteable();
+        Ok(values)
     }
 }
 
@@ -78,11 +117,8 @@ impl Sweep {
         torque: bool,
         swept: [bool; 5],
     ) -> PyResult<Self> {
-        let list = |values: Option<PyReadonlyArray1<'_, f64>>| -> PyResult<Option<Vec<f64>>> {
-            Ok(values.map(|values| values.as_slice().map(<[f64]>::to_vec)).transpose()?)
-        };
-        let bank_angle = match (list(bank_angle_deg)?, held) {
-            (Some(angles), Some(held)) => Some((angles, hold(held)?)),
+        let held = match (&bank_angle_deg, held) {
+            (Some(_), Some(held)) => Some(hold(held)?),
             (None, None) => None,
             (Some(_), None) => {
                 let cure = "say what the bank angle leaves as it is: hold=\"pins\" (the crank; firing \
@@ -94,22 +130,28 @@ impl Sweep {
                 return Err(python_error(Error::value("hold", held, cure)));
             }
         };
-        let axes = Axes {
-            bank_angle,
-            rod_ratio: list(rod_ratio)?,
-            pin_offset: list(pin_offset)?,
-            rpm: rpm.as_slice()?.to_vec(),
-        };
         let engines: Vec<_> = engines.into_iter().map(|engine| engine.0).collect();
         let spectrum = self::spectrum(spectrum)?;
-        let sweep = if let Some(orders) = orders {
-            core::Sweep::new(engines, axes, orders, reference_z, spectrum).or_raise()?
-        } else {
-            // How much there is to do shows only as the orders are worked out.
-            interrupt::run(py, usize::MAX, |cancel| {
-                core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
-            })?
-        };
+        let bank_angle = slice(bank_angle_deg.as_ref())?;
+        let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
+        let rpm = rpm.as_slice()?;
+        let given = [bank_angle, rod_ratio, pin_offset, Some(rpm)];
+        let numbers: usize = given.into_iter().flatten().map(<[f64]>::len).sum();
+        // How much there is to do for a choice shows only as the orders are worked out.
+        let steps = if orders.is_some() { numbers.saturating_mul(8) } else { usize::MAX };
+        let sweep = interrupt::run(py, steps, |cancel| {
+            let list = |values: Option<&[f64]>| values.map(|v| copied(v, cancel)).transpose();
+            let axes = Axes {
+                bank_angle: list(bank_angle)?.zip(held),
+                rod_ratio: list(rod_ratio)?,
+                pin_offset: list(pin_offset)?,
+                rpm: copied(rpm, cancel)?,
+            };
+            if let Some(orders) = orders {
+                return core::Sweep::new(engines, axes, orders, reference_z, spectrum, cancel);
+            }
+            core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
+        })?;
         Ok(Self { sweep: if torque { sweep } else { sweep.without_torque() }, swept })
     }
 
@@ -153,44 +195,33 @@ impl Sweep {
         let values = values.ok_or_else(|| {
             python_error(Error::value("axis", name, "give a quantity that is swept"))
         })?;
-        Ok(frozen(py, Array1::from(values.clone())))
+        let copy = interrupt::run(py, values.len(), |cancel| copied(values, cancel))?;
+        Ok(frozen(py, Array1::from(copy)))
     }
 
     fn phasors<'py>(
         &self,
         py: Python<'py>,
         name: &str,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
         let quantity = quantity(name)?;
-        self.values(py, 8, |sweep, cancel| sweep.phasors(quantity, cancel))
+        self.values(py, (quantity, Figure::Amplitude), progress.as_ref(), |out, cancel| {
+            self.sweep.write_phasors(quantity, out, cancel)
+        })
     }
 
-    fn peaks<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, 8, |sweep, cancel| sweep.peaks(quantity, cancel))
-    }
-
-    fn vector_peaks<'py>(
+    fn peaks<'py>(
         &self,
         py: Python<'py>,
         name: &str,
+        which: &str,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, 8, |sweep, cancel| sweep.vector_peaks(quantity, cancel))
-    }
-
-    fn sum_peaks<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_peaks(quantity, cancel))
-    }
-
-    fn sum_vector_peaks<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, PEAK_STEPS, |sweep, cancel| sweep.sum_vector_peaks(quantity, cancel))
+        let (quantity, figure) = (quantity(name)?, figure(which)?);
+        self.values(py, (quantity, figure), progress.as_ref(), |out, cancel| {
+            self.sweep.write_peaks(quantity, figure, out, cancel)
+        })
     }
 
     /// Whether exact kinematics take less time than the orders.

@@ -295,7 +295,7 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
 
 /// The lowest order above which the rest of the force is below `tolerance` times m·r·ω² and, where it
 /// is wanted, that of the torque below `tolerance` times m·r²·ω²; none that is taken may be. `torque`
-/// is the size of the rod's inertia, beyond that of its two masses, over m·r².
+/// is the size of the rod's inertia, beyond that of its two masses, over the same m·r².
 #[must_use]
 pub fn highest_order(
     proportions: &Proportions,

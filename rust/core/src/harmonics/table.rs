@@ -1,9 +1,9 @@
 //! Harmonics of many slider-cranks at once.
 
-use std::f64::consts::LN_2;
+use std::ops::Range;
 
-use ndarray::{Array2, Axis, parallel::prelude::*};
-use rayon::slice::ParallelSlice;
+use ndarray::Array2;
+use rayon::prelude::*;
 
 use super::{
     ALL_DIGITS, Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, may_be_missing, next_term,
@@ -20,113 +20,117 @@ const LARGEST_PLAIN_POWER: u32 = 15;
 
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
-    centred(rod_ratios, orders, ALL_DIGITS, cancel)
-}
-
-/// The same, each within `rtol` of itself: as many terms as that takes.
-pub fn centred_table_within(
-    rod_ratios: &[f64],
-    orders: &[u32],
-    rtol: f64,
-    cancel: &Cancel,
-) -> Result<Array2<f64>> {
-    centred(rod_ratios, orders, limits::tolerance(rtol)?, cancel)
-}
-
-fn centred(rod_ratios: &[f64], orders: &[u32], rtol: f64, cancel: &Cancel) -> Result<Array2<f64>> {
-    let mut table = checked_table::<f64>(rod_ratios.len(), orders)?;
-    // Fewer go by themselves.
-    let longest = if rod_ratios.len() < LANES { Vec::new() } else { Horner::tables(orders, rtol) };
-    fill(&mut table, rod_ratios, cancel, |rod_ratios, rows| {
-        centred_rows(rod_ratios, orders, &longest, rows, rtol)
-    })?;
+    check_size::<f64>(rod_ratios.len(), orders)?;
+    let mut table = Array2::default((rod_ratios.len(), orders.len()));
+    write_centred(rod_ratios, orders, None, table.as_slice_mut().unwrap_or_default(), cancel)?;
     Ok(table)
 }
 
-/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns).
-pub fn offset_table(
+/// [`centred_table`] into memory that is there, row by row; with `rtol` each is within that of itself,
+/// from as many terms as it takes.
+pub fn write_centred(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    rtol: Option<f64>,
+    out: &mut [f64],
+    cancel: &Cancel,
+) -> Result<()> {
+    let rtol = rtol.map_or(Ok(ALL_DIGITS), limits::tolerance)?;
+    let longest = Horner::tables(orders, rtol);
+    fill(rod_ratios.len(), orders.len(), out, cancel, |range, rows| {
+        centred_rows(&rod_ratios[range], orders, rtol, &longest, rows, cancel)
+    })
+}
+
+/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns), into memory that is
+/// there.
+pub fn write_offset(
     rod_ratios: &[f64],
     offsets: &[f64],
     orders: &[u32],
+    out: &mut [Complex64],
     cancel: &Cancel,
-) -> Result<Array2<Complex64>> {
-    let mut table = checked_table::<Complex64>(rod_ratios.len(), orders)?;
-    let pairs: Vec<(f64, f64)> = rod_ratios.iter().copied().zip(offsets.iter().copied()).collect();
-    fill(&mut table, &pairs, cancel, |pairs, rows| {
-        for (&(rod_ratio, offset), row) in pairs.iter().zip(rows.chunks_exact_mut(orders.len())) {
+) -> Result<()> {
+    let pairs = rod_ratios.len().min(offsets.len());
+    fill(pairs, orders.len(), out, cancel, |range, rows| {
+        let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
+        for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
+            cancel.check()?;
             row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
         }
         Ok(())
-    })?;
-    Ok(table)
+    })
 }
 
-fn checked_table<T: Clone + Default>(rows: usize, orders: &[u32]) -> Result<Array2<T>> {
+/// A table of numbers of type `T` is not too large.
+pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
     limits::orders(orders)?;
     let cure = "split rod_ratio into parts";
-    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)?;
-    Ok(Array2::default((rows, orders.len())))
+    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)
 }
 
 /// Fill the rows of a table in parallel, chunk by chunk.
-fn fill<I: Sync, T: Send + Sync>(
-    table: &mut Array2<T>,
-    inputs: &[I],
+fn fill<T: Send>(
+    rows: usize,
+    width: usize,
+    out: &mut [T],
     cancel: &Cancel,
-    rows: impl Fn(&[I], &mut [T]) -> Result<()> + Sync,
+    write: impl Fn(Range<usize>, &mut [T]) -> Result<()> + Sync,
 ) -> Result<()> {
     const CHUNK: usize = 2048;
-    if inputs.len() <= CHUNK {
-        return rows(inputs, table.as_slice_mut().unwrap_or_default());
+    if rows <= CHUNK {
+        return write(0..rows, out);
     }
-    table
-        .axis_chunks_iter_mut(Axis(0), CHUNK)
-        .into_par_iter()
-        .zip(inputs.par_chunks(CHUNK))
-        .try_for_each(|(mut block, inputs)| {
-            cancel.check()?;
-            rows(inputs, block.as_slice_mut().unwrap_or_default())
-        })
+    cancel.expect(rows.div_ceil(CHUNK));
+    out.par_chunks_mut(CHUNK * width).enumerate().try_for_each(|(chunk, out)| {
+        cancel.step()?;
+        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+    })
 }
 
 /// How many rod ratios go through a polynomial side by side.
 const LANES: usize = 16;
 
-/// The rows of a block of rod ratios, in lanes; a lane near λ = 1 goes by itself.
+/// The rows of a block of rod ratios, in lanes; one near λ = 1 goes by itself.
 fn centred_rows(
     rod_ratios: &[f64],
     orders: &[u32],
+    rtol: f64,
     tables: &[Horner],
     rows: &mut [f64],
-    rtol: f64,
+    cancel: &Cancel,
 ) -> Result<()> {
     rod_ratios.iter().try_for_each(|&rod_ratio| Proportions::check_rod_ratio(rod_ratio))?;
     let width = orders.len();
     vectorised(
         #[inline(always)]
         || {
-            for (lanes, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
-                if lanes.len() == LANES && lanes.iter().all(|&λ| λ <= Horner::LARGEST_ROD_RATIO) {
-                    lanes_of_rows(lanes, orders, tables, rows);
-                } else {
-                    for (&λ, row) in lanes.iter().zip(rows.chunks_exact_mut(width)) {
-                        let Ok(proportions) = Proportions::new(λ, 0.0) else {
-                            continue;
-                        };
-                        let centred = Centred::new(&proportions);
-                        for (&n, value) in orders.iter().zip(row) {
-                            *value = centred.coefficient(n, rtol);
-                        }
+            for (ratios, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
+                let near_one = |λ: f64| λ > Horner::LARGEST_ROD_RATIO;
+                // What a lane is given does not show in others: rows depend on their own ratio alone.
+                let mut lanes = [0.5; LANES];
+                for (lane, &λ) in lanes.iter_mut().zip(ratios) {
+                    *lane = if near_one(λ) { 0.5 } else { λ };
+                }
+                lanes_of_rows(&lanes, orders, tables, rows);
+                for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
+                    if !near_one(λ) {
+                        continue;
+                    }
+                    cancel.check()?;
+                    let centred = Centred::new(&Proportions::new(λ, 0.0)?);
+                    for (&n, value) in orders.iter().zip(row) {
+                        *value = centred.coefficient(n, rtol);
                     }
                 }
             }
+            Ok(())
         },
-    );
-    Ok(())
+    )
 }
 
 #[inline(always)]
-fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
+fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
     let width = orders.len();
     let mut p = [0.0; LANES];
     for (p, &λ) in p.iter_mut().zip(rod_ratios) {
@@ -145,7 +149,6 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
         of_square[lane] = rest / square;
     }
     let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
-    let (decay, rest) = (-largest.ln(), -(1.0 - largest).ln());
     for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
         if n == 1 || n % 2 == 1 {
             let value = if n == 1 { 1.0 } else { 0.0 };
@@ -153,9 +156,11 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             continue;
         }
         let mut sum = [0.0; LANES];
-        for &t in table.terms[..table.needed(decay, rest)].iter().rev() {
+        let needed = table.terms.iter().take_while(|(_, from)| largest > *from).count();
+        for &(term, from) in table.terms[..needed].iter().rev() {
             for lane in 0..LANES {
-                sum[lane] = (sum[lane] + t) * fourth[lane];
+                let term = if fourth[lane] > from { term } else { 0.0 };
+                sum[lane] = (sum[lane] + term) * fourth[lane];
             }
         }
         let mut power = p;
@@ -179,8 +184,9 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
             }
         }
         for lane in 0..LANES {
-            rows[lane * width + column] = table.leading * power[lane] * (1.0 - sum[lane]);
+            power[lane] = table.leading * power[lane] * (1.0 - sum[lane]);
         }
+        rows.iter_mut().skip(column).step_by(width).zip(power).for_each(|(v, p)| *v = p);
     }
 }
 
@@ -188,10 +194,8 @@ fn lanes_of_rows(rod_ratios: &[f64], orders: &[u32], tables: &[Horner], rows: &m
 struct Horner {
     /// `±n²·|b_m|`, with b the coefficients of √(1 − x) and n = 2m.
     leading: f64,
-    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …
-    terms: Vec<f64>,
-    /// −log of what may be missing from `1 − Σ`.
-    digits: f64,
+    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …, and the p⁴ above which the term matters.
+    terms: Vec<(f64, f64)>,
 }
 
 impl Horner {
@@ -209,20 +213,14 @@ impl Horner {
         let m = f64::from(n / 2);
         let mut term = 0.5 * (m - 0.5) / (m + 1.0);
         let mut terms = Vec::with_capacity(count);
+        // From term j on all are below |b_j| p^{4j}/(1 − p⁴), and |b| ≤ 1/2.
+        let missing = 2.0 * (1.0 - Self::LARGEST_FOURTH) * may_be_missing(n, rtol);
         for j in 1..=count {
-            terms.push(term);
-            term *= next_term(j as f64, m);
+            let index = j as f64;
+            let negligible = (-NEGLIGIBLE_LOG / (index - 1.0)).exp();
+            terms.push((term, negligible.max(missing.powf(1.0 / index))));
+            term *= next_term(index, m);
         }
-        Self { leading: leading(n), terms, digits: -may_be_missing(n, rtol).ln() }
-    }
-
-    /// How many terms matter, from the logarithms of 1/p⁴ and of 1/(1 − p⁴).
-    ///
-    /// After k terms what is missing is below |b_{k+1}| p^{4(k+1)}/(1 − p⁴), and |b| ≤ 1/2.
-    #[inline(always)]
-    fn needed(&self, decay: f64, rest: f64) -> usize {
-        let within = (self.digits + rest - LN_2) / decay - 1.0;
-        let count = (NEGLIGIBLE_LOG / decay).min(within).ceil();
-        (count as usize).min(self.terms.len())
+        Self { leading: leading(n), terms }
     }
 }

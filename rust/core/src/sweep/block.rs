@@ -1,13 +1,16 @@
-//! Layout sums of one engine at up to [`BLOCK`] bank angles, side by side.
+//! Layout sums of one engine at up to [`BLOCK`] rows of a sweep, side by side.
+
+use std::borrow::Cow;
 
 use super::Quantity;
-use super::plan::{Constants, FUNCTIONS, Plan, Terms};
+use super::harmonics::Rows;
+use super::plan::{Constants, EnginePlan, FUNCTIONS, Plan, Terms};
 use crate::Complex64;
 use crate::balance::snapped;
 use crate::engine::Hold;
 use crate::simd::sin_cos_degrees;
 
-/// Bank angles that are worked out side by side; cancellation is looked at between blocks.
+/// Rows that are worked out side by side.
 pub(super) const BLOCK: usize = 64;
 /// Powers of `e^{iγ}` up to here come from multiplication, within the allowance of the zero bound.
 const MOST_MULTIPLIED: u32 = 16;
@@ -15,41 +18,39 @@ const MOST_MULTIPLIED: u32 = 16;
 /// One column of a block.
 type Column = [f64; BLOCK];
 
-/// Layout sums of one engine at one point, for up to [`BLOCK`] bank angles.
-pub(super) struct Block {
+/// Cosine and sine of the multiples of γ, two pairs to an order, at up to [`BLOCK`] bank angles.
+#[derive(Clone)]
+pub(super) struct Functions(Vec<[Column; FUNCTIONS]>);
+
+/// Layout sums of one engine, for up to [`BLOCK`] rows side by side: bank angles at one point of the
+/// other axes, or such points at one bank angle. Either way a row's numbers come from the same
+/// operations in the same order, so that they do not depend on what else is swept.
+pub(super) struct Block<'a> {
     quantity: Quantity,
     pub count: usize,
-    /// Cosine and sine of the multiples of γ, two pairs to an order.
-    functions: Vec<[Column; FUNCTIONS]>,
+    functions: Cow<'a, Functions>,
     /// What rounding can leave, by order.
-    pub bounds: Vec<f64>,
-    /// Constants of the functions, by order.
+    pub bounds: Vec<Column>,
+    /// Constants of the functions, by order, where rows are bank angles.
     constants: Vec<Constants>,
+    /// Whether rows are points of the other axes: sums are ready.
+    by_point: bool,
     /// Real and imaginary part of what turns with the crank and of the conjugate of what turns
     /// against it (of the torque and nothing), by order.
     sums: Vec<[Column; FUNCTIONS]>,
 }
 
-impl Block {
+impl Functions {
     pub fn new(plan: &Plan) -> Self {
-        let empty = vec![[[0.0; BLOCK]; FUNCTIONS]; plan.orders.len()];
-        Self {
-            quantity: plan.quantity,
-            count: 0,
-            functions: empty.clone(),
-            bounds: vec![0.0; plan.orders.len()],
-            constants: vec![Constants::default(); plan.orders.len()],
-            sums: empty,
-        }
+        Self(vec![[[0.0; BLOCK]; FUNCTIONS]; plan.orders.len()])
     }
 
-    /// The functions of γ at these bank angles.
+    /// Their values at these bank angles.
     #[inline(always)]
-    pub fn set_angles(&mut self, plan: &Plan, bank_angles: &[f64]) {
-        self.count = bank_angles.len();
+    pub fn set(&mut self, plan: &Plan, bank_angles: &[f64]) {
         let Some(hold) = plan.hold else {
             // Cosines of nothing.
-            for [ahead, _, against, _] in &mut self.functions {
+            for [ahead, _, against, _] in &mut self.0 {
                 ahead.fill(1.0);
                 against.fill(1.0);
             }
@@ -63,7 +64,7 @@ impl Block {
         sin_cos_degrees(&half, &mut sin, &mut cos);
         // Powers are reached from the last one, orders being mostly ascending.
         let (mut power, mut power_cos, mut power_sin) = (1, cos, sin);
-        for (&order, functions) in plan.orders.iter().zip(&mut self.functions) {
+        for (&order, functions) in plan.orders.iter().zip(&mut self.0) {
             let n = i64::from(order);
             let turns = match (hold, plan.quantity) {
                 (Hold::Pins, Quantity::Torque) => [-n, 0],
@@ -103,20 +104,123 @@ impl Block {
             }
         }
     }
+}
 
-    /// The constants of an engine at a point, times ω² or 1.
-    pub fn set_terms(&mut self, terms: &Terms, scale: f64) {
-        for (order, constants) in terms.constants.iter().enumerate() {
-            self.constants[order] = constants.map(|constant| constant * scale);
-            self.bounds[order] = terms.sizes[order] * scale;
+impl<'a> Block<'a> {
+    pub fn new(plan: &Plan) -> Self {
+        let orders = plan.orders.len();
+        Self {
+            quantity: plan.quantity,
+            count: 0,
+            functions: Cow::Owned(Functions::new(plan)),
+            bounds: vec![[0.0; BLOCK]; orders],
+            constants: vec![Constants::default(); orders],
+            by_point: false,
+            sums: vec![[[0.0; BLOCK]; FUNCTIONS]; orders],
         }
     }
 
-    /// Functions times constants, for every order and angle.
+    /// Take the functions at these bank angles, which somebody else has worked out.
+    pub fn share(&mut self, functions: &'a Functions) {
+        self.functions = Cow::Borrowed(functions);
+    }
+
+    /// Work out the functions at these bank angles.
+    #[inline(always)]
+    pub fn set_angles(&mut self, plan: &Plan, bank_angles: &[f64]) {
+        self.functions.to_mut().set(plan, bank_angles);
+    }
+
+    /// An engine at one point of the other axes; rows are so many bank angles.
+    #[inline(always)]
+    pub fn set_point(
+        &mut self,
+        engine: &EnginePlan,
+        harmonics: &[Rows],
+        point: usize,
+        count: usize,
+    ) {
+        (self.count, self.by_point) = (count, false);
+        for (order, constants) in self.constants.iter_mut().enumerate() {
+            let (mut sum, mut size) = (Constants::default(), 0.0);
+            let mut add = |terms: &Terms, factor: Complex64| {
+                // The part that turns backward was conjugated, its harmonic was not.
+                for (sum, constant) in sum.iter_mut().zip(&terms.constants[order]) {
+                    *sum += constant * factor;
+                }
+                size += terms.sizes[order] * length(factor);
+            };
+            for (terms, harmonics) in engine.groups.iter().zip(harmonics) {
+                add(&terms.0, harmonics.at(point, order));
+            }
+            if let Some(terms) = &engine.rotating {
+                add(terms, Complex64::new(1.0, 0.0));
+            }
+            *constants = sum;
+            self.bounds[order].fill(size * engine.zero_factors[order]);
+        }
+    }
+
+    /// An engine at so many points of the other axes from the first; rows are the points, all at the
+    /// first bank angle of the functions.
+    #[inline(always)]
+    pub fn set_points(
+        &mut self,
+        engine: &EnginePlan,
+        harmonics: &[Rows],
+        first: usize,
+        count: usize,
+    ) {
+        (self.count, self.by_point) = (count, true);
+        for order in 0..self.sums.len() {
+            let mut constants = [[[0.0; BLOCK]; 2]; FUNCTIONS];
+            let mut sizes = [0.0; BLOCK];
+            let mut add = |terms: &Terms, factors: &[Column; 2], lengths: &Column| {
+                for ([re, im], constant) in constants.iter_mut().zip(&terms.constants[order]) {
+                    for i in 0..BLOCK {
+                        re[i] += constant.re * factors[0][i] - constant.im * factors[1][i];
+                        im[i] += constant.re * factors[1][i] + constant.im * factors[0][i];
+                    }
+                }
+                for i in 0..BLOCK {
+                    sizes[i] += terms.sizes[order] * lengths[i];
+                }
+            };
+            let (mut factors, mut lengths) = ([[0.0; BLOCK]; 2], [0.0; BLOCK]);
+            for (terms, harmonics) in engine.groups.iter().zip(harmonics) {
+                for i in 0..count {
+                    let factor = harmonics.at(first + i, order);
+                    (factors[0][i], factors[1][i]) = (factor.re, factor.im);
+                    lengths[i] = length(factor);
+                }
+                add(&terms.0, &factors, &lengths);
+            }
+            if let Some(terms) = &engine.rotating {
+                add(terms, &[[1.0; BLOCK], [0.0; BLOCK]], &[1.0; BLOCK]);
+            }
+            let [a, b, c, d] = self.functions.0[order].each_ref().map(|column| column[0]);
+            let [ka, kb, kc, kd] = &constants;
+            for i in 0..BLOCK {
+                let at = [ka, kb, kc, kd].map(|k| Complex64::new(k[0][i], k[1][i]));
+                for (sum, value) in self.sums[order].iter_mut().zip(turning([a, b, c, d], &at)) {
+                    sum[i] = value;
+                }
+                self.bounds[order][i] = sizes[i] * engine.zero_factors[order];
+            }
+        }
+    }
+
+    /// Functions times constants, for every order and row.
+    #[inline(always)]
     pub fn evaluate(&mut self) {
+        if self.by_point {
+            return;
+        }
         for (order, sums) in self.sums.iter_mut().enumerate() {
-            for i in 0..self.count {
-                let at = turning(&self.functions[order], &self.constants[order], i);
+            let functions = &self.functions.0[order];
+            for i in 0..BLOCK {
+                let at =
+                    turning(functions.each_ref().map(|column| column[i]), &self.constants[order]);
                 for (sum, value) in sums.iter_mut().zip(at) {
                     sum[i] = value;
                 }
@@ -139,16 +243,16 @@ impl Block {
             Quantity::Moment => [-across, along],
             _ => [along, across],
         };
-        components.map(|phasor| snapped(phasor, self.bounds[order]))
+        components.map(|phasor| snapped(phasor, self.bounds[order][i]))
     }
 
-    /// Phasors of all orders at one angle, component by component.
+    /// Phasors of all orders of one row, component by component.
     pub fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
         let phasors: Vec<_> = (0..self.bounds.len()).map(|order| self.phasors(order, i)).collect();
         [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
     }
 
-    /// Magnitudes of the phasors: out[angle][order][component].
+    /// Magnitudes of the phasors: out[row][order][component].
     #[inline(always)]
     pub fn peaks(&self, out: &mut [f64]) {
         let components = self.quantity.components();
@@ -190,33 +294,51 @@ impl Block {
     /// |forward + conj backward| and |forward − conj backward| of one order.
     #[inline(always)]
     fn magnitudes(&self, order: usize, along: &mut Column, across: &mut Column) {
-        let (functions, constants) = (&self.functions[order], &self.constants[order]);
-        let bound = self.bounds[order] * self.bounds[order];
-        let magnitude = |re: f64, im: f64| {
-            let square = re.mul_add(re, im * im);
-            if square > bound { square.sqrt() } else { 0.0 }
+        let bounds = &self.bounds[order];
+        let both = |[ahead_re, ahead_im, against_re, against_im]: [f64; FUNCTIONS], i: usize| {
+            let square = bounds[i] * bounds[i];
+            [
+                magnitude(ahead_re + against_re, ahead_im + against_im, square),
+                magnitude(ahead_re - against_re, ahead_im - against_im, square),
+            ]
         };
+        if self.by_point {
+            let sums = &self.sums[order];
+            for i in 0..BLOCK {
+                [along[i], across[i]] = both(sums.each_ref().map(|column| column[i]), i);
+            }
+            return;
+        }
+        let (functions, constants) = (&self.functions.0[order], &self.constants[order]);
         // In one loop with the square roots, the products cost next to nothing.
         for i in 0..BLOCK {
-            let [ahead_re, ahead_im, against_re, against_im] = turning(functions, constants, i);
-            along[i] = magnitude(ahead_re + against_re, ahead_im + against_im);
-            across[i] = magnitude(ahead_re - against_re, ahead_im - against_im);
+            let at = turning(functions.each_ref().map(|column| column[i]), constants);
+            [along[i], across[i]] = both(at, i);
         }
     }
 }
 
-/// Real and imaginary part of what turns with the crank, and of the conjugate of what turns against
-/// it, at one angle.
+/// Length of a phasor, 0 where its square is within a bound's.
 #[inline(always)]
-fn turning(
-    [a, b, c, d]: &[Column; FUNCTIONS],
-    [ka, kb, kc, kd]: &Constants,
-    i: usize,
-) -> [f64; FUNCTIONS] {
+fn magnitude(re: f64, im: f64, bound: f64) -> f64 {
+    let square = re.mul_add(re, im * im);
+    if square > bound { square.sqrt() } else { 0.0 }
+}
+
+/// |z|, without a root where z is real.
+#[inline(always)]
+fn length(z: Complex64) -> f64 {
+    if z.im == 0.0 { z.re.abs() } else { z.norm() }
+}
+
+/// Real and imaginary part of what turns with the crank, and of the conjugate of what turns against
+/// it.
+#[inline(always)]
+fn turning([a, b, c, d]: [f64; FUNCTIONS], [ka, kb, kc, kd]: &Constants) -> [f64; FUNCTIONS] {
     [
-        a[i].mul_add(ka.re, b[i] * kb.re),
-        a[i].mul_add(ka.im, b[i] * kb.im),
-        c[i].mul_add(kc.re, d[i] * kd.re),
-        c[i].mul_add(kc.im, d[i] * kd.im),
+        a.mul_add(ka.re, b * kb.re),
+        a.mul_add(ka.im, b * kb.im),
+        c.mul_add(kc.re, d * kd.re),
+        c.mul_add(kc.im, d * kd.im),
     ]
 }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::harmonics::proportions;
-use super::{Axes, Quantity, Sweep};
+use super::{Axes, Figure, Quantity, Sweep};
 use crate::balance::{highest, most_left_out, rod_share, rod_tail, scales, tail, tolerance};
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
@@ -34,7 +34,7 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<Self> {
         let rtol = tolerance(rtol)?;
-        let mut sweep = Self::new(engines, axes, vec![1], reference_z, spectrum)?;
+        let mut sweep = Self::new(engines, axes, vec![1], reference_z, spectrum, cancel)?;
         sweep.torque = torque;
         let candidates = sweep.candidates(rtol)?;
         let quantities: &[Quantity] = if torque && sweep.spectrum.is_none() {
@@ -104,15 +104,8 @@ impl Sweep {
     /// Proportions of a cylinder whose harmonics fall off most slowly: the tail bounds grow with rod
     /// ratio and with the magnitude of the offset.
     fn slowest(&self, placement: &crate::Placement) -> Result<Proportions> {
-        let ratio = self.largest_rod_ratio();
-        let offset = self.axes.pin_offset.as_ref().map(|offsets| {
-            offsets.iter().fold(0.0_f64, |a, &b| if a.abs() >= b.abs() { a } else { b })
-        });
+        let [ratio, offset] = self.extremes;
         proportions(&placement.cylinder, ratio, offset)
-    }
-
-    fn largest_rod_ratio(&self) -> Option<f64> {
-        self.axes.rod_ratio.as_ref().map(|ratios| ratios.iter().copied().fold(0.0, f64::max))
     }
 
     /// What orders above the last add to an engine's force, moment and torque over ω², anywhere.
@@ -151,7 +144,7 @@ impl Sweep {
                 self.engines[engine].placements().iter().all(|p| p.cylinder.pin_offset() == 0.0)
             }
         };
-        let ratios = match self.largest_rod_ratio() {
+        let ratios = match self.extremes[0] {
             Some(largest) if centred && quantity != Quantity::Torque => Some(vec![largest]),
             _ => self.axes.rod_ratio.clone(),
         };
@@ -177,15 +170,17 @@ impl Sweep {
                         orders: candidates.to_vec(),
                         references: vec![self.references[engine]],
                         spectrum: self.spectrum.clone(),
+                        extremes: self.extremes,
                         squares: vec![1.0],
                         torque: self.torque,
                         omitted: Vec::new(),
                         error_bound: [0.0; 3],
                     };
-                    let sizes = match quantity {
-                        Quantity::Torque => part.peaks(quantity, cancel)?,
-                        _ => part.vector_peaks(quantity, cancel)?,
+                    let figure = match quantity {
+                        Quantity::Torque => Figure::Amplitude,
+                        _ => Figure::Length,
                     };
+                    let sizes = part.peaks(quantity, figure, cancel)?;
                     for (k, size) in sizes.iter().enumerate() {
                         let worst = &mut worst[k % candidates.len()];
                         *worst = worst.max(*size);

@@ -1,7 +1,10 @@
 //! What a sweep's rod ratios and offsets change: the harmonics of its cylinders.
 
-use ndarray::Array2;
-use rayon::prelude::*;
+use std::borrow::Cow;
+use std::ops::Range;
+
+use ndarray::parallel::prelude::*;
+use ndarray::{Array2, ArrayView1, Axis};
 
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -9,6 +12,11 @@ use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::harmonics::{self, table, torque};
 use crate::slider_crank::{Cylinder, Proportions};
+
+/// Points whose harmonics are worked out in one piece.
+const CHUNK: usize = 1024;
+/// Bytes of harmonics that are kept.
+const LARGEST_TABLE: usize = 1 << 28;
 
 /// A cylinder's proportions with rod ratio and pin offset replaced.
 pub(super) fn proportions(
@@ -24,12 +32,77 @@ pub(super) fn proportions(
     }
 }
 
+/// Harmonics of one cylinder at the points of a sweep.
+pub(super) enum Harmonics {
+    /// All of them, or the one row that serves every point.
+    Table(Array2<Complex64>),
+    /// Worked out where they are wanted.
+    Later(Cylinder, Quantity),
+}
+
+/// Harmonics at some points: rows of (point, order).
+pub(super) struct Rows<'a> {
+    table: Cow<'a, Array2<Complex64>>,
+    /// The point of the first row.
+    first: usize,
+}
+
+impl Rows<'_> {
+    #[inline(always)]
+    pub fn at(&self, point: usize, order: usize) -> Complex64 {
+        self.table[[point - self.first, order]]
+    }
+}
+
+impl Harmonics {
+    /// A table where the points are passed over more than once and it is of moderate size.
+    pub fn new(
+        sweep: &Sweep,
+        cylinder: Cylinder,
+        quantity: Quantity,
+        passes: usize,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let (points, orders) = (sweep.points(), sweep.orders.len());
+        if points == 1 {
+            return sweep.harmonics(&cylinder, quantity, &(0..1), cancel).map(Self::Table);
+        }
+        if passes == 1 || points * orders * size_of::<Complex64>() > LARGEST_TABLE {
+            return Ok(Self::Later(cylinder, quantity));
+        }
+        let mut table = Array2::default((points, orders));
+        cancel.expect(points.div_ceil(CHUNK));
+        table.axis_chunks_iter_mut(Axis(0), CHUNK).into_par_iter().enumerate().try_for_each(
+            |(chunk, mut rows)| {
+                cancel.step()?;
+                let first = chunk * CHUNK;
+                let points = first..first + rows.nrows();
+                rows.assign(&sweep.harmonics(&cylinder, quantity, &points, cancel)?);
+                Result::Ok(())
+            },
+        )?;
+        Ok(Self::Table(table))
+    }
+
+    /// Those at a range of points.
+    pub fn rows(&self, sweep: &Sweep, points: &Range<usize>, cancel: &Cancel) -> Result<Rows<'_>> {
+        Ok(match self {
+            Self::Table(table) => Rows { table: Cow::Borrowed(table), first: 0 },
+            Self::Later(cylinder, quantity) => {
+                let table = sweep.harmonics(cylinder, *quantity, points, cancel)?;
+                Rows { table: Cow::Owned(table), first: points.start }
+            }
+        })
+    }
+}
+
 impl Sweep {
-    /// Harmonics of a cylinder at every point of rod ratio and offset: (points, `n_orders`).
-    pub(super) fn harmonics(
+    /// Harmonics of a cylinder at points of rod ratio and offset: (points, `n_orders`).
+    fn harmonics(
         &self,
         cylinder: &Cylinder,
         quantity: Quantity,
+        points: &Range<usize>,
         cancel: &Cancel,
     ) -> Result<Array2<Complex64>> {
         if let Some(spectrum) = &self.spectrum {
@@ -38,45 +111,32 @@ impl Sweep {
                 return Err(Error::value("spectrum", "given", cure));
             }
             let row: Vec<_> = self.orders.iter().map(|&n| spectrum.amplitude(n)).collect();
-            return Ok(one_row(&row));
+            return Ok(Array2::from_shape_fn((1, row.len()), |(_, order)| row[order]));
         }
         let centred = cylinder.pin_offset() == 0.0 && self.axes.pin_offset.is_none();
         if let (Some(ratios), true, true) =
             (&self.axes.rod_ratio, centred, quantity != Quantity::Torque)
         {
-            let table = table::centred_table(ratios, &self.orders, cancel)?;
+            let table = table::centred_table(&ratios[points.clone()], &self.orders, cancel)?;
             return Ok(table.mapv(Complex64::from));
         }
-        let one = [f64::NAN];
-        let list = |values: &'_ Option<Vec<f64>>| -> Vec<Option<f64>> {
-            match values {
-                Some(values) => values.iter().copied().map(Some).collect(),
-                None => one.iter().map(|_| None).collect(),
-            }
-        };
-        let (ratios, offsets) = (list(&self.axes.rod_ratio), list(&self.axes.pin_offset));
-        let points = ratios.len() * offsets.len();
-        let row = |point: usize| -> Result<Vec<Complex64>> {
+        let offsets = self.axes.pin_offset.as_deref();
+        let in_a_row = offsets.map_or(1, <[f64]>::len);
+        let mut table = Array2::default((points.len(), self.orders.len()));
+        for (mut row, point) in table.rows_mut().into_iter().zip(points.clone()) {
             cancel.check()?;
-            let (ratio, offset) = (ratios[point / offsets.len()], offsets[point % offsets.len()]);
+            let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
+            let offset = offsets.map(|offsets| offsets[point % in_a_row]);
             let proportions = proportions(cylinder, ratio, offset)?;
-            Ok(match quantity {
+            let values = match quantity {
                 Quantity::Torque if cylinder.has_rod_inertia() => {
                     torque::of_cylinder(cylinder, &proportions, &self.orders).roll
                 }
                 Quantity::Torque => torque::torque(&proportions, &self.orders).roll,
                 _ => harmonics::coefficients(&proportions, &self.orders),
-            })
-        };
-        if points == 1 {
-            return row(0).map(|row| one_row(&row));
+            };
+            row.assign(&ArrayView1::from(&values));
         }
-        let rows: Vec<Vec<Complex64>> =
-            (0..points).into_par_iter().map(row).collect::<Result<_>>()?;
-        Ok(Array2::from_shape_fn((points, self.orders.len()), |(point, order)| rows[point][order]))
+        Ok(table)
     }
-}
-
-fn one_row(row: &[Complex64]) -> Array2<Complex64> {
-    Array2::from_shape_fn((1, row.len()), |(_, order)| row[order])
 }

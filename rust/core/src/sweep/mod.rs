@@ -14,6 +14,7 @@ mod plan;
 mod run;
 mod waveform;
 
+use std::mem;
 use std::sync::Arc;
 
 use ndarray::{Array, IxDyn};
@@ -21,10 +22,10 @@ use ndarray::{Array, IxDyn};
 use self::block::Block;
 use self::harmonics::proportions;
 use self::plan::Plan;
-use self::run::Run;
+use self::run::{Cost, Number, Run};
 use crate::Complex64;
 use crate::balance::{angular_speed, snapped};
-use crate::cancel::Cancel;
+use crate::cancel::{Cancel, give_back};
 use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
@@ -32,7 +33,7 @@ use crate::limits;
 use crate::spectrum::Spectrum;
 
 /// What is swept; `None` leaves what each engine has.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Axes {
     /// Degrees between the banks, and what is held as they change.
     pub bank_angle: Option<(Vec<f64>, Hold)>,
@@ -55,6 +56,19 @@ pub enum Quantity {
     Torque,
 }
 
+/// Which figure of force, moment or torque over the turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Of each order along (about) each axis: (…, `n_orders`, and 2 but for torque).
+    Amplitude,
+    /// The longest vector of each order: (…, `n_orders`).
+    Length,
+    /// Of all orders together along (about) each axis: (…, and 2 but for torque).
+    Sum,
+    /// The longest vector of all orders together: (…).
+    LengthOfSum,
+}
+
 /// Engines and axes, checked; values are worked out when they are asked for.
 #[derive(Debug)]
 pub struct Sweep {
@@ -63,6 +77,8 @@ pub struct Sweep {
     orders: Vec<u32>,
     references: Vec<f64>,
     spectrum: Option<Spectrum>,
+    /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
+    extremes: [Option<f64>; 2],
     /// ω² of each speed.
     squares: Vec<f64>,
     /// Whether torque is wanted.
@@ -70,6 +86,9 @@ pub struct Sweep {
     omitted: Vec<u32>,
     error_bound: [f64; 3],
 }
+
+/// Values of an axis between two looks at cancellation.
+const PART: usize = 1 << 16;
 
 /// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
 pub type Values<T> = Array<T, IxDyn>;
@@ -82,17 +101,26 @@ impl Sweep {
         orders: Vec<u32>,
         reference_z: Option<f64>,
         spectrum: Option<Spectrum>,
+        cancel: &Cancel,
     ) -> Result<Self> {
         limits::orders(&orders)?;
         not_empty("engines", engines.len())?;
         not_empty("rpm", axes.rpm.len())?;
-        let squares = axes.rpm.iter().map(|&rpm| angular_speed(rpm).map(|omega| omega * omega));
-        let squares = squares.collect::<Result<_>>()?;
+        let mut squares = Vec::with_capacity(axes.rpm.len());
+        for part in axes.rpm.chunks(PART) {
+            cancel.check()?;
+            for &rpm in part {
+                squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
+            }
+        }
         if let Some((angles, _)) = &axes.bank_angle {
             not_empty("bank_angle_deg", angles.len())?;
-            // Counted before they are looked at one by one, which takes longer.
-            if angles.iter().filter(|angle| !(0.0..=180.0).contains(*angle)).count() > 0 {
-                angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            for part in angles.chunks(PART) {
+                cancel.check()?;
+                // Counted before they are looked at one by one, which takes longer.
+                if part.iter().filter(|angle| !(0.0..=180.0).contains(*angle)).count() > 0 {
+                    part.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+                }
             }
             engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
         }
@@ -107,19 +135,20 @@ impl Sweep {
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         let references = references.collect::<Result<_>>()?;
         let replaced = axes.rod_ratio.is_some() || axes.pin_offset.is_some();
-        let sweep = Self {
+        let mut sweep = Self {
             engines,
             axes,
             orders,
             references,
             spectrum,
+            extremes: [None; 2],
             squares,
             torque: true,
             omitted: Vec::new(),
             error_bound: [0.0; 3],
         };
         if replaced {
-            sweep.check_geometry()?;
+            sweep.extremes = sweep.check_geometry(cancel)?;
         }
         Ok(sweep)
     }
@@ -166,8 +195,9 @@ impl Sweep {
 
     /// The same, and no torque can be asked of it.
     #[must_use]
-    pub fn without_torque(self) -> Self {
-        Self { torque: false, ..self }
+    pub fn without_torque(mut self) -> Self {
+        self.torque = false;
+        self
     }
 
     /// What is swept.
@@ -176,70 +206,134 @@ impl Sweep {
         &self.axes
     }
 
-    /// Peak phasors of each order: (…, `n_orders`, and 2 but for torque).
-    pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
-        let components = quantity.components();
-        self.fill(quantity, &self.by_order(quantity), cancel, |block, out| {
-            block.evaluate();
-            for (i, row) in out.chunks_exact_mut(self.orders.len() * components).enumerate() {
-                for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
-                    phasors.copy_from_slice(&block.phasors(order, i)[..components]);
-                }
-            }
-        })
+    /// Lengths of all axes of a result.
+    #[must_use]
+    pub fn result_shape(&self, quantity: Quantity, figure: Figure) -> Vec<usize> {
+        let orders = &[self.orders.len()][..];
+        let tail: [&[usize]; 2] = match figure {
+            Figure::Amplitude => [orders, quantity.shape()],
+            Figure::Length => [orders, &[]],
+            Figure::Sum => [&[], quantity.shape()],
+            Figure::LengthOfSum => [&[], &[]],
+        };
+        [&self.shape()[..], &tail.concat()].concat()
     }
 
-    /// max over θ of each order along (about) each axis: (…, `n_orders`, and 2 but for torque).
-    pub fn peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
-        let tail = self.by_order(quantity);
+    /// A result of numbers of this many bytes is not too large for one call.
+    pub fn check_size(&self, quantity: Quantity, figure: Figure, bytes: usize) -> Result<()> {
+        let cure = "sweep one axis in parts, or give chunks";
+        limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, cure)
+    }
+
+    /// Peak phasors of each order: (…, `n_orders`, and 2 but for torque).
+    pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
+        self.allocated(quantity, Figure::Amplitude, |out| self.write_phasors(quantity, out, cancel))
+    }
+
+    /// A figure of every point.
+    pub fn peaks(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<Values<f64>> {
+        self.allocated(quantity, figure, |out| self.write_peaks(quantity, figure, out, cancel))
+    }
+
+    /// [`Self::phasors`] into memory that is there, as long as the product of
+    /// [`Self::result_shape`].
+    pub fn write_phasors(
+        &self,
+        quantity: Quantity,
+        out: &mut [Complex64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let (figure, width) = (Figure::Amplitude, self.orders.len() * quantity.components());
         self.fill(
             quantity,
-            &tail,
+            figure,
+            out,
             cancel,
             #[inline(always)]
-            |block, out| block.peaks(out),
+            |block: &mut Block, out: &mut [Complex64]| {
+                block.evaluate();
+                for (i, row) in out.chunks_exact_mut(width).enumerate() {
+                    for (order, phasors) in row.chunks_exact_mut(quantity.components()).enumerate()
+                    {
+                        phasors.copy_from_slice(&block.phasors(order, i)[..quantity.components()]);
+                    }
+                }
+                Ok(())
+            },
         )
     }
 
-    /// max over θ of the length of each order's vector: (…, `n_orders`).
-    pub fn vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
+    /// [`Self::peaks`] into memory that is there, as long as the product of [`Self::result_shape`].
+    pub fn write_peaks(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
         let orders = self.orders.len();
-        self.fill(quantity, &[orders], cancel, |block, out| {
-            block.evaluate();
-            for (i, row) in out.chunks_exact_mut(orders).enumerate() {
-                for (order, length) in row.iter_mut().enumerate() {
-                    let bound = block.bounds[order];
-                    let [forward, backward] = block.turning(order, i);
-                    *length = snapped(forward, bound).norm() + snapped(backward, bound).norm();
-                }
+        match figure {
+            Figure::Amplitude => self.fill(
+                quantity,
+                figure,
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &mut Block, out: &mut [f64]| {
+                    block.peaks(out);
+                    Ok(())
+                },
+            ),
+            Figure::Length => self.fill(
+                quantity,
+                figure,
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &mut Block, out: &mut [f64]| {
+                    block.evaluate();
+                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                        for (order, length) in row.iter_mut().enumerate() {
+                            let bound = block.bounds[order][i];
+                            let [forward, backward] = block.turning(order, i);
+                            *length =
+                                snapped(forward, bound).norm() + snapped(backward, bound).norm();
+                        }
+                    }
+                    Ok(())
+                },
+            ),
+            Figure::Sum => {
+                let finder = PeakFinder::new(&self.orders);
+                self.fill(quantity, figure, out, cancel, |block, out| {
+                    block.evaluate();
+                    for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
+                        cancel.check()?;
+                        for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
+                            *peak = finder.along_axis(&phasors);
+                        }
+                    }
+                    Ok(())
+                })
             }
-        })
-    }
-
-    /// max over θ of the sum of orders along (about) each axis: (…, and 2 but for torque).
-    pub fn sum_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
-        let components = quantity.components();
-        let finder = PeakFinder::new(&self.orders);
-        self.fill(quantity, quantity.shape(), cancel, |block, out| {
-            block.evaluate();
-            for (i, row) in out.chunks_exact_mut(components).enumerate() {
-                for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                    *peak = finder.along_axis(&phasors);
-                }
+            Figure::LengthOfSum => {
+                let finder = PeakFinder::new(&self.orders);
+                self.fill(quantity, figure, out, cancel, |block, out| {
+                    block.evaluate();
+                    for (i, peak) in out.iter_mut().enumerate() {
+                        cancel.check()?;
+                        let [x, y] = block.by_component(i);
+                        *peak = finder.of_vector(&x, &y);
+                    }
+                    Ok(())
+                })
             }
-        })
-    }
-
-    /// max over θ of the length of the sum of orders: (…).
-    pub fn sum_vector_peaks(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<f64>> {
-        let finder = PeakFinder::new(&self.orders);
-        self.fill(quantity, &[], cancel, |block, out| {
-            block.evaluate();
-            for (i, peak) in out.iter_mut().enumerate() {
-                let [x, y] = block.by_component(i);
-                *peak = finder.of_vector(&x, &y);
-            }
-        })
+        }
     }
 
     /// Torque may not have been asked for.
@@ -250,63 +344,110 @@ impl Sweep {
         Ok(())
     }
 
-    /// Trailing axes of a result that has all orders.
-    fn by_order(&self, quantity: Quantity) -> Vec<usize> {
-        [&[self.orders.len()], quantity.shape()].concat()
+    fn allocated<T: Number>(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        write: impl FnOnce(&mut [T]) -> Result<()>,
+    ) -> Result<Values<T>> {
+        self.check_size(quantity, figure, size_of::<T>())?;
+        let shape = self.result_shape(quantity, figure);
+        let mut values = vec![T::default(); shape.iter().product()];
+        write(&mut values)?;
+        Array::from_shape_vec(IxDyn(&shape), values)
+            .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
     }
 
     /// Work out every point: layout sums block by block, handed to `finish`, times ω².
-    fn fill<T>(
+    fn fill<T: Number>(
         &self,
         quantity: Quantity,
-        tail: &[usize],
+        figure: Figure,
+        out: &mut [T],
         cancel: &Cancel,
-        finish: impl Fn(&mut Block, &mut [T]) + Sync,
-    ) -> Result<Values<T>>
-    where
-        T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
-    {
+        finish: impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync,
+    ) -> Result<()> {
         self.check_asked(quantity)?;
-        let shape = [&self.shape()[..], tail].concat();
-        let cure = "sweep one axis in parts";
-        limits::result_size("sweep", &shape, size_of::<T>(), cure)?;
-        let plan = Plan::new(self, quantity, cancel)?;
-        let mut values = vec![T::default(); shape.iter().product()];
-        let [_, angles, ratios, offsets, _] = self.shape();
-        let width: usize = tail.iter().product();
-        let run = Run::new(&plan, &self.squares, ratios * offsets, width, cancel);
-        if angles > 1 {
-            run.over_bank_angles(self.bank_angles(), &mut values, &finish)?;
-        } else {
-            run.over_other_axes(self.bank_angles(), &mut values, &finish)?;
+        let shape = self.result_shape(quantity, figure);
+        if out.len() != shape.iter().product::<usize>() {
+            return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
         }
-        Array::from_shape_vec(IxDyn(&shape), values)
-            .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
+        let cost = match figure {
+            Figure::Amplitude | Figure::Length => Cost::Small,
+            Figure::Sum | Figure::LengthOfSum => Cost::Large,
+        };
+        let width = shape[5..].iter().product();
+        let counts = [self.engines.len(), self.points(), width];
+        let run = Run::new(counts, self.bank_angles(), &self.squares, cost, cancel);
+        let plan = Plan::new(self, quantity, run.passes(), cancel)?;
+        run.fill(&plan, out, &finish)
+    }
+
+    /// Points of rod ratio and pin offset.
+    fn points(&self) -> usize {
+        let [_, _, ratios, offsets, _] = self.shape();
+        ratios * offsets
     }
 
     fn bank_angles(&self) -> &[f64] {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
 
-    /// Every slider-crank of the sweep can turn: it is enough to look at the largest values.
-    fn check_geometry(&self) -> Result<()> {
-        let ends = |values: &Option<Vec<f64>>| -> Vec<Option<f64>> {
-            values.as_ref().map_or(vec![None], |values| values.iter().copied().map(Some).collect())
-        };
-        let (ratios, offsets) = (ends(&self.axes.rod_ratio), ends(&self.axes.pin_offset));
-        let size = offsets.iter().flatten().fold(None, |largest: Option<f64>, &offset| {
-            // NaN is kept, so that it is found below.
-            Some(largest.map_or(offset, |l| if l.abs() >= offset.abs() { l } else { offset }))
-        });
+    /// Every slider-crank of the sweep can turn: where the extreme ones can, all can. Returns them.
+    fn check_geometry(&self, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
+        let (ratios, offsets) = (self.axes.rod_ratio.as_deref(), self.axes.pin_offset.as_deref());
+        let extreme_ratios = ends(ratios, cancel)?;
+        let extreme_offsets = ends(offsets, cancel)?;
         for cylinder in self.engines.iter().flat_map(|e| e.placements()).map(|p| p.cylinder) {
-            for &ratio in &ratios {
-                proportions(&cylinder, ratio, size)?;
+            let each = |ratio, offset| proportions(&cylinder, ratio, offset).map(drop);
+            let extremes = extreme_ratios.iter().try_for_each(|&ratio| {
+                extreme_offsets.iter().try_for_each(|&offset| each(ratio, offset))
+            });
+            let Err(error) = extremes else { continue };
+            // Who is told of a value is told of the first that is wrong.
+            let some = |values: Option<&[f64]>, k: usize| values.map(|values| values[k]);
+            for k in 0..ratios.map_or(1, <[f64]>::len) {
+                cancel.check()?;
+                extreme_offsets.iter().try_for_each(|&offset| each(some(ratios, k), offset))?;
             }
-            for &offset in &offsets {
-                proportions(&cylinder, ratios[0], offset)?;
+            for k in 0..offsets.map_or(1, <[f64]>::len) {
+                cancel.check()?;
+                each(some(ratios, 0), some(offsets, k))?;
             }
+            return Err(error);
         }
-        Ok(())
+        let [least, most] = extreme_offsets;
+        let farthest = least.zip(most).map(|(a, b)| if -a > b { a } else { b });
+        Ok([extreme_ratios[1], farthest])
+    }
+}
+
+/// The least and the largest value of an axis, or a value that is no number; nothing where it is not
+/// swept.
+fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
+    let Some(values) = values else { return Ok([None; 2]) };
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for part in values.chunks(PART) {
+        cancel.check()?;
+        let mut numbers = true;
+        for &value in part {
+            numbers &= !value.is_nan();
+            (least, most) = (least.min(value), most.max(value));
+        }
+        if !numbers {
+            return Ok([Some(f64::NAN); 2]);
+        }
+    }
+    Ok([Some(least), Some(most)])
+}
+
+impl Drop for Sweep {
+    fn drop(&mut self) {
+        // What takes long to give back is given back by somebody for whom nobody waits.
+        let numbers: usize = self.shape().iter().sum();
+        if numbers > PART {
+            give_back((mem::take(&mut self.axes), mem::take(&mut self.squares)));
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a sweep's bank angles do not change: layout sums as constants of a few functions.
 
-use ndarray::Array2;
-
+use super::harmonics::{Harmonics, Rows};
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::balance::zero_factor;
@@ -9,6 +8,7 @@ use crate::cancel::Cancel;
 use crate::engine::{Banks, Engine, Hold, Placement};
 use crate::error::Result;
 use crate::slider_crank::Cylinder;
+use std::ops::Range;
 
 /// How many functions of half the bank angle a layout sum has.
 pub(super) const FUNCTIONS: usize = 4;
@@ -20,21 +20,22 @@ pub(super) type Constants = [Complex64; FUNCTIONS];
 /// A sum over cylinders, order by order.
 pub(super) struct Terms {
     pub constants: Vec<Constants>,
-    /// Σ|terms|; of combined terms, what rounding can leave.
+    /// Σ|terms|.
     pub sizes: Vec<f64>,
 }
 
 /// One engine: cylinders that share their harmonics, and what turns with the pins.
 pub(super) struct EnginePlan {
-    /// Layout sums, and harmonics by (point of rod ratio and offset, order).
-    groups: Vec<(Terms, Array2<Complex64>)>,
-    rotating: Option<Terms>,
+    /// Layout sums, and where their harmonics come from.
+    pub groups: Vec<(Terms, Harmonics)>,
+    pub rotating: Option<Terms>,
     /// What rounding can leave, relative to Σ|terms|.
-    zero_factors: Vec<f64>,
+    pub zero_factors: Vec<f64>,
 }
 
 /// All that does not depend on the bank angle.
 pub(super) struct Plan<'a> {
+    pub sweep: &'a Sweep,
     pub orders: &'a [u32],
     pub hold: Option<Hold>,
     pub engines: Vec<EnginePlan>,
@@ -42,40 +43,23 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    pub fn new(sweep: &'a Sweep, quantity: Quantity, cancel: &Cancel) -> Result<Self> {
+    /// With harmonics worked out once, if the points are passed over that many times.
+    pub fn new(
+        sweep: &'a Sweep,
+        quantity: Quantity,
+        passes: usize,
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let engines = sweep
             .engines
             .iter()
             .zip(&sweep.references)
-            .map(|(engine, &reference)| EnginePlan::new(sweep, engine, reference, quantity, cancel))
+            .map(|(engine, &reference)| {
+                EnginePlan::new(sweep, engine, reference, quantity, passes, cancel)
+            })
             .collect::<Result<_>>()?;
         let hold = sweep.axes.bank_angle.as_ref().map(|&(_, hold)| hold);
-        Ok(Self { orders: &sweep.orders, hold, engines, quantity })
-    }
-
-    /// Layout sums of an engine times its harmonics at a point, all groups together.
-    pub fn combined(&self, engine: usize, point: usize) -> Terms {
-        let plan = &self.engines[engine];
-        let (mut constants, mut sizes) = (Vec::new(), Vec::new());
-        for order in 0..self.orders.len() {
-            let (mut sum, mut size) = (Constants::default(), 0.0);
-            let mut add = |terms: &Terms, factor: Complex64| {
-                // The part that turns backward was conjugated, its harmonic was not.
-                for (sum, constant) in sum.iter_mut().zip(&terms.constants[order]) {
-                    *sum += constant * factor;
-                }
-                size += terms.sizes[order] * factor.norm();
-            };
-            for (terms, harmonics) in &plan.groups {
-                add(terms, harmonics[[point, order]]);
-            }
-            if let Some(terms) = &plan.rotating {
-                add(terms, Complex64::new(1.0, 0.0));
-            }
-            constants.push(sum);
-            sizes.push(size * plan.zero_factors[order]);
-        }
-        Terms { constants, sizes }
+        Ok(Self { sweep, orders: &sweep.orders, hold, engines, quantity })
     }
 }
 
@@ -85,6 +69,7 @@ impl EnginePlan {
         engine: &Engine,
         reference: f64,
         quantity: Quantity,
+        passes: usize,
         cancel: &Cancel,
     ) -> Result<Self> {
         let placements = engine.placements();
@@ -119,7 +104,7 @@ impl EnginePlan {
                 _ => p.cylinder.first_order(),
             };
             let terms = layout.terms(&members, weight, [0.5, 0.5]);
-            Ok((terms, sweep.harmonics(&cylinder, quantity, cancel)?))
+            Ok((terms, Harmonics::new(sweep, cylinder, quantity, passes, cancel)?))
         });
         let groups = groups.collect::<Result<_>>()?;
         let turning: Vec<&Placement> = placements
@@ -140,6 +125,16 @@ impl EnginePlan {
         });
         let zero_factors = sweep.orders.iter().map(|&n| zero_factor(placements.len(), n)).collect();
         Ok(Self { groups, rotating, zero_factors })
+    }
+
+    /// Harmonics of each group at a range of points.
+    pub fn harmonics(
+        &self,
+        sweep: &Sweep,
+        points: &Range<usize>,
+        cancel: &Cancel,
+    ) -> Result<Vec<Rows<'_>>> {
+        self.groups.iter().map(|(_, harmonics)| harmonics.rows(sweep, points, cancel)).collect()
     }
 }
 

@@ -1,183 +1,308 @@
-//! One pass over all points of a sweep, block by block, in parallel.
+//! One pass over all points of a sweep.
+//!
+//! Rows are the combinations of engine, bank angle, rod ratio and offset, in the order of the result;
+//! each is worked out once and then stands at every speed. A unit is a run of rows that lies in one
+//! piece in the result, so that threads write (and the system hands out) memory in order. Each number
+//! is worked out by itself: units may be of any size and in any thread.
+
+use std::ops::{Mul, Range};
 
 use rayon::prelude::*;
 
-use super::block::{BLOCK, Block};
-use super::plan::{Plan, Terms};
+use super::block::{BLOCK, Block, Functions};
+use super::plan::Plan;
+use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
 use crate::simd::vectorised;
 
-/// Points of the other axes between two looks at cancellation.
+/// Most points of rod ratio and offset in a unit.
 const POINTS: usize = 1024;
 /// A result of fewer numbers is not worth waking another thread for (some 30 µs).
 const WORTH_A_THREAD: usize = 1 << 16;
+/// Numbers before speed that are worked out at a time: they stay in the cache.
+const SLAB: usize = 1 << 18;
+/// Numbers at all speeds that are written in one piece.
+const PIECE: usize = 1 << 16;
+/// Bytes of functions of the bank angle that several engines share.
+const MOST_SHARED: usize = 1 << 24;
 
-/// One pass over all points.
+/// What a result holds.
+pub(super) trait Number: Copy + Default + Send + Sync + Mul<f64, Output = Self> {}
+impl Number for f64 {}
+impl Number for Complex64 {}
+
+/// What a row costs beside its phasors.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cost {
+    /// Next to nothing.
+    Small,
+    /// A search for an extremum, some hundred times as much.
+    Large,
+}
+
+/// The rows of a sweep, and how they are divided into units.
 pub(super) struct Run<'a> {
-    plan: &'a Plan<'a>,
-    /// ω² of each speed, less `folded`.
-    squares: &'a [f64],
-    /// ω² of a single speed: it goes into the constants, before magnitudes are taken.
-    folded: f64,
+    bank_angles: &'a [f64],
+    engines: usize,
     /// Points of rod ratio and pin offset.
     points: usize,
-    /// Numbers to a point and speed.
+    /// ω² of each speed.
+    squares: &'a [f64],
+    /// Numbers to a row and speed.
     width: usize,
+    cost: Cost,
     cancel: &'a Cancel,
+}
+
+/// Rows of one engine in one piece: all points at some bank angles, or some points at one.
+struct Unit {
+    engine: usize,
+    angles: Range<usize>,
+    points: Range<usize>,
+}
+
+impl Unit {
+    fn rows(&self) -> usize {
+        self.angles.len() * self.points.len()
+    }
 }
 
 impl<'a> Run<'a> {
     pub fn new(
-        plan: &'a Plan<'a>,
+        [engines, points, width]: [usize; 3],
+        bank_angles: &'a [f64],
         squares: &'a [f64],
-        points: usize,
-        width: usize,
+        cost: Cost,
         cancel: &'a Cancel,
     ) -> Self {
-        let (squares, folded) = match squares {
-            [square] => (&[1.0][..], *square),
-            _ => (squares, 1.0),
-        };
-        Self { plan, squares, folded, points, width, cancel }
+        Self { bank_angles, engines, points, squares, width, cost, cancel }
     }
 
-    /// Blocks of bank angles, each for all engines, in parallel.
-    pub fn over_bank_angles<T>(
-        &self,
-        bank_angles: &[f64],
-        values: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
-    ) -> Result<()>
-    where
-        T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
-    {
-        let row = self.points * self.squares.len() * self.width;
-        let large = values.len() >= WORTH_A_THREAD;
-        let mut by_engine: Vec<_> = values
-            .chunks_mut(bank_angles.len() * row)
-            .map(|engine| engine.chunks_mut(BLOCK * row))
-            .collect();
-        let tasks: Vec<(&[f64], Vec<&mut [T]>)> = bank_angles
-            .chunks(BLOCK)
-            .map(|angles| (angles, by_engine.iter_mut().filter_map(Iterator::next).collect()))
-            .collect();
-        // With one point to an engine its constants serve every block.
-        let engines = 0..self.plan.engines.len();
-        let single: Vec<Terms> = if self.points == 1 {
-            engines.map(|engine| self.plan.combined(engine, 0)).collect()
-        } else {
-            Vec::new()
-        };
-        let work = |block: &mut Block, (angles, outs): (&[f64], Vec<&mut [T]>)| -> Result<()> {
-            vectorised(
-                #[inline(always)]
-                || {
-                    block.set_angles(self.plan, angles);
-                    for (engine, out) in outs.into_iter().enumerate() {
-                        self.cancel.check()?;
-                        if let (Some(terms), 1) = (single.get(engine), self.squares.len()) {
-                            block.set_terms(terms, self.folded);
-                            finish(block, out);
-                        } else {
-                            self.engine_block(engine, block, out, finish)?;
-                        }
-                    }
-                    Ok(())
-                },
-            )
-        };
-        self.run(tasks, large, work)
+    /// Whether bank angles go side by side, or points: whichever leaves fewer places empty.
+    fn angles_abreast(&self) -> bool {
+        let (angles, points) = (self.bank_angles.len(), self.points);
+        let blocks = |rows: usize| rows.div_ceil(BLOCK);
+        points < BLOCK && blocks(angles) * points <= angles * blocks(points)
     }
 
-    /// Work through tasks, in parallel where there is enough of it.
-    fn run<K: Send>(
-        &self,
-        tasks: Vec<K>,
-        large: bool,
-        work: impl Fn(&mut Block, K) -> Result<()> + Sync + Send,
-    ) -> Result<()> {
-        if large {
-            return tasks.into_par_iter().try_for_each_init(|| Block::new(self.plan), work);
+    /// Most bank angles or points in a unit.
+    fn abreast(&self) -> usize {
+        match (self.cost, self.angles_abreast()) {
+            (Cost::Large, _) => 8,
+            (Cost::Small, true) => BLOCK,
+            (Cost::Small, false) => POINTS,
         }
-        let mut block = Block::new(self.plan);
-        tasks.into_iter().try_for_each(|task| work(&mut block, task))
     }
 
-    /// One engine at the block's bank angles: every point of the other axes.
-    #[inline(always)]
-    fn engine_block<T>(
+    /// How often each point is passed over.
+    pub fn passes(&self) -> usize {
+        let angles = self.bank_angles.len();
+        if self.angles_abreast() { angles.div_ceil(self.abreast()) } else { angles }
+    }
+
+    fn units(&self) -> usize {
+        let runs = if self.angles_abreast() {
+            self.bank_angles.len().div_ceil(self.abreast())
+        } else {
+            self.bank_angles.len() * self.points.div_ceil(self.abreast())
+        };
+        self.engines * runs
+    }
+
+    /// Units in the order of their rows.
+    fn unit(&self, index: usize) -> Unit {
+        let (angles, abreast) = (self.bank_angles.len(), self.abreast());
+        let part =
+            |index: usize, length: usize| index * abreast..((index + 1) * abreast).min(length);
+        if self.angles_abreast() {
+            let runs = angles.div_ceil(abreast);
+            let (engine, run) = (index / runs, index % runs);
+            return Unit { engine, angles: part(run, angles), points: 0..self.points };
+        }
+        let runs = self.points.div_ceil(abreast);
+        let (row, run) = (index / runs, index % runs);
+        let (engine, angle) = (row / angles, row % angles);
+        Unit { engine, angles: angle..angle + 1, points: part(run, self.points) }
+    }
+
+    /// Work out every row, slab by slab, and write it at every speed.
+    pub fn fill<T: Number>(
         &self,
-        engine: usize,
-        block: &mut Block,
-        out: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
-    ) -> Result<()>
-    where
-        T: Copy + Default + std::ops::Mul<f64, Output = T>,
-    {
-        let (speeds, width) = (self.squares.len(), self.width);
-        let mut unscaled = vec![T::default(); block.count * width];
-        for point in 0..self.points {
-            self.cancel.check()?;
-            block.set_terms(&self.plan.combined(engine, point), self.folded);
-            finish(block, &mut unscaled);
-            for (i, values) in unscaled.chunks_exact(width).enumerate() {
-                let start = (i * self.points + point) * speeds * width;
-                scale(values, self.squares, &mut out[start..start + speeds * width]);
+        plan: &Plan,
+        values: &mut [T],
+        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+    ) -> Result<()> {
+        let units = self.units();
+        let largest =
+            if self.angles_abreast() { self.abreast() * self.points } else { self.abreast() };
+        let speeds = self.squares.len();
+        let together = (SLAB / (largest * self.width)).max(1);
+        self.cancel.expect(units);
+        let shared = self.shared(plan);
+        let mut before_speed = Vec::new();
+        let mut rest = values;
+        for first in (0..units).step_by(together) {
+            let slab: Vec<Unit> =
+                (first..units.min(first + together)).map(|k| self.unit(k)).collect();
+            let rows: usize = slab.iter().map(Unit::rows).sum();
+            let (out, after) = rest.split_at_mut(rows * speeds * self.width);
+            rest = after;
+            if speeds == 1 {
+                self.rows(plan, &shared, slab, out, finish)?;
+                continue;
             }
+            before_speed.resize(rows * self.width, T::default());
+            self.rows(plan, &shared, slab, &mut before_speed, finish)?;
+            self.at_every_speed(&before_speed, out)?;
         }
         Ok(())
     }
 
-    /// Few bank angles or none: runs of the other points, in parallel.
-    pub fn over_other_axes<T>(
+    /// Functions of the bank angle by run of angles, where several engines have use for them.
+    fn shared(&self, plan: &Plan) -> Vec<Functions> {
+        let runs = self.bank_angles.chunks(self.abreast());
+        let bytes = runs.len() * plan.orders.len() * size_of::<[[f64; BLOCK]; 4]>();
+        if self.engines == 1 || !self.angles_abreast() || bytes > MOST_SHARED {
+            return Vec::new();
+        }
+        vectorised(
+            #[inline(always)]
+            || {
+                runs.map(|angles| {
+                    let mut functions = Functions::new(plan);
+                    functions.set(plan, angles);
+                    functions
+                })
+                .collect()
+            },
+        )
+    }
+
+    /// Rows of some units, before speed or at the only one.
+    fn rows<T: Number>(
         &self,
-        bank_angles: &[f64],
-        values: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) + Sync),
-    ) -> Result<()>
-    where
-        T: Copy + Default + Send + Sync + std::ops::Mul<f64, Output = T>,
-    {
-        let (speeds, width) = (self.squares.len(), self.width);
-        let large = values.len() >= WORTH_A_THREAD;
-        let tasks: Vec<(usize, usize, &mut [T])> = values
-            .chunks_mut(self.points * speeds * width)
-            .enumerate()
-            .flat_map(|(engine, out)| {
-                let parts = out.chunks_mut(POINTS * width).enumerate();
-                parts.map(move |(part, out)| (engine, part * POINTS, out))
-            })
-            .collect();
-        let work =
-            |block: &mut Block, (engine, first, out): (usize, usize, &mut [T])| -> Result<()> {
-                self.cancel.check()?;
-                block.set_angles(self.plan, bank_angles);
-                let mut unscaled = vec![T::default(); width];
-                let (mut at, mut rest) = (first, out);
-                while !rest.is_empty() {
+        plan: &Plan,
+        shared: &[Functions],
+        units: Vec<Unit>,
+        mut out: &mut [T],
+        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+    ) -> Result<()> {
+        let weight = if self.cost == Cost::Large { 256 } else { 1 };
+        let large = out.len() * weight >= WORTH_A_THREAD;
+        let mut tasks = Vec::with_capacity(units.len());
+        for unit in units {
+            let (rows, after) = out.split_at_mut(unit.rows() * self.width);
+            tasks.push((unit, rows));
+            out = after;
+        }
+        let work = |block: &mut _, (unit, out): (Unit, &mut [T])| {
+            self.cancel.step()?;
+            self.unit_rows(plan, shared, block, &unit, out, finish)
+        };
+        if large {
+            return tasks.into_par_iter().try_for_each_init(|| Block::new(plan), work);
+        }
+        let mut block = Block::new(plan);
+        tasks.into_iter().try_for_each(|task| work(&mut block, task))
+    }
+
+    fn unit_rows<'s, T: Number>(
+        &self,
+        plan: &Plan,
+        shared: &'s [Functions],
+        block: &mut Block<'s>,
+        unit: &Unit,
+        out: &mut [T],
+        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+    ) -> Result<()> {
+        let engine = &plan.engines[unit.engine];
+        let harmonics = engine.harmonics(plan.sweep, &unit.points, self.cancel)?;
+        let angles = &self.bank_angles[unit.angles.clone()];
+        let width = self.width;
+        vectorised(
+            #[inline(always)]
+            || {
+                match shared.get(unit.angles.start / self.abreast()) {
+                    Some(functions) => block.share(functions),
+                    None => block.set_angles(plan, angles),
+                }
+                if !self.angles_abreast() {
+                    let firsts = unit.points.clone().step_by(BLOCK);
+                    for (first, out) in firsts.zip(out.chunks_mut(BLOCK * width)) {
+                        self.cancel.check()?;
+                        block.set_points(engine, &harmonics, first, out.len() / width);
+                        finish(block, out)?;
+                        self.at_only_speed(out);
+                    }
+                    return Ok(());
+                }
+                if self.points == 1 {
+                    block.set_point(engine, &harmonics, 0, angles.len());
+                    finish(block, out)?;
+                    self.at_only_speed(out);
+                    return Ok(());
+                }
+                let mut at_point = vec![T::default(); angles.len() * width];
+                for point in unit.points.clone() {
                     self.cancel.check()?;
-                    let (point, speed) = (at / speeds, at % speeds);
-                    let here = (speeds - speed).min(rest.len() / width);
-                    block.set_terms(&self.plan.combined(engine, point), self.folded);
-                    finish(block, &mut unscaled);
-                    let (rows, after) = rest.split_at_mut(here * width);
-                    scale(&unscaled, &self.squares[speed..speed + here], rows);
-                    (at, rest) = (at + here, after);
+                    block.set_point(engine, &harmonics, point, angles.len());
+                    finish(block, &mut at_point)?;
+                    self.at_only_speed(&mut at_point);
+                    let rows = out.chunks_exact_mut(width).skip(point).step_by(self.points);
+                    rows.zip(at_point.chunks_exact(width))
+                        .for_each(|(out, row)| out.copy_from_slice(row));
                 }
                 Ok(())
-            };
-        self.run(tasks, large, work)
+            },
+        )
+    }
+
+    /// Times ω² where there is one speed. It is never a factor of anything but the result, so that a
+    /// value at one of many speeds has the same bits.
+    #[inline(always)]
+    fn at_only_speed<T: Number>(&self, values: &mut [T]) {
+        if let [square] = self.squares {
+            for value in values {
+                *value = *value * *square;
+            }
+        }
+    }
+
+    /// Every row at every speed.
+    fn at_every_speed<T: Number>(&self, rows: &[T], out: &mut [T]) -> Result<()> {
+        let (speeds, width) = (self.squares.len(), self.width);
+        let piece = (PIECE / width).max(1);
+        let write = |(part, mut out): (usize, &mut [T])| -> Result<()> {
+            self.cancel.check()?;
+            let mut at = part * piece;
+            while !out.is_empty() {
+                let (row, speed) = (at / speeds, at % speeds);
+                let here = (speeds - speed).min(out.len() / width);
+                let (values, after) = out.split_at_mut(here * width);
+                let squares = &self.squares[speed..speed + here];
+                scale(&rows[row * width..(row + 1) * width], squares, values);
+                (at, out) = (at + here, after);
+            }
+            Ok(())
+        };
+        if out.len() >= WORTH_A_THREAD {
+            return out.par_chunks_mut(piece * width).enumerate().try_for_each(write);
+        }
+        out.chunks_mut(piece * width).enumerate().try_for_each(write)
     }
 }
 
-/// The values of one point at every speed.
-#[inline(always)]
-fn scale<T: Copy + std::ops::Mul<f64, Output = T>>(values: &[T], squares: &[f64], rows: &mut [T]) {
-    for (&square, row) in squares.iter().zip(rows.chunks_exact_mut(values.len())) {
-        for (out, &value) in row.iter_mut().zip(values) {
-            *out = value * square;
-        }
-    }
+/// A row's values at some speeds.
+fn scale<T: Number>(values: &[T], squares: &[f64], out: &mut [T]) {
+    vectorised(
+        #[inline(always)]
+        || {
+            for (&square, out) in squares.iter().zip(out.chunks_exact_mut(values.len())) {
+                for (out, &value) in out.iter_mut().zip(values) {
+                    *out = value * square;
+                }
+            }
+        },
+    );
 }

@@ -1,0 +1,137 @@
+"""How long does it take from Ctrl-C to the exception, at any moment of any long call?
+
+``python benchmarks/interrupts.py`` starts each call again and again, sends SIGINT some time after,
+and prints the longest time until ``KeyboardInterrupt`` is caught and the call's memory given back.
+"""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from _timing import machine, print_table, write_csv
+
+CALLS = {
+    "sweep, 20 million rod ratios: peaks of sums": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).moment_sum_peak_xy"
+    ),
+    "sweep, 20 million rod ratios: phasors": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment"
+    ),
+    "sweep, 20 million rod ratios: torque": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).torque"
+    ),
+    "sweep, 20 million bank angles, offset": (
+        "cp.sweep(v6, rpm=1000, bank_angle_deg=angles, hold='pins', pin_offset=1e-3).moment"
+    ),
+    "sweep, 20 million speeds": "cp.sweep(v6, rpm=speeds, orders=[1, 2, 4, 6]).moment",
+    "sweep, bank angle × rod ratio × speed": (
+        "cp.sweep(v6, rpm=speeds[::20_000], bank_angle_deg=angles[::100_000], hold='pins', "
+        "rod_ratio=ratios[::40_000], orders=[2]).moment"
+    ),
+    "sweep, orders chosen": "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders='auto').force",
+    "sweep, a list of 20 million numbers": "cp.sweep(v6, rpm=1000, rod_ratio=listed).force",
+    "harmonics": "cp.slider_crank_harmonics(ratios, range(1, 21))",
+    "harmonics with an offset, λ = 0.9999": (
+        "cp.slider_crank_harmonics(near_one, range(1, 5), 1e-7)"
+    ),
+    "waveform, kinematics": "v6.waveform(1000, thetas).moment",
+    "waveform, 299 orders": ("v6.waveform(1000, thetas, orders=range(1, 300)).moment"),
+    "search of a V-26": "cp.search_arrangements(26)",
+    "ranking, 10 million bank angles": (
+        "cp.rank(v6, rpm=1000, bank_angle_deg=angles[::2], hold='pins')"
+    ),
+}
+MOMENTS = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0)
+"""Seconds after the start of a call."""
+
+PROGRAM = """
+import sys, time
+import numpy as np
+import crankpin as cp
+v6 = cp.Engine.preset("v6-60")
+ratios = np.linspace(0.1, 0.5, 20_000_000)
+angles = np.linspace(0, 180, 20_000_000)
+speeds = np.linspace(500, 9000, 20_000_000)
+near_one = np.full(20_000_000, 0.9999)
+thetas = np.linspace(0, 720, 20_000_000)
+listed = ratios.tolist() if "listed" in {call!r} else None
+for line in sys.stdin:
+    try:
+        print("begun", flush=True)
+        {call}
+        ended = "done"
+    except KeyboardInterrupt:
+        ended = time.monotonic()
+    except Exception as error:
+        ended = type(error).__name__
+    print(ended, flush=True)
+"""
+
+
+def latencies(call: str) -> list[float | str]:
+    """Return the time until the call stopped, for each moment, or what it did instead."""
+    found: list[float | str] = []
+    with subprocess.Popen(  # noqa: S603 - this interpreter
+        [sys.executable, "-c", PROGRAM.format(call=call)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        told, heard = process.stdin, process.stdout
+        assert told is not None  # noqa: S101
+        assert heard is not None  # noqa: S101
+        for moment in MOMENTS:
+            told.write("go\n")
+            told.flush()
+            heard.readline()
+            time.sleep(moment)
+            sent = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            ended = heard.readline().strip()
+            try:
+                found.append(float(ended) - sent)
+            except ValueError:
+                # The call was over before: the signal met the wait for the next.
+                found.append(ended or "over")
+                break
+        process.kill()
+    return found
+
+
+def main() -> None:
+    """Print the table and write every latency."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--out", type=Path, default=Path(__file__).parent / "out")
+    parser.add_argument("--only", default="", help="calls whose name has this in it")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    ran_on = machine()
+    print(ran_on)
+    table, rows = [], []
+    for name, call in CALLS.items():
+        if arguments.only not in name:
+            continue
+        found = latencies(call)
+        times = [latency for latency in found if isinstance(latency, float)]
+        rows += [(name, moment, latency) for moment, latency in zip(MOMENTS, found, strict=False)]
+        worst = max(times, default=np.nan)
+        table.append(
+            [
+                name,
+                str(len(times)),
+                f"{np.median(times or [np.nan]) * 1e3:.0f} ms",
+                f"{worst * 1e3:.0f} ms",
+            ]
+        )
+    write_csv(arguments.out / "interrupts.csv", ran_on, ("call", "sent_after", "latency"), rows)
+    print_table("From Ctrl-C to the exception", ["call", "signals", "median", "longest"], table)
+
+
+if __name__ == "__main__":
+    main()

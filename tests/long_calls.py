@@ -1,0 +1,82 @@
+"""Every call that works in parallel, small enough for a test and large enough to be divided.
+
+Run as a program it prints a hash of each result.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+
+import crankpin as cp
+import numpy as np
+
+V6, V8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
+RNG = np.random.default_rng(7)
+RATIOS = RNG.uniform(0.1, 0.95, 30_000)
+OFFSETS = RNG.uniform(-0.04, 0.04, 30_000)
+
+
+def over_bank_angles() -> cp.Sweep:
+    """Return a sweep whose bank angles go side by side."""
+    angles = np.linspace(0, 180, 3001)
+    return cp.sweep([V6, V8], rpm=[1000, 5000], bank_angle_deg=angles, hold="pins", rod_ratio=0.3)
+
+
+def over_rod_ratios() -> cp.Sweep:
+    """Return a sweep whose rod ratios go side by side."""
+    angles = np.linspace(0, 180, 3)
+    return cp.sweep(
+        V6, rpm=5000, bank_angle_deg=angles, hold="firing", rod_ratio=RATIOS[:9000], pin_offset=1e-3
+    )
+
+
+def over_speeds() -> cp.Sweep:
+    """Return a sweep of few points at many speeds."""
+    return cp.sweep(V8, rpm=np.linspace(500, 9000, 20_001), rod_ratio=RATIOS[:3])
+
+
+def ranking() -> np.ndarray:
+    """Return the bank angles of a ranking between the given ones."""
+    found = cp.rank(
+        [V6, V8], rpm=1000, bank_angle_deg=np.linspace(0, 180, 2001), hold="pins", refine=True
+    )
+    return np.concatenate([choice.bank_angles_deg for choice in found])
+
+
+CALLS: dict[str, Callable[[], object]] = {
+    "phasors by bank angle": lambda: over_bank_angles().moment,
+    "phasors by rod ratio": lambda: over_rod_ratios().force,
+    "phasors by speed": lambda: over_speeds().moment,
+    "torque": lambda: over_rod_ratios().torque,
+    "peaks by bank angle": lambda: over_bank_angles().moment_peak_xy,
+    "peaks by rod ratio": lambda: over_rod_ratios().moment_peak_vector,
+    "peaks of sums by bank angle": lambda: over_bank_angles().moment_sum_peak_xy,
+    "peaks of sums by rod ratio": lambda: over_rod_ratios().force_sum_peak_vector,
+    "orders of a sweep": lambda: repr(
+        (s := cp.sweep(V8, rpm=1000, rod_ratio=RATIOS[:9000], orders="auto")).orders + s.error_bound
+    ),
+    "harmonics": lambda: cp.slider_crank_harmonics(RATIOS, range(1, 9)),
+    "harmonics with an offset": lambda: cp.slider_crank_harmonics(RATIOS, range(1, 9), OFFSETS),
+    "waveform from kinematics": lambda: V8.waveform(5000, np.linspace(0, 720, 50_001)).moment,
+    "waveform from orders": lambda: (
+        V8.waveform(5000, np.linspace(0, 720, 50_001), orders=range(1, 20)).force
+    ),
+    "vanishing orders": lambda: repr(V8.vanishing_orders()),
+    "ranking": ranking,
+    "search": lambda: cp.search_arrangements(14).bank_angles_deg,
+    "search, angles in a window": lambda: (
+        cp.search_arrangements(22).within(60, 60.01).bank_angles_deg
+    ),
+}
+
+
+def digest(result: object) -> str:
+    """Return a hash of a result's bits."""
+    content = result.tobytes() if isinstance(result, np.ndarray) else str(result).encode()
+    return hashlib.sha256(content).hexdigest()
+
+
+if __name__ == "__main__":
+    for name, call in CALLS.items():
+        print(f"{name}: {digest(call())}")

@@ -1,0 +1,80 @@
+"""Do results depend on threads, and is it told how far they have come?"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import crankpin as cp
+import long_calls
+import numpy as np
+import pytest
+
+
+def hashes(threads: str) -> str:
+    return subprocess.run(  # noqa: S603 - this interpreter
+        [sys.executable, str(Path(long_calls.__file__))],
+        env=os.environ | {"RAYON_NUM_THREADS": threads},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+
+
+def test_any_number_of_threads_finds_the_same_bits() -> None:
+    alone = hashes("1")
+    assert alone.count("\n") == len(long_calls.CALLS)
+    for threads in ("2", "3", "7"):
+        assert hashes(threads) == alone
+
+
+def test_several_python_threads_at_once_find_the_same_bits() -> None:
+    names = list(long_calls.CALLS)
+    alone = {name: long_calls.digest(long_calls.CALLS[name]()) for name in names}
+    found: list[tuple[str, str]] = []
+    together = threading.Barrier(8)
+
+    def work(first: int) -> None:
+        together.wait()
+        # each thread begins with another call, so that all kinds meet
+        order = names[first:] + names[:first]
+        found.extend((name, long_calls.digest(long_calls.CALLS[name]())) for name in order)
+
+    threads = [threading.Thread(target=work, args=(2 * k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 8 * len(names)
+    assert all(alone[name] == hashed for name, hashed in found)
+
+
+def test_a_sweep_tells_its_progress() -> None:
+    told: list[tuple[int, int]] = []
+    sweep = cp.sweep(
+        cp.Engine.preset("v6-60"),
+        rpm=[1000, 2000],
+        rod_ratio=np.linspace(0.2, 0.4, 20_000),
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert told == []
+    for name in ("moment", "torque_sum_peak"):
+        assert getattr(sweep, name).any()
+        assert told == sorted(told)
+        assert told[-1][0] == told[-1][1] > 1
+        told.clear()
+    again = pickle.loads(pickle.dumps(sweep))  # noqa: S301 - its own
+    assert np.array_equal(again.force, sweep.force)
+
+
+def test_what_progress_raises_stops_a_sweep() -> None:
+    def stop(done: int, total: int) -> None:
+        raise LookupError(f"{done} of {total}")
+
+    sweep = cp.sweep(cp.Engine.preset("v6-60"), rpm=range(1, 9000), progress=stop)
+    with pytest.raises(LookupError):
+        _ = sweep.force
