@@ -36,7 +36,7 @@ pub fn write_centred(
     cancel: &Cancel,
 ) -> Result<()> {
     let rtol = rtol.map_or(Ok(ALL_DIGITS), limits::tolerance)?;
-    let longest = Horner::tables(orders, rtol);
+    let longest = Horner::tables(orders, rtol, rod_ratios);
     fill(rod_ratios.len(), orders.len(), out, cancel, |range, rows| {
         centred_rows(&rod_ratios[range], orders, rtol, &longest, rows, cancel)
     })
@@ -199,27 +199,31 @@ struct Horner {
 }
 
 impl Horner {
-    /// Rod ratios up to here take at most as many terms as a table holds.
-    const LARGEST_ROD_RATIO: f64 = 0.9;
-    /// p⁴ there: p = 0.62678…
-    const LARGEST_FOURTH: f64 = 0.155;
+    /// Rod ratios up to here take at most 68 terms, whose roundings are a few units in the last place.
+    const LARGEST_ROD_RATIO: f64 = 0.99;
 
-    fn tables(orders: &[u32], rtol: f64) -> Vec<Self> {
-        let count = (NEGLIGIBLE_LOG / -Self::LARGEST_FOURTH.ln()).ceil() as usize;
-        orders.iter().map(|&n| Self::new(n, count, rtol)).collect()
+    /// A table for each order, as long as the largest of the rod ratios needs.
+    fn tables(orders: &[u32], rtol: f64, rod_ratios: &[f64]) -> Vec<Self> {
+        let within = rod_ratios.iter().filter(|&&λ| λ <= Self::LARGEST_ROD_RATIO);
+        // Others' lanes are filled with 1/2.
+        let largest = within.fold(0.5_f64, |a, &b| a.max(b));
+        let fourth = (largest / (1.0 + ((1.0 - largest) * (1.0 + largest)).sqrt())).powi(4);
+        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil() as usize + 1;
+        let negligible: Vec<f64> = (0..count).map(|j| (-NEGLIGIBLE_LOG / j as f64).exp()).collect();
+        orders.iter().map(|&n| Self::new(n, &negligible, fourth, rtol)).collect()
     }
 
-    fn new(n: u32, count: usize, rtol: f64) -> Self {
+    /// `negligible` has for each term the p⁴ up to which it is below rounding.
+    fn new(n: u32, negligible: &[f64], largest_fourth: f64, rtol: f64) -> Self {
         let m = f64::from(n / 2);
         let mut term = 0.5 * (m - 0.5) / (m + 1.0);
-        let mut terms = Vec::with_capacity(count);
+        let mut terms = Vec::with_capacity(negligible.len());
         // From term j on all are below |b_j| p^{4j}/(1 − p⁴), and |b| ≤ 1/2.
-        let missing = 2.0 * (1.0 - Self::LARGEST_FOURTH) * may_be_missing(n, rtol);
-        for j in 1..=count {
-            let index = j as f64;
-            let negligible = (-NEGLIGIBLE_LOG / (index - 1.0)).exp();
-            terms.push((term, negligible.max(missing.powf(1.0 / index))));
-            term *= next_term(index, m);
+        let missing = 2.0 * (1.0 - largest_fourth) * may_be_missing(n, rtol);
+        for (j, &negligible) in (1_u32..).zip(negligible) {
+            let within = if missing > 0.0 { missing.powf(1.0 / f64::from(j)) } else { 0.0 };
+            terms.push((term, negligible.max(within)));
+            term *= next_term(f64::from(j), m);
         }
         Self { leading: leading(n), terms }
     }
