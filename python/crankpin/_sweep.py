@@ -151,10 +151,9 @@ def sweep(
         "rpm": rpm,
     }
     arrays = {
-        name: _inputs.array(name, values)
-        for name, values in given.items()
-        if values is not None or name == "rpm"
+        name: _inputs.array(name, values) for name, values in given.items() if values is not None
     }
+    arrays["rpm"] = _inputs.array("rpm", rpm)
     ranks = {name: values.ndim for name, values in arrays.items()}
     axes = {name: _inputs.vector(name, values) for name, values in arrays.items()}
     wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)

@@ -333,6 +333,53 @@ mod tests {
         }
     }
 
+    #[test]
+    fn angles_have_a_largest() {
+        let largest = LARGEST_ANGLE as i64;
+        assert_eq!(Angle::from_degrees(LARGEST_ANGLE).unwrap().degrees(), LARGEST_ANGLE);
+        assert!(Angle::from_degrees(LARGEST_ANGLE.next_up()).is_err());
+        assert_eq!(Angle::from_degree_fraction(largest, 1).unwrap().degrees(), LARGEST_ANGLE);
+        assert!(Angle::from_degree_fraction(largest + 1, 1).is_err());
+        assert!(Angle::from_degree_fraction(-largest - 1, 1).is_err());
+    }
+
+    #[test]
+    fn fractions_of_large_denominator_are_degrees() {
+        let denominator = 7_000_000_001;
+        let angle = Angle::from_degree_fraction(1_000_000_000_001, denominator).unwrap();
+        assert_eq!(angle, Angle::Degrees(1_000_000_000_001.0 / denominator as f64));
+        let small = Angle::Turns(1, LARGEST_DENOMINATOR - 1);
+        let half = 180.0 / (LARGEST_DENOMINATOR - 1) as f64;
+        assert_eq!(small.half(), Angle::Degrees(half));
+        assert_eq!(Angle::Turns(2, 7).half(), Angle::Turns(1, 7));
+        assert_eq!(Angle::Turns(1, 7).half(), Angle::Turns(1, 14));
+        assert_eq!(Angle::from_degree_fraction(90, -1), Ok(Angle::Turns(-1, 4)));
+        assert_eq!(Angle::from_degree_fraction(-90, -2), Ok(Angle::Turns(1, 8)));
+        assert_eq!(Angle::from_degree_fraction(0, -5), Ok(Angle::ZERO));
+    }
+
+    /// n·angle reduced to a turn exactly, in integers: a double of degrees is whole over 2^40 here.
+    #[test]
+    fn high_orders_of_any_angle_keep_their_phase() {
+        let scale = 1_i128 << 40;
+        for k in 1..50_i64 {
+            let degrees = 123.0 + (7919 * k) as f64 / scale as f64 * 1e6;
+            let degrees = (degrees * scale as f64).round() / scale as f64;
+            let whole = (degrees * scale as f64) as i128;
+            for n in [1, 3, 9_999, -10_000, 123_456_789] {
+                let rest = (whole * n).rem_euclid(360 * scale) as f64 / scale as f64;
+                let exact = Complex64::cis(rest.to_radians());
+                // Both argument and unit are rounded: 2π·1.1e-16, and some units of the sine.
+                assert!((Angle::Degrees(degrees).cis(n as i64) - exact).norm() < 3e-15);
+            }
+        }
+        // Where the product overflows 64 bits as where it does not.
+        let large = Angle::Turns(i64::MAX / 5, 7);
+        let small = Angle::Turns((i64::MAX / 5) % 7, 7);
+        assert_eq!(large.cis(10_000), small.cis(10_000));
+        assert_eq!(large.cis(-10_001), small.cis(-10_001));
+    }
+
     proptest! {
         #[test]
         fn text_reads_back(numerator in -10_000_i64..10_000, denominator in 1_i64..5_000) {

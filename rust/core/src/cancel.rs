@@ -57,3 +57,20 @@ pub fn give_back<T: Send + 'static>(value: T) {
     // Where no thread is to be had it is dropped here.
     drop(std::thread::Builder::new().spawn(move || drop(value)));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_counted_and_stop_when_asked() {
+        let cancel = Cancel::new();
+        cancel.expect(3);
+        cancel.expect(4);
+        assert_eq!((cancel.step(), cancel.step()), (Ok(()), Ok(())));
+        assert_eq!(cancel.progress(), (2, 7));
+        cancel.raise();
+        assert_eq!((cancel.check(), cancel.step()), (Err(Error::Cancelled), Err(Error::Cancelled)));
+        assert_eq!(cancel.progress(), (3, 7));
+    }
+}

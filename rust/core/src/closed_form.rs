@@ -244,6 +244,64 @@ mod tests {
         assert!(form.phasors[3].square.iter().all(|&c| c == 0));
     }
 
+    /// c₀ + Σ cₖ·2cos(2πk/N).
+    fn value(coefficients: &[i128], period: i128) -> f64 {
+        let cosine = |k: usize| match k {
+            0 => 1.0,
+            _ => 2.0 * (std::f64::consts::TAU * k as f64 / period as f64).cos(),
+        };
+        coefficients.iter().enumerate().map(|(k, &c)| c as f64 * cosine(k)).sum()
+    }
+
+    #[test]
+    fn closed_forms_are_the_balance() {
+        let turning = |engine: &Engine| {
+            let with = |(i, p): (usize, &Placement)| Placement {
+                rotating_mass: if i == 1 { 0.75 } else { 0.0 },
+                ..*p
+            };
+            let places = engine.placements().iter().enumerate().map(with).collect();
+            Engine::new("", "", places).unwrap()
+        };
+        let v8 = crossplane();
+        let two = Engine::new("", "", v8.placements()[1..3].to_vec()).unwrap();
+        let single = Engine::new("", "", v8.placements()[..1].to_vec()).unwrap();
+        for engine in [turning(&v8), turning(&two), v8, two, single] {
+            for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
+                for moment in [false, true] {
+                    let form = closed_form(&engine, order, moment, reference).unwrap();
+                    let rpm = 60.0 / std::f64::consts::TAU;
+                    let orders = crate::Orders::Given(vec![order]);
+                    let found =
+                        crate::balance::balance(&engine, rpm, &orders, reference, None).unwrap();
+                    let shake = if moment { found.moment } else { found.force };
+                    let cylinder = engine.placements()[form.unit].cylinder;
+                    let harmonic =
+                        crate::harmonics::coefficients(&cylinder.proportions(), &[order])[0];
+                    let length = if moment { form.spacing } else { 1.0 };
+                    let unit = harmonic.re * cylinder.first_order() * length;
+                    let expected =
+                        [shake.xy[[0, 0]], shake.xy[[0, 1]], shake.forward[0], shake.backward[0]];
+                    let denominator = form.denominator as f64;
+                    for (phasor, expected) in form.phasors.iter().zip(expected) {
+                        let real = value(&phasor.real, form.period) / denominator * unit;
+                        let imaginary = value(&phasor.imaginary, form.period) / denominator * unit;
+                        let size = value(&phasor.square, form.period).max(0.0).sqrt();
+                        let size = size / denominator * unit.abs();
+                        // Eight cylinders of m·r = 0.025 kg·m, levers of half a metre: 1e-16 each;
+                        // a size that is zero is the root of what rounding leaves.
+                        assert!((real - expected.re).abs() < 1e-14, "{order} {moment} {phasor:?}");
+                        assert!((imaginary - expected.im).abs() < 1e-14, "{order} {moment}");
+                        assert!((size - expected.norm()).abs() < 1e-9, "{order} {moment}");
+                    }
+                    assert!(!form.no_harmonic);
+                }
+            }
+            let none = |order| closed_form(&engine, order, false, None).unwrap().no_harmonic;
+            assert!(none(3) && none(5) && !none(1) && !none(6));
+        }
+    }
+
     #[test]
     fn what_has_none_is_refused_with_the_reason() {
         let mut places = crossplane().placements().to_vec();

@@ -287,6 +287,7 @@ pub fn cyclotomic(n: i128) -> Result<Vec<i128>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Complex64;
     use std::f64::consts::TAU;
 
     /// A generator of the same numbers each time.
@@ -419,6 +420,25 @@ mod tests {
         let one = sum_of_period(5, &[(1, 1)]).twice_real().unwrap();
         let other = sum_of_period(5, &[(0, -1), (2, -1), (3, -1), (4, -1)]).twice_real().unwrap();
         assert_eq!(one, other);
+    }
+
+    #[test]
+    fn sums_turn_and_are_mirrored_as_the_numbers_they_are() {
+        let value = |sum: &RootSum| -> Complex64 {
+            let angle = |e: i128| TAU * e as f64 / sum.period() as f64;
+            sum.terms.iter().map(|&(e, w)| Complex64::cis(angle(e)) * w as f64).sum()
+        };
+        let near = |a: Complex64, b: Complex64| assert!((a - b).norm() < 1e-13, "{a} {b}");
+        for period in [1, 2, 12, 15] {
+            let sum = sum_of_period(period, &[(0, 3), (1, -2), (4, 5), (7, 1)]);
+            assert_eq!(sum.period(), period);
+            near(value(&sum.conjugate()), value(&sum).conj());
+            for k in -2..=2 * period {
+                let turn = Complex64::cis(TAU * k as f64 / period as f64);
+                near(value(&sum.turned(k, period)), value(&sum) * turn);
+                near(value(&sum.turned(2 * k, 2 * period)), value(&sum) * turn);
+            }
+        }
     }
 
     #[test]

@@ -256,9 +256,27 @@ mod tests {
     }
 
     #[test]
+    fn an_engine_tells_what_it_is_made_of() {
+        let engine = vee(60.0, 120.0).named("V2", "a drawing").unwrap();
+        assert_eq!((engine.name(), engine.source()), ("V2", "a drawing"));
+        assert_eq!((engine.middle(), engine.largest_crank_radius()), (0.05, 0.05));
+        assert_eq!(engine.longest_lever(0.0), 0.1);
+        assert_eq!((engine.longest_lever(0.25), engine.longest_lever(-0.25)), (0.25, 0.35));
+        assert_eq!(vee(180.0, 0.0).banks().unwrap().right, degrees(0.0));
+        for angle in [0.0, 45.0, 180.0] {
+            assert_eq!(bank_angle_in_range(angle), Ok(angle));
+        }
+        for angle in [-1e-9, 180.1, f64::NAN] {
+            assert!(bank_angle_in_range(angle).is_err());
+        }
+    }
+
+    #[test]
     fn turning_back_gives_the_same_engine() {
         let engine = vee(60.0, 120.0);
         let turned = engine.with_first_tdc(degrees(17.3)).unwrap();
+        assert_eq!(turned.placements()[0].tdc, degrees(17.3));
+        assert_eq!(turned.placements()[1].tdc, degrees(17.3 - 30.0).reduced());
         assert_eq!(turned.with_first_tdc(degrees(30.0)).unwrap(), engine);
     }
 }

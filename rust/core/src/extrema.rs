@@ -232,6 +232,44 @@ mod tests {
         assert!((finder.of_vector(&quartic, &[Complex64::default(); 2]) - 5.0 / 3.0).abs() < 1e-14);
     }
 
+    #[test]
+    fn vectors_are_longest_where_samples_are() {
+        let orders = [1, 2, 5];
+        let parts = |a: f64| {
+            orders.map(|n| Complex64::new((a * f64::from(n)).sin(), (a + f64::from(n * n)).cos()))
+        };
+        for k in 0..20 {
+            let (x, y) = (parts(0.37 * f64::from(k)), parts(1.0 + 0.61 * f64::from(k)));
+            let length = |sample: u32| {
+                let θ = f64::from(sample) * TAU / 20_000.0;
+                let along = |phasors: &[Complex64; 3]| -> f64 {
+                    let terms = orders.iter().zip(phasors);
+                    terms.map(|(&n, p)| (p * Complex64::cis(f64::from(n) * θ)).re).sum()
+                };
+                along(&x).hypot(along(&y))
+            };
+            let dense = (0..20_000).map(length).fold(0.0, f64::max);
+            // Large and small vectors alike: they are scaled.
+            for scale in [1.0, 1e-200, 1e200] {
+                let scaled = |phasors: [Complex64; 3]| phasors.map(|p| p * scale);
+                let peak = PeakFinder::new(&orders).of_vector(&scaled(x), &scaled(y)) / scale;
+                // Rounding of twelve terms; half a step of 20 000 at order 5, of a length below 5.
+                assert!(dense <= peak + 1e-13 && peak <= dense + 2e-6, "{dense} {peak}");
+            }
+        }
+        assert_eq!(PeakFinder::new(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
+    }
+
+    #[test]
+    fn orders_in_any_order_and_with_a_common_factor() {
+        let phasors = [1.0, 0.7, -0.4].map(|re| Complex64::new(re, 0.3 * re * re));
+        let [a, b, c] = phasors;
+        let peak = PeakFinder::new(&[2, 6, 8]).along_axis(&phasors);
+        assert!((PeakFinder::new(&[8, 2, 6]).along_axis(&[c, a, b]) - peak).abs() < 1e-14);
+        assert!((PeakFinder::new(&[1, 3, 4]).along_axis(&phasors) - peak).abs() < 1e-14);
+        assert!((sampled(&[2, 6, 8], &phasors, 20_000) - peak).abs() < 1e-5);
+    }
+
     proptest! {
         #[test]
         fn no_sample_is_higher_and_a_dense_one_as_high(

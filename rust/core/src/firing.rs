@@ -765,6 +765,203 @@ mod tests {
         }
     }
 
+    fn figures(angles: &[Angle]) -> Vec<f64> {
+        angles.iter().map(|angle| angle.degrees()).collect()
+    }
+
+    /// Cylinder, TDC, bore of each; z does not matter.
+    fn placed(places: &[(Cylinder, f64, f64)]) -> Arc<Engine> {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let place = |&(cylinder, tdc, bank): &(Cylinder, f64, f64)| Placement {
+            cylinder,
+            tdc: angle(tdc),
+            bank: angle(bank),
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        Arc::new(Engine::new("", "", places.iter().map(place).collect()).unwrap())
+    }
+
+    fn cylinder(pin_offset: f64) -> Cylinder {
+        Cylinder::new(0.05, 0.15, 0.5, pin_offset).unwrap()
+    }
+
+    /// A firing's own figures from its definition: each cylinder at its top in its own turn.
+    #[test]
+    fn every_way_to_fire_is_listed_once_and_tells_itself() {
+        let tdcs = [40.0, 130.0, 305.5, 40.0];
+        let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        assert_eq!(ways.len(), 8);
+        let mut choices: Vec<Vec<bool>> = ways.iter().map(Firing::later).collect();
+        for way in &ways {
+            let later = way.later();
+            assert!(!later[0]);
+            assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), way);
+            // Times after the first firing, and the angles 40° on.
+            let after = |i: usize| {
+                let top: f64 = (tdcs[i] - tdcs[0] + 360.0) % 360.0;
+                top + if later[i] { 360.0 } else { 0.0 }
+            };
+            let angles: Vec<f64> = (0..4).map(|i| (after(i) + 40.0) % 720.0).collect();
+            assert_eq!(figures(&way.angles()), angles);
+            let mut times: Vec<f64> = way.order().iter().map(|&i| after(i)).collect();
+            assert!(times.is_sorted() && way.order()[0] == 0);
+            times.push(720.0);
+            let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            assert_eq!(intervals(way), gaps);
+            let square: f64 = gaps.iter().map(|gap| (gap - 180.0).powi(2)).sum();
+            assert!((way.unevenness() - (square / 4.0).sqrt()).abs() < 1e-12);
+            assert!(!way.even());
+        }
+        assert!(ways.is_sorted_by(|a, b| a.unevenness() <= b.unevenness() + 1e-6));
+        choices.sort();
+        choices.dedup();
+        assert_eq!(choices.len(), 8);
+        let [none, some] = [[false; 4], [false, true, false, false]];
+        assert!(Firing::with_later(&engine, Strokes::Two, &some).is_err());
+        assert!(Firing::with_later(&engine, Strokes::Two, &none).is_ok());
+        assert!(Firing::with_later(&engine, Strokes::Four, &[true, false, false, false]).is_err());
+        assert!(Firing::with_later(&engine, Strokes::Four, &[false; 3]).is_err());
+        assert_eq!(Firing::all(&engine, Strokes::Two).unwrap().len(), 1);
+        let many = placed(&vec![(cylinder(0.0), 0.0, 90.0); MOST_LISTED + 1]);
+        assert!(Firing::all(&many, Strokes::Four).is_err());
+        assert!(Firing::all(&many, Strokes::Two).is_ok());
+    }
+
+    #[test]
+    fn what_cannot_be_named_is_told_what_can() {
+        let engine = placed(&[0.0, 180.0, 180.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let told = |strokes| {
+            let order = "1-2-3-4".parse().unwrap();
+            Firing::named(&engine, &order, strokes).unwrap_err().to_string()
+        };
+        assert!(told(Strokes::Two).contains("1+4-2+3"), "{}", told(Strokes::Two));
+        let four = told(Strokes::Four);
+        assert!(four.contains("most evenly 1-2-4-3 or 1-3-4-2 or "), "{four}");
+        let listed = four.split("most evenly ").nth(1).unwrap();
+        assert_eq!(listed.matches(" or ").count(), EXAMPLES - 1, "{listed}");
+    }
+
+    #[test]
+    fn groups_are_by_number_and_apart() {
+        let v8 = engine(&vee(90.0, 0.0, &[0.0, 90.0, 270.0, 180.0], Side::Left));
+        let order: NamedOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
+        let firing = Firing::named(&v8, &order, Strokes::Four).unwrap();
+        assert_eq!(firing.groups(None).unwrap(), firing.banks());
+        assert_eq!(firing.banks(), [[0, 2, 4, 6], [1, 3, 5, 7]]);
+        let given = [vec![1, 8], vec![4]];
+        assert_eq!(firing.groups(Some(&given)).unwrap(), [vec![0, 7], vec![3]]);
+        for bad in [vec![vec![]], vec![vec![0]], vec![vec![9]], vec![vec![1], vec![1]]] {
+            assert!(firing.groups(Some(&bad)).is_err(), "{bad:?}");
+        }
+        let gaps = firing.gaps(&[vec![0, 7], vec![3]]);
+        let gap = |k: usize| -> Vec<_> {
+            gaps[k].iter().map(|g| (g.before, g.after, g.gap.degrees())).collect()
+        };
+        assert_eq!(gap(0), [(0, 7, 90.0), (7, 0, 630.0)]);
+        assert_eq!(gap(1), [(3, 3, 720.0)]);
+    }
+
+    /// Highest where crank and rod are in one line, asin(e/(l + r)) after TDC; lowest half a turn
+    /// and asin(e/(l − r)) after it.
+    #[test]
+    fn strokes_go_from_one_turning_point_of_the_piston_to_the_next() {
+        for e in [0.0, 0.02, -0.02] {
+            let engine = placed(&[(cylinder(e), 30.0, 90.0), (cylinder(0.0), 200.0, 90.0)]);
+            let (high, low) = ((e / 0.2).asin().to_degrees(), (e / 0.1).asin().to_degrees());
+            let down = 180.0 + low - high;
+            let near = |period: Period, start: f64, length: f64| {
+                let [from, to] = period.map(Angle::degrees);
+                assert!((from - start).abs() < 1e-9, "{from} {start}");
+                assert!((to - from - length).abs() < 1e-9, "{to} {from} {length}");
+            };
+            let four = Firing::with_later(&engine, Strokes::Four, &[false, true]).unwrap();
+            let angles = four.angles();
+            assert!((angles[0].degrees() - 30.0 - high).abs() < 1e-9);
+            assert!((angles[1].degrees() - 560.0).abs() < 1e-9);
+            let strokes = four.stroke_periods();
+            let names: Vec<&str> = strokes.iter().map(|(name, _)| *name).collect();
+            assert_eq!(names, ["power", "exhaust", "intake", "compression"]);
+            let top = 30.0 + high;
+            near(strokes[0].1[0], top, down);
+            near(strokes[1].1[0], top + down, 360.0 - down);
+            near(strokes[2].1[0], top + 360.0, down);
+            near(strokes[3].1[0], top + 360.0 + down, 360.0 - down);
+            near(strokes[2].1[1], 200.0, 180.0);
+            let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+            let timing =
+                ValveTiming { intake: [10.0, 40.0].map(angle), exhaust: [50.0, 15.0].map(angle) };
+            let valves = four.valves(&timing).unwrap();
+            near(valves.intake[0], top + 350.0, 50.0 + down);
+            near(valves.exhaust[0], top + down - 50.0, 65.0 + 360.0 - down);
+            let ports = PortTiming { transfer: angle(60.0), exhaust: angle(80.0) };
+            assert!(four.ports(&ports).is_err());
+            let two = Firing::with_later(&engine, Strokes::Two, &[false; 2]).unwrap();
+            assert!(two.valves(&timing).is_err());
+            let strokes = two.stroke_periods();
+            assert_eq!((strokes.len(), strokes[1].0), (2, "compression"));
+            near(strokes[1].1[1], 20.0, 180.0);
+            let open = two.ports(&ports).unwrap();
+            near(open.transfer[0], top + down - 60.0, 120.0);
+            near(open.exhaust[0], top + down - 80.0, 160.0);
+        }
+    }
+
+    #[test]
+    fn overlaps_are_where_two_are_open_together() {
+        let engine = placed(&[0.0, 120.0, 240.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let firing = Firing::with_later(&engine, Strokes::Two, &[false; 4]).unwrap();
+        let whole = Angle::from_degrees(1.0).unwrap();
+        let open = |lengths: [f64; 4]| -> Periods {
+            let periods = firing.angles().into_iter().zip(lengths);
+            periods.map(|(from, by)| [from, from + Angle::from_degrees(by).unwrap()]).collect()
+        };
+        let found = |lengths: [f64; 4], group: &[usize]| -> Vec<(usize, usize, f64, f64)> {
+            let all = firing.overlaps(&[group.to_vec()], &open(lengths));
+            let of = |o: &Overlap| (o.before, o.after, o.gap.degrees(), o.overlap.degrees());
+            all[0].iter().map(of).collect()
+        };
+        assert_eq!(whole, Angle::Turns(1, 360));
+        let three = [0, 1, 2];
+        assert_eq!(found([100.0; 4], &three), []);
+        assert_eq!(found([120.0; 4], &three), []);
+        let each = [(0, 1, 120.0, 30.0), (1, 2, 120.0, 30.0), (2, 0, 120.0, 30.0)];
+        assert_eq!(found([150.0; 4], &three), each);
+        // One that is short lies wholly within the other.
+        assert_eq!(found([150.0, 20.0, 100.0, 0.0], &three), [(0, 1, 120.0, 20.0)]);
+        // Two that open together overlap once.
+        assert_eq!(found([50.0; 4], &[0, 3]), [(0, 3, 0.0, 50.0)]);
+        let late = found([300.0, 0.0, 300.0, 0.0], &[0, 2]);
+        assert_eq!(late, [(0, 2, 240.0, 60.0), (2, 0, 120.0, 180.0)]);
+    }
+
+    #[test]
+    fn what_only_rounding_parts_fires_together() {
+        let apart = |by: f64| {
+            let tdcs = [17.123_456, 17.123_456 + by, 137.123_456];
+            let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+            Firing::all(&engine, Strokes::Two).unwrap()[0].to_string()
+        };
+        assert_eq!(apart(0.0), "1+2-3");
+        assert_eq!(apart(0.1 * MOST_ROUNDING), "1+2-3");
+        assert_eq!(apart(10.0 * MOST_ROUNDING), "1-2-3");
+        // An offset of one and not of the other: tops asin(e/(l + r)) apart from their pins'.
+        let past = (0.02_f64 / 0.2).asin().to_degrees();
+        let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
+        let firing = Firing::all(&engine, Strokes::Two).unwrap().remove(0);
+        assert_eq!(intervals(&firing), [120.0, 240.0]);
+        assert_eq!(firing.intervals()[0], Angle::Turns(1, 3));
+    }
+
+    #[test]
+    fn crankpins_of_an_inline_engine_go_from_the_front() {
+        let order: FiringOrder = "2-1-3".parse().unwrap();
+        let throws = inline_throws(&order, &FiringRule::Even(Strokes::Four)).unwrap();
+        // 2 fires first, 1 240° later, 3 480°: pins −240°, 0, −480°, all 240° on.
+        assert_eq!(figures(&throws), [0.0, 240.0, 120.0]);
+    }
+
     #[test]
     fn intervals_must_fill_a_cycle() {
         let order: FiringOrder = "1-2".parse().unwrap();

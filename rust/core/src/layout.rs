@@ -415,6 +415,100 @@ mod tests {
     }
 
     #[test]
+    fn strokes_are_two_or_four() {
+        for number in [2, 4] {
+            assert_eq!(Strokes::from_number(number).unwrap().number(), number);
+            assert_eq!(Strokes::from_number(number).unwrap().turns(), i64::from(number / 2));
+        }
+        assert!(Strokes::from_number(3).is_err());
+    }
+
+    #[test]
+    fn cylinders_sit_where_the_numbering_says() {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let place = |numbering, first_bank| {
+            let layout = Vee {
+                throws: [0.0, 100.0, 240.0].map(angle).to_vec(),
+                pin_split: angle(20.0),
+                bank_stagger: 0.03,
+                rotating_mass: vec![1.0, 2.0, 3.0],
+                first_tdc: angle(7.0),
+                ..vee(70.0, numbering, first_bank)
+            };
+            let engine = layout.engine(cylinder()).unwrap();
+            // Bank, place, mass, pin relative to the first cylinder's.
+            let first = engine.placements()[0].pin();
+            assert_eq!(engine.placements()[0].tdc, angle(7.0));
+            let of = |p: &Placement| {
+                let pin = (p.pin() - first).reduced().degrees();
+                (p.bank.degrees(), p.z, p.rotating_mass, pin)
+            };
+            engine.placements().iter().map(of).collect::<Vec<_>>()
+        };
+        let right = [(55.0, 0.0, 0.5, 0.0), (55.0, 0.1, 1.0, 100.0), (55.0, 0.2, 1.5, 240.0)];
+        let left = [
+            (125.0, 0.03, 0.5, 20.0),
+            (125.0, 0.1 + 0.03, 1.0, 120.0),
+            (125.0, 0.2 + 0.03, 1.5, 260.0),
+        ];
+        let [a, b, c] = right;
+        let [d, e, f] = left;
+        assert_eq!(place(Numbering::Alternating, Side::Right), [a, d, b, e, c, f]);
+        assert_eq!(place(Numbering::ByBank, Side::Right), [a, b, c, d, e, f]);
+        let back = |places: [(f64, f64, f64, f64); 6]| {
+            places.map(|(bank, z, mass, pin)| (bank, z, mass, (pin + 340.0) % 360.0))
+        };
+        assert_eq!(place(Numbering::Alternating, Side::Left), back([d, a, e, b, f, c]));
+        assert_eq!(place(Numbering::ByBank, Side::Left), back([d, e, f, a, b, c]));
+    }
+
+    #[test]
+    fn an_inline_engine_stands_upright_along_the_crank() {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let layout = Inline {
+            throws: [0.0, 120.0, 240.0].map(angle).to_vec(),
+            spacing: 0.1,
+            rotating_mass: vec![0.7],
+            first_tdc: angle(30.0),
+        };
+        let engine = layout.engine(cylinder()).unwrap();
+        let of = |p: &Placement| (p.tdc.degrees(), p.bank.degrees(), p.z, p.rotating_mass);
+        let found: Vec<_> = engine.placements().iter().map(of).collect();
+        // A throw 120° ahead is at the top 120° earlier.
+        let expected = [(30.0, 90.0, 0.0, 0.7), (270.0, 90.0, 0.1, 0.7), (150.0, 90.0, 0.2, 0.7)];
+        assert_eq!(found, expected);
+        let order: FiringOrder = "1-3-2".parse().unwrap();
+        let rule = FiringRule::Even(Strokes::Four);
+        // 3 fires 240° after 1: the throws given are not asked.
+        let fired = order.inline(cylinder(), &rule, &layout).unwrap();
+        let tdcs: Vec<f64> = fired.placements().iter().map(|p| p.tdc.degrees()).collect();
+        assert_eq!(tdcs, [30.0, 150.0, 270.0]);
+        for (masses, fits) in [(vec![], true), (vec![1.0, 2.0, 3.0], true), (vec![1.0; 2], false)] {
+            let layout = Inline { rotating_mass: masses, ..layout.clone() };
+            assert_eq!(layout.engine(cylinder()).is_ok(), fits);
+        }
+        let negative = Inline { rotating_mass: vec![-1.0], ..layout };
+        assert!(negative.engine(cylinder()).is_err());
+    }
+
+    #[test]
+    fn a_vee_by_its_firing_order_has_half_a_throws_mass_on_each_pin() {
+        let layout = Vee {
+            rotating_mass: vec![1.0, 2.0],
+            first_tdc: Angle::Turns(1, 12),
+            ..vee(90.0, Numbering::Alternating, Side::Right)
+        };
+        let order: FiringOrder = "1-3-4-2".parse().unwrap();
+        let engine = order.vee(cylinder(), &FiringRule::Even(Strokes::Four), &layout).unwrap();
+        let masses: Vec<f64> = engine.placements().iter().map(|p| p.rotating_mass).collect();
+        assert_eq!(masses, [0.5, 0.5, 1.0, 1.0]);
+        let tdcs: Vec<f64> = engine.placements().iter().map(|p| p.tdc.degrees()).collect();
+        assert_eq!(tdcs, [30.0, 210.0, 210.0, 30.0]);
+        let odd: FiringOrder = "1-2-3".parse().unwrap();
+        assert!(odd.vee(cylinder(), &FiringRule::Ijesc, &layout).is_err());
+    }
+
+    #[test]
     fn orders_that_are_none_are_refused() {
         for bad in ["", "1-1", "0-1", "1-3", "1-x", "-", "2-3"] {
             assert!(bad.parse::<FiringOrder>().is_err(), "{bad}");

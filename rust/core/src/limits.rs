@@ -105,3 +105,41 @@ pub fn result_size(
     }
     Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_within() {
+        for value in [0.0, -LARGEST, LARGEST] {
+            assert_eq!(finite("", value), Ok(value));
+        }
+        for value in [f64::NAN, f64::INFINITY, LARGEST.next_up(), -LARGEST.next_up()] {
+            assert!(finite("", value).is_err() && not_negative("", value).is_err());
+            assert!(length("", value).is_err());
+        }
+        for value in [0.0, SMALLEST, 1.0, LARGEST] {
+            assert_eq!(not_negative("", value), Ok(value));
+            assert_eq!(length("", value).is_ok(), value > 0.0);
+        }
+        for value in [SMALLEST.next_down(), -SMALLEST, -1.0] {
+            assert!(not_negative("", value).is_err() && length("", value).is_err());
+        }
+        for value in [1, 2, HIGHEST_ORDER] {
+            assert_eq!(order(value), Ok(value));
+        }
+        for bad in [&[][..], &[0], &[HIGHEST_ORDER + 1], &[1, 2, 1]] {
+            assert!(orders(bad).is_err(), "{bad:?}");
+        }
+        assert!(orders(&[2, 1, HIGHEST_ORDER]).is_ok());
+    }
+
+    #[test]
+    fn results_have_a_largest_size() {
+        let most = (LARGEST_RESULT / 16) as usize;
+        assert!(result_size("", &[most / 2, 2], 16, "").is_ok());
+        assert!(result_size("", &[most + 1], 16, "").is_err());
+        assert!(result_size("", &[usize::MAX; 9], 16, "").is_err());
+    }
+}

@@ -197,6 +197,22 @@ mod tests {
     }
 
     #[test]
+    fn only_what_is_known_well_enough_is_taken_for_a_fraction() {
+        assert_eq!(recognise(0.1, COARSEST), Ratio::new(1, 10));
+        assert_eq!(recognise(0.1, COARSEST.next_up()), None);
+        assert_eq!(recognise(1e12, 1e-16), Ratio::new(1_000_000_000_000, 1));
+        assert_eq!(recognise(1e12_f64.next_up(), 1e-15), None);
+        assert_eq!(recognise(1.0 / 10_000.0, 1e-19), Ratio::new(1, 10_000));
+        assert_eq!(recognise(1.0 / 10_001.0, 1e-19), None);
+        assert_eq!(recognise(-9_999.0 / 10_000.0, 1e-15), Ratio::new(-9_999, 10_000));
+        assert_eq!(recognise(0.0, 0.0), None);
+        let half = Ratio { numerator: 1, denominator: 2 };
+        assert_eq!(Ratio::ZERO.common_measure(Ratio::ZERO), Some(Ratio::ZERO));
+        assert_eq!(Ratio::ZERO.common_measure(half), Some(half));
+        assert_eq!(half.common_measure(Ratio::ZERO), Some(half));
+    }
+
+    #[test]
     fn decimals_are_taken_as_they_are_meant() {
         assert_ne!(0.3, 3.0 * 0.1);
         let steps = Multiples::of_figures(&[0.1, 0.2, 0.3, -0.3, 0.0]);

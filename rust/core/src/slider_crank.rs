@@ -251,6 +251,29 @@ mod tests {
         assert_relative_eq!(top - bottom, 2.0, max_relative = 1e-15);
     }
 
+    /// x = cos θ + √((l/r)² − (sin θ − e/r)²), and its derivatives by central differences.
+    #[test]
+    fn motion_is_that_of_the_rod() {
+        for offset in [0.0, 0.4, -0.4] {
+            let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.05 * offset).unwrap();
+            let proportions = cylinder.proportions();
+            assert_relative_eq!(cylinder.rod_ratio(), 1.0 / 3.0, max_relative = 1e-15);
+            let position = |θ: f64| θ.cos() + (9.0 - (θ.sin() - offset).powi(2)).sqrt();
+            for k in 0..24 {
+                let θ = f64::from(k) * 0.27;
+                let (h, sin, cos) = (1e-4, θ.sin(), θ.cos());
+                let motion = proportions.motion(sin, cos);
+                let (before, here, after) = (position(θ - h), position(θ), position(θ + h));
+                assert_relative_eq!(motion.position, here, max_relative = 1e-14);
+                // h²/6 and h²/12 of the third and fourth derivatives, 2 at most; 1e-16/h² of rounding.
+                assert!((motion.velocity - (after - before) / (2.0 * h)).abs() < 1e-8);
+                assert!(
+                    (motion.acceleration - (after - 2.0 * here + before) / (h * h)).abs() < 3e-7
+                );
+            }
+        }
+    }
+
     #[test]
     fn a_crank_that_cannot_turn_is_refused() {
         assert!(Proportions::new(1.0, 0.0).is_err());
@@ -259,5 +282,10 @@ mod tests {
         assert!(Cylinder::new(0.05, 0.15, 0.5, 0.1).is_err());
         assert!(Cylinder::new(0.05, f64::NAN, 0.5, 0.0).is_err());
         assert!(Cylinder::new(0.05, 0.15, -0.5, 0.0).is_err());
+        assert!(Cylinder::new(0.05, 0.15, 0.5, 0.099).is_ok());
+        for ratio in [1.0, 2.0, 0.0, -0.3, f64::NAN] {
+            assert!(Proportions::check_rod_ratio(ratio).is_err(), "{ratio}");
+        }
+        assert!(Proportions::check_rod_ratio(0.3).is_ok());
     }
 }

@@ -625,6 +625,59 @@ mod tests {
     }
 
     #[test]
+    fn what_is_in_the_way_is_named() {
+        let obstacles = |engine: &Engine, order| {
+            vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().obstacles
+        };
+        let place = (0.0, 90.0, 0.0, 0.45, 0.0);
+        let (tdc, bank) = ((17.123_456, 90.0, 0.0, 0.45, 0.0), (0.0, 61.234_567, 0.0, 0.45, 0.0));
+        let (rod, mass) =
+            ((90.0, 90.0, 0.0, 0.45, 0.002), (180.0, 90.0, 0.0, 0.45 * 2_f64.sqrt(), 0.0));
+        // At an order that is decided nothing is in the way.
+        assert_eq!(obstacles(&engine(&[place, place]), 2), [""; 0]);
+        assert_eq!(
+            obstacles(&engine(&[place, tdc]), 2),
+            ["tdc_deg is no rational part of a turn in cylinders 2"]
+        );
+        assert_eq!(
+            obstacles(&engine(&[place, bank, bank]), 2),
+            ["bank_deg is no rational part of a turn in cylinders 2, 3"]
+        );
+        assert_eq!(
+            obstacles(&engine(&[place, rod]), 2),
+            ["slider-cranks of different proportions"]
+        );
+        assert_eq!(
+            obstacles(&engine(&[place, mass]), 2),
+            ["masses times radius that are no rational multiples of each other"]
+        );
+        let spread = [0.0, 0.1, 0.1 + 0.1 * 2_f64.sqrt(), 0.4].map(|z| (0.0, 90.0, z, 0.45, 0.0));
+        assert_eq!(
+            obstacles(&engine(&spread), 2),
+            ["places that are no rational multiples of each other"]
+        );
+    }
+
+    #[test]
+    fn floating_point_finds_the_same_zeros() {
+        let i3 = engine(&[0.0, 1.0, 2.0].map(|k| (120.0 * k, 90.0, 0.13 * k, 0.45, 0.0)));
+        let boxer = engine(&[(0.0, 0.0, 0.0, 0.45, 0.0), (0.0, 180.0, 0.1, 0.45, 0.0)]);
+        let unlike = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0), (180.0, 90.0, 0.2, 0.9, 0.0)]);
+        for engine in [i3, boxer, unlike] {
+            for reference in [None, Some(0.0), Some(0.05), Some(0.07)] {
+                let orders = [1, 2, 3, 4, 6];
+                let cancel = crate::Cancel::new();
+                let found = vanishing(&engine, &orders, reference, &cancel).unwrap();
+                assert_eq!(found.within_rounding.len(), orders.len());
+                for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+                    assert_eq!(verdicts.map(|v| v == V), *zeros, "{reference:?}");
+                    assert!(!verdicts.contains(&U));
+                }
+            }
+        }
+    }
+
+    #[test]
     fn orders_and_planes_are_checked() {
         let single = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]);
         let cancel = crate::Cancel::new();

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{self, Shake, balance};
+use crankpin_core::extrema::PeakFinder;
 use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Sweep,
-    waveform,
+    Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Spectrum,
+    Sweep, waveform,
 };
 use proptest::prelude::*;
 
@@ -230,6 +231,89 @@ proptest! {
     }
 
     #[test]
+    fn a_balance_is_the_sum_of_its_cylinders(engine in engines(true), reference in -0.3..0.3) {
+        let orders = Orders::Given(ORDERS.to_vec());
+        let balance = balance(&engine, 3000.0, &orders, Some(reference), None).unwrap();
+        let square = (3000.0 * TAU / 60.0).powi(2);
+        for (k, &n) in ORDERS.iter().enumerate() {
+            let mut force = [Complex64::default(); 2];
+            let mut moment = [Complex64::default(); 2];
+            let (mut roll, mut crank) = (Complex64::default(), Complex64::default());
+            // Σ|terms| of force, moment (of its levers' two parts) and torque.
+            let mut terms = [0.0; 3];
+            for p in engine.placements() {
+                let (c, radius) = (p.cylinder, p.cylinder.crank_radius());
+                let proportions = c.proportions();
+                let alone = harmonics::coefficients(&proportions, &[n])[0];
+                let phase = p.tdc.cis(-i64::from(n)) * square;
+                let along = alone * phase * c.first_order();
+                let turning = if n == 1 {
+                    p.pin().cis(1) * (p.rotating_mass * radius * square)
+                } else {
+                    Complex64::default()
+                };
+                let here = [
+                    along * p.bank.cis(1).re + turning,
+                    along * p.bank.cis(1).im - Complex64::i() * turning,
+                ];
+                let size = along.norm() + turning.norm();
+                let lever = p.z - reference;
+                for (sum, part) in force.iter_mut().zip(here) {
+                    *sum += part;
+                }
+                moment[0] -= here[1] * lever;
+                moment[1] += here[0] * lever;
+                let torques = harmonics::torque::torque(&proportions, &[n]);
+                let weight = c.first_order() * radius;
+                roll += torques.roll[0] * phase * weight;
+                crank += torques.crank[0] * phase * weight;
+                terms[0] += size;
+                terms[1] += size * (p.z.abs() + reference.abs());
+                let torque = torques.roll[0].norm().max(torques.crank[0].norm());
+                terms[2] += torque * weight * square;
+            }
+            let size = 2.0 * size(&engine);
+            for axis in 0..2 {
+                same(balance.force.xy[[k, axis]], force[axis], size);
+                same(balance.moment.xy[[k, axis]], moment[axis], size);
+            }
+            let torque = balance.torque.as_ref().unwrap();
+            same(torque.roll[k], roll, size);
+            same(torque.crank[k], crank, size);
+            // The documented bound of what rounding leaves.
+            let factor = (engine.placements().len() as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
+            let bounds =
+                [balance.force.zero_bound[k], balance.moment.zero_bound[k], torque.zero_bound[k]];
+            for (bound, terms) in bounds.into_iter().zip(terms) {
+                prop_assert!((bound - terms * factor).abs() <= 1e-12 * terms * factor);
+            }
+        }
+    }
+
+    #[test]
+    fn peaks_of_all_orders_are_those_of_the_waveform(engine in engines(true)) {
+        let shakes = of(&engine);
+        let finder = PeakFinder::new(&ORDERS);
+        let thetas: Vec<f64> = (0..3600).map(|k| f64::from(k) * 0.1).collect();
+        let orders = Orders::Given(ORDERS.to_vec());
+        let wave =
+            waveform::from_orders(&engine, &ASKED, &thetas, &orders, &Cancel::new()).unwrap();
+        // Half a step of 3600 at order 9: (9·8.7e-4)²/2 = 3.1e-5; six orders add up to 6 sizes.
+        let close = |peak: f64, sampled: f64| {
+            sampled <= peak + 1e-12 * size(&engine) && peak <= sampled + 2e-4 * size(&engine)
+        };
+        for (shake, wave) in [(&shakes.force, &wave.force), (&shakes.moment, &wave.moment)] {
+            let largest = |of: &dyn Fn([f64; 2]) -> f64| {
+                wave.rows().into_iter().map(|row| of([row[0], row[1]])).fold(0.0, f64::max)
+            };
+            let [x, y] = shake.peak_xy(&finder);
+            prop_assert!(close(x, largest(&|[x, _]| x.abs())));
+            prop_assert!(close(y, largest(&|[_, y]| y.abs())));
+            prop_assert!(close(shake.peak_vector(&finder), largest(&|[x, y]| x.hypot(y))));
+        }
+    }
+
+    #[test]
     fn orders_and_kinematics_agree_and_keep_their_energy(engine in engines(true)) {
         let thetas: Vec<f64> = (0..256).map(|k| f64::from(k) * 360.0 / 256.0).collect();
         let cancel = Cancel::new();
@@ -400,6 +484,100 @@ proptest! {
             prop_assert_eq!(whole[[1, i, 0, 0, 0, 1]], part);
         }
     }
+}
+
+/// Cylinders in phase and in line, one at z = 0 and one at 0.2, whose orders all add up.
+fn in_phase(cylinder: Cylinder, tdc: f64) -> Engine {
+    let tdc = Angle::from_degrees(tdc).unwrap();
+    let bank = Angle::from_degrees(90.0).unwrap();
+    let place = |z| Placement { cylinder, tdc, bank, z, rotating_mass: 0.0 };
+    Engine::new("", "", vec![place(0.0), place(0.2)]).unwrap()
+}
+
+#[test]
+fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+    let proportions = cylinder.proportions();
+    let above: Vec<u32> = (1..=200).collect();
+    let sizes = harmonics::coefficients(&proportions, &above);
+    let torques = harmonics::torque::torque(&proportions, &above);
+    let square = (3000.0 * TAU / 60.0).powi(2);
+    // A part of a turn, and none.
+    for tdc in [0.0, 90.0, 17.123_456_789] {
+        let engine = in_phase(cylinder, tdc);
+        for rtol in [0.3, 1e-2, 1e-5, 1e-9] {
+            let chosen = balance::of(&engine, &ASKED, &Orders::Auto { rtol }).unwrap();
+            let left = |n: &u32| !chosen.orders.contains(n);
+            let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
+                (0..above.len()).rev().filter(|&k| left(&above[k])).map(of).sum()
+            };
+            let force = 2.0 * cylinder.first_order() * square * sum(&|k| sizes[k].norm());
+            let turning = sum(&|k| torques.roll[k].norm().max(torques.crank[k].norm()));
+            let turning = 2.0 * cylinder.first_order() * 0.05 * square * turning;
+            // The rest that is not worked out is 1e-17 of the largest term.
+            let slack = 1e-12 * force + 1e-15 * square * cylinder.first_order();
+            assert!((chosen.force.error_bound - force).abs() <= slack);
+            assert!((chosen.moment.error_bound - 0.1 * force).abs() <= slack);
+            let torque = chosen.torque.unwrap();
+            assert!((torque.error_bound - turning).abs() <= slack);
+            assert!(chosen.force.error_bound <= rtol * cylinder.first_order() * square);
+            assert!(chosen.omitted.iter().all(left));
+            assert!(chosen.omitted.windows(2).all(|pair| pair[0] < pair[1]));
+            let last = chosen.omitted.last().unwrap();
+            assert!(sizes[*last as usize - 1].norm() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn orders_that_a_layout_cancels_are_not_omitted() {
+    // A boxer pair: no force or moment at any order; and a pair half a turn apart in line, no force
+    // at odd ones.
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let at = |degrees| Angle::from_degrees(degrees).unwrap();
+    let place =
+        |tdc, bank, z| Placement { cylinder, tdc: at(tdc), bank: at(bank), z, rotating_mass: 0.0 };
+    let asked = Asked { torque: false, ..ASKED };
+    let boxer = Engine::new("", "", vec![place(0.0, 0.0, 0.1), place(0.0, 180.0, 0.1)]).unwrap();
+    let balance = balance::of(&boxer, &asked, &Orders::Auto { rtol: 1e-9 }).unwrap();
+    assert_eq!(
+        (balance.orders.len(), balance.omitted.len(), balance.force.error_bound),
+        (0, 0, 0.0)
+    );
+    let pair = Engine::new("", "", vec![place(0.0, 90.0, 0.0), place(180.0, 90.0, 0.0)]).unwrap();
+    let balance = balance::of(&pair, &asked, &Orders::Auto { rtol: 1e-6 }).unwrap();
+    assert!(!balance.orders.is_empty() && !balance.omitted.is_empty());
+    assert!(balance.orders.iter().chain(&balance.omitted).all(|n| n % 2 == 0));
+}
+
+#[test]
+fn tolerances_out_of_reach_are_refused() {
+    let engine = |ratio: f64| in_phase(Cylinder::new(0.05, 0.05 / ratio, 0.5, 0.0).unwrap(), 0.0);
+    let auto = |ratio: f64, rtol: f64| balance::of(&engine(ratio), &ASKED, &Orders::Auto { rtol });
+    for rtol in [0.0, -1.0, 1.0, 1e-16, f64::NAN] {
+        assert!(auto(0.3, rtol).unwrap_err().to_string().contains("rtol"), "{rtol}");
+    }
+    // 10 000 orders are too few for a crank that can hardly turn.
+    assert!(auto(1.0 - 1e-9, 1e-6).is_err());
+    assert!(auto(0.99, 1e-6).is_ok());
+}
+
+#[test]
+fn a_spectrum_stands_in_for_the_rods() {
+    let engine = in_phase(Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.0);
+    let turning = changed(&engine, |p| Placement { rotating_mass: 1.0, ..*p });
+    let amplitudes = [(2, 0.2), (4, 1e-6), (6, 0.0)];
+    let spectrum = Spectrum::new(amplitudes.map(|(n, a)| (n, Complex64::new(a, 0.0)))).unwrap();
+    let asked = Asked { spectrum: Some(&spectrum), ..ASKED };
+    let auto = |engine| balance::of(engine, &asked, &Orders::Auto { rtol: 1e-3 }).unwrap();
+    let (still, turning) = (auto(&engine), auto(&turning));
+    assert_eq!((&still.orders[..], &still.omitted[..]), (&[2][..], &[4][..]));
+    // Rotating mass acts at order 1, which the spectrum does not have.
+    assert_eq!((&turning.orders[..], &turning.omitted[..]), (&[1, 2][..], &[4][..]));
+    assert!(still.torque.is_none());
+    let square = (3000.0 * TAU / 60.0).powi(2);
+    same(still.force.xy[[0, 1]], Complex64::new(0.4 * square, 0.0), square);
+    same(still.force.error_bound.into(), (2e-6 * square).into(), 1e-6 * square);
 }
 
 #[test]

@@ -342,3 +342,76 @@ fn store(shake: &mut Shake, k: usize, sum: &Planar, square: f64, factor: f64) {
     shake.backward[k] = snapped(sum.backward_conj.conj() * square, bound);
     shake.zero_bound[k] = bound;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn engine(cylinder: Cylinder, places: &[(f64, f64, f64)]) -> Engine {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let place = |&(tdc, bank, z): &(f64, f64, f64)| Placement {
+            cylinder,
+            tdc: angle(tdc),
+            bank: angle(bank),
+            z,
+            rotating_mass: 0.0,
+        };
+        Engine::new("", "", places.iter().map(place).collect()).unwrap()
+    }
+
+    /// Per m·r = 1, crank radius 0.05 m, about z = 0.1.
+    #[track_caller]
+    fn most_is(places: &[(f64, f64, f64)], longest: u32, expected: [f64; 3]) {
+        let engine = engine(Cylinder::new(0.05, 0.15, 20.0, 0.0).unwrap(), places);
+        let sums = Sums::new(&engine, 0.1, None, true);
+        let most = sums.most(&sums.groups[0], longest);
+        let near = most.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14);
+        assert!(near, "{most:?} is not {expected:?}");
+    }
+
+    #[test]
+    fn a_layout_makes_at_most_what_its_worst_order_does() {
+        // In phase at order 3; apart, at orders 1 and 2, the levers −0.1, 0, 0.3 at 120° leave
+        // √(0.1² + 0.3² + 0.1·0.3) = √0.13.
+        let three = [(0.0, 90.0, 0.0), (120.0, 90.0, 0.1), (240.0, 90.0, 0.4)];
+        most_is(&three, 100, [3.0, 0.13_f64.sqrt(), 0.15]);
+        // The period is 3: where no more is asked for, nothing is known to cancel.
+        most_is(&three, 3, [3.0, 0.13_f64.sqrt(), 0.15]);
+        most_is(&three, 2, [3.0, 0.4, 0.15]);
+        let odd = three.map(|(tdc, bank, z)| (tdc + 1.234_567, bank, z));
+        most_is(&odd, 100, [3.0, 0.4, 0.15]);
+        // A boxer pair in one plane has no force or moment at all, and torques that add up.
+        most_is(&[(0.0, 0.0, 0.3), (0.0, 180.0, 0.3)], 100, [0.0, 0.0, 0.1]);
+        // Half a turn apart in line: even orders add up.
+        most_is(&[(0.0, 90.0, 0.0), (180.0, 90.0, 0.3)], 100, [2.0, 0.3, 0.1]);
+    }
+
+    #[test]
+    fn the_tail_is_that_of_every_group_times_what_its_layout_makes() {
+        let [a, b] = [Cylinder::new(0.05, 0.15, 20.0, 0.0), Cylinder::new(0.05, 0.12, 10.0, 0.0)];
+        let (a, b) = (a.unwrap(), b.unwrap());
+        let alike = engine(a, &[(0.0, 90.0, 0.0), (0.0, 90.0, 0.3)]);
+        let mut placements = alike.placements().to_vec();
+        placements.push(Placement { cylinder: b, z: 0.2, ..placements[0] });
+        let both = Engine::new("", "", placements).unwrap();
+        for highest in [1, 4, 9] {
+            let [of_a, of_b] = [a, b].map(|c| choice::tail(&c.proportions(), highest, true));
+            let expected = [
+                2.0 * of_a[0] + 0.5 * of_b[0],
+                // Levers −0.1 and 0.2 in phase, and 0.1.
+                0.1 * of_a[0] + 0.05 * of_b[0],
+                0.1 * of_a[1] + 0.025 * of_b[1],
+            ];
+            let tail = Sums::new(&both, 0.1, None, true).tail(highest);
+            for (tail, expected) in tail.iter().zip(expected) {
+                assert!((tail / expected - 1.0).abs() < 1e-13, "{tail} {expected}");
+            }
+            let [force, _, none] = Sums::new(&both, 0.1, None, false).tail(highest);
+            assert_eq!((force, none), (tail[0], 0.0));
+        }
+        // Nothing times a bound that is not finite is nothing.
+        let stiff = Cylinder::new(0.05, 0.05 * (1.0 + 1e-15), 1.0, 0.0).unwrap();
+        let boxer = engine(stiff, &[(0.0, 0.0, 0.3), (0.0, 180.0, 0.3)]);
+        assert_eq!(Sums::new(&boxer, 0.0, None, true).tail(2)[..2], [0.0, 0.0]);
+    }
+}

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
 use super::throws::{Bank, MOST_THROWS, Pool};
-use crate::cancel::Cancel;
+use crate::cancel::{Cancel, give_back};
 use crate::error::{Error, Result};
 
 /// Most memory that the arrangements of a search may take, bytes.
@@ -91,8 +91,7 @@ impl Entries {
         let found = fill(&mut all, &walk, &tasks, &counts, range, cancel)
             .and_then(|()| sort(&mut all, &starts, cancel));
         if let Err(error) = found {
-            // Giving gigabytes back takes most of a second: who pressed Ctrl-C need not wait for it.
-            std::thread::spawn(move || drop(all));
+            give_back(all);
             return Err(error);
         }
         Ok(Self { all, starts })

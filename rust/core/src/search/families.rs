@@ -290,3 +290,119 @@ fn refuse_too_many(count: usize) -> Result<()> {
         cure: "ask for those within a narrower window, or for the counts alone",
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::magnitude::Magnitude;
+    use super::super::throws::Bank;
+    use super::*;
+    use crate::angle::Angle;
+
+    fn with_entries(bank: Bank, look: impl Fn(&Moments, &Entries)) {
+        let moments = Moments::new(bank).unwrap();
+        let magnitude = Magnitude::new(&moments.bank, &moments.ring).unwrap();
+        let entries =
+            Entries::new(&moments.bank, &magnitude, &moments.images, &Cancel::new()).unwrap();
+        look(&moments, &entries);
+    }
+
+    fn banks() -> Vec<Bank> {
+        let given = |degrees: &[f64]| {
+            let phases: Vec<Angle> =
+                degrees.iter().map(|&d| Angle::from_degrees(d).unwrap()).collect();
+            Bank::with_phases(&phases).unwrap()
+        };
+        let mut banks: Vec<Bank> = (3..=6).map(|n| Bank::even_firing(n, false).unwrap()).collect();
+        banks.extend([
+            given(&[0.0, 90.0, 180.0, 270.0]),
+            given(&[0.0, 30.0, 90.0, 210.0]),
+            given(&[10.0, 50.0, 190.0, 230.0]),
+        ]);
+        banks
+    }
+
+    /// Small banks have no different angles nearer than this, and rounding none as far apart.
+    const APART: f64 = 1e-9;
+
+    #[test]
+    fn families_are_the_same_where_their_folded_angles_are() {
+        for bank in banks() {
+            with_entries(bank, |moments, entries| {
+                let families = Families { moments, entries };
+                let mut all: Vec<Family> = Vec::new();
+                for class in classes(&entries.all) {
+                    let start = entries.all.iter().position(|e| e == &class[0]).unwrap();
+                    let mut members = Vec::new();
+                    families.members(start, class, &mut members);
+                    families.class(&members, |family| all.push(family));
+                }
+                all.extend(families.common());
+                let mut same = Same::new(families);
+                for (i, &a) in all.iter().enumerate().take(60) {
+                    for &b in &all[i..] {
+                        let near = (a.folded() - b.folded()).abs() < APART;
+                        assert_eq!(same.angle(a, b), near, "{} {}", a.folded(), b.folded());
+                    }
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn arrangements_are_the_same_where_a_turn_and_an_image_make_them_so() {
+        for bank in banks() {
+            with_entries(bank, |moments, entries| {
+                let of = |entry: &Entry| {
+                    let z = moments.twice(packed(*entry));
+                    (packed(*entry), z.norm(), z.arg())
+                };
+                let all: Vec<_> = entries.all.iter().map(of).filter(|a| a.1 > APART).collect();
+                for &(a, size_a, arg_a) in &all {
+                    for &(b, size_b, arg_b) in &all {
+                        let mut images = Image::ALL.into_iter().filter(|&i| moments.images.has(i));
+                        let expected = (size_a - size_b).abs() < APART
+                            && images.any(|image| {
+                                fold(arg_a - moments.seen(arg_b, image), moments.turn) < APART
+                            });
+                        // Whatever is near, Z is compared exactly.
+                        for near in [APART, 10.0] {
+                            assert_eq!(moments.same((a, arg_a), (b, arg_b), near), expected);
+                        }
+                        assert!(!moments.same((a, arg_a), (b, arg_b + 0.3 * moments.turn), 0.0));
+                    }
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn turns_and_images_fold_to_one_argument() {
+        for bank in banks() {
+            let moments = Moments::new(bank).unwrap();
+            let images = || Image::ALL.into_iter().filter(|&image| moments.images.has(image));
+            let middle = moments
+                .images
+                .mirror
+                .map_or(0.0, |sum| PI * f64::from(sum) / f64::from(moments.bank.parts));
+            for k in 0..50 {
+                let argument = 0.123 * f64::from(k) - 3.0;
+                let folded = moments.folded(argument);
+                for image in images() {
+                    let seen = moments.seen(argument, image) + f64::from(k % 3) * moments.turn;
+                    assert!((moments.folded(seen) - folded).abs() < APART);
+                }
+                // ... which is that of one of them.
+                assert!(images().any(|image| {
+                    fold(moments.seen(middle + folded, image) - argument, moments.turn) < APART
+                }));
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_into_memory_is_refused() {
+        let most = (LARGEST_SEARCH / 16) as usize;
+        assert!(refuse_too_many(most).is_ok());
+        assert!(refuse_too_many(most + 1).is_err());
+    }
+}

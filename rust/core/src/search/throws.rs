@@ -313,5 +313,8 @@ pub(super) mod tests {
         let bank = Bank::even_firing(6, false).unwrap();
         assert_eq!((bank.phases.clone(), bank.parts), (vec![0, 0, 1, 1, 2, 2], 3));
         assert_eq!(bank.turns(), 3);
+        assert_eq!(bank.mirror(), Some(0));
+        let one_way = [0.0, 30.0, 90.0].map(|d| Angle::from_degrees(d).unwrap());
+        assert_eq!(Bank::with_phases(&one_way).unwrap().mirror(), None);
     }
 }

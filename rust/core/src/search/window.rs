@@ -64,3 +64,49 @@ impl Wanted {
         (wanted / self.half).min(1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn a_folded_angle_is_wanted_if_one_it_unfolds_to_is() {
+        const STEPS: u32 = 1000;
+        for turn in [TAU, PI, TAU / 3.0, TAU / 7.0] {
+            for hold in [Hold::Firing, Hold::Pins] {
+                for window in [[0.0, 180.0], [20.0, 31.0], [0.0, 5.0], [88.0, 92.5], [170.0, 180.0]]
+                {
+                    let wanted = Wanted::new(window, hold, turn);
+                    let mut count = 0;
+                    for step in 0..STEPS {
+                        // Halves, so that none is at the edge of a window.
+                        let folded = 0.5 * turn * (f64::from(step) + 0.5) / f64::from(STEPS);
+                        let unfolded = (0..8).flat_map(|k| {
+                            let middle = f64::from(k) * turn;
+                            [middle - folded, middle + folded]
+                        });
+                        let expected =
+                            unfolded.filter(|angle| (0.0..=PI).contains(angle)).any(|angle| {
+                                let within = |radians: f64| {
+                                    (window[0]..=window[1]).contains(&radians.to_degrees())
+                                };
+                                match hold {
+                                    Hold::Firing => within(angle),
+                                    Hold::Pins => within(0.5 * angle) || within(PI - 0.5 * angle),
+                                }
+                            });
+                        assert_eq!(wanted.has(folded), expected, "{turn} {hold:?} {window:?}");
+                        count += u32::from(expected);
+                    }
+                    // To the four ends of two intervals.
+                    let part = f64::from(count) / f64::from(STEPS);
+                    assert!((wanted.share() - part).abs() <= 4.0 / f64::from(STEPS));
+                    assert!(wanted.share() <= 1.0);
+                }
+            }
+        }
+        assert!(!Wanted::new([50.0, 40.0], Hold::Firing, 1.0).has(0.3));
+    }
+}

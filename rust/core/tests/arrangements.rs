@@ -1,0 +1,235 @@
+//! The arrangement search against every pair of arrangements, looked at one by one.
+
+use std::f64::consts::{PI, TAU};
+
+use crankpin_core::balance::balance;
+use crankpin_core::search::{Bank, Search, Solution, bank};
+use crankpin_core::{Angle, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders};
+
+/// Sums of at most seven terms of at most 3, and their arguments, are good to 1e-14; different |Z|
+/// and angles of such small banks are 1e-4 apart at least.
+const NEAR: f64 = 1e-9;
+
+fn given(degrees: &[f64]) -> Bank {
+    let phases: Vec<Angle> = degrees.iter().map(|&d| Angle::from_degrees(d).unwrap()).collect();
+    bank(2 * degrees.len(), false, Some(&phases)).unwrap()
+}
+
+/// With and without a mirror, with odd and even numbers of turns, with phases that repeat.
+fn banks() -> Vec<Bank> {
+    let mut banks: Vec<Bank> = (2..=6).map(|n| Bank::even_firing(n, false).unwrap()).collect();
+    banks.extend((4..=7).map(|n| Bank::even_firing(n, true).unwrap()));
+    banks.extend([
+        given(&[0.0, 180.0]),
+        given(&[0.0, 90.0, 180.0, 270.0]),
+        given(&[0.0, 60.0, 120.0, 180.0, 240.0, 300.0]),
+        given(&[0.0, 40.0, 120.0, 160.0, 240.0, 280.0]),
+        given(&[0.0, 30.0, 90.0, 210.0]),
+        given(&[0.0, 30.0, 30.0, 90.0, 240.0]),
+        given(&[0.0, 72.0, 216.0]),
+        given(&[10.0, 50.0, 190.0, 230.0]),
+    ]);
+    banks
+}
+
+/// Every order of the phases, each once.
+fn arrangements(bank: &Bank) -> Vec<Vec<u32>> {
+    fn extend(rest: &[u32], so_far: &[u32], out: &mut Vec<Vec<u32>>) {
+        if rest.is_empty() {
+            out.push(so_far.to_vec());
+        }
+        for i in (0..rest.len()).filter(|&i| i == 0 || rest[i] != rest[i - 1]) {
+            let others = [&rest[..i], &rest[i + 1..]].concat();
+            extend(&others, &[so_far, &rest[i..=i]].concat(), out);
+        }
+    }
+    let mut out = Vec::new();
+    extend(&bank.phases, &[], &mut out);
+    if bank.alternating {
+        out.retain(|arrangement| alternates(arrangement));
+    }
+    out
+}
+
+/// In firing order, over a whole cycle, front and rear throws take turns; a central one stands
+/// between a rear and a front one.
+fn alternates(arrangement: &[u32]) -> bool {
+    let n = arrangement.len();
+    let half = n / 2;
+    // Even numbers of throws fire two at a phase, a turn apart: either may be the first.
+    let at = |phase: usize| -> Vec<usize> {
+        (0..n).filter(|&throw| arrangement[throw] as usize == phase).collect()
+    };
+    if n % 2 == 1 {
+        let centre = arrangement[half] as usize;
+        let order: Vec<bool> = (1..n).map(|k| at((centre + 2 * k) % n)[0] < half).collect();
+        return order.windows(2).all(|pair| pair[0] != pair[1]);
+    }
+    (0..1_usize << half).any(|choice| {
+        let order = |k: usize| at(k % half)[(choice >> (k % half) & 1) ^ (k / half)] < half;
+        (0..n).all(|k| order(k) != order((k + 1) % n))
+    })
+}
+
+fn unit(bank: &Bank, phase: u32) -> Complex64 {
+    Complex64::cis(TAU * f64::from(phase) / f64::from(bank.parts))
+}
+
+/// Σ s e^{i·phase}, s from the middle, positive to the front.
+fn first_moment(bank: &Bank, arrangement: &[u32]) -> Complex64 {
+    let middle = 0.5 * (arrangement.len() as f64 - 1.0);
+    arrangement.iter().enumerate().map(|(i, &p)| unit(bank, p) * (middle - i as f64)).sum()
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= NEAR
+}
+
+/// Pairs of equal |Z|, pairs without Z, and the angles of the others, degrees.
+fn by_brute_force(bank: &Bank, hold: Hold) -> (usize, usize, Vec<f64>) {
+    let mut moments: Vec<Complex64> =
+        arrangements(bank).iter().map(|a| first_moment(bank, a)).collect();
+    moments.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let (mut qualifying, mut balanced, mut angles) = (0, 0, Vec::new());
+    for class in moments.chunk_by(|a, b| near(a.norm(), b.norm())) {
+        qualifying += class.len() * class.len();
+        if near(class[0].norm(), 0.0) {
+            balanced += class.len() * class.len();
+            continue;
+        }
+        for first in class {
+            for second in class {
+                let condition = (-second / first).arg().abs();
+                match hold {
+                    Hold::Firing => angles.push(condition.to_degrees()),
+                    Hold::Pins => {
+                        angles.push((0.5 * condition).to_degrees());
+                        angles.push((PI - 0.5 * condition).to_degrees());
+                    }
+                }
+            }
+        }
+    }
+    angles.sort_by(f64::total_cmp);
+    angles.dedup_by(|next, last| near(*next, *last));
+    (qualifying, balanced, angles)
+}
+
+fn search(bank: &Bank, hold: Hold) -> Search {
+    Search::new(bank.clone(), hold, &Cancel::new()).unwrap()
+}
+
+#[track_caller]
+fn same(found: &[f64], expected: &[f64], what: &dyn std::fmt::Debug) {
+    assert_eq!(found.len(), expected.len(), "{what:?}: {found:?} {expected:?}");
+    assert!(found.iter().zip(expected).all(|(a, b)| near(*a, *b)), "{what:?}: {found:?}");
+}
+
+#[test]
+fn every_pair_is_found_and_no_other() {
+    for bank in banks() {
+        for hold in [Hold::Firing, Hold::Pins] {
+            let search = search(&bank, hold);
+            let (qualifying, balanced, angles) = by_brute_force(&bank, hold);
+            let all = arrangements(&bank).len();
+            assert_eq!(search.candidates(), (all * all) as u128, "{bank:?}");
+            assert_eq!(search.qualifying(), qualifying as u128, "{bank:?}");
+            assert_eq!(search.balanced(), balanced as u128, "{bank:?}");
+            assert!(
+                search.distinct() * 4 * bank.turns() as usize >= all && search.distinct() <= all
+            );
+            assert!(search.steps() >= search.distinct());
+            let found = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
+            assert_eq!(found.count(), found.degrees().len());
+            same(&found.degrees(), &angles, &(&bank, hold));
+        }
+    }
+}
+
+#[test]
+fn a_window_has_the_angles_within_it() {
+    for bank in banks() {
+        for hold in [Hold::Firing, Hold::Pins] {
+            let search = search(&bank, hold);
+            let all = search.angles([0.0, 180.0], &Cancel::new()).unwrap().degrees();
+            let Some(&middle) = all.get(all.len() / 2) else { continue };
+            for window in [
+                [0.0, 50.0],
+                [50.0, 130.0],
+                [88.0, 92.0],
+                [130.0, 180.0],
+                [180.0, 180.0],
+                [0.0, 0.0],
+                [middle, middle],
+                [100.0, 80.0],
+            ] {
+                let found = search.angles(window, &Cancel::new()).unwrap();
+                let within = |angle: &f64| (window[0]..=window[1]).contains(angle);
+                let expected: Vec<f64> = all.iter().copied().filter(within).collect();
+                same(&found.degrees(), &expected, &(&bank, hold, window));
+                assert!(search.solution(&found, expected.len()).is_none());
+            }
+        }
+    }
+}
+
+/// What a solution says of its engine, by the engine's own balance.
+#[track_caller]
+fn check(solution: &Solution, engine: &Engine, unit: f64, second_order: f64) {
+    let orders = Orders::Given(vec![1, 2]);
+    let balance = balance(engine, 3000.0, &orders, None, None).unwrap();
+    // Sums of fourteen terms, good to 1e-14 of the longest lever, 3.
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} is not {b} of {solution:?}");
+    close(balance.moment.backward[0].norm(), 0.0);
+    close(balance.moment.forward[0].norm() / unit, solution.counterweight);
+    let xy = balance.moment.xy.row(1);
+    close(xy[0].norm() / (unit * second_order), solution.second_order[0]);
+    close(xy[1].norm() / (unit * second_order), solution.second_order[1]);
+}
+
+#[test]
+fn a_solution_is_the_balance_of_its_engine() {
+    let (cylinder, spacing) = (Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.1);
+    let omega = 3000.0 * TAU / 60.0;
+    let second_order =
+        crankpin_core::harmonics::coefficients(&cylinder.proportions(), &[2])[0].norm();
+    for bank in banks() {
+        for hold in [Hold::Firing, Hold::Pins] {
+            let search = search(&bank, hold);
+            let angles = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
+            for (k, degrees) in angles.degrees().into_iter().enumerate() {
+                let solution = search.solution(&angles, k).unwrap();
+                assert!(near(solution.bank_angle, degrees));
+                assert!(0.0 <= solution.bank_angle && solution.bank_angle <= 180.0);
+                for phases in &solution.banks {
+                    let mut phases = phases.clone();
+                    phases.sort_unstable();
+                    assert_eq!(phases, bank.phases);
+                }
+                let engine = solution.engine(cylinder, spacing).unwrap();
+                let unit = cylinder.first_order() * omega * omega * spacing;
+                check(&solution, &engine, unit, second_order);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_no_bank_is_refused() {
+    let said = |result: Result<Bank, Error>| result.unwrap_err().to_string();
+    assert!(said(bank(7, false, None)).contains("even number"));
+    for cylinders in [2, 32] {
+        assert!(said(bank(cylinders, false, None)).contains("4 to 30"), "{cylinders}");
+        assert!(said(bank(cylinders, false, None)).contains(&cylinders.to_string()));
+    }
+    let three = [0.0, 120.0, 240.0].map(|d| Angle::from_degrees(d).unwrap());
+    assert!(bank(6, false, Some(&three)).is_ok());
+    assert!(said(bank(8, false, Some(&three))).contains('4'));
+    assert!(said(bank(6, true, Some(&three))).contains("alternati"));
+    for (finer, cure) in [(0.5, "1/360"), (0.75, "1/360"), (17.3, "rational parts")] {
+        let phases = [0.0, finer].map(|d| Angle::from_degrees(d).unwrap());
+        assert!(said(bank(4, false, Some(&phases))).contains(cure), "{finer}");
+    }
+    let finest = [0.0, 1.0].map(|d| Angle::from_degrees(d).unwrap());
+    assert_eq!(bank(4, false, Some(&finest)).unwrap().parts, 360);
+}

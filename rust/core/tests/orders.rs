@@ -1,0 +1,141 @@
+//! Closed forms of the orders against the motion itself, sampled.
+//!
+//! The mean of N samples is the integral but for orders N and above, which have decayed: by e^{−w} an
+//! order, w = √(2·reach) the width of the spike near the crank that cannot turn.
+
+use std::f64::consts::TAU;
+
+use crankpin_core::Complex64;
+use crankpin_core::harmonics::{self, torque};
+use crankpin_core::slider_crank::{Motion, Proportions};
+
+const HIGHEST: u32 = 12;
+
+/// λ, e/r and how many samples: w·N > 40.
+const PROPORTIONS: [(f64, f64, u32); 14] = [
+    (0.05, 0.0, 256),
+    (0.3, 0.0, 256),
+    (0.3, 0.2, 256),
+    (0.3, -0.2, 256),
+    (0.3, 1e-8, 256),
+    (0.25, 1.7, 256),
+    (0.6, 0.5, 512),
+    (0.9, 0.0, 1024),
+    (0.99, 0.005, 2048),
+    (0.999, 0.0, 2048),
+    (0.999_9, -0.000_05, 1 << 13),
+    (0.999_995, 0.0, 1 << 15),
+    (0.999_99, 0.000_003, 1 << 15),
+    (0.999_99, -0.000_003, 1 << 15),
+];
+
+/// Peak phasors of orders 0 (half of it) to `HIGHEST` of what is made of the motion, and the largest
+/// sample, to which rounding is relative.
+fn sampled(
+    proportions: &Proportions,
+    samples: u32,
+    of: impl Fn(Motion) -> f64,
+) -> (Vec<Complex64>, f64) {
+    let mut orders = vec![Complex64::default(); HIGHEST as usize + 1];
+    let mut largest = 0.0_f64;
+    for k in 0..samples {
+        let angle = |turns: u32| TAU * f64::from(turns % samples) / f64::from(samples);
+        let (sin, cos) = angle(k).sin_cos();
+        let value = of(proportions.motion(sin, cos));
+        largest = largest.max(value.abs());
+        for (n, order) in (0..).zip(&mut orders) {
+            *order += Complex64::cis(-angle(n * k)) * (value * 2.0 / f64::from(samples));
+        }
+    }
+    (orders, largest)
+}
+
+/// Each sample is good to some units, near λ = 1 to some more; their mean is.
+const ROUNDING: f64 = 2e-14;
+
+#[test]
+fn a_cylinders_force_is_what_its_piston_does() {
+    let orders: Vec<u32> = (1..=HIGHEST).collect();
+    for (ratio, offset, samples) in PROPORTIONS {
+        let proportions = Proportions::new(ratio, offset).unwrap();
+        let (expected, largest) = sampled(&proportions, samples, |m| -m.acceleration);
+        let all = harmonics::coefficients(&proportions, &orders);
+        for (&n, found) in orders.iter().zip(&all) {
+            let off = (found - expected[n as usize]).norm();
+            assert!(off <= ROUNDING * largest, "{ratio} {offset} {n}: {found}, off {off:e}");
+            // Alone as among others.
+            let alone = harmonics::coefficients(&proportions, &[n])[0];
+            assert!((alone - found).norm() <= ROUNDING * largest);
+        }
+    }
+}
+
+#[test]
+fn a_cylinders_torques_are_what_its_piston_does() {
+    let orders: Vec<u32> = (1..=HIGHEST).collect();
+    for (ratio, offset, samples) in PROPORTIONS {
+        let proportions = Proportions::new(ratio, offset).unwrap();
+        let found = torque::torque(&proportions, &orders);
+        let roll = sampled(&proportions, samples, |m| m.acceleration * (m.velocity + offset));
+        let crank = sampled(&proportions, samples, |m| -m.acceleration * m.velocity);
+        for (found, (expected, largest)) in [(&found.roll, roll), (&found.crank, crank)] {
+            for (&n, found) in orders.iter().zip(found) {
+                let off = (found - expected[n as usize]).norm();
+                assert!(off <= ROUNDING * largest, "{ratio} {offset} {n}: {found}, off {off:e}");
+            }
+        }
+    }
+}
+
+/// The sums of which the bounds are the closed forms: n² p₂ⁿ/(√(p₁p₂)(1 − p₂²)) for the force, and
+/// (1.5 + |e|) of it from an order below on, with n p₂ⁿ⁻¹ l/2r, for the torque.
+#[test]
+fn tails_are_the_sums_they_say_and_bound_what_is_above() {
+    for (ratio, offset) in [(0.1, 0.0), (0.3, 0.0), (0.3, 0.4), (0.6, -0.3), (0.9, 0.05)] {
+        let proportions = Proportions::new(ratio, offset).unwrap();
+        let root = |a: f64| a - (a * a - 1.0).sqrt();
+        let p = root(proportions.rod - offset.abs());
+        let product = p * root(proportions.rod + offset.abs());
+        let series = |highest: u32, term: &dyn Fn(f64) -> f64| -> f64 {
+            (highest + 1..highest + 3000).rev().map(|n| term(f64::from(n))).sum()
+        };
+        for highest in [1, 2, 5, 10, 31] {
+            let squares = |highest| {
+                series(highest, &|n| n * n * p.powf(n)) / (product.sqrt() * (1.0 - p * p))
+            };
+            let force = harmonics::tail_bound(&proportions, highest).unwrap();
+            // p loses up to three digits to cancellation, p³¹ thirty times that.
+            assert!((force / squares(highest) - 1.0).abs() < 1e-10);
+            let rational = series(highest, &|n| n * p.powf(n - 1.0));
+            let expected =
+                (1.5 + offset.abs()) * squares(highest - 1) + 0.5 * proportions.rod * rational;
+            let turning = torque::tail_bound(&proportions, highest).unwrap();
+            assert!((turning / expected - 1.0).abs() < 1e-10);
+
+            let above: Vec<u32> = (highest + 1..=highest + 400).collect();
+            let coefficients = harmonics::coefficients(&proportions, &above);
+            assert!(coefficients.iter().map(|a| a.norm()).sum::<f64>() <= force);
+            let torques = torque::torque(&proportions, &above);
+            let larger = |(a, b): (&Complex64, &Complex64)| a.norm().max(b.norm());
+            let torques = torques.roll.iter().zip(&torques.crank);
+            assert!(torques.map(larger).sum::<f64>() <= turning);
+        }
+    }
+}
+
+#[test]
+fn the_highest_order_is_the_lowest_that_is_enough() {
+    for (ratio, offset) in [(0.1, 0.0), (0.3, 0.4), (0.9, -0.05), (0.999, 0.0)] {
+        let proportions = Proportions::new(ratio, offset).unwrap();
+        for tolerance in [1e-2, 1e-9, 1e-17] {
+            let force = |n| harmonics::tail_bound(&proportions, n).unwrap() <= tolerance;
+            let both = |n| force(n) && torque::tail_bound(&proportions, n).unwrap() <= tolerance;
+            let highest = harmonics::highest_order(&proportions, tolerance, None).unwrap();
+            assert!(force(highest) && (highest == 1 || !force(highest - 1)));
+            let highest = harmonics::highest_order(&proportions, tolerance, Some(0.0)).unwrap();
+            assert!(both(highest) && (highest == 1 || !both(highest - 1)));
+        }
+    }
+    let stiff = Proportions::new(1.0 - 1e-13, 0.0).unwrap();
+    assert_eq!(harmonics::highest_order(&stiff, 1e-9, None), None);
+}
