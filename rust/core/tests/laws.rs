@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{self, Shake, balance};
 use crankpin_core::extrema::PeakFinder;
-use crankpin_core::harmonics;
+use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
     Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Spectrum,
@@ -269,8 +269,13 @@ proptest! {
                 crank += torques.crank[0] * phase * weight;
                 terms[0] += size;
                 terms[1] += size * (p.z.abs() + reference.abs());
-                let torque = torques.roll[0].norm().max(torques.crank[0].norm());
-                terms[2] += torque * weight * square;
+                let larger = |of: &TorqueHarmonics| of.roll[0].norm().max(of.crank[0].norm());
+                terms[2] += larger(&torques) * weight * square;
+                let inertia = c.rod_inertia_excess();
+                let swing = harmonics::rod::torque(&proportions, &[n]);
+                roll += swing.roll[0] * phase * inertia;
+                crank += swing.crank[0] * phase * inertia;
+                terms[2] += larger(&swing) * inertia.abs() * square;
             }
             let size = 2.0 * size(&engine);
             for axis in 0..2 {
