@@ -389,9 +389,10 @@ TABLES = {
 def main() -> None:
     """Print the tables that are named, or all."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("tables", nargs="*", choices=TABLES)
+    parser.add_argument("--only", choices=list(TABLES), help="one table instead of all")
+    only = parser.parse_args().only
     print(machine())
-    for name in parser.parse_args().tables or TABLES:
+    for name in [only] if only else TABLES:
         TABLES[name]()
 
 
