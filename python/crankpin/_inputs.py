@@ -48,6 +48,8 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
     What is long goes piece by piece, so that Ctrl-C is answered between.
     """
+    if type(values) is np.ndarray and values.dtype == np.float64 and values.size <= MOST_NUMBERS:
+        return values
     if isinstance(values, (list, tuple)) and len(values) > MOST_NUMBERS:
         raise _too_many(name, len(values))
     try:
@@ -116,6 +118,8 @@ def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> ND
 
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return a float."""
+    if type(value) is float:
+        return value
     try:
         if np.iscomplexobj(value) or value is np.ma.masked:
             raise TypeError("it is complex or masked")

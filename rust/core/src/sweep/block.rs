@@ -11,7 +11,7 @@ use crate::engine::Hold;
 use crate::simd::sin_cos_degrees;
 
 /// Rows that are worked out side by side.
-pub(super) const BLOCK: usize = 64;
+pub(super) const BLOCK: usize = 128;
 /// Powers of `e^{iγ}` up to here come from multiplication, within the allowance of the zero bound.
 const MOST_MULTIPLIED: u32 = 16;
 
@@ -29,6 +29,8 @@ pub(super) struct Block<'a> {
     quantity: Quantity,
     pub count: usize,
     functions: Cow<'a, Functions>,
+    /// Place of the first bank angle that functions were worked out for.
+    first_angle: Option<usize>,
     /// What rounding can leave, by order.
     pub bounds: Vec<Column>,
     /// Constants of the functions, by order, where rows are bank angles.
@@ -113,6 +115,7 @@ impl<'a> Block<'a> {
             quantity: plan.quantity,
             count: 0,
             functions: Cow::Owned(Functions::new(plan)),
+            first_angle: None,
             bounds: vec![[0.0; BLOCK]; orders],
             constants: vec![Constants::default(); orders],
             by_point: false,
@@ -123,12 +126,17 @@ impl<'a> Block<'a> {
     /// Take the functions at these bank angles, which somebody else has worked out.
     pub fn share(&mut self, functions: &'a Functions) {
         self.functions = Cow::Borrowed(functions);
+        self.first_angle = None;
     }
 
-    /// Work out the functions at these bank angles.
+    /// Work out the functions at these bank angles, the first of which has this place among all, if
+    /// they are not there from the last time.
     #[inline(always)]
-    pub fn set_angles(&mut self, plan: &Plan, bank_angles: &[f64]) {
-        self.functions.to_mut().set(plan, bank_angles);
+    pub fn set_angles(&mut self, plan: &Plan, bank_angles: &[f64], first: usize) {
+        if self.first_angle != Some(first) {
+            self.functions.to_mut().set(plan, bank_angles);
+            self.first_angle = Some(first);
+        }
     }
 
     /// An engine at one point of the other axes; rows are so many bank angles.

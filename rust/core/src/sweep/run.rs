@@ -139,7 +139,7 @@ impl<'a> Run<'a> {
         let speeds = self.squares.len();
         let together = (SLAB / (largest * self.width)).max(1);
         self.cancel.expect(units);
-        let shared = self.shared(plan);
+        let shared = if self.is_large(values.len() / speeds) { self.shared(plan) } else { vec![] };
         let mut before_speed = Vec::new();
         let mut rest = values;
         for first in (0..units).step_by(together) {
@@ -188,8 +188,7 @@ impl<'a> Run<'a> {
         mut out: &mut [T],
         finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
-        let weight = if self.cost == Cost::Large { 256 } else { 1 };
-        let large = out.len() * weight >= WORTH_A_THREAD;
+        let large = self.is_large(out.len());
         let mut tasks = Vec::with_capacity(units.len());
         for unit in units {
             let (rows, after) = out.split_at_mut(unit.rows() * self.width);
@@ -203,8 +202,16 @@ impl<'a> Run<'a> {
         if large {
             return tasks.into_par_iter().try_for_each_init(|| Block::new(plan), work);
         }
+        // Engines at the same bank angles follow each other, for their functions are the same.
+        tasks.sort_by_key(|(unit, _)| unit.angles.start);
         let mut block = Block::new(plan);
         tasks.into_iter().try_for_each(|task| work(&mut block, task))
+    }
+
+    /// Whether so many numbers before speed are worth another thread.
+    fn is_large(&self, numbers: usize) -> bool {
+        let weight = if self.cost == Cost::Large { 256 } else { 1 };
+        numbers * weight >= WORTH_A_THREAD
     }
 
     fn unit_rows<'s, T: Number>(
@@ -225,7 +232,7 @@ impl<'a> Run<'a> {
             || {
                 match shared.get(unit.angles.start / self.abreast()) {
                     Some(functions) => block.share(functions),
-                    None => block.set_angles(plan, angles),
+                    None => block.set_angles(plan, angles, unit.angles.start),
                 }
                 if !self.angles_abreast() {
                     let firsts = unit.points.clone().step_by(BLOCK);
