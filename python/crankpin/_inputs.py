@@ -65,12 +65,12 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
         raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
     if found.size > MOST_NUMBERS:
         raise _too_many(name, found.size)
-    return found if found.dtype == np.float64 else _copied(found)
+    return found if found.dtype == np.float64 else copied(found)
 
 
 def contiguous(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the array in one piece; without a copy where it is already."""
-    return values if values.flags.c_contiguous else _copied(values)
+    return values if values.flags.c_contiguous else copied(values)
 
 
 def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -88,7 +88,7 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
     return np.concatenate(pieces)
 
 
-def _copied(values: NDArray[Any]) -> NDArray[np.float64]:
+def copied(values: NDArray[Any]) -> NDArray[np.float64]:
     copy = np.empty(values.shape)
     if values.size <= PIECE:
         copy[...] = values

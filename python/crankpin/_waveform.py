@@ -66,7 +66,7 @@ class Waveform(Frozen):
         if not isinstance(parts, tuple):
             raise InputError(f"Waveform({_inputs.shorten(parts)}): use Engine.waveform")
         force, moment, torque, crank_torque, balance = parts
-        theta = theta_deg.copy()
+        theta = _inputs.copied(theta_deg)
         theta.setflags(write=False)
         known = torque is not None
         exact = ErrorBound(0.0, 0.0, 0.0 if known else None)

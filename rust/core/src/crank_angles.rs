@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::angle::LARGEST_ANGLE;
+use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::simd::sin_cos_degrees;
 
@@ -16,17 +17,18 @@ pub struct CrankAngles {
 impl CrankAngles {
     /// From degrees.
     pub fn new(theta_deg: &[f64]) -> Result<Self> {
+        check(theta_deg, &Cancel::new())?;
+        Ok(Self::of_checked(theta_deg))
+    }
+
+    /// From degrees that are known to be angles.
+    pub(crate) fn of_checked(theta_deg: &[f64]) -> Self {
         /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
         const ROUND: f64 = 6_755_399_441_055_744.0;
-        let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
-        if let Some(&θ) = theta_deg.iter().find(|&&θ| !taken(θ)) {
-            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-            return Err(Error::figure("theta_deg", θ, cure));
-        }
         // Both terms are multiples of θ's last place, and the difference is less than θ or 180:
         // nothing is rounded.
         let reduced = theta_deg.iter().map(|θ| θ - 360.0 * ((θ * (1.0 / 360.0) + ROUND) - ROUND));
-        Ok(Self { reduced: reduced.collect() })
+        Self { reduced: reduced.collect() }
     }
 
     /// How many.
@@ -67,6 +69,21 @@ impl CrankAngles {
             }
         }
     }
+}
+
+/// Finite degrees that are not too many turns.
+pub(crate) fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
+    /// Angles looked at between two looks at cancellation.
+    const PIECE: usize = 1 << 16;
+    let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
+    for piece in theta_deg.chunks(PIECE) {
+        cancel.check()?;
+        if let Some(&θ) = piece.iter().find(|&&θ| !taken(θ)) {
+            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
+            return Err(Error::figure("theta_deg", θ, cure));
+        }
+    }
+    Ok(())
 }
 
 /// A range in parts of at most so many.

@@ -1,14 +1,12 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
-use std::ops::Range;
-
 use ndarray::{Array1, Array2};
 use rayon::prelude::*;
 
 use crate::Complex64;
 use crate::balance::{self, Asked, Balance, Orders, angular_speed};
-use crate::cancel::Cancel;
-use crate::crank_angles::{CrankAngles, parts};
+use crate::cancel::{Cancel, give_back};
+use crate::crank_angles::{CrankAngles, check};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::kinematics::{Alike, BLOCK, Column, Kinematics, Units};
@@ -45,12 +43,12 @@ pub fn exact(
     let omega = angular_speed(asked.rpm)?;
     let reference = engine.reference(asked.reference_z)?;
     let kinematics = Kinematics::new(engine.placements(), reference);
-    let rows = in_blocks(theta_deg, cancel, |angles, range, rows| {
+    let memory = in_blocks(theta_deg, asked.torque, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
             || {
                 let mut units = Units::START;
-                angles.multiples(1, range, &mut units.cos[..], &mut units.sin[..]);
+                angles.multiples(1, 0..angles.len(), &mut units.cos[..], &mut units.sin[..]);
                 for alike in &kinematics.groups {
                     if asked.torque {
                         rows.add::<true>(alike, omega * omega, &units);
@@ -65,7 +63,7 @@ pub fn exact(
             },
         );
     })?;
-    Ok(rows.waveform(None, asked.torque))
+    memory.waveform(None, asked.torque)
 }
 
 /// As a sum of orders; a spectrum may stand in for the kinematics.
@@ -90,14 +88,14 @@ pub fn from_orders(
     let Some(balance) = balance else {
         return exact(engine, asked, theta_deg, cancel);
     };
-    let rows = in_blocks(theta_deg, cancel, |angles, range, rows| {
+    let torque = balance.torque.is_some();
+    let memory = in_blocks(theta_deg, torque, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
-            || rows.add_orders(&balance, angles, range),
+            || rows.add_orders(&balance, angles),
         );
     })?;
-    let torque = balance.torque.is_some();
-    Ok(rows.waveform(Some(balance), torque))
+    memory.waveform(Some(balance), torque)
 }
 
 /// What the kinematics of cylinders that move alike and an order of a sum take, in nanoseconds for an
@@ -148,10 +146,10 @@ impl Rows {
     }
 
     #[inline(always)]
-    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles, range: Range<usize>) {
+    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
         let (mut cos, mut sin) = (Column::ZERO, Column::ZERO);
         for (k, &order) in balance.orders.iter().enumerate() {
-            angles.multiples(order, range.clone(), &mut cos[..], &mut sin[..]);
+            angles.multiples(order, 0..angles.len(), &mut cos[..], &mut sin[..]);
             let zero = Complex64::default();
             let torque = balance.torque.as_ref();
             let phasors = [
@@ -174,58 +172,76 @@ impl Rows {
     }
 }
 
-/// The columns of all blocks, one after the other.
-struct Joined {
-    columns: [Vec<f64>; 6],
+/// Results in memory: force and moment in pairs of x and y, roll and crank torque if wanted.
+struct Memory {
+    pairs: [Vec<f64>; 2],
+    torques: [Vec<f64>; 2],
 }
 
-impl Joined {
-    fn waveform(self, balance: Option<Balance>, torque: bool) -> Waveform {
-        let [force_x, force_y, moment_x, moment_y, roll, crank] = self.columns;
-        let pair = |x: Vec<f64>, y: Vec<f64>| {
-            let mut pair = Array2::zeros((x.len(), 2));
-            pair.column_mut(0).assign(&Array1::from(x));
-            pair.column_mut(1).assign(&Array1::from(y));
-            pair
+impl Memory {
+    fn waveform(self, balance: Option<Balance>, torque: bool) -> Result<Waveform> {
+        let pairs = |values: Vec<f64>| {
+            let shape = (values.len() / 2, 2);
+            Array2::from_shape_vec(shape, values)
+                .map_err(|error| Error::value("theta_deg", format!("{shape:?}"), error.to_string()))
         };
-        Waveform {
-            force: pair(force_x, force_y),
-            moment: pair(moment_x, moment_y),
+        let ([force, moment], [roll, crank]) = (self.pairs, self.torques);
+        Ok(Waveform {
+            force: pairs(force)?,
+            moment: pairs(moment)?,
             torque: torque.then(|| Array1::from(roll)),
             crank_torque: torque.then(|| Array1::from(crank)),
             balance,
-        }
+        })
     }
 }
 
-/// Run over the crank angles in blocks, in parallel, in order.
+/// Run over the crank angles in blocks, in parallel.
 fn in_blocks(
     theta_deg: &[f64],
+    torque: bool,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, Range<usize>, &mut Rows) + Sync,
-) -> Result<Joined> {
+    add: impl Fn(&CrankAngles, &mut Rows) + Sync,
+) -> Result<Memory> {
     let cure = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), cure)?;
-    let angles = CrankAngles::new(theta_deg)?;
-    let block = |range: Range<usize>| -> Result<Rows> {
+    check(theta_deg, cancel)?;
+    let (angles, torques) = (theta_deg.len(), if torque { theta_deg.len() } else { 0 });
+    let mut memory = Memory {
+        pairs: [vec![0.0; 2 * angles], vec![0.0; 2 * angles]],
+        torques: [vec![0.0; torques], vec![0.0; torques]],
+    };
+    let mut pairs = memory.pairs.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
+    let mut torques = memory.torques.each_mut().map(|values| values.chunks_mut(BLOCK));
+    let tasks = theta_deg.chunks(BLOCK).map(|thetas| {
+        let pairs = pairs.each_mut().map(|chunks| chunks.next().unwrap_or_default());
+        let torques = torques.each_mut().map(|chunks| chunks.next().unwrap_or_default());
+        (thetas, pairs, torques)
+    });
+    let tasks: Vec<_> = tasks.collect();
+    let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 2])| {
         cancel.check()?;
         let mut rows = Rows { columns: [const { Column::ZERO }; 6] };
-        add(&angles, range, &mut rows);
-        Ok(rows)
-    };
-    let ranges = parts(0..angles.len(), BLOCK);
-    let blocks: Vec<Rows> = if ranges.len() <= 4 {
-        ranges.map(block).collect::<Result<_>>()?
-    } else {
-        ranges.collect::<Vec<_>>().into_par_iter().map(block).collect::<Result<_>>()?
-    };
-    let join = |column: usize| {
-        let mut joined = Vec::with_capacity(blocks.len() * BLOCK);
-        for block in &blocks {
-            joined.extend_from_slice(&block.columns[column][..]);
+        add(&CrankAngles::of_checked(thetas), &mut rows);
+        let [force_x, force_y, moment_x, moment_y, roll, crank] = &rows.columns;
+        for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {
+            for (pair, (x, y)) in out.chunks_exact_mut(2).zip(x.iter().zip(&y[..])) {
+                pair.copy_from_slice(&[*x, *y]);
+            }
         }
-        joined.truncate(angles.len());
-        joined
+        for (out, column) in torques.into_iter().zip([roll, crank]) {
+            out.copy_from_slice(&column[..out.len()]);
+        }
+        Ok(())
     };
-    Ok(Joined { columns: std::array::from_fn(join) })
+    let done = if tasks.len() <= 4 {
+        tasks.into_iter().try_for_each(block)
+    } else {
+        tasks.into_par_iter().try_for_each(block)
+    };
+    if let Err(cancelled) = done {
+        give_back(memory);
+        return Err(cancelled);
+    }
+    Ok(memory)
 }

@@ -47,16 +47,16 @@ pub fn waveform<'py>(
     torque: bool,
 ) -> PyResult<Parts<'py>> {
     let engine = &engine.get().0;
-    let thetas = theta_deg.as_slice()?.to_vec();
+    let thetas = theta_deg.as_slice()?;
     let spectrum = self::spectrum(spectrum)?;
     let steps = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
     let waveform = interrupt::run(py, steps, |cancel| {
         let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
         if !summed {
-            return core::waveform::exact(engine, &asked, &thetas, cancel);
+            return core::waveform::exact(engine, &asked, thetas, cancel);
         }
         let orders = balance::orders(orders, rtol);
-        core::waveform::from_orders(engine, &asked, &thetas, &orders, cancel)
+        core::waveform::from_orders(engine, &asked, thetas, &orders, cancel)
     })?;
     Ok((
         frozen(py, waveform.force),
