@@ -158,3 +158,13 @@ def test_arrangements_of_ones_own() -> None:
     uneven = cp.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
     with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
         uneven.engine(cylinder, 0.1)
+
+
+def test_an_arrangement_of_nonsense_is_refused() -> None:
+    endless: list[object] = []
+    endless.append(endless)
+    given = (90, (0, 120), (0, 120), 0.0, (0.0, 0.0), "pins")
+    names = ("bank_angle_deg", "first_deg", "second_deg", "counterweight", "second_order", "hold")
+    for k, name in enumerate(names):
+        with pytest.raises(cp.InputError, match=name):
+            cp.Arrangement(*(*given[:k], endless, *given[k + 1 :]))  # type: ignore[arg-type]

@@ -46,6 +46,15 @@ class Arrangement:
     hold: Hold = "firing"
     """What phases are of: the top dead centres (at minus them), or the crankpins."""
 
+    def __post_init__(self) -> None:
+        for name in ("bank_angle_deg", "counterweight"):
+            object.__setattr__(self, name, _inputs.number(name, getattr(self, name)))
+        for name in ("first_deg", "second_deg", "second_order"):
+            values = getattr(self, name)
+            if type(values) is not tuple or any(type(value) is not float for value in values):
+                object.__setattr__(self, name, tuple(_inputs.vector(name, values).tolist()))
+        _inputs.one_of("hold", self.hold, ("firing", "pins"))
+
     @property
     def near_circular(self) -> bool:
         """Whether the two second-order moments differ by a tenth of the larger at most."""
