@@ -6,6 +6,9 @@ Run as a program it prints a hash of each result.
 from __future__ import annotations
 
 import hashlib
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 
 import crankpin as cp
@@ -75,6 +78,17 @@ def digest(result: object) -> str:
     """Return a hash of a result's bits."""
     content = result.tobytes() if isinstance(result, np.ndarray) else str(result).encode()
     return hashlib.sha256(content).hexdigest()
+
+
+def printed(threads: str, *arguments: str) -> str:
+    """Return what Python prints, given these arguments, with so many threads."""
+    return subprocess.run(  # noqa: S603 - this interpreter
+        [sys.executable, *arguments],
+        env=os.environ | {"RAYON_NUM_THREADS": threads},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
 
 
 if __name__ == "__main__":

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from typing import Any
 
 import crankpin as cp
+import long_calls
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -262,14 +260,5 @@ print(digest.hexdigest())
 
 
 def test_bits_do_not_depend_on_threads() -> None:
-    digests = {
-        subprocess.run(  # noqa: S603 - this interpreter
-            [sys.executable, "-c", THREADS],
-            env=os.environ | {"RAYON_NUM_THREADS": threads},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for threads in ("1", "2", "3", "7")
-    }
+    digests = {long_calls.printed(threads, "-c", THREADS) for threads in ("1", "2", "3", "7")}
     assert len(digests) == 1

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import pickle
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
@@ -16,13 +13,7 @@ import pytest
 
 
 def hashes(threads: str) -> str:
-    return subprocess.run(  # noqa: S603 - this interpreter
-        [sys.executable, str(Path(long_calls.__file__))],
-        env=os.environ | {"RAYON_NUM_THREADS": threads},
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
+    return long_calls.printed(threads, str(Path(long_calls.__file__)))
 
 
 def test_any_number_of_threads_finds_the_same_bits() -> None:

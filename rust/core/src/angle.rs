@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::rational;
 
 /// A float is taken for k/N of a turn up to this N.
-const MOST_PARTS: i64 = 1000;
+const MOST_PARTS: i128 = 1000;
 /// ... when it is within so many units in the last place of it.
 const WITHIN_ULP: f64 = 4.0;
 /// Fractions with a larger denominator are kept as floats: sums of them would overflow.
@@ -185,28 +185,13 @@ fn few_ulp(degrees: f64) -> f64 {
 
 /// Continued fraction of the angle in turns, up to [`MOST_PARTS`], within a tolerance in degrees.
 fn recognise(degrees: f64, tolerance: f64) -> Option<Angle> {
-    let target = degrees / 360.0;
-    let (mut p0, mut q0, mut p1, mut q1) = (0_i64, 1_i64, 1_i64, 0_i64);
-    let mut rest = target;
-    loop {
-        let whole = rest.floor();
-        // Only the first whole part may exceed the largest denominator.
-        if q1 > 0 && whole > MOST_PARTS as f64 {
-            return None;
-        }
-        (p0, q0, p1, q1) = (p1, q1, whole as i64 * p1 + p0, whole as i64 * q1 + q0);
-        if q1 > MOST_PARTS {
-            return None;
-        }
-        let candidate = turns(i128::from(p1), i128::from(q1))?;
+    for (p, q) in rational::convergents(degrees / 360.0, MOST_PARTS) {
+        let candidate = turns(p, q)?;
         if (candidate.degrees() - degrees).abs() <= tolerance {
             return Some(candidate);
         }
-        if rest == whole {
-            return None;
-        }
-        rest = 1.0 / (rest - whole);
     }
+    None
 }
 
 fn ulp(x: f64) -> f64 {

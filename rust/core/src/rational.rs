@@ -117,26 +117,30 @@ pub(crate) fn recognise(x: f64, tolerance: f64) -> Option<Ratio> {
     if tolerance > COARSEST || x.abs() > 1.0 / COARSEST || x == 0.0 {
         return None;
     }
-    let (mut p0, mut q0, mut p1, mut q1) = (0_i128, 1_i128, 1_i128, 0_i128);
-    let mut rest = x;
-    loop {
-        let whole = rest.floor();
-        if q1 > 0 && whole > MOST_PARTS as f64 {
-            return None;
-        }
-        (p0, q0, p1, q1) = (p1, q1, whole as i128 * p1 + p0, whole as i128 * q1 + q0);
-        if q1 > MOST_PARTS {
-            return None;
-        }
-        let candidate = Ratio::new(p1, q1)?;
+    for (p, q) in convergents(x, MOST_PARTS) {
+        let candidate = Ratio::new(p, q)?;
         if (candidate.value() - x).abs() <= tolerance {
             return Some(candidate);
         }
-        if rest == whole {
+    }
+    None
+}
+
+/// The convergents p/q of the continued fraction of x, with denominators of `most` at most.
+pub(crate) fn convergents(x: f64, most: i128) -> impl Iterator<Item = (i128, i128)> {
+    let (mut p0, mut q0, mut p1, mut q1) = (0_i128, 1_i128, 1_i128, 0_i128);
+    let mut rest = Some(x);
+    std::iter::from_fn(move || {
+        let x = rest?;
+        let whole = x.floor();
+        // Only the first whole part may exceed the largest denominator.
+        if q1 > 0 && whole > most as f64 {
             return None;
         }
-        rest = 1.0 / (rest - whole);
-    }
+        (p0, q0, p1, q1) = (p1, q1, whole as i128 * p1 + p0, whole as i128 * q1 + q0);
+        rest = (x != whole).then(|| 1.0 / (x - whole));
+        (q1 <= most).then_some((p1, q1))
+    })
 }
 
 /// Figures, each a rational multiple of one of few units.
