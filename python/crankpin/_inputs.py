@@ -55,6 +55,8 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     try:
         if isinstance(values, np.ma.MaskedArray):
             raise TypeError("masked values are no numbers: fill them first")
+        if type(values) is int or type(values) is float:
+            return np.array(float(values))
         found = _from_list(values)
         if found.dtype.kind not in "fiub":
             if found.dtype.kind != "O":
@@ -78,7 +80,7 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
     found = array(name, values)
     if found.ndim > 1:
         raise InputError(f"{name} has shape {found.shape}: give one dimension")
-    return contiguous(np.atleast_1d(found))
+    return contiguous(found if found.ndim else found.reshape(1))
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:

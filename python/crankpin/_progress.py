@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, TypeAlias
 
 from crankpin import _inputs
@@ -14,22 +14,25 @@ Progress: TypeAlias = bool | Callable[[int, int], object]
 """True for a tqdm bar, or a function of (steps done, steps in all) that is called now and then."""
 
 
+def shown(
+    progress: Progress, description: str
+) -> AbstractContextManager[Callable[[int, int], object] | None]:
+    """Return a context of what to call with the steps done and the steps in all, if anything."""
+    if progress is True:
+        return _bar(description)
+    return nullcontext(None if progress is False else progress)
+
+
 @contextmanager
-def shown(progress: Progress, description: str) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield what to call with the steps done and the steps in all, if anything."""
-    if progress is False:
-        yield None
-    elif progress is not True:
-        yield progress
-    else:
-        tqdm = importlib.import_module("tqdm.auto")
-        with tqdm.tqdm(desc=description, leave=False) as bar:
+def _bar(description: str) -> Iterator[Callable[[int, int], object]]:
+    tqdm = importlib.import_module("tqdm.auto")
+    with tqdm.tqdm(desc=description, leave=False) as bar:
 
-            def show(done: int, total: int) -> None:
-                bar.total = total
-                bar.update(done - bar.n)
+        def show(done: int, total: int) -> None:
+            bar.total = total
+            bar.update(done - bar.n)
 
-            yield show
+        yield show
 
 
 def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may give

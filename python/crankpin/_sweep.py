@@ -148,12 +148,9 @@ def sweep(
         "bank_angle_deg": bank_angle_deg,
         "rod_ratio": rod_ratio,
         "pin_offset": pin_offset,
-        "rpm": rpm,
     }
-    arrays = {
-        name: _inputs.array(name, values) for name, values in given.items() if values is not None
-    }
-    arrays["rpm"] = _inputs.array("rpm", rpm)
+    swept = {name: values for name, values in given.items() if values is not None} | {"rpm": rpm}
+    arrays = {name: _inputs.array(name, values) for name, values in swept.items()}
     ranks = {name: values.ndim for name, values in arrays.items()}
     axes = {name: _inputs.vector(name, values) for name, values in arrays.items()}
     wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)
@@ -170,7 +167,7 @@ def sweep(
         _inputs.optional_number("reference_z", reference_z),
         _inputs.spectrum(spectrum),
         torque,
-        [names is not None, *(ranks.get(name, 0) > 0 for name in given)],
+        [names is not None, *(ranks.get(name, 0) > 0 for name in (*given, "rpm"))],
     )
     _inputs.warn_of_units(core.mean_piston_speed)
     arguments = {

@@ -73,8 +73,8 @@ pub fn watched<T: Send>(
     })
 }
 
-/// [`watched`] work that fills a new array, in `NumPy`'s own memory: it asks for large pages, which
-/// are several times faster to come by and to give back.
+/// [`watched`] work that writes every number of a new array, in `NumPy`'s own memory: it asks for
+/// large pages, which are several times faster to come by and to give back.
 pub fn written<'py, T: Element + Send, D: Dimension>(
     py: Python<'py>,
     shape: impl IntoPyObject<'py>,
@@ -82,8 +82,8 @@ pub fn written<'py, T: Element + Send, D: Dimension>(
     progress: Option<&Py<PyAny>>,
     write: impl FnOnce(&mut [T], &Cancel) -> Result<()> + Send,
 ) -> PyResult<Bound<'py, PyArray<T, D>>> {
-    // Not `PyArray::zeros`, which panics where there is no memory.
-    let array = py.import("numpy")?.call_method1("zeros", (shape, numpy::dtype::<T>(py)))?;
+    // Not `PyArray::zeros`, which panics where there is no memory, and writes the small ones twice.
+    let array = py.import("numpy")?.call_method1("empty", (shape, numpy::dtype::<T>(py)))?;
     let array = array.cast_into::<PyArray<T, D>>()?;
     let mut writable = array.readwrite();
     let out = writable.as_slice_mut()?;

@@ -255,12 +255,14 @@ impl Sweep {
             out,
             cancel,
             #[inline(always)]
-            |block: &mut Block, out: &mut [Complex64]| {
+            |block: &mut Block, factor: f64, out: &mut [Complex64]| {
                 block.evaluate();
                 for (i, row) in out.chunks_exact_mut(width).enumerate() {
                     for (order, phasors) in row.chunks_exact_mut(quantity.components()).enumerate()
                     {
-                        phasors.copy_from_slice(&block.phasors(order, i)[..quantity.components()]);
+                        for (out, phasor) in phasors.iter_mut().zip(block.phasors(order, i)) {
+                            *out = phasor * factor;
+                        }
                     }
                 }
                 Ok(())
@@ -284,8 +286,8 @@ impl Sweep {
                 out,
                 cancel,
                 #[inline(always)]
-                |block: &mut Block, out: &mut [f64]| {
-                    block.peaks(out);
+                |block: &mut Block, factor: f64, out: &mut [f64]| {
+                    block.peaks(factor, out);
                     Ok(())
                 },
             ),
@@ -295,14 +297,14 @@ impl Sweep {
                 out,
                 cancel,
                 #[inline(always)]
-                |block: &mut Block, out: &mut [f64]| {
+                |block: &mut Block, factor: f64, out: &mut [f64]| {
                     block.evaluate();
                     for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                         for (order, length) in row.iter_mut().enumerate() {
                             let bound = block.bounds[order][i];
                             let [forward, backward] = block.turning(order, i);
-                            *length =
-                                snapped(forward, bound).norm() + snapped(backward, bound).norm();
+                            let both = [forward, backward].map(|part| snapped(part, bound).norm());
+                            *length = (both[0] + both[1]) * factor;
                         }
                     }
                     Ok(())
@@ -310,12 +312,12 @@ impl Sweep {
             ),
             Figure::Sum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill(quantity, figure, out, cancel, |block, out| {
+                self.fill(quantity, figure, out, cancel, |block, factor, out| {
                     block.evaluate();
                     for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
                         cancel.check()?;
                         for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                            *peak = finder.along_axis(&phasors);
+                            *peak = finder.along_axis(&phasors) * factor;
                         }
                     }
                     Ok(())
@@ -323,12 +325,12 @@ impl Sweep {
             }
             Figure::LengthOfSum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill(quantity, figure, out, cancel, |block, out| {
+                self.fill(quantity, figure, out, cancel, |block, factor, out| {
                     block.evaluate();
                     for (i, peak) in out.iter_mut().enumerate() {
                         cancel.check()?;
                         let [x, y] = block.by_component(i);
-                        *peak = finder.of_vector(&x, &y);
+                        *peak = finder.of_vector(&x, &y) * factor;
                     }
                     Ok(())
                 })
@@ -358,14 +360,15 @@ impl Sweep {
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
     }
 
-    /// Work out every point: layout sums block by block, handed to `finish`, times ω².
+    /// Work out every point: layout sums block by block, handed to `finish` with a factor of its
+    /// results.
     fn fill<T: Number>(
         &self,
         quantity: Quantity,
         figure: Figure,
         out: &mut [T],
         cancel: &Cancel,
-        finish: impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync,
+        finish: impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync,
     ) -> Result<()> {
         self.check_asked(quantity)?;
         let shape = self.result_shape(quantity, figure);

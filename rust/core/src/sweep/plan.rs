@@ -24,6 +24,14 @@ pub(super) struct Terms {
     pub sizes: Vec<f64>,
 }
 
+/// An engine's order at one point of rod ratio and offset.
+#[derive(Clone, Copy, Default)]
+pub(super) struct At {
+    pub constants: Constants,
+    /// What rounding can leave.
+    pub bound: f64,
+}
+
 /// One engine: cylinders that share their harmonics, and what turns with the pins.
 pub(super) struct EnginePlan {
     /// Layout sums, and where their harmonics come from.
@@ -31,6 +39,8 @@ pub(super) struct EnginePlan {
     pub rotating: Option<Terms>,
     /// What rounding can leave, relative to Σ|terms|.
     pub zero_factors: Vec<f64>,
+    /// The orders at the only point; none where there are several.
+    pub at_only_point: Vec<At>,
 }
 
 /// All that does not depend on the bank angle.
@@ -124,7 +134,12 @@ impl EnginePlan {
             terms
         });
         let zero_factors = sweep.orders.iter().map(|&n| zero_factor(placements.len(), n)).collect();
-        Ok(Self { groups, rotating, zero_factors })
+        let mut plan = Self { groups, rotating, zero_factors, at_only_point: Vec::new() };
+        if sweep.points() == 1 {
+            let harmonics = plan.harmonics(sweep, &(0..1), cancel)?;
+            plan.at_only_point = plan.at(&harmonics, 0).collect();
+        }
+        Ok(plan)
     }
 
     /// Harmonics of each group at a range of points.
@@ -136,6 +151,33 @@ impl EnginePlan {
     ) -> Result<Vec<Rows<'_>>> {
         self.groups.iter().map(|(_, harmonics)| harmonics.rows(sweep, points, cancel)).collect()
     }
+
+    /// The orders at a point.
+    pub fn at(&self, harmonics: &[Rows], point: usize) -> impl Iterator<Item = At> {
+        self.zero_factors.iter().enumerate().map(move |(order, zero_factor)| {
+            let (mut constants, mut size) = (Constants::default(), 0.0);
+            let mut add = |terms: &Terms, factor: Complex64| {
+                // The part that turns backward was conjugated, its harmonic was not.
+                for (sum, constant) in constants.iter_mut().zip(&terms.constants[order]) {
+                    *sum += constant * factor;
+                }
+                size += terms.sizes[order] * length(factor);
+            };
+            for ((terms, _), harmonics) in self.groups.iter().zip(harmonics) {
+                add(terms, harmonics.at(point, order));
+            }
+            if let Some(terms) = &self.rotating {
+                add(terms, Complex64::new(1.0, 0.0));
+            }
+            At { constants, bound: size * zero_factor }
+        })
+    }
+}
+
+/// |z|, without a root where z is real.
+#[inline(always)]
+pub(super) fn length(z: Complex64) -> f64 {
+    if z.im == 0.0 { z.re.abs() } else { z.norm() }
 }
 
 /// What layout sums are taken over.

@@ -131,7 +131,7 @@ impl<'a> Run<'a> {
         &self,
         plan: &Plan,
         values: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+        finish: &(impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
         let units = self.units();
         let largest =
@@ -166,17 +166,16 @@ impl<'a> Run<'a> {
         if self.engines == 1 || !self.angles_abreast() || bytes > MOST_SHARED {
             return Vec::new();
         }
+        let mut shared = vec![Functions::new(plan); runs.len()];
         vectorised(
             #[inline(always)]
             || {
-                runs.map(|angles| {
-                    let mut functions = Functions::new(plan);
+                for (functions, angles) in shared.iter_mut().zip(runs) {
                     functions.set(plan, angles);
-                    functions
-                })
-                .collect()
+                }
             },
-        )
+        );
+        shared
     }
 
     /// Rows of some units, before speed or at the only one.
@@ -186,7 +185,7 @@ impl<'a> Run<'a> {
         shared: &[Functions],
         units: Vec<Unit>,
         mut out: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+        finish: &(impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
         let large = self.is_large(out.len());
         let mut tasks = Vec::with_capacity(units.len());
@@ -221,12 +220,15 @@ impl<'a> Run<'a> {
         block: &mut Block<'s>,
         unit: &Unit,
         out: &mut [T],
-        finish: &(impl Fn(&mut Block, &mut [T]) -> Result<()> + Sync),
+        finish: &(impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
         let engine = &plan.engines[unit.engine];
-        let harmonics = engine.harmonics(plan.sweep, &unit.points, self.cancel)?;
+        let harmonics = |points| engine.harmonics(plan.sweep, points, self.cancel);
         let angles = &self.bank_angles[unit.angles.clone()];
         let width = self.width;
+        // ω² is never a factor of anything but the result, so that a value at the only speed has the
+        // same bits as at one of many.
+        let factor = if let [square] = self.squares { *square } else { 1.0 };
         vectorised(
             #[inline(always)]
             || {
@@ -235,27 +237,25 @@ impl<'a> Run<'a> {
                     None => block.set_angles(plan, angles, unit.angles.start),
                 }
                 if !self.angles_abreast() {
+                    let harmonics = harmonics(&unit.points)?;
                     let firsts = unit.points.clone().step_by(BLOCK);
                     for (first, out) in firsts.zip(out.chunks_mut(BLOCK * width)) {
                         self.cancel.check()?;
                         block.set_points(engine, &harmonics, first, out.len() / width);
-                        finish(block, out)?;
-                        self.at_only_speed(out);
+                        finish(block, factor, out)?;
                     }
                     return Ok(());
                 }
                 if self.points == 1 {
-                    block.set_point(engine, &harmonics, 0, angles.len());
-                    finish(block, out)?;
-                    self.at_only_speed(out);
-                    return Ok(());
+                    block.set_point(engine.at_only_point.iter().copied());
+                    return finish(block, factor, out);
                 }
+                let harmonics = harmonics(&unit.points)?;
                 let mut at_point = vec![T::default(); angles.len() * width];
                 for point in unit.points.clone() {
                     self.cancel.check()?;
-                    block.set_point(engine, &harmonics, point, angles.len());
-                    finish(block, &mut at_point)?;
-                    self.at_only_speed(&mut at_point);
+                    block.set_point(engine.at(&harmonics, point));
+                    finish(block, factor, &mut at_point)?;
                     let rows = out.chunks_exact_mut(width).skip(point).step_by(self.points);
                     rows.zip(at_point.chunks_exact(width))
                         .for_each(|(out, row)| out.copy_from_slice(row));
@@ -263,17 +263,6 @@ impl<'a> Run<'a> {
                 Ok(())
             },
         )
-    }
-
-    /// Times ω² where there is one speed. It is never a factor of anything but the result, so that a
-    /// value at one of many speeds has the same bits.
-    #[inline(always)]
-    fn at_only_speed<T: Number>(&self, values: &mut [T]) {
-        if let [square] = self.squares {
-            for value in values {
-                *value = *value * *square;
-            }
-        }
     }
 
     /// Every row at every speed.
