@@ -43,7 +43,9 @@ pub(crate) fn zero_factor(count: usize, order: u32) -> f64 {
 
 /// A sum is zero where it is within what rounding can leave.
 pub(crate) fn snapped(sum: Complex64, bound: f64) -> Complex64 {
-    if sum.norm() <= bound { Complex64::default() } else { sum }
+    // Mostly a part is larger, and no root is taken.
+    let larger = sum.re.abs().max(sum.im.abs());
+    if larger <= bound && sum.norm() <= bound { Complex64::default() } else { sum }
 }
 
 /// Weighted sum of unit vectors along the bores, in phase with their cylinders.

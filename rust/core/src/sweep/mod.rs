@@ -12,6 +12,7 @@ mod choice;
 mod harmonics;
 mod plan;
 mod run;
+mod tiles;
 mod waveform;
 
 use std::mem;
@@ -248,10 +249,19 @@ impl Sweep {
         out: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
-        let (figure, width) = (Figure::Amplitude, self.orders.len() * quantity.components());
+        self.write_phasors_of(quantity, Cost::Small, out, cancel)
+    }
+
+    fn write_phasors_of(
+        &self,
+        quantity: Quantity,
+        cost: Cost,
+        out: &mut [Complex64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let width = self.orders.len() * quantity.components();
         self.fill(
-            quantity,
-            figure,
+            (quantity, Figure::Amplitude, cost),
             out,
             cancel,
             #[inline(always)]
@@ -281,8 +291,7 @@ impl Sweep {
         let orders = self.orders.len();
         match figure {
             Figure::Amplitude => self.fill(
-                quantity,
-                figure,
+                (quantity, figure, Cost::Small),
                 out,
                 cancel,
                 #[inline(always)]
@@ -292,8 +301,7 @@ impl Sweep {
                 },
             ),
             Figure::Length => self.fill(
-                quantity,
-                figure,
+                (quantity, figure, Cost::Small),
                 out,
                 cancel,
                 #[inline(always)]
@@ -312,7 +320,7 @@ impl Sweep {
             ),
             Figure::Sum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill(quantity, figure, out, cancel, |block, factor, out| {
+                self.fill((quantity, figure, Cost::Large), out, cancel, |block, factor, out| {
                     block.evaluate();
                     for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
                         cancel.check()?;
@@ -325,7 +333,7 @@ impl Sweep {
             }
             Figure::LengthOfSum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill(quantity, figure, out, cancel, |block, factor, out| {
+                self.fill((quantity, figure, Cost::Large), out, cancel, |block, factor, out| {
                     block.evaluate();
                     for (i, peak) in out.iter_mut().enumerate() {
                         cancel.check()?;
@@ -364,8 +372,7 @@ impl Sweep {
     /// results.
     fn fill<T: Number>(
         &self,
-        quantity: Quantity,
-        figure: Figure,
+        (quantity, figure, cost): (Quantity, Figure, Cost),
         out: &mut [T],
         cancel: &Cancel,
         finish: impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync,
@@ -375,10 +382,6 @@ impl Sweep {
         if out.len() != shape.iter().product::<usize>() {
             return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
         }
-        let cost = match figure {
-            Figure::Amplitude | Figure::Length => Cost::Small,
-            Figure::Sum | Figure::LengthOfSum => Cost::Large,
-        };
         let width = shape[5..].iter().product();
         let counts = [self.engines.len(), self.points(), width];
         let run = Run::new(counts, self.bank_angles(), &self.squares, cost, cancel);

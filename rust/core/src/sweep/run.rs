@@ -37,6 +37,8 @@ impl Number for Complex64 {}
 pub(super) enum Cost {
     /// Next to nothing.
     Small,
+    /// Next to nothing, and threads are awake for what is made of the phasors.
+    Awake,
     /// A search for an extremum, some hundred times as much.
     Large,
 }
@@ -90,7 +92,7 @@ impl<'a> Run<'a> {
     fn abreast(&self) -> usize {
         match (self.cost, self.angles_abreast()) {
             (Cost::Large, _) => 8,
-            (Cost::Small, true) => BLOCK,
+            (_, true) | (Cost::Awake, false) => BLOCK,
             (Cost::Small, false) => POINTS,
         }
     }
@@ -209,7 +211,11 @@ impl<'a> Run<'a> {
 
     /// Whether so many numbers before speed are worth another thread.
     fn is_large(&self, numbers: usize) -> bool {
-        let weight = if self.cost == Cost::Large { 256 } else { 1 };
+        let weight = match self.cost {
+            Cost::Small => 1,
+            Cost::Awake => 16,
+            Cost::Large => 256,
+        };
         numbers * weight >= WORTH_A_THREAD
     }
 

@@ -1,15 +1,15 @@
 //! Waveforms of every point of a sweep: sums of orders, or exact kinematics.
 //!
-//! A sum of orders at given angles is a matrix product: phasors, a row for each point, times cosines
-//! and sines, a column for each angle. Tiles of the second stay in the cache while rows go past. Of
-//! the kinematics, all that does not depend on the rod is worked out once for many points.
+//! Of the kinematics, all that does not depend on the rod is worked out once for many points.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::harmonics::proportions;
-use super::{Quantity, Sweep, Values};
+use super::run::Cost;
+use super::tiles::{TILE, Term, Tiles};
+use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::cancel::Cancel;
@@ -24,7 +24,7 @@ use crate::slider_crank::{Crank, Proportions};
 /// Points, each at a speed, that share a tile of cosines and sines.
 const ROWS: usize = 128;
 /// Crank angles of a task: a stretch of memory long enough that the processor foresees it.
-const SPAN: usize = 4 * BLOCK;
+const SPAN: usize = 4 * TILE;
 /// A result of fewer numbers is not worth waking another thread for (some 30 µs).
 const WORTH_A_THREAD: usize = 1 << 15;
 
@@ -75,74 +75,44 @@ impl Sweep {
         if exact {
             return self.by_kinematics(quantity, &rows, out);
         }
-        let phasors = self.phasors(quantity, cancel)?;
+        self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
+        let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
+        let mut phasors = vec![Complex64::default(); phasors];
+        let cost = if out.len() < WORTH_A_THREAD { Cost::Small } else { Cost::Awake };
+        self.write_phasors_of(quantity, cost, &mut phasors, cancel)?;
         self.by_orders(&phasors, &rows, out)
     }
 
-    fn by_orders(&self, phasors: &Values<Complex64>, rows: &Rows, out: &mut [f64]) -> Result<()> {
-        let components = rows.components;
-        let width = self.orders.len() * components;
-        let phasors = phasors.as_slice().unwrap_or_default();
-        // What a layout cancels is not summed, nor a part that is less than rounding in every row.
-        let terms = |phasors: &[Complex64]| -> Vec<Term> {
-            let all = (0..width).flat_map(|column| [false, true].map(|sine| Term { column, sine }));
-            let adds = |term: &Term| phasors.chunks_exact(width).any(|row| term.adds(row));
-            all.filter(adds).collect()
-        };
-        let fill_tiles = |tiles: &mut Vec<Tile>, term: &Term, range: Range<usize>| {
-            if tiles.is_empty() {
-                let order = self.orders[term.column / components];
-                let parts = parts(range, BLOCK).map(|part| Tile::new(rows.angles, part, order));
-                tiles.extend(parts);
-            }
+    fn by_orders(&self, phasors: &[Complex64], rows: &Rows, out: &mut [f64]) -> Result<()> {
+        let (orders, components) = (self.orders.len(), rows.components);
+        let width = orders * components;
+        let tiles = |range: &Range<usize>, terms: &[Term]| {
+            Tiles::new(rows.angles, range, &self.orders, terms)
         };
         // Of fewer rows than share a tile each is used once, and not worth keeping.
-        let mut shared: Vec<Vec<Tile>> = Vec::new();
-        if phasors.len() > ROWS * width {
-            shared.resize_with(self.orders.len(), Vec::new);
-            for term in terms(phasors) {
-                let tiles = &mut shared[term.column / components];
-                fill_tiles(tiles, &term, 0..rows.angles.len());
-            }
-        }
+        let shared = (phasors.len() > ROWS * width)
+            .then(|| tiles(&(0..rows.angles.len()), &Term::of(phasors, orders, components)));
         rows.fill(
             out,
             |rows_of| {
                 let phasors = &phasors[rows_of.start * width..rows_of.end * width];
-                Ok((phasors, terms(phasors)))
+                Ok((phasors, Term::of(phasors, orders, components)))
             },
             |(phasors, terms), range, outs| {
-                let mut own: Vec<Vec<Tile>> = Vec::new();
-                if shared.is_empty() {
-                    own.resize_with(self.orders.len(), Vec::new);
-                    for term in terms {
-                        fill_tiles(&mut own[term.column / components], term, range.clone());
-                    }
-                }
-                let (tiles, first) =
-                    if own.is_empty() { (&shared, range.start / BLOCK) } else { (&own, 0) };
-                // Terms of x and y (of torque and nothing), block by block.
-                let along = |block: usize, component: usize| -> Vec<(&Term, &Column)> {
-                    let along = terms.iter().filter(|term| term.column % components == component);
-                    let column = |term: &Term| {
-                        let tile = tiles[term.column / components].get(first + block)?;
-                        Some(if term.sine { &tile.sin } else { &tile.cos })
-                    };
-                    along.filter_map(|term| Some((term, column(term)?))).collect()
+                let own = shared.is_none().then(|| tiles(&range, terms));
+                let (tiles, first) = match &shared {
+                    Some(tiles) => (Some(tiles), range.start / TILE),
+                    None => (own.as_ref(), 0),
                 };
-                let blocks = 0..range.len().div_ceil(BLOCK);
-                let blocks: Vec<_> = blocks.map(|block| [0, 1].map(|k| along(block, k))).collect();
+                let Some(tiles) = tiles else { return };
                 vectorised(
                     #[inline(always)]
                     || {
-                        for (phasors, out) in phasors.chunks_exact(width).zip(outs) {
-                            let parts = out.chunks_mut(BLOCK * components);
-                            for ([x, y], out) in blocks.iter().zip(parts) {
-                                if components == 2 {
-                                    write_pairs(1.0, &sum(x, phasors), &sum(y, phasors), out);
-                                } else {
-                                    out.copy_from_slice(&sum(x, phasors)[..out.len()]);
-                                }
+                        for (row, out) in phasors.chunks_exact(width).zip(outs) {
+                            if components == 2 {
+                                tiles.sum::<2>(terms, row, first, out);
+                            } else {
+                                tiles.sum::<1>(terms, row, first, out);
                             }
                         }
                     },
@@ -273,67 +243,6 @@ impl Rows<'_> {
     }
 }
 
-// --- sums of orders -----------------------------------------------------------------------------
-
-/// A part of a sum: real or imaginary part of the phasor in this column of a row.
-struct Term {
-    column: usize,
-    sine: bool,
-}
-
-impl Term {
-    /// Whether it is more than half a unit in the last place of the whole phasor.
-    fn adds(&self, row: &[Complex64]) -> bool {
-        self.weight(row).abs() > 0.5 * f64::EPSILON * row[self.column].norm()
-    }
-
-    /// By what cosine or sine is multiplied.
-    #[inline(always)]
-    fn weight(&self, row: &[Complex64]) -> f64 {
-        let phasor = row[self.column];
-        if self.sine { -phasor.im } else { phasor.re }
-    }
-}
-
-/// Cosine and sine of nθ.
-struct Tile {
-    cos: Column,
-    sin: Column,
-}
-
-impl Tile {
-    fn new(angles: &CrankAngles, range: Range<usize>, order: u32) -> Self {
-        let mut tile = Self { cos: Column::ZERO, sin: Column::ZERO };
-        vectorised(
-            #[inline(always)]
-            || angles.multiples(order, range, &mut tile.cos[..], &mut tile.sin[..]),
-        );
-        tile
-    }
-}
-
-/// Σ Re P·cos nθ − Im P·sin nθ of one row, four terms at a time.
-#[inline(always)]
-fn sum(terms: &[(&Term, &Column)], row: &[Complex64]) -> Column {
-    let mut sum = Column::ZERO;
-    let mut fours = terms.chunks_exact(4);
-    for four in &mut fours {
-        let [(a, p), (b, q), (c, r), (d, s)] = four else { continue };
-        let [a, b, c, d] = [a, b, c, d].map(|term| term.weight(row));
-        for i in 0..BLOCK {
-            let ab = b.mul_add(q[i], a.mul_add(p[i], sum[i]));
-            sum[i] = d.mul_add(s[i], c.mul_add(r[i], ab));
-        }
-    }
-    for (term, column) in fours.remainder() {
-        let weight = term.weight(row);
-        for i in 0..BLOCK {
-            sum[i] = weight.mul_add(column[i], sum[i]);
-        }
-    }
-    sum
-}
-
 /// x and y, times a factor, in turns.
 #[inline(always)]
 fn write_pairs(factor: f64, x: &Column, y: &Column, out: &mut [f64]) {
@@ -342,8 +251,6 @@ fn write_pairs(factor: f64, x: &Column, y: &Column, out: &mut [f64]) {
         *pair = [factor * x, factor * y];
     }
 }
-
-// --- exact kinematics ---------------------------------------------------------------------------
 
 /// An engine at one bank angle.
 struct Placed {
