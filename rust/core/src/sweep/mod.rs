@@ -10,6 +10,7 @@
 mod block;
 mod choice;
 mod harmonics;
+mod placed;
 mod plan;
 mod run;
 mod tiles;
