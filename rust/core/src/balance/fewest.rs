@@ -144,6 +144,32 @@ mod tests {
         }
     }
 
+    /// The most parts of two sums, by dynamic programming over what both have lost in 64ths.
+    fn most_of_two(sizes: &[[usize; 2]]) -> u32 {
+        let mut most = vec![[None; 65]; 65];
+        most[0][0] = Some(0_u32);
+        for &[a, b] in sizes {
+            for i in (a..65).rev() {
+                for j in (b..65).rev() {
+                    most[i][j] = most[i][j].max(most[i - a][j - b].map(|count| count + 1));
+                }
+            }
+        }
+        most.into_iter().flatten().flatten().max().unwrap_or(0)
+    }
+
+    proptest! {
+        #[test]
+        fn forty_parts_are_solved_within_the_work_allowed(
+            parts in proptest::collection::vec([0_usize..40, 0_usize..40], 20..40),
+        ) {
+            let of = |&[a, b]: &[usize; 2]| vec![a as f64 / 64.0, b as f64 / 64.0];
+            let sizes: Vec<Vec<f64>> = parts.iter().map(of).collect();
+            let found = most_left_out(&sizes, &[0.0, 0.0]);
+            prop_assert_eq!(found.len() as u32, most_of_two(&parts));
+        }
+    }
+
     #[test]
     fn the_smallest_first_is_not_always_best() {
         // The first is small in both, the others large in one each; any two of the others fit.
