@@ -284,7 +284,6 @@ impl<'a> Layout<'a> {
             return match view {
                 View::Whole => vec![(group, 1)],
                 // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
-                View::Parts if offset == 0.0 => vec![(mirrored, 1)],
                 View::Parts => vec![(mirrored, 1), (mirrored + count, sign)],
             };
         }
@@ -429,7 +428,7 @@ impl<'a> Layout<'a> {
 /// One angle more, times a sign.
 fn turned(a: (i128, i128), b: (i128, i128), sign: i128) -> Result<(i128, i128)> {
     let denominator = common_multiple(a.1, b.1).ok_or_else(too_long)?;
-    let sum = a.0 % a.1 * (denominator / a.1) + sign * b.0 * (denominator / b.1);
+    let sum = a.0 * (denominator / a.1) + sign * b.0 * (denominator / b.1);
     Ok((sum, denominator))
 }
 
@@ -503,14 +502,13 @@ pub fn vanishing(
     })
 }
 
-/// What floating point says: at 60/2π rpm, where ω is 1.
+/// What floating point says, of no speed in particular.
 fn within_rounding(
     engine: &Engine,
     orders: &[u32],
     reference: Option<f64>,
 ) -> Result<Vec<[bool; 9]>> {
-    let rpm = 60.0 / std::f64::consts::TAU;
-    let found = balance::balance(engine, rpm, &Orders::Given(orders.to_vec()), reference, None)?;
+    let found = balance::balance(engine, 60.0, &Orders::Given(orders.to_vec()), reference, None)?;
     Ok((0..orders.len())
         .map(|k| {
             let zero = crate::Complex64::default();
@@ -527,6 +525,9 @@ fn within_rounding(
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
     use super::*;
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
@@ -635,6 +636,10 @@ mod tests {
             ((90.0, 90.0, 0.0, 0.45, 0.002), (180.0, 90.0, 0.0, 0.45 * 2_f64.sqrt(), 0.0));
         // At an order that is decided nothing is in the way.
         assert_eq!(obstacles(&engine(&[place, place]), 2), [""; 0]);
+        assert_eq!(obstacles(&engine(&[bank, bank]), 2), [""; 0]);
+        // Neither are places along the crank that are multiples of one length.
+        let further = (17.123_456, 90.0, 0.1, 0.45, 0.0);
+        assert_eq!(obstacles(&engine(&[place, further]), 2).len(), 1);
         assert_eq!(
             obstacles(&engine(&[place, tdc]), 2),
             ["tdc_deg is no rational part of a turn in cylinders 2"]
@@ -656,6 +661,89 @@ mod tests {
             obstacles(&engine(&spread), 2),
             ["places that are no rational multiples of each other"]
         );
+    }
+
+    /// Cylinders of few kinds, so that sums vanish now and then; m·r² of some is 1, the unit of rods.
+    fn placements() -> impl Strategy<Value = Vec<Placement>> {
+        let root = 2.0_f64.sqrt();
+        let mass = select(vec![400.0, 800.0, 400.0 * root]);
+        let cylinder =
+            (mass, select(vec![0.0, 0.001, -0.001, 0.002, 0.003]), select(vec![0.0, 0.3]));
+        let cylinder = cylinder.prop_map(|(mass, offset, inertia)| {
+            let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
+            cylinder.with_rod_inertia_excess(inertia).unwrap()
+        });
+        let tdc = select(vec![0.0, 90.0, 120.0, 180.0, 240.0, 17.123_456, 107.123_456]);
+        let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567]);
+        let z = select(vec![0.0, 0.1, 0.2, 0.1 * root]);
+        let place = (cylinder, tdc, bank, z, select(vec![0.0, 200.0])).prop_map(
+            |(cylinder, tdc, bank, z, rotating_mass)| Placement {
+                cylinder,
+                tdc: Angle::from_degrees(tdc).unwrap(),
+                bank: Angle::from_degrees(bank).unwrap(),
+                z,
+                rotating_mass,
+            },
+        );
+        let half = Angle::Turns(1, 2);
+        // With each a second one that differs in few things.
+        let pair = (place, any::<[bool; 4]>()).prop_map(move |(p, [tdc, bank, offset, rod])| {
+            let c = p.cylinder;
+            let e = if offset { -c.pin_offset() } else { c.pin_offset() };
+            let second = Cylinder::new(0.05, 0.15, c.reciprocating_mass(), e).unwrap();
+            let inertia = if rod { c.rod_inertia_excess() } else { 0.0 };
+            let second = Placement {
+                cylinder: second.with_rod_inertia_excess(inertia).unwrap(),
+                tdc: if tdc { p.tdc + half } else { p.tdc },
+                bank: if bank { p.bank + half } else { p.bank },
+                ..p
+            };
+            [p, second]
+        });
+        proptest::collection::vec(pair, 1..3).prop_map(|pairs| pairs.concat())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1024))]
+
+        #[test]
+        fn what_is_proved_is_so(
+            placements in placements(),
+            reference in select(vec![None, Some(0.0), Some(0.05), Some(0.05 * 2.0_f64.sqrt())]),
+        ) {
+            let engine = Engine::new("", "", placements).unwrap();
+            let orders = [1, 2, 3, 4];
+            let found = vanishing(&engine, &orders, reference, &crate::Cancel::new()).unwrap();
+            // Nothing of these kinds is near zero without being zero.
+            for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+                for (&verdict, &zero) in verdicts.iter().zip(zeros) {
+                    prop_assert!(verdict == U || (verdict == V) == zero, "{:?}", verdicts);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_reach_is_told_once() {
+        // Parts of a turn whose common denominator is beyond what is tested.
+        let tdc = |parts: i64| Angle::from_degree_fraction(360, parts).unwrap();
+        let places = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0); 2]).placements().to_vec();
+        let places = [
+            Placement { tdc: tdc(1_000_003), ..places[0] },
+            Placement { tdc: tdc(1_000_033), ..places[1] },
+        ];
+        let engine = Engine::new("", "", places.to_vec()).unwrap();
+        let found = vanishing(&engine, &[1, 2, 4], None, &crate::Cancel::new()).unwrap();
+        let moments = 4..8;
+        for verdicts in &found.verdicts {
+            assert!(verdicts[..4].iter().all(|&v| v == U));
+            assert!(verdicts[moments.clone()].iter().all(|&v| v == V));
+        }
+        let mut told = found.obstacles.clone();
+        assert!(told.iter().all(|text| text.contains("common denominator")), "{told:?}");
+        told.sort();
+        told.dedup();
+        assert_eq!(told.len(), found.obstacles.len());
     }
 
     #[test]
