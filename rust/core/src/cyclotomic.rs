@@ -80,13 +80,13 @@ impl RootSum {
             return Ok(true);
         };
         // Turned back by its first root, a sum has often fewer roots to be made of.
-        let step = self
-            .terms
-            .iter()
-            .fold(self.period, |step, &(exponent, _)| common_divisor(step, exponent - first));
-        let period = self.period / step;
         let mut product: Vec<(i128, i128)> =
-            self.terms.iter().map(|&(e, weight)| ((e - first) / step, weight)).collect();
+            self.terms.iter().map(|&(e, weight)| (e - first, weight)).collect();
+        let step = product.iter().fold(self.period, |step, &(e, _)| common_divisor(step, e));
+        let period = self.period / step;
+        for (exponent, _) in &mut product {
+            *exponent /= step;
+        }
         for prime in primes(period) {
             let shift = period / prime;
             let shifted: Vec<(i128, i128)> =

@@ -448,12 +448,13 @@ impl Firing {
         };
         let period = |k: usize, (firing, placement): (Angle, &Placement)| {
             let downwards = top_to_bottom(placement);
-            let top = firing + Angle::Turns((k / 2) as i64, 1);
-            if k.is_multiple_of(2) {
-                self.period(top, downwards)
+            let turns = Angle::Turns((k / 2) as i64, 1);
+            let (from, length) = if k.is_multiple_of(2) {
+                (turns, downwards)
             } else {
-                self.period(top + downwards, Angle::Turns(1, 1) - downwards)
-            }
+                (turns + downwards, Angle::Turns(1, 1) - downwards)
+            };
+            self.period(firing + from, length)
         };
         names
             .iter()
@@ -476,7 +477,7 @@ impl Firing {
         for (firing, placement) in self.angles().into_iter().zip(self.engine.placements()) {
             let (turn, downwards) = (Angle::Turns(1, 1), top_to_bottom(placement));
             let [opens, closes] = timing.intake;
-            valves.intake.push(self.period(firing + turn - opens, opens + downwards + closes));
+            valves.intake.push(self.period(firing + (turn - opens), opens + downwards + closes));
             let [opens, closes] = timing.exhaust;
             let open = opens + (turn - downwards) + closes;
             valves.exhaust.push(self.period(firing + downwards - opens, open));

@@ -336,7 +336,7 @@ impl<'a> Layout<'a> {
             return Ok(());
         }
         let (bank, tdc) = (self.banks[i], self.tdcs[i]);
-        let phase = (-i128::from(order) * tdc.turns.0, tdc.turns.1);
+        let phase = multiple(tdc.turns, -i128::from(order));
         let mut push = |bank_symbol, turns, sign| {
             let symbol = Symbol { mass, lever, tdc: tdc.symbol, bank: bank_symbol, ..symbol };
             let weight = Ratio { numerator: weight.numerator * sign, ..weight };
@@ -423,6 +423,10 @@ impl<'a> Layout<'a> {
         }
         found
     }
+}
+
+fn multiple(turns: (i128, i128), times: i128) -> (i128, i128) {
+    (times * turns.0, turns.1)
 }
 
 /// One angle more, times a sign.

@@ -421,6 +421,11 @@ mod tests {
         assert_eq!((least(1000, true, &quarter), least(1000, false, &quarter)), (250, 0));
     }
 
+    #[test]
+    fn what_is_not_small_is_close_wherever_rounding_put_it() {
+        assert_eq!(near(SMALL), CLOSE);
+    }
+
     /// |Z| nearly vanishes in some classes.
     fn small_banks() -> Vec<Bank> {
         let of = |parts: i64, phases: &[i64]| {
