@@ -47,12 +47,16 @@ impl Angle {
 
     /// From `numerator / denominator` degrees.
     pub fn from_degree_fraction(numerator: i64, denominator: i64) -> Result<Self> {
-        if denominator == 0 {
-            let value = format!("{numerator}/0");
-            return Err(Error::value("angle", value, "the denominator must not be 0"));
-        }
-        let sign = i128::from(denominator.signum());
-        match turns(i128::from(numerator) * sign, i128::from(denominator) * sign * 360) {
+        let (above, below) = (i128::from(numerator), i128::from(denominator));
+        let exact = match denominator.signum() {
+            0 => {
+                let value = format!("{numerator}/0");
+                return Err(Error::value("angle", value, "the denominator must not be 0"));
+            }
+            -1 => turns(-above, -below * 360),
+            _ => turns(above, below * 360),
+        };
+        match exact {
             Some(angle) if angle.degrees().abs() <= LARGEST_ANGLE => Ok(angle),
             _ => Self::from_degrees(numerator as f64 / denominator as f64),
         }
@@ -331,6 +335,8 @@ mod tests {
         for bad in ["", "x", "1/0", "1/x", "nan", "1e400", "99999999999999999999/7"] {
             assert!(bad.parse::<Angle>().is_err(), "{bad}");
         }
+        let error = Angle::from_degree_fraction(1, 0).unwrap_err().to_string();
+        assert!(error.contains("1/0: the denominator"), "{error}");
     }
 
     #[test]

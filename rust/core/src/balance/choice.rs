@@ -175,18 +175,21 @@ mod tests {
 
     #[test]
     fn candidates_end_where_the_rest_is_negligible() {
-        let plain = Cylinder::new(0.05, 0.2, 2.0, 0.0).unwrap();
         let short = Cylinder::new(0.05, 0.12, 1.0, 0.01).unwrap();
-        for inertia in [0.0, 0.001, 10.0] {
+        // Rods of which a few have a last order for their own inertia.
+        let cases = (0..20)
+            .flat_map(|k| [0.0, 0.001, 10.0].map(|inertia| (0.13 + 0.02 * f64::from(k), inertia)));
+        for (rod_length, inertia) in cases {
+            let plain = Cylinder::new(0.05, rod_length, 2.0, 0.0).unwrap();
             let heavy = plain.with_rod_inertia_excess(inertia).unwrap();
             for cylinders in
-                [vec![heavy], vec![plain, heavy, heavy], vec![short, heavy, plain, short]]
+                [vec![heavy; 2], vec![plain, heavy, heavy], vec![short, heavy, plain, short]]
             {
                 let engine = engine(&cylinders);
                 for torque in [false, true] {
                     let sums = Sums::new(&engine, 0.0, None, torque);
                     let last = *candidates(1e-6, &engine, &sums).unwrap().last().unwrap();
-                    let largest = 0.005_f64.max(inertia * 0.25);
+                    let largest = 0.005_f64.max(inertia * 0.05 / rod_length);
                     // As if nothing cancelled, and each cylinder were the largest.
                     let rest = |highest: u32| {
                         let each = cylinders.iter().map(|c| {
