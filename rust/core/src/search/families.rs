@@ -80,11 +80,19 @@ impl Families<'_> {
     pub(super) fn all(self, wanted: &Wanted, cancel: &Cancel) -> Result<Vec<Family>> {
         let entries = self.entries.all.len();
         refuse_too_many(least(entries, self.moments.images.mirror.is_some(), wanted), entries)?;
-        self.in_ranges((entries / RANGE).clamp(1, MOST_RANGES), wanted, cancel)
+        let ranges = (entries / RANGE).clamp(1, MOST_RANGES);
+        let per_radian = ranges as f64 / (0.5 * self.moments.turn);
+        self.in_ranges(ranges, per_radian, wanted, cancel)
     }
 
     /// The same, shared out among so many ranges of folded angles.
-    fn in_ranges(self, ranges: usize, wanted: &Wanted, cancel: &Cancel) -> Result<Vec<Family>> {
+    fn in_ranges(
+        self,
+        ranges: usize,
+        per_radian: f64,
+        wanted: &Wanted,
+        cancel: &Cancel,
+    ) -> Result<Vec<Family>> {
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
         let found = self.entries.ranges().map(|(start, range)| -> Result<Sorted> {
@@ -103,11 +111,11 @@ impl Families<'_> {
             count.fetch_add(families.len(), Ordering::Relaxed);
             refuse_too_many(count.load(Ordering::Relaxed), self.entries.all.len())?;
             cancel.step()?;
-            Ok(Sorted::new(&families, ranges, 0.5 * self.moments.turn))
+            Ok(Sorted::new(&families, ranges, per_radian))
         });
         let mut found = found.collect::<Result<Vec<_>>>()?;
         let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
-        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, 0.5 * self.moments.turn));
+        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian));
         let parts = (0..ranges).into_par_iter().map(|range| -> Result<[Vec<Family>; 2]> {
             let mut families: Vec<Family> =
                 found.iter().flat_map(|sorted| sorted.range(range)).copied().collect();
@@ -253,9 +261,8 @@ struct Sorted {
 }
 
 impl Sorted {
-    fn new(families: &[Family], ranges: usize, largest: f64) -> Self {
-        let scale = ranges as f64 / largest;
-        let range = |family: &Family| ((family.folded() * scale) as usize).min(ranges - 1);
+    fn new(families: &[Family], ranges: usize, per_radian: f64) -> Self {
+        let range = |family: &Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
         let mut starts = vec![0; ranges + 1];
         for family in families {
             starts[range(family) + 1] += 1;
@@ -475,6 +482,25 @@ mod tests {
     }
 
     #[test]
+    fn what_is_joined_is_there_once() {
+        for bank in banks().into_iter().take(3).chain(small_banks()) {
+            with_entries(bank, |moments, entries| {
+                let families = Families { moments, entries };
+                let mut found: Vec<Family> = classes(&entries.all)
+                    .flat_map(|class| of_class(families, class).1)
+                    .filter(|family| !family.is_small())
+                    .take(200)
+                    .collect();
+                found.sort();
+                let mut joined = Vec::new();
+                join(&mut joined, &found, &mut Same::new(families));
+                found.dedup_by(|a, b| a.folded() - b.folded() < APART);
+                assert_eq!(joined, found);
+            });
+        }
+    }
+
+    #[test]
     fn small_ones_are_inserted_once_wherever_rounding_put_them() {
         for bank in small_banks() {
             with_entries(bank, |moments, entries| {
@@ -520,11 +546,30 @@ mod tests {
                 let families = Families { moments, entries };
                 let wanted = Wanted::new([0.0, 180.0], Hold::Firing, moments.turn);
                 let all = families.all(&wanted, &Cancel::new()).unwrap();
-                for ranges in 1..30 {
+                let check = |ranges: usize, per_radian: f64| {
                     let cancel = Cancel::new();
-                    assert_eq!(families.in_ranges(ranges, &wanted, &cancel).unwrap(), all);
+                    let found = families.in_ranges(ranges, per_radian, &wanted, &cancel);
+                    assert_eq!(found.unwrap(), all, "{ranges} {per_radian}");
                     let (done, total) = cancel.progress();
                     assert_eq!(done, total);
+                };
+                for ranges in 1..10 {
+                    check(ranges, ranges as f64 / (0.5 * moments.turn));
+                }
+                // Also where a range ends between angles that only rounding parts.
+                let mut found: Vec<f64> = classes(&entries.all)
+                    .flat_map(|class| of_class(families, class).1)
+                    .map(Family::folded)
+                    .collect();
+                found.sort_by(f64::total_cmp);
+                let parted = |pair: &&[f64]| {
+                    let apart = pair[1] - pair[0];
+                    apart < APART && apart > 4.0 * f64::EPSILON * pair[1]
+                };
+                for pair in found.windows(2).filter(parted).take(20) {
+                    let per_radian = 1.0 / f64::midpoint(pair[0], pair[1]);
+                    assert!(pair[0] * per_radian < 1.0 && pair[1] * per_radian >= 1.0);
+                    check(2, per_radian);
                 }
             });
         }
