@@ -317,6 +317,7 @@ mod tests {
         }
         // Given as a fraction it is one, of more parts too.
         assert_eq!(Angle::from_degree_fraction(1, 7), Ok(Angle::Turns(1, 2520)));
+        assert_eq!(Angle::from_degree_fraction(1, -7), Ok(Angle::Turns(-1, 2520)));
     }
 
     #[test]

@@ -380,7 +380,8 @@ impl<'a> Layout<'a> {
         lever: (usize, Ratio),
     ) -> Result<()> {
         let count = self.groups.len();
-        let symbol = Symbol { channel: Channel::One, ..Symbol::default() };
+        // Of harmonic a₁ = 1.
+        let symbol = Symbol::default();
         let (unit, weight) = self.forces.of[count + i];
         let twice = Ratio { numerator: 2, denominator: 1 };
         let weight = weight.times(twice).ok_or_else(too_long)?;

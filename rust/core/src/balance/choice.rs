@@ -170,7 +170,12 @@ mod tests {
         // 5 kg at 0.08 m.
         near(scales(&two(5.0, 0.0), 0.2), [0.4, 0.4 * 0.5, 0.4 * 0.08]);
         // J·r/l = 0.25 J.
-        near(scales(&two(0.0, -2.0), 0.0), [0.32, 0.32 * 0.7, 0.5]);
+        let with_inertia = two(0.0, -2.0);
+        near(scales(&with_inertia, 0.0), [0.32, 0.32 * 0.7, 0.5]);
+        let [inert, plain] = [0, 1].map(|i| with_inertia.placements()[i].cylinder);
+        assert_eq!(rod_share(&inert, &[1.0, 1.0, 0.5]), 4.0);
+        // Where nothing moves, nothing over nothing is nothing.
+        assert_eq!(rod_share(&plain, &[0.0; 3]), 0.0);
     }
 
     #[test]
