@@ -264,13 +264,11 @@ impl<'a> Sums<'a> {
         let mut tail = [0.0; 3];
         for group in &self.groups {
             let [force, torque] = choice::tail(&group.proportions, highest, self.torque);
-            let bounds = [force, force, torque];
-            let most = self.most(group, highest);
-            for (sum, (most, bound)) in tail.iter_mut().zip(most.into_iter().zip(bounds)) {
-                *sum += if most == 0.0 { 0.0 } else { most * bound };
-            }
-            if self.torque && most[3] > 0.0 {
-                tail[2] += most[3] * choice::rod_tail(&group.proportions, highest);
+            let of_rod =
+                if self.torque { choice::rod_tail(&group.proportions, highest) } else { 0.0 };
+            let parts = [0, 1, 2, 2].into_iter().zip([force, force, torque, of_rod]);
+            for ((sum, bound), most) in parts.zip(self.most(group, highest)) {
+                tail[sum] += if most == 0.0 { 0.0 } else { most * bound };
             }
         }
         tail
@@ -410,6 +408,17 @@ mod tests {
             }
             let [force, _, none] = Sums::new(&both, 0.1, None, false).tail(highest);
             assert_eq!((force, none), (tail[0], 0.0));
+        }
+        // A rod's inertia adds to torque what it makes, where it does not cancel.
+        let rod = a.with_rod_inertia_excess(-0.02).unwrap();
+        for (odd, tdc) in [(0.0, 180.0), (1.234_567, 90.0)] {
+            let pair = [(odd, 90.0, 0.0), (odd + tdc, 90.0, 0.3)];
+            let [with, without] =
+                [rod, a].map(|c| Sums::new(&engine(c, &pair), 0.1, None, true).tail(4));
+            let rods = 0.04 * choice::rod_tail(&a.proportions(), 4);
+            assert_eq!(with[..2], without[..2]);
+            assert!(((with[2] - without[2]) / rods - 1.0).abs() < 1e-12);
+            assert_eq!(Sums::new(&engine(rod, &pair), 0.1, None, false).tail(4)[2], 0.0);
         }
         // Nothing times a bound that is not finite is nothing.
         let stiff = Cylinder::new(0.05, 0.05 * (1.0 + 1e-15), 1.0, 0.0).unwrap();
