@@ -37,3 +37,35 @@ fn a_table_has_what_one_asks_for_alone() {
     raised.raise();
     assert!(table::centred_table(&vec![0.3; 5000], &[2], &raised).is_err());
 }
+
+#[test]
+fn a_tolerance_leaves_terms_out() {
+    let orders = [2, 4, 8, 20, 64];
+    let cancel = Cancel::new();
+    // Side by side; by itself next to 1, in a plain sum and in one of twice the digits.
+    for (from, to) in [(0.2, 0.9), (0.9901, 0.995), (0.9975, 0.9999)] {
+        let ratios: Vec<f64> = (0..64).map(|k| from + (to - from) * f64::from(k) / 63.0).collect();
+        let exact = table::centred_table(&ratios, &orders, &cancel).unwrap();
+        for rtol in [1e-2, 1e-4, 1e-6, 1e-9] {
+            for together in [64, 1] {
+                let mut within = vec![0.0; ratios.len() * orders.len()];
+                for (ratios, rows) in
+                    ratios.chunks(together).zip(within.chunks_mut(together * orders.len()))
+                {
+                    table::write_centred(ratios, &orders, Some(rtol), rows, &cancel).unwrap();
+                }
+                for (k, n) in orders.into_iter().enumerate() {
+                    let values = within.iter().skip(k).step_by(orders.len());
+                    let worst = values
+                        .zip(exact.column(k))
+                        .map(|(value, exact)| (value / exact - 1.0).abs())
+                        .fold(0.0, f64::max);
+                    // Measured: from 0.16 of the tolerance next to 1, where many terms are of its
+                    // size; from 0.0048 where one is a hundredth of that before.
+                    let least = if from > 0.99 { 0.1 } else { 0.004 };
+                    assert!((least * rtol..=rtol).contains(&worst), "{from} {rtol} {n}: {worst:e}");
+                }
+            }
+        }
+    }
+}
