@@ -80,7 +80,7 @@ mod tests {
         for k in 0..200_i128 {
             // 64 bits: both parts count.
             let (a, b) =
-                ((1 << 63) + 0x1234_5678_9abc_def * (k + 1), (1 << 62) - 0x3579_bdf1_357 * k);
+                ((1 << 63) + 0x0123_4567_89ab_cdef * (k + 1), (1 << 62) - 0x0357_9bdf_1357 * k);
             let c = 0x1f_ffff_ffff_fff1 - 0x1_2345_6789 * k;
             for (a, b) in [(a, b), (-a, b), (a, -b)] {
                 let product = double(a).times(double(b));

@@ -3,7 +3,7 @@
 //! The tables are those of `tests/rederivation/harmonics_mp.py`, which integrates the motion itself.
 
 use crankpin_core::harmonics::{self, coefficients, highest_order, rod, table, torque};
-use crankpin_core::slider_crank::Proportions;
+use crankpin_core::slider_crank::{Cylinder, Proportions};
 use crankpin_core::{Cancel, limits};
 
 const USUAL: &str = include_str!("../../../tests/data/harmonics_50_digits.csv");
@@ -153,5 +153,47 @@ fn the_highest_order_is_the_lowest_that_keeps_the_tolerance() {
         let proportions = Proportions::new(1.0 - gap, 0.0).unwrap();
         assert_eq!(highest_order(&proportions, 1e-6, None), None);
         assert_eq!(highest_order(&proportions, 1e-6, Some(0.3)), None);
+    }
+}
+
+#[test]
+fn torques_of_a_cylinder_are_over_its_second_moment() {
+    let cylinder = Cylinder::new(0.05, 0.16, 0.5, 0.01).unwrap();
+    let orders = [1, 2, 3, 4, 6];
+    let of_masses = torque::torque(&cylinder.proportions(), &orders);
+    let of_rod = rod::torque(&cylinder.proportions(), &orders);
+    assert_eq!(torque::over_second_moment(&cylinder, &orders).unwrap(), of_masses);
+    let swinging = cylinder.with_rod_inertia_excess(-4e-4).unwrap();
+    let both = torque::over_second_moment(&swinging, &orders).unwrap();
+    for k in 0..orders.len() {
+        // m·r² = 0.5 · 0.05² = 1.25e-3, of which the excess is −0.32.
+        for (both, masses, swing) in [
+            (both.roll[k], of_masses.roll[k], of_rod.roll[k]),
+            (both.crank[k], of_masses.crank[k], of_rod.crank[k]),
+        ] {
+            // A few roundings of either term.
+            assert!((both - (masses - 0.32 * swing)).norm() < 1e-15);
+        }
+    }
+    let no_mass = Cylinder::new(0.05, 0.16, 0.0, 0.0).unwrap();
+    assert!(torque::over_second_moment(&no_mass, &orders).is_ok());
+    let swinging = no_mass.with_rod_inertia_excess(1e-3).unwrap();
+    assert!(torque::over_second_moment(&swinging, &orders).is_err());
+}
+
+/// Far up, where a harmonic has decayed below the rounding of the spike near the crank that cannot turn.
+#[test]
+fn high_orders_keep_their_digits_near_the_crank_that_cannot_turn() {
+    // `even_harmonic_closed_form` of the same file, Gauss's hypergeometric function, to 30 digits.
+    let exact = [(1.0 - 1e-5, -6.479_787_038_726_869e-4), (1.0 - 3e-6, -2.823_316_220_837_553e-2)];
+    for (ratio, exact) in exact {
+        let alone = coefficients(&Proportions::new(ratio, 0.0).unwrap(), &[2000])[0].re;
+        // An offset too small to matter, by another series.
+        let reach = (1.0 - ratio) / ratio;
+        let offset = Proportions::new(ratio, 1e-20 * reach).unwrap();
+        for found in [alone, coefficients(&offset, &[2000])[0].re] {
+            // The two-thousandth power, and steps of a recurrence.
+            assert!((found / exact - 1.0).abs() < 1e-13, "{ratio}: {found:e}");
+        }
     }
 }
