@@ -11,8 +11,8 @@ use crate::rational::divisor;
 
 /// Grid points to the shortest wave.
 const POINTS_PER_WAVE: usize = 16;
-/// Halvings after which what an interval could hide is below 1e-13 of the peak.
-const MOST_HALVINGS: u32 = 12;
+/// Parts of a step of the grid in which what could be hidden is below 1e-13 of the peak.
+const MOST_PARTS: f64 = 4096.0;
 /// A polynomial falls from an extreme by 1 − cos nθ of its excursion at most (M. Riesz), and the nearest
 /// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
 const EXCURSION_OVER_SAMPLED: f64 = 0.51;
@@ -88,7 +88,8 @@ impl PeakFinder {
             if wave < at {
                 (power, at) = (Complex64::new(1.0, 0.0), 0);
             }
-            power *= if wave - at == 1 { unit } else { unit.powu(wave - at) };
+            let step = wave - at;
+            power *= if step == 1 { unit } else { unit.powu(step) };
             at = wave;
             let n = f64::from(wave);
             let term = phasor * power;
@@ -109,7 +110,8 @@ impl PeakFinder {
             degree: (grid.len() / POINTS_PER_WAVE) as f64,
             excursion: EXCURSION_OVER_SAMPLED * (highest - lowest),
         };
-        let negligible = 0.25 * f64::EPSILON * highest.max(-lowest);
+        // The mean is zero or more, and so is the highest.
+        let negligible = 0.25 * f64::EPSILON * highest;
         let mut best = highest;
         let mut rest: Vec<Interval> = jets
             .iter()
@@ -119,7 +121,6 @@ impl PeakFinder {
                 from: k as f64 * step,
                 width: step,
                 ends: [here, next],
-                halvings: 0,
             })
             .collect();
         // The last is the first to be looked at: a peak found rules out others.
@@ -130,7 +131,7 @@ impl PeakFinder {
             if interval.highest_end() + hidden <= best || hidden <= negligible {
                 continue;
             }
-            let last = interval.halvings == MOST_HALVINGS;
+            let last = interval.width <= step / MOST_PARTS;
             if interval.rises_then_falls() && (last || bounds.bends_down(&interval)) {
                 best = best.max(interval.polish(at));
             } else if !last {
@@ -177,7 +178,6 @@ struct Interval {
     from: f64,
     width: f64,
     ends: [Jet; 2],
-    halvings: u32,
 }
 
 impl Interval {
@@ -192,15 +192,14 @@ impl Interval {
     fn halve(&self, at: &impl Fn(Complex64) -> Jet) -> [Self; 2] {
         let width = 0.5 * self.width;
         let middle = at(Complex64::cis(self.from + width));
-        let halvings = self.halvings + 1;
         [
-            Self { from: self.from, width, ends: [self.ends[0], middle], halvings },
-            Self { from: self.from + width, width, ends: [middle, self.ends[1]], halvings },
+            Self { from: self.from, width, ends: [self.ends[0], middle] },
+            Self { from: self.from + width, width, ends: [middle, self.ends[1]] },
         ]
     }
 
-    /// Height of the maximum between the ends: Newton's method on the slope, bisection where it
-    /// would leave the bracket.
+    /// Height of the maximum between the ends: Newton's method on the slope, bisection where that
+    /// would leave the bracket or the top.
     fn polish(&self, at: &impl Fn(Complex64) -> Jet) -> f64 {
         let (mut low, mut high) = (self.from, self.from + self.width);
         let mut best = self.highest_end();
@@ -214,11 +213,14 @@ impl Interval {
                 high = here;
             }
             let newton = here - slope / bend;
-            let next =
-                if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
-            // At the top the value has no slope: 1e-9 rad off it is right to rounding. A dip between two
-            // peaks has none either.
-            if slope == 0.0 && bend <= 0.0 || (next - here).abs() < 1e-9 * self.width {
+            // Where it bends upwards Newton's method goes to a dip.
+            let next = if bend < 0.0 && (low..=high).contains(&newton) {
+                newton
+            } else {
+                f64::midpoint(low, high)
+            };
+            // The value has no slope at the top: 1e-9 of the width off it is right to rounding.
+            if (next - here).abs() <= 1e-9 * self.width {
                 break;
             }
             here = next;
@@ -327,6 +329,7 @@ mod tests {
     /// without second derivative; some sin θ makes one of them higher.
     #[test]
     fn of_two_peaks_close_together_the_higher_counts() {
+        let finder = PeakFinder::new(&[1, 3]);
         for (exponent, tilt) in (0..16).flat_map(|k| [(k, 0.0), (k, 0.2), (k, -0.2)]) {
             let s = 0.5_f64.powi(exponent);
             let c = -(1.0 + s) / 9.0;
@@ -336,23 +339,32 @@ mod tests {
             // of a second derivative below 3s.
             let near = |k: i32| at(f64::from(k) * 1e-4 * s.sqrt());
             let peak = (-15_000..=15_000).map(near).fold(0.0, f64::max);
-            for k in 0..48 {
-                // Wherever they lie between points of the grid, also in the middle of two.
-                let turn = f64::from(k) * TAU / 48.0 / 48.0;
+            for k in 0..24 {
+                // Wherever they lie between points of the grid, also in the middle of two, in any unit.
+                let turn = f64::from(k) * TAU / 48.0 / 24.0;
+                let unit = [1.0, 1e-9, 1e9][k as usize % 3];
                 let first = Complex64::new(1.0, -tilt) * Complex64::cis(turn);
-                let phasors = [first, c * Complex64::cis(3.0 * turn)];
-                for orders in [[1, 3], [2, 6]] {
-                    let finder = PeakFinder::new(&orders);
-                    let vector = finder.of_vector(&phasors, &[Complex64::default(); 2]);
-                    for found in [finder.along_axis(&phasors), vector] {
-                        let apart = found - peak;
-                        assert!(
-                            (-2e-15..=2e-15 + 1e-8 * s * s).contains(&apart),
-                            "{s} {tilt} {k}: {apart:e}"
-                        );
-                    }
+                let phasors = [first, c * Complex64::cis(3.0 * turn)].map(|p| p * unit);
+                let vector = finder.of_vector(&phasors, &[Complex64::default(); 2]);
+                for found in [finder.along_axis(&phasors), vector] {
+                    let apart = found / unit - peak;
+                    // A few roundings of three terms; the samples miss the peak.
+                    let allowed = -2e-15..=2e-15 + 1e-8 * s * s;
+                    assert!(allowed.contains(&apart), "{s} {tilt} {k}: {apart:e}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn high_orders_peak_where_they_meet() {
+        let finder = PeakFinder::new(&[999, 1000]);
+        for k in 0..40 {
+            let at = 0.151 * f64::from(k);
+            let phasors = [999.0, 1000.0].map(|n| Complex64::cis(-n * at));
+            // The thousandth power of e^{iθ} has a thousand times its rounding.
+            let peak = finder.along_axis(&phasors);
+            assert!((peak - 2.0).abs() < 5e-13, "{k}: {peak}");
         }
     }
 
@@ -402,7 +414,7 @@ mod tests {
             [-rest * rest, -4.0 * θ * rest, -4.0 * (rest + 2.0 * θ * θ)]
         };
         let ends = [hump(Complex64::cis(-0.25)), hump(Complex64::cis(0.25))];
-        let interval = Interval { from: -0.25, width: 0.5, ends, halvings: 0 };
+        let interval = Interval { from: -0.25, width: 0.5, ends };
         assert!(interval.rises_then_falls());
         let peak = interval.polish(&hump);
         // The peak is zero, the dip −1e-4; 1e-9 of the width off the top is its square.

@@ -171,14 +171,15 @@ fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], r
         }
         let mut power = p;
         if n <= LARGEST_PLAIN_ORDER {
-            for _ in 1..n / 2 {
+            let squares = n / 2 - 1;
+            for _ in 0..squares {
                 for lane in 0..LANES {
                     power[lane] *= square[lane];
                 }
             }
-            let (degree, squares) = (f64::from(n - 1), f64::from(n / 2 - 1));
+            let squares = f64::from(squares);
             for lane in 0..LANES {
-                let correction = degree * of_p[lane] + squares * of_square[lane];
+                let correction = of_p[lane] + squares * (2.0 * of_p[lane] + of_square[lane]);
                 power[lane] = power[lane].mul_add(correction, power[lane]);
             }
         } else {
