@@ -158,11 +158,8 @@ impl Bounds {
         let width = self.degree * interval.width;
         // From one peak to the nearer end by the second derivative. Without a bracket it rises from a
         // dip to a peak: between two zeros of the slope, by the third.
-        let share = if interval.rises_then_falls() {
-            width * width / 8.0
-        } else {
-            width * width * width / 12.0
-        };
+        let share =
+            if interval.rises_then_falls() { width.powi(2) / 8.0 } else { width.powi(3) / 12.0 };
         share * self.excursion
     }
 
