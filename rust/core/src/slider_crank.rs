@@ -275,6 +275,16 @@ mod tests {
     }
 
     #[test]
+    fn rod_inertia_changes_nothing_else() {
+        let plain = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+        let cylinder = plain.with_rod_inertia_excess(-2e-3).unwrap();
+        assert_eq!((plain.rod_inertia_excess(), plain.has_rod_inertia()), (0.0, false));
+        assert_eq!((cylinder.rod_inertia_excess(), cylinder.has_rod_inertia()), (-2e-3, true));
+        assert_eq!(cylinder.with_rod_inertia_excess(0.0).unwrap(), plain);
+        assert!(plain.with_rod_inertia_excess(f64::NAN).is_err());
+    }
+
+    #[test]
     fn a_crank_that_cannot_turn_is_refused() {
         assert!(Proportions::new(1.0, 0.0).is_err());
         assert!(Proportions::new(0.5, 1.0).is_err());

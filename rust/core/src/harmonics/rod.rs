@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_2_PI;
 
 use super::spike::graded_panels;
 use super::torque::{RationalPart, TorqueHarmonics};
-use super::{LONGEST_SERIES, NEGLIGIBLE_LOG, Offset, Root, Roots, SERIES_TERMS_PER_ORDER};
+use super::{Offset, Root, Roots, is_by_quadrature, series_length};
 use crate::Complex64;
 use crate::slider_crank::Proportions;
 
@@ -64,15 +64,13 @@ impl<'a> Swing<'a> {
     fn velocities(&self, orders: &[u32]) -> Vec<Complex64> {
         let Offset { size, above, below, .. } = self.offset;
         let roots = Roots::new(size, above, below);
-        let count = NEGLIGIBLE_LOG / (-2.0 * roots.p2.ln());
-        let by_quadrature =
-            |n: u32| count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n);
-        let highest = orders.iter().copied().filter(|&n| !by_quadrature(n)).max();
+        let count = roots.terms();
+        let highest = orders.iter().copied().filter(|&n| !is_by_quadrature(n, count)).max();
         let series = highest
-            .map(|highest| self.series(&roots, highest as usize + count.ceil() as usize + 1))
+            .map(|highest| self.series(&roots, series_length(highest, count)))
             .unwrap_or_default();
         let magnitude = |n: u32| {
-            if by_quadrature(n) {
+            if is_by_quadrature(n, count) {
                 return self.integral(n);
             }
             // From the smallest term up.

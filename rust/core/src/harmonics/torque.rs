@@ -134,7 +134,7 @@ impl RationalPart {
             return Complex64::new(0.0, if n % 4 == 1 { magnitude } else { -magnitude });
         }
         let sum = (1.0 - p1 * p1) * power(p1, n - 1) + (1.0 - p2 * p2) * power(p2, n - 1);
-        let fraction = 0.5 * self.rod * sum * if n.is_multiple_of(4) { -1.0 } else { 1.0 };
+        let fraction = 0.5 * self.rod * if n.is_multiple_of(4) { -sum } else { sum };
         Complex64::new(if n == 2 { fraction - 0.5 } else { fraction }, 0.0)
     }
 }
