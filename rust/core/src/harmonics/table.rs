@@ -177,9 +177,9 @@ fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], r
                     power[lane] *= square[lane];
                 }
             }
-            let squares = f64::from(squares);
+            let (degree, squares) = (f64::from(n - 1), f64::from(squares));
             for lane in 0..LANES {
-                let correction = of_p[lane] + squares * (2.0 * of_p[lane] + of_square[lane]);
+                let correction = degree * of_p[lane] + squares * of_square[lane];
                 power[lane] = power[lane].mul_add(correction, power[lane]);
             }
         } else {
