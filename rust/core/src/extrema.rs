@@ -113,6 +113,10 @@ impl PeakFinder {
         // The mean is zero or more, and so is the highest.
         let negligible = 0.25 * f64::EPSILON * highest;
         let mut best = highest;
+        let may_hold_more = |interval: &Interval, best: f64| {
+            let hidden = bounds.hidden(interval);
+            hidden > negligible && interval.highest_end() + hidden > best
+        };
         let mut rest: Vec<Interval> = jets
             .iter()
             .zip(jets.iter().cycle().skip(1))
@@ -122,13 +126,13 @@ impl PeakFinder {
                 width: step,
                 ends: [here, next],
             })
+            .filter(|interval| may_hold_more(interval, best))
             .collect();
         // The last is the first to be looked at: a peak found rules out others.
         rest.sort_by_key(Interval::rises_then_falls);
         while let Some(interval) = rest.pop() {
             best = best.max(interval.highest_end());
-            let hidden = bounds.hidden(&interval);
-            if interval.highest_end() + hidden <= best || hidden <= negligible {
+            if !may_hold_more(&interval, best) {
                 continue;
             }
             let last = interval.width <= step / MOST_PARTS;
