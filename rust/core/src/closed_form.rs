@@ -215,6 +215,7 @@ fn phasor(sum: &RootSum) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cancel::Cancel;
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
 
@@ -276,8 +277,12 @@ mod tests {
                         crate::balance::balance(&engine, rpm, &orders, reference, None).unwrap();
                     let shake = if moment { found.moment } else { found.force };
                     let cylinder = engine.placements()[form.unit].cylinder;
-                    let harmonic =
-                        crate::harmonics::coefficients(&cylinder.proportions(), &[order])[0];
+                    let harmonic = crate::harmonics::coefficients(
+                        &cylinder.proportions(),
+                        &[order],
+                        &Cancel::new(),
+                    )
+                    .unwrap()[0];
                     let length = if moment { form.spacing } else { 1.0 };
                     let unit = harmonic.re * cylinder.first_order() * length;
                     let expected =

@@ -93,6 +93,12 @@ impl Cylinder {
         self.crank_radius / self.rod_length
     }
 
+    /// How much longer the rod is than one with which the crank cannot turn, in crank radii.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        slack(self.rod_length / self.crank_radius, self.pin_offset / self.crank_radius)
+    }
+
     /// m·r, the size of the first-order force over ω², kg·m.
     #[must_use]
     pub fn first_order(&self) -> f64 {
@@ -228,6 +234,12 @@ pub struct Motion {
     pub velocity: f64,
     /// (d²x/dθ²)/r.
     pub acceleration: f64,
+}
+
+/// [`Cylinder::slack`] of a rod and an offset, in crank radii.
+#[must_use]
+pub fn slack(rod: f64, offset: f64) -> f64 {
+    rod - offset.abs() - 1.0
 }
 
 #[cfg(test)]

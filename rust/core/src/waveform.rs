@@ -78,7 +78,7 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let kinematics = matches!(orders, Orders::Auto { .. }) && asked.spectrum.is_none();
-    let balance = match balance::of(engine, asked, orders) {
+    let balance = match balance::of(engine, asked, orders, cancel) {
         Err(Error::TooManyOrders { .. }) if kinematics => None,
         found => Some(found?),
     };

@@ -32,7 +32,7 @@ fn rows(table: &str) -> impl Iterator<Item = Row> {
 fn every_order_to_its_own_last_digits() {
     for Row { ratio, offset, orders, parts } in rows(USUAL).chain(rows(HARD)) {
         let proportions = Proportions::new(ratio, offset).unwrap();
-        let found = coefficients(&proportions, &orders);
+        let found = coefficients(&proportions, &orders, &Cancel::new()).unwrap();
         for ((&n, exact), found) in orders.iter().zip(parts).zip(found) {
             let (part, other) =
                 if n % 2 == 0 { (found.re, found.im) } else { (found.im, found.re) };
@@ -160,11 +160,11 @@ fn the_highest_order_is_the_lowest_that_keeps_the_tolerance() {
 fn torques_of_a_cylinder_are_over_its_second_moment() {
     let cylinder = Cylinder::new(0.05, 0.16, 0.5, 0.01).unwrap();
     let orders = [1, 2, 3, 4, 6];
-    let of_masses = torque::torque(&cylinder.proportions(), &orders);
-    let of_rod = rod::torque(&cylinder.proportions(), &orders);
-    assert_eq!(torque::over_second_moment(&cylinder, &orders).unwrap(), of_masses);
+    let of_masses = torque::torque(&cylinder.proportions(), &orders, &Cancel::new()).unwrap();
+    let of_rod = rod::torque(&cylinder.proportions(), &orders, &Cancel::new()).unwrap();
+    assert_eq!(torque::over_second_moment(&cylinder, &orders, &Cancel::new()).unwrap(), of_masses);
     let swinging = cylinder.with_rod_inertia_excess(-4e-4).unwrap();
-    let both = torque::over_second_moment(&swinging, &orders).unwrap();
+    let both = torque::over_second_moment(&swinging, &orders, &Cancel::new()).unwrap();
     for k in 0..orders.len() {
         // m·r² = 0.5 · 0.05² = 1.25e-3, of which the excess is −0.32.
         for (both, masses, swing) in [
@@ -176,9 +176,9 @@ fn torques_of_a_cylinder_are_over_its_second_moment() {
         }
     }
     let no_mass = Cylinder::new(0.05, 0.16, 0.0, 0.0).unwrap();
-    assert!(torque::over_second_moment(&no_mass, &orders).is_ok());
+    assert!(torque::over_second_moment(&no_mass, &orders, &Cancel::new()).is_ok());
     let swinging = no_mass.with_rod_inertia_excess(1e-3).unwrap();
-    assert!(torque::over_second_moment(&swinging, &orders).is_err());
+    assert!(torque::over_second_moment(&swinging, &orders, &Cancel::new()).is_err());
 }
 
 /// Far up, where a harmonic has decayed below the rounding of the spike near the crank that cannot turn.
@@ -187,11 +187,13 @@ fn high_orders_keep_their_digits_near_the_crank_that_cannot_turn() {
     // `even_harmonic_closed_form` of the same file, Gauss's hypergeometric function, to 30 digits.
     let exact = [(1.0 - 1e-5, -6.479_787_038_726_869e-4), (1.0 - 3e-6, -2.823_316_220_837_553e-2)];
     for (ratio, exact) in exact {
-        let alone = coefficients(&Proportions::new(ratio, 0.0).unwrap(), &[2000])[0].re;
+        let alone = coefficients(&Proportions::new(ratio, 0.0).unwrap(), &[2000], &Cancel::new())
+            .unwrap()[0]
+            .re;
         // An offset too small to matter, by another series.
         let reach = (1.0 - ratio) / ratio;
         let offset = Proportions::new(ratio, 1e-20 * reach).unwrap();
-        for found in [alone, coefficients(&offset, &[2000])[0].re] {
+        for found in [alone, coefficients(&offset, &[2000], &Cancel::new()).unwrap()[0].re] {
             // The two-thousandth power, and steps of a recurrence.
             assert!((found / exact - 1.0).abs() < 1e-13, "{ratio}: {found:e}");
         }

@@ -18,7 +18,8 @@ fn a_table_has_what_one_asks_for_alone() {
         }
     }
     for (row, &ratio) in table.rows().into_iter().zip(&ratios) {
-        let alone = coefficients(&Proportions::new(ratio, 0.0).unwrap(), &orders);
+        let alone =
+            coefficients(&Proportions::new(ratio, 0.0).unwrap(), &orders, &Cancel::new()).unwrap();
         for ((&value, exact), n) in row.iter().zip(alone).zip(orders) {
             // Ten roundings of numbers near 1, and those of up to 68 terms.
             assert!((value - exact.re).abs() <= 5e-15 * exact.re.abs(), "{ratio} {n}");
@@ -28,7 +29,11 @@ fn a_table_has_what_one_asks_for_alone() {
     let mut pairs = vec![Complex64::default(); ratios.len() * orders.len()];
     table::write_offset(&ratios, &offsets, &orders, &mut pairs, &Cancel::new()).unwrap();
     for ((row, &ratio), &offset) in pairs.chunks(orders.len()).zip(&ratios).zip(&offsets) {
-        assert_eq!(row, coefficients(&Proportions::new(ratio, offset).unwrap(), &orders));
+        assert_eq!(
+            row,
+            coefficients(&Proportions::new(ratio, offset).unwrap(), &orders, &Cancel::new())
+                .unwrap()
+        );
     }
     assert!(table::check_size::<f64>(usize::MAX, &orders).is_err());
     assert!(table::centred_table(&[0.3], &[0], &Cancel::new()).is_err());
@@ -87,7 +92,7 @@ fn long_tables_are_many_short_ones() {
         let alone = table::centred_table(&ratios[k..=k], &orders, &cancel).unwrap();
         assert_eq!(row, alone.row(0));
         let pair = Proportions::new(ratios[k], offsets[k]).unwrap();
-        assert_eq!(pairs[3 * k..3 * k + 3], coefficients(&pair, &orders));
+        assert_eq!(pairs[3 * k..3 * k + 3], coefficients(&pair, &orders, &Cancel::new()).unwrap());
     }
 }
 
@@ -98,7 +103,8 @@ fn powers_keep_their_digits() {
     let table = table::centred_table(&ratios, &orders, &Cancel::new()).unwrap();
     let mut worst = [0.0_f64; 7];
     for (row, &ratio) in table.rows().into_iter().zip(&ratios) {
-        let alone = coefficients(&Proportions::new(ratio, 0.0).unwrap(), &orders);
+        let alone =
+            coefficients(&Proportions::new(ratio, 0.0).unwrap(), &orders, &Cancel::new()).unwrap();
         for ((value, exact), worst) in row.iter().zip(alone).zip(&mut worst) {
             if exact.re.abs() > 1e-290 {
                 // Below 1e-290 doubles lose digits.

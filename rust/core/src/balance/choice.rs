@@ -8,6 +8,7 @@
 use super::fewest::most_left_out;
 use super::sums::Sums;
 use super::{Balance, Shake};
+use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::harmonics;
@@ -19,10 +20,16 @@ use crate::slider_crank::{Cylinder, Proportions};
 const NEGLIGIBLE: f64 = 1e-17;
 
 /// The fewest orders within `rtol`, the same at every speed.
-pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Result<Balance> {
+pub(super) fn within(
+    rtol: f64,
+    sums: &Sums,
+    engine: &Engine,
+    omega: f64,
+    cancel: &Cancel,
+) -> Result<Balance> {
     let candidates = candidates(limits::tolerance(rtol)?, engine, sums)?;
     let last = candidates.last().copied().unwrap_or(1);
-    let whole = sums.balance(&candidates, 1.0);
+    let whole = sums.balance(&candidates, 1.0, cancel)?;
     let tail = if sums.spectrum.is_some() { [0.0; 3] } else { sums.tail(last) };
     let allowed = scales(engine, sums.reference).map(|largest| rtol * largest);
     let share = |sizes: &[f64; 3]| -> Vec<f64> {
@@ -39,7 +46,7 @@ pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Res
     });
     let mut kept = candidates.clone();
     kept.retain(|n| left_out.binary_search_by(|&k| candidates[k].cmp(n)).is_err());
-    let mut balance = sums.balance(&kept, omega);
+    let mut balance = sums.balance(&kept, omega, cancel)?;
     balance.omitted = left_out
         .into_iter()
         .filter(|&k| sizes[k].iter().any(|&size| size > 0.0))

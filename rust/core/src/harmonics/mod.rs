@@ -16,7 +16,9 @@ pub mod torque;
 
 use self::spike::spike_integral;
 use crate::Complex64;
+use crate::cancel::Cancel;
 use crate::double::Double;
+use crate::error::Result;
 use crate::limits;
 use crate::slider_crank::Proportions;
 
@@ -34,16 +36,29 @@ const LONGEST_PLAIN_SERIES: f64 = 100.0;
 const ALL_DIGITS: f64 = 0.0;
 
 /// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
-#[must_use]
-pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
+pub fn coefficients(
+    proportions: &Proportions,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<Vec<Complex64>> {
     if proportions.offset == 0.0 {
         let centred = Centred::new(proportions);
-        return orders
-            .iter()
-            .map(|&n| Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
-            .collect();
+        let order = |&n: &u32| {
+            cancel.check()?;
+            Ok(Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
+        };
+        return orders.iter().map(order).collect();
     }
-    Offset::new(proportions).coefficients(orders)
+    Offset::new(proportions).coefficients(orders, cancel)
+}
+
+/// About how many steps of some nanoseconds so many orders of a cylinder take at most, by the slack of
+/// its rod.
+#[must_use]
+pub fn steps(slack: f64, orders: usize) -> usize {
+    /// With less slack it may take hundreds of terms or a quadrature.
+    const LITTLE: f64 = 0.02;
+    orders.saturating_mul(if slack < LITTLE { 1 << 15 } else { 64 })
 }
 
 /// Whether an order is better integrated than summed from so many terms.
@@ -202,7 +217,7 @@ impl Offset {
         Self { size: offset.abs(), mirrored, above, below }
     }
 
-    fn coefficients(&self, orders: &[u32]) -> Vec<Complex64> {
+    fn coefficients(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let highest = orders.iter().copied().max().unwrap_or(1);
         let roots = Roots::new(self.size, self.above, self.below);
         let count = roots.terms();
@@ -214,6 +229,7 @@ impl Offset {
         orders
             .iter()
             .map(|&n| {
+                cancel.check()?;
                 let magnitude = if is_by_quadrature(n, count) {
                     // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
                     let integral = spike_integral(self.above.high, self.below.high, self.size, n);
@@ -225,7 +241,7 @@ impl Offset {
                         (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
                     f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
                 };
-                self.turned(n, magnitude)
+                Ok(self.turned(n, magnitude))
             })
             .collect()
     }

@@ -13,7 +13,7 @@ use crate::cancel::Cancel;
 use crate::error::Result;
 use crate::limits;
 use crate::simd::vectorised;
-use crate::slider_crank::Proportions;
+use crate::slider_crank::{Proportions, slack};
 
 /// Up to this order repeated multiplication to the power below it is within 2e-15.
 const LARGEST_PLAIN_ORDER: u32 = 16;
@@ -55,11 +55,25 @@ pub fn write_offset(
     fill(pairs, orders.len(), out, cancel, |range, rows| {
         let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
         for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
-            cancel.check()?;
-            row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
+            let proportions = Proportions::new(rod_ratio, offset)?;
+            row.copy_from_slice(&coefficients(&proportions, orders, cancel)?);
         }
         Ok(())
     })
+}
+
+/// About how many steps of some nanoseconds tables of so many orders take at most, with offsets over r
+/// or none.
+#[must_use]
+pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usize {
+    let least = match offsets {
+        Some(offsets) => {
+            let pairs = rod_ratios.iter().zip(offsets);
+            pairs.map(|(λ, &offset)| slack(1.0 / λ, offset)).fold(f64::INFINITY, f64::min)
+        }
+        None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
+    };
+    super::steps(least, orders.saturating_mul(rod_ratios.len()))
 }
 
 /// A table of numbers of type `T` is not too large.
