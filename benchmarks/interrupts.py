@@ -42,6 +42,8 @@ CALLS = {
     ),
     "waveform, kinematics": "v6.waveform(1000, thetas).moment",
     "waveform, 299 orders": ("v6.waveform(1000, thetas, orders=range(1, 300)).moment"),
+    "balance, 10 000 orders, λ = 0.999": "near.balance(1000, orders=range(1, 10_001))",
+    "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",
     "search of a V-26": "cp.search_arrangements(26)",
     "ranking, 10 million bank angles": (
         "cp.rank(v6, rpm=1000, bank_angle_deg=angles[::2], hold='pins')"
@@ -60,6 +62,12 @@ angles = np.linspace(0, 180, 20_000_000)
 speeds = np.linspace(500, 9000, 20_000_000)
 near_one = np.full(20_000_000, 0.9999)
 thetas = np.linspace(0, 720, 20_000_000)
+def unlike(rod_ratio, offset):
+    rods = [0.05 / rod_ratio * (1 + 1e-9 * k) for k in range(40)]
+    cylinders = [cp.Cylinder(0.05, rod, 1, pin_offset=offset) for rod in rods]
+    tdcs, places = [7.3 * k for k in range(40)], [0.1 * k for k in range(40)]
+    return cp.Engine.from_lists(cylinders, tdc_deg=tdcs, bank_deg=[0] * 40, z=places)
+near, nearer = unlike(0.999, 1e-6), unlike(0.99999, 1e-9)
 listed = ratios.tolist() if "listed" in {call!r} else None
 for line in sys.stdin:
     try:

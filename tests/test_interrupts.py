@@ -42,6 +42,18 @@ LONG_CALLS = {
         "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000))"
         ".waveform(np.linspace(0, 720, 2000), exact=True).force for _ in range(100)]"
     ),
+    "balance of ten thousand orders": "near(0.999, 1e-6).balance(1000, orders=range(1, 10_001))",
+    "orders chosen for a balance": "near(0.99999, 1e-9).balance(1000, orders='auto', rtol=1e-3)",
+    "waveform of chosen orders": (
+        "near(0.99999, 1e-9).waveform(1000, [0.0], orders='auto', rtol=1e-3)"
+    ),
+    "harmonics of one cylinder": (
+        "[near(0.999, 1e-6).cylinders[0].harmonics(range(1, 10_001)) for _ in range(100)]"
+    ),
+    "one point of a sweep": (
+        "[cp.sweep(near(0.999, 1e-6), rpm=1000, orders=range(1, 10_001)).torque "
+        "for _ in range(100)]"
+    ),
     "waveform as a sum of orders": (
         "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),
@@ -51,6 +63,12 @@ PROGRAM = """
 import numpy as np
 import crankpin as cp
 v6 = cp.Engine.preset("v6-60")
+def near(rod_ratio, offset):
+    "Forty unlike cylinders whose cranks can hardly turn."
+    rods = [0.05 / rod_ratio * (1 + 1e-9 * k) for k in range(40)]
+    cylinders = [cp.Cylinder(0.05, rod, 1, pin_offset=offset) for rod in rods]
+    tdcs, places = [7.3 * k for k in range(40)], [0.1 * k for k in range(40)]
+    return cp.Engine.from_lists(cylinders, tdc_deg=tdcs, bank_deg=[0] * 40, z=places)
 print("ready", flush=True)
 try:
     {call}
