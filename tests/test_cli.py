@@ -113,6 +113,18 @@ def test_balance_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
     assert "left out" not in printed(capsys, "balance", "i4", "--orders", "auto", "--csv")
 
 
+def test_sweep_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
+    argv = ["sweep", "i4", "--rod-ratio", "0.25,0.3", "--orders", "auto", "--rtol", "1e-3"]
+    table, note = printed(capsys, *argv).rstrip("\n").rsplit("\n", 1)
+    i4 = cp.Engine.preset("i4")
+    s = cp.sweep(i4, rpm=3000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3)
+    assert all(f"order {n}" in table for n in s.orders)
+    assert f"at most {s.error_bound.force:.2g} N to the force" in note
+    assert f"left out: {', '.join(map(str, s.omitted))}." in note
+    assert s.omitted
+    assert "left out" not in printed(capsys, *argv, "--csv")
+
+
 def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
     argv = ["balance", "i3-ebook", "--rpm", "10", "--orders", "1,2", "--csv"]
     argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
@@ -409,7 +421,8 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("sweep v6-60 --bank-angle 10:190:10", "bank_angle"),
         ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "rod_ratio"),
         ("sweep v6-60 --hold nothing", "--hold"),
-        ("sweep v6-60 --orders auto", "--orders = auto"),
+        ("sweep v6-60 --rtol 1e-3", "--rtol = 1e-3: chooses orders"),
+        ("rank v6-60 --orders auto", "--orders = auto"),
         ("rank v6-60 --by shake", "by = 'shake': give"),
         ("rank v6-60 --by moment_peak_vector_3", 'by = "moment_peak_vector_3" takes order 3'),
         ("rank v6-60 --bank-angle own --refine", "refine = True"),

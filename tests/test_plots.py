@@ -232,6 +232,36 @@ def test_waveform_of_few_angles_is_drawn(theta: list[float]) -> None:
     rendered(V6.waveform(5000, theta).plot().figure)
 
 
+def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_point() -> None:
+    s = cp.sweep([V6, I4], rpm=[3000, 5000], orders=[1, 2])
+    w = s.waveform(np.arange(0.0, 361.0))
+    figure = w.plot("force")
+    along_x, along_y = figure.axes
+    assert [ax.get_title(loc="left") for ax in figure.axes] == ["along x", "along y"]
+    assert [ax.get_xlabel() for ax in figure.axes] == ["crank angle θ"] * 2
+    assert along_x.get_ylabel() == "shaking force, N"
+    assert figure.get_suptitle() == "2 engines\nshaking force\norders 1, 2"
+    for k, ax in enumerate((along_x, along_y)):
+        # the first line is the axis
+        np.testing.assert_array_equal(
+            np.array([line.get_ydata() for line in ax.lines[1:]]), w.force[..., k].reshape(4, -1)
+        )
+        np.testing.assert_array_equal(ax.lines[1].get_xdata(), w.theta_deg)
+    (legend,) = figure.legends
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert texts == ["V6 60°, shared pins", "Inline-4", "3000 rpm", "5000 rpm"]
+    rendered(figure)
+
+
+def test_waveforms_of_one_point_may_be_zero() -> None:
+    figure = cp.sweep(I4, rpm=3000, orders=[1]).waveform([0.0, 90.0]).plot()
+    assert [text.get_text() for ax in figure.axes for text in ax.texts] == ["zero throughout"] * 2
+    assert figure.axes[0].get_ylim() == (-1.0, 1.0)
+    assert not figure.legends
+    with pytest.raises(cp.InputError, match="quantity"):
+        cp.sweep(I4, rpm=3000).waveform([0.0]).plot("speed")  # type: ignore[arg-type]
+
+
 # --- sweep --------------------------------------------------------------------------------------
 
 

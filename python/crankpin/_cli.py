@@ -109,13 +109,7 @@ def _parser() -> _Parser:
     )
     one.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
     one.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    one.add_argument(
-        "--orders", default="1,2,4,6", help="such as 1,2,4, or auto (default: %(default)s)"
-    )
-    one.add_argument(
-        "--rtol",
-        help="with --orders auto: what may be left out, relative to m·r·ω² (default: 1e-9)",
-    )
+    _orders_or_auto(one, "1,2,4,6")
     _shared(one, "quantity of the picture")
 
     many = _command(
@@ -146,7 +140,7 @@ def _parser() -> _Parser:
         help="what a change of bank angle leaves as it is: the crank's pins, or the crank angles "
         "of all top dead centres (default: %(default)s)",
     )
-    many.add_argument("--orders", default="1,2", help="such as 1,2,4 (default: %(default)s)")
+    _orders_or_auto(many, "1,2")
     _shared(many, "peaks to tell")
 
     ranks = _command(
@@ -231,6 +225,16 @@ def _shared(parser: _Parser, quantity: str) -> None:
     _cylinder_and_output(parser)
 
 
+def _orders_or_auto(parser: _Parser, default: str) -> None:
+    parser.add_argument(
+        "--orders", default=default, help="such as 1,2,4, or auto (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--rtol",
+        help="with --orders auto: what may be left out, relative to m·r·ω² (default: 1e-9)",
+    )
+
+
 def _cylinder_and_output(parser: _Parser) -> None:
     parser.add_argument(
         "--reference-z",
@@ -258,14 +262,12 @@ def _list(arguments: argparse.Namespace) -> str:
 
 def _balance(arguments: argparse.Namespace) -> str:
     engine = _engine(arguments.name, "balance")
-    orders: Orders = "auto" if arguments.orders == "auto" else _orders(arguments.orders)
-    if arguments.rtol is not None and orders != "auto":
-        raise InputError(f"--rtol = {arguments.rtol}: chooses orders; give --orders auto with it")
+    orders, rtol = _chosen(arguments)
     picture = _picture_file(arguments.plot)
     balance = engine.balance(
         _number("--rpm", arguments.rpm),
         orders,
-        rtol=1e-9 if arguments.rtol is None else _number("--rtol", arguments.rtol),
+        rtol=rtol,
         reference_z=_plane(arguments.reference_z),
         spectrum=_spectrum(arguments.spectrum),
     )
@@ -277,9 +279,17 @@ def _balance(arguments: argparse.Namespace) -> str:
     return text if arguments.csv or orders != "auto" else text + _left_out(balance)
 
 
-def _left_out(balance: Balance) -> str:
-    force, moment, torque = balance.error_bound
-    listed = ", ".join(map(str, balance.omitted))
+def _chosen(arguments: argparse.Namespace) -> tuple[Orders, float]:
+    """Return orders, or "auto", and the tolerance they are chosen by."""
+    orders: Orders = "auto" if arguments.orders == "auto" else _orders(arguments.orders)
+    if arguments.rtol is not None and orders != "auto":
+        raise InputError(f"--rtol = {arguments.rtol}: chooses orders; give --orders auto with it")
+    return orders, 1e-9 if arguments.rtol is None else _number("--rtol", arguments.rtol)
+
+
+def _left_out(result: Balance | Sweep) -> str:
+    force, moment, torque = result.error_bound
+    listed = ", ".join(map(str, result.omitted))
     seen = f"; looked at and left out: {listed}" if listed else ""
     roll = "" if torque is None else f" and {torque:.2g} N·m to the roll torque"
     return (
@@ -303,6 +313,7 @@ def _sweep(arguments: argparse.Namespace) -> str:
     rows = math.prod([len(engines), *map(np.size, given.values())])
     if rows > MOST_ROWS:
         raise InputError(f"{rows} points to sweep: give {MOST_ROWS} at most")
+    orders, rtol = _chosen(arguments)
     picture = _picture_file(arguments.plot)
     result = sweep(
         engines if len(engines) > 1 else next(iter(engines.values())),
@@ -311,14 +322,16 @@ def _sweep(arguments: argparse.Namespace) -> str:
         rod_ratio=given.get("rod_ratio"),
         pin_offset=given.get("pin_offset"),
         hold=arguments.hold if "bank_angle_deg" in given else None,
-        orders=_orders(arguments.orders),
+        orders=orders,
+        rtol=rtol,
         reference_z=_plane(arguments.reference_z),
         spectrum=_spectrum(arguments.spectrum),
     )
     tables = _tables_of(result, arguments)
     if picture is not None:
         _write(result.plot(quantity=arguments.quantity), picture)
-    return _printed(tables, csv=arguments.csv)
+    text = _printed(tables, csv=arguments.csv)
+    return text if arguments.csv or orders != "auto" else text + _left_out(result)
 
 
 def _rank(arguments: argparse.Namespace) -> str:

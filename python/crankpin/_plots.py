@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from crankpin._firing import Firing
     from crankpin._rank import Ranking
     from crankpin._sweep import Quantity, Sweep
+    from crankpin._sweep_waveform import SweepWaveform
     from crankpin._waveform import Waveform
 
 AXES: dict[str, tuple[str, ...]] = {
@@ -113,7 +114,7 @@ def waveform(waveform: Waveform, ax: Axes | None, quantity: str) -> Axes:
     return ax
 
 
-def _summed(waveform: Waveform, kind: Quantity) -> str:
+def _summed(waveform: Waveform | SweepWaveform, kind: Quantity) -> str:
     if waveform.orders is None:
         return "exact kinematics"
     text = "order " if len(waveform.orders) == 1 else "orders "
@@ -237,6 +238,43 @@ def sweep(sweep: Sweep, quantity: Quantity, x: str | None) -> Figure:
         _label_x(ax, x, np.asarray(sweep.coords[x]))
     figure.align_ylabels()
     _explain(figure, panels, sweep, others, curves, words)
+    return figure
+
+
+def sweep_waveform(waveform: SweepWaveform, quantity: Quantity) -> Figure:
+    """Draw a quantity over crank angle at every point, a panel for each axis."""
+    kind, sweep, theta = _checked(quantity), waveform.sweep, waveform.theta_deg
+    values = np.moveaxis(_by_axis(getattr(waveform, kind), kind), -2, 0)
+    words, dims = _words(sweep), list(sweep.coords)
+    curves = _curves(sweep, dims)
+    columns = len(AXES[kind])
+    figure, panels = plt.subplots(
+        1,
+        columns,
+        figsize=(4.6 * columns + (2.0 if columns == 1 else 0.0), 4.2),
+        sharey=True,
+        squeeze=False,
+        layout=ConstrainedLayoutEngine(w_pad=0.08),
+        FigureClass=_Grid,
+    )
+    title = [words.title, words.subtitle(kind), _summed(waveform, kind)]
+    figure.suptitle("\n".join(title), x=0.012, ha="left", fontsize=12)
+    for column, axis in enumerate(AXES[kind]):
+        ax = panels[0, column]
+        ax.set_title(axis, loc="left", fontsize=10, color=GREY)
+        ax.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
+        for curve in curves:
+            ax.plot(theta, values[(slice(None), *curve.place, column)], zorder=3, **curve.style)
+        _dress(ax)
+        _degrees(ax, theta)
+        ax.set_xlabel("crank angle θ")
+        if not values[..., column].any():
+            _say_zero(ax)
+    panels[0, 0].set_ylabel(f"{_tables.NAMES[kind]}, {_tables.UNITS[kind]}")
+    if not values.any():
+        panels[0, 0].set_ylim(-1.0, 1.0)
+        panels[0, 0].set_yticks([0.0])
+    _explain(figure, panels, sweep, dims, curves, words, marked=False)
     return figure
 
 
@@ -396,13 +434,15 @@ def _explain(
     others: Sequence[str],
     curves: list[_Curve],
     words: _Words,
+    *,
+    marked: bool = True,
 ) -> None:
     """Say once what colours and dashes mean."""
     if not others:
         return
     first, *rest = others
     handles: list[Any] = []
-    marker = "o" if len(curves) <= len(COLOURS) else None
+    marker = "o" if marked and len(curves) <= len(COLOURS) else None
     if first != "engine" and len(sweep.coords[first]) > len(COLOURS):
         _colour_scale(figure, panels, first, np.asarray(sweep.coords[first]))
     else:

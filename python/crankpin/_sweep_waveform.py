@@ -15,6 +15,7 @@ from crankpin._frozen import Frozen
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from crankpin._progress import Progress
@@ -181,6 +182,24 @@ class SweepWaveform(Frozen):
             coords["axis"] = ("axis", ["x", "y"])
         dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, self.sweep._attributes)
         return dataset
+
+    def plot(self, quantity: Quantity = "moment") -> Figure:
+        """Draw a quantity over crank angle, a panel for each axis; return the figure.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"``, ``"moment"`` or ``"torque"``.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
+        >>> figure = s.waveform().plot("moment")
+        """
+        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+
+        return _plots.sweep_waveform(self, quantity)
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"
