@@ -32,6 +32,7 @@ AXES: dict[str, dict[str, Any]] = {
     },
     "offsets": {
         "engines": {"a": V6, "b": V8},
+        "reference_z": 0.07,
         "rod_ratio": np.linspace(0.2, 0.4, 5),
         "pin_offset": np.linspace(-0.003, 0.003, 67),
         "rpm": np.linspace(500, 9000, 5),
@@ -71,6 +72,16 @@ def test_chunks_have_the_bits_of_the_whole(name: str) -> None:
     for variable in found:
         assert chunked[variable].dtype == found[variable].dtype
         assert np.array_equal(found[variable], getattr(whole, str(variable)))
+
+
+def test_sweeps_of_other_engines_keep_apart() -> None:
+    """What dask takes for the same it works out once."""
+    names = ["v6-60", "v6-90"]
+    pairs = [[cp.Engine.preset(name), V8] for name in names]
+    moments = [cp.sweep(engines, rpm=[1000, 2000], chunks=1).moment for engines in pairs]
+    together = dask.compute(*moments, scheduler="synchronous")
+    for found, engines in zip(together, pairs, strict=True):
+        assert np.array_equal(found, cp.sweep(engines, rpm=[1000, 2000]).moment)
 
 
 def test_other_processes() -> None:
