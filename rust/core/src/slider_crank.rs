@@ -287,6 +287,16 @@ mod tests {
     }
 
     #[test]
+    fn slack_is_what_is_left_of_the_reaches() {
+        for (rod, offset) in [(0.15, 0.0), (0.06, 0.004), (0.06, -0.004), (0.051, 1e-4)] {
+            let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
+            let Proportions { above, below, .. } = cylinder.proportions();
+            // a unit in the last place of l/r, thrice
+            assert!((cylinder.slack() - above.high.min(below.high)).abs() < 2e-15);
+        }
+    }
+
+    #[test]
     fn rod_inertia_changes_nothing_else() {
         let plain = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
         let cylinder = plain.with_rod_inertia_excess(-2e-3).unwrap();

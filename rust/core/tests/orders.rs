@@ -7,7 +7,9 @@ use std::f64::consts::TAU;
 
 use crankpin_core::harmonics::{self, torque};
 use crankpin_core::slider_crank::{Motion, Proportions};
-use crankpin_core::{Cancel, Complex64};
+use crankpin_core::{
+    Angle, Asked, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Spectrum, balance,
+};
 
 const HIGHEST: u32 = 12;
 
@@ -84,6 +86,46 @@ fn a_cylinders_torques_are_what_its_piston_does() {
                 assert!(off <= ROUNDING * largest, "{ratio} {offset} {n}: {found}, off {off:e}");
             }
         }
+    }
+}
+
+/// Many orders are worked out once each; few are not looked through for those that come again.
+#[test]
+fn torques_of_orders_that_come_again_are_those_of_each_alone() {
+    let centred = Cylinder::new(0.05, 0.15, 1.3, 0.0).unwrap();
+    let centred = centred.with_rod_inertia_excess(2e-4).unwrap();
+    let orders: Vec<u32> = (1..=90).rev().chain([7, 7, 300, 1, 90]).collect();
+    let nobody = Cancel::new();
+    let all = torque::over_second_moment(&centred, &orders, &nobody).unwrap();
+    for (k, &n) in orders.iter().enumerate() {
+        let alone = torque::over_second_moment(&centred, &[n], &nobody).unwrap();
+        assert_eq!((all.roll[k], all.crank[k]), (alone.roll[0], alone.crank[0]), "{n}");
+    }
+}
+
+#[test]
+fn who_stops_waiting_is_told_at_once() {
+    let stopped = Cancel::new();
+    stopped.raise();
+    let cylinders = [0.0, 1e-3].map(|offset| Cylinder::new(0.05, 0.15, 1.0, offset).unwrap());
+    for cylinder in cylinders {
+        let proportions = cylinder.proportions();
+        let found = harmonics::coefficients(&proportions, &[2], &stopped);
+        assert_eq!(found.unwrap_err(), Error::Cancelled);
+        let found = torque::torque(&proportions, &[2], &stopped);
+        assert_eq!(found.unwrap_err(), Error::Cancelled);
+        let found = harmonics::rod::torque(&proportions, &[2], &stopped);
+        assert_eq!(found.unwrap_err(), Error::Cancelled);
+    }
+    // A spectrum stands in for all of that.
+    let zero = Angle::from_degrees(0.0).unwrap();
+    let cylinder = cylinders[0];
+    let placement = Placement { cylinder, tdc: zero, bank: zero, z: 0.0, rotating_mass: 0.0 };
+    let engine = Engine::new("", "", vec![placement]).unwrap();
+    let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
+    let asked = Asked { rpm: 1000.0, reference_z: None, spectrum: Some(&spectrum), torque: false };
+    for orders in [Orders::Given(vec![1]), Orders::Auto { rtol: 1e-3 }] {
+        assert_eq!(balance::of(&engine, &asked, &orders, &stopped).unwrap_err(), Error::Cancelled);
     }
 }
 
