@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use common::{alone, in_line, mixed, places, plain, there};
 use crankpin_core::extrema::PeakFinder;
+use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
     Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders, Placement,
-    Spectrum, Sweep, balance,
+    Spectrum, Sweep, balance, harmonics,
 };
 
 const QUANTITIES: [Quantity; 3] = [Quantity::Force, Quantity::Moment, Quantity::Torque];
@@ -602,4 +603,250 @@ fn whoever_no_longer_waits_is_told_so() {
             }
         }
     }
+}
+
+/// What an engine's orders come to over ω² at the worst point of a sweep, what is above them all, and
+/// what may be left out: force, moment and torque.
+struct Worst {
+    sizes: Vec<[f64; 3]>,
+    rest: [f64; 3],
+    allowed: [f64; 3],
+}
+
+impl Worst {
+    fn of(engine: &Arc<Engine>, axes: &Axes, last: u32, rtol: f64) -> Self {
+        let rpm = vec![3000.0];
+        let axes = Axes { rpm, ..axes.clone() };
+        let orders: Vec<u32> = (1..=last).collect();
+        let one = sweep(&[Arc::clone(engine)], &axes, &[1], None);
+        let (mut sizes, mut rest) = (vec![[0.0_f64; 3]; orders.len()], [0.0_f64; 3]);
+        for place in places(one.shape()) {
+            let there = there(engine, &alone(&axes, place));
+            let asked =
+                Asked { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+            let balance = balance::of(&there, &asked, &Orders::Given(orders.clone())).unwrap();
+            for (which, quantity) in QUANTITIES.into_iter().enumerate() {
+                let (_, _, lengths) = of_balance(&balance, quantity);
+                for (size, length) in sizes.iter_mut().zip(lengths) {
+                    size[which] = size[which].max(length / square(3000.0));
+                }
+            }
+            let mut here = [0.0; 3];
+            for p in there.placements() {
+                let (c, proportions) = (p.cylinder, p.cylinder.proportions());
+                let force = c.first_order() * harmonics::tail_bound(&proportions, last).unwrap();
+                let torque = harmonics::torque::tail_bound(&proportions, last).unwrap();
+                let swing = harmonics::rod::tail_bound(&proportions, last).unwrap();
+                here[0] += force;
+                here[1] += force * (p.z - REFERENCE).abs();
+                here[2] += c.second_moment() * torque + c.rod_inertia_excess().abs() * swing;
+            }
+            (0..3).for_each(|which| rest[which] = rest[which].max(here[which]));
+        }
+        let allowed = scales(engine).map(|scale| rtol * scale);
+        Self { sizes, rest, allowed }
+    }
+}
+
+/// The largest m·r of a cylinder, reciprocating or not, times the longest lever and the crank radius;
+/// or what rod inertia makes of order 1.
+fn scales(engine: &Engine) -> [f64; 3] {
+    let mut largest = [0.0_f64; 2];
+    for p in engine.placements() {
+        let (c, r) = (p.cylinder, p.cylinder.crank_radius());
+        let force = c.first_order().max(p.rotating_mass * r);
+        let of_rod = c.rod_inertia_excess().abs() * r / c.rod_length();
+        largest = [largest[0].max(force), largest[1].max(force * r).max(of_rod)];
+    }
+    [largest[0], largest[0] * engine.longest_lever(REFERENCE), largest[1]]
+}
+
+/// The last order that is looked at: what is above comes to a hundredth of the tolerance at most, even
+/// if every cylinder of the largest engine had its part in it.
+fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
+    let count = engines.iter().map(|engine| engine.placements().len()).max().unwrap();
+    let mut last = 1;
+    for place in places(sweep(engines, axes, &[1], None).shape()) {
+        let engine = &engines[place[0]];
+        for p in there(engine, &alone(axes, place)).placements() {
+            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine)[2];
+            let (proportions, part) = (p.cylinder.proportions(), 0.01 * rtol / count as f64);
+            let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
+            last = last.max(here.unwrap());
+        }
+    }
+    last
+}
+
+fn square(rpm: f64) -> f64 {
+    (rpm * std::f64::consts::TAU / 60.0).powi(2)
+}
+
+/// As many parts as can be left out, all sets of them tried: parts over what may be lost, by sum.
+fn most(parts: &[Vec<f64>], lost: &[f64], out: usize, best: &mut usize) {
+    *best = out.max(*best);
+    let Some((first, rest)) = parts.split_first() else { return };
+    if out + parts.len() <= *best {
+        return;
+    }
+    let with: Vec<f64> = lost.iter().zip(first).map(|(a, b)| a + b).collect();
+    if with.iter().all(|&lost| lost <= 1.0) {
+        most(rest, &with, out + 1, best);
+    }
+    most(rest, lost, out, best);
+}
+
+/// No more orders can be left out, and those that are come to what is said.
+#[track_caller]
+fn the_fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) {
+    let reference = Some(REFERENCE);
+    let cancel = Cancel::new();
+    let chosen =
+        Sweep::within(rtol, engines.to_vec(), axes.clone(), reference, None, torque, &cancel)
+            .unwrap();
+    assert_eq!(chosen.shape(), sweep(engines, axes, &[1], None).shape());
+    let known = |quantity| chosen.peaks(quantity, Figure::Sum, &cancel).is_ok();
+    assert_eq!((known(Quantity::Force), known(Quantity::Torque)), (true, torque));
+    let last = last(engines, axes, rtol, torque);
+    let sums = if torque { 3 } else { 2 };
+    let all: Vec<Worst> =
+        engines.iter().map(|engine| Worst::of(engine, axes, last, rtol)).collect();
+    for of in &all {
+        (0..sums).for_each(|sum| assert!(of.rest[sum] <= 0.01 * of.allowed[sum]));
+    }
+    let share = |sizes: &[f64; 3], of: &Worst| -> Vec<f64> {
+        (0..sums).map(|sum| sizes[sum] / of.allowed[sum]).collect()
+    };
+    let mut parts: Vec<Vec<f64>> = (0..last as usize)
+        .map(|k| all.iter().flat_map(|of| share(&of.sizes[k], of)).collect())
+        .collect();
+    let nothing = |part: &Vec<f64>| part.iter().all(|&size| size == 0.0);
+    let left = |n: &u32| !chosen.orders().contains(n);
+    let omitted: Vec<u32> =
+        (1..=last).filter(|n| left(n) && !nothing(&parts[*n as usize - 1])).collect();
+    assert_eq!(chosen.omitted(), omitted);
+    let count = (1..=last).filter(left).count();
+    let lost: Vec<f64> = all.iter().flat_map(|of| share(&of.rest, of)).collect();
+    parts.reverse();
+    let mut best = 0;
+    most(&parts, &lost, 0, &mut best);
+    // Where all could be, one stays, and counts all the same.
+    let every = best == last as usize;
+    assert_eq!(count + usize::from(every), best, "{:?} of {last}", chosen.orders());
+    let out = if every { (1..=last).collect() } else { omitted };
+    let fastest = axes.rpm.iter().copied().fold(0.0, f64::max);
+    for sum in 0..3 {
+        let of_engine = |of: &Worst| -> f64 {
+            let sizes: f64 = out.iter().map(|&n| of.sizes[n as usize - 1][sum]).sum();
+            (sizes + of.rest[sum]) * square(fastest)
+        };
+        let expected = if sum < sums { all.iter().map(of_engine).fold(0.0, f64::max) } else { 0.0 };
+        let found = chosen.error_bound()[sum];
+        // Tails amplify what λ and e/r are rounded by, up to the order-th power.
+        assert!((found - expected).abs() <= 1e-11 * expected, "{sum}: {found} {expected}");
+    }
+}
+
+/// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have an offset; and
+/// order 1 of one's torque, with a rod like that.
+fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
+    let at = |r: f64| Proportions::new(ratio, offset / r).unwrap();
+    let second = |r: f64| harmonics::coefficients(&at(r), &[2])[0].norm();
+    let place = |r: f64, m: f64, side: f64| {
+        let bank = Angle::from_degrees(side).unwrap();
+        let cylinder = Cylinder::new(r, r / 0.3, m, 0.0).unwrap();
+        Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.1, rotating_mass: 0.0 }
+    };
+    let other = 0.5 * 0.05 * second(0.05) / (0.03 * second(0.03));
+    let pair = vec![place(0.05, 0.5, 0.0), place(0.03, other, 180.0)];
+    let one = place(0.05, 0.5, 0.0);
+    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
+        .map(|torque| torque(&Proportions::new(ratio, 0.0).unwrap(), &[1]).roll[0]);
+    let inertia = -(masses / rod).re * one.cylinder.second_moment();
+    let cylinder = one.cylinder.with_rod_inertia_excess(inertia).unwrap();
+    [pair, vec![Placement { cylinder, ..one }]]
+        .map(|placements| Arc::new(Engine::new("", "", placements).unwrap()))
+}
+
+#[test]
+fn the_fewest_orders_are_chosen_of_any_sweep() {
+    let rpm = vec![1000.0, 3000.0, 2000.0];
+    let ratios = Some(vec![0.2, 0.4, 0.3]);
+    let none = Axes { rpm, ..Axes::default() };
+    let turned = |hold| Some((vec![40.0, 90.0], hold));
+    for rtol in [0.2, 1e-2, 1e-4] {
+        for torque in [false, true] {
+            let chosen = |engines: &[Arc<Engine>], axes: &Axes| {
+                the_fewest_orders_are_chosen(engines, axes, rtol, torque);
+            };
+            chosen(&[mixed(), plain(), in_line()], &none);
+            chosen(&[plain()], &Axes { rod_ratio: ratios.clone(), ..none.clone() });
+            let both =
+                Axes { bank_angle: turned(Hold::Pins), rod_ratio: ratios.clone(), ..none.clone() };
+            chosen(&[mixed(), plain()], &both);
+            let offsets = Some(vec![-0.004, 0.002]);
+            let three =
+                Axes { bank_angle: turned(Hold::Firing), pin_offset: offsets, ..both.clone() };
+            chosen(&[plain(), mixed()], &three);
+            let offsets = Some(vec![0.001, 0.004, -0.002]);
+            chosen(&[mixed()], &Axes { pin_offset: offsets, ..none.clone() });
+            chosen(&[mixed()], &Axes { pin_offset: Some(vec![0.0; 2]), ..both });
+            let [pair, one] = cancelling_at(0.4, 0.01);
+            let offset = Some(vec![0.01]);
+            let cancelling = Axes { rod_ratio: ratios.clone(), ..none.clone() };
+            chosen(&[one], &cancelling);
+            chosen(&[pair], &Axes { pin_offset: offset, ..cancelling });
+        }
+    }
+}
+
+#[test]
+fn a_sweep_has_an_order_even_where_none_is_needed() {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let place = |tdc: f64, bank: f64| Placement {
+        cylinder,
+        tdc: Angle::from_degrees(tdc).unwrap(),
+        bank: Angle::from_degrees(bank).unwrap(),
+        z: REFERENCE,
+        rotating_mass: 0.0,
+    };
+    let chosen = |places: &[(f64, f64)], rtol: f64, spectrum: Option<Spectrum>| {
+        let placements = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
+        let engine = Arc::new(Engine::new("", "", placements).unwrap());
+        let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
+        let reference = Some(REFERENCE);
+        let torque = spectrum.is_some();
+        let cancel = Cancel::new();
+        Sweep::within(rtol, vec![engine], axes, reference, spectrum, torque, &cancel)
+    };
+    // A boxer pair in one plane: nothing at all.
+    let boxer = chosen(&[(0.0, 0.0), (0.0, 180.0)], 1e-6, None).unwrap();
+    assert_eq!((boxer.orders(), boxer.omitted()), (&[1][..], &[][..]));
+    // Half a turn apart: order 2 is two thirds of m·r·ω², and may be left out.
+    let twin = chosen(&[(0.0, 90.0), (180.0, 90.0)], 0.9, None).unwrap();
+    assert_eq!(twin.orders(), [2]);
+    assert!(twin.omitted().iter().all(|n| *n > 2 && n % 2 == 0));
+    // Of a spectrum, what it names, as one engine does.
+    let terms = [(1, 0.02), (3, 1e-5), (4, 2e-5), (6, 0.01)];
+    let terms = terms.map(|(n, size)| (n, Complex64::new(0.0, size)));
+    let spectrum = Spectrum::new(terms).unwrap();
+    let one = chosen(&[(0.0, 90.0)], 2e-3, Some(spectrum.clone())).unwrap();
+    assert_eq!((one.orders(), one.omitted()), (&[1, 6][..], &[3, 4][..]));
+    // Nothing is above it.
+    let bound = 3e-5 * square(3000.0);
+    assert!((one.error_bound()[0] - bound).abs() <= 1e-14 * bound);
+    assert_eq!(one.error_bound()[1..], [0.0, 0.0]);
+    let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
+    let only = Spectrum::new([(4, Complex64::i())]).unwrap();
+    let with = |engine| {
+        let (axes, only) = (axes.clone(), Some(only.clone()));
+        Sweep::within(1e-3, vec![engine], axes, None, only, false, &Cancel::new()).unwrap()
+    };
+    // Pins carry mass, or not.
+    assert_eq!((with(mixed()).orders(), with(plain()).orders()), (&[1, 4][..], &[4][..]));
+
+    assert!(refusal(chosen(&[(0.0, 90.0)], 1.0, None)).starts_with("rtol = 1"));
+    let stiff = Axes { rod_ratio: Some(vec![0.3, 1.0 - 1e-12]), ..axes };
+    let stiff = Sweep::within(1e-6, vec![plain()], stiff, None, None, true, &Cancel::new());
+    assert!(matches!(stiff, Err(Error::TooManyOrders { .. })));
 }
