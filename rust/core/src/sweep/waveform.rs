@@ -87,7 +87,7 @@ impl Sweep {
             Tiles::new(rows.angles, range, &self.orders, terms)
         };
         // Of fewer rows than share a tile each is used once, and not worth keeping.
-        let shared = (phasors.len() > ROWS * width)
+        let shared = (phasors.chunks_exact(width).len() > ROWS)
             .then(|| tiles(&(0..rows.angles.len()), &Term::of(phasors, orders, components)));
         rows.fill(
             out,
@@ -209,7 +209,7 @@ impl Rows<'_> {
         work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) + Sync,
     ) -> Result<()> {
         let row = self.angles.len() * self.components;
-        if row == 0 || out.is_empty() {
+        if out.is_empty() {
             return Ok(());
         }
         let large = out.len() >= WORTH_A_THREAD;
