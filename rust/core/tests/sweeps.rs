@@ -376,6 +376,28 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
     }
 }
 
+/// As large as what rounding can leave, to the last bit, is zero: a lever of 25 ε between two planes
+/// 1 m in all from the origin, of one cylinder at order 1.
+#[test]
+fn as_much_as_rounding_can_leave_is_zero() {
+    let lever = 25.0 * f64::EPSILON;
+    let [z, reference] = [0.5 + 0.5 * lever, 0.5 - 0.5 * lever];
+    let cylinder = Cylinder::new(0.5, 2.0, 2.0, 0.0).unwrap();
+    let place = Placement { cylinder, tdc: Angle::ZERO, bank: Angle::ZERO, z, rotating_mass: 0.0 };
+    let engine = Arc::new(Engine::new("", "", vec![place]).unwrap());
+    let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
+    let of = |reference: f64| {
+        let (axes, spectrum) = (Axes { rpm: vec![3000.0], ..Axes::default() }, spectrum.clone());
+        let engines = vec![Arc::clone(&engine)];
+        let reference = Some(reference);
+        let sweep =
+            Sweep::new(engines, axes, vec![1], reference, Some(spectrum), &Cancel::new()).unwrap();
+        peaks(&sweep, Quantity::Moment, Figure::Amplitude)[1]
+    };
+    assert_eq!(of(reference), 0.0);
+    assert!(of(reference.next_down()) > 0.0);
+}
+
 fn refusal(result: Result<impl Sized, Error>) -> String {
     match result {
         Err(error) => error.to_string(),

@@ -411,6 +411,43 @@ fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders
     }
 }
 
+/// Whether kinematics take less time depends on how many groups there are to how many orders.
+#[test]
+fn kinematics_cost_less_than_many_orders() {
+    // Two alike among them: they move as one.
+    let engine = |groups: u32| {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |k: u32| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let placements = (0..groups).chain([0]).map(place).collect();
+        Arc::new(Engine::new("", "", placements).unwrap())
+    };
+    let axes = Axes { rpm: vec![RPM], ..Axes::default() };
+    let less = |engines: &[Arc<Engine>], orders: u32| {
+        sweep(engines, &axes, &(1..=orders).collect::<Vec<_>>()).kinematics_cost_less()
+    };
+    for groups in 1..8 {
+        for orders in 1..16 {
+            let one = less(&[engine(groups)], orders);
+            assert_eq!(less(&[engine(2 * groups)], 2 * orders), one, "{groups} {orders}");
+            // Each of four engines is summed.
+            let four = [engine(groups), engine(1), engine(2 * groups - 1), engine(groups)];
+            assert_eq!(less(&four, orders), one, "{groups} {orders}");
+        }
+    }
+    assert!(less(&[engine(1)], 16) && !less(&[engine(16)], 1));
+    let spectrum = Spectrum::new((1..40).map(|n| (n, Complex64::i()))).unwrap();
+    let orders = (1..40).collect();
+    let measured =
+        Sweep::new(vec![engine(1)], axes.clone(), orders, None, Some(spectrum), &Cancel::new());
+    assert!(!measured.unwrap().kinematics_cost_less());
+}
+
 #[test]
 fn waveforms_of_a_sweep_have_their_refusals() {
     let axes = Axes { rpm: vec![RPM, 1000.0], ..Axes::default() };
