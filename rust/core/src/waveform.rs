@@ -249,6 +249,8 @@ fn in_blocks(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
     use crate::{Angle, Cylinder, Placement};
 
@@ -263,6 +265,26 @@ mod tests {
             rotating_mass: 0.0,
         };
         Engine::new("", "", (0..count).map(place).collect()).unwrap()
+    }
+
+    #[test]
+    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
+        // Four blocks are worked out one by one.
+        let thetas = [0.0; 4 * BLOCK];
+        let run = |last: usize| {
+            let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
+            let add = |_: &CrankAngles, _: &mut Rows| {
+                if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                    cancel.raise();
+                }
+            };
+            let result = in_blocks(&thetas, true, &cancel, add).map(drop);
+            (result, blocks.into_inner())
+        };
+        assert_eq!(run(0), (Ok(()), 4));
+        for last in 1..4 {
+            assert_eq!(run(last), (Err(Error::Cancelled), last));
+        }
     }
 
     #[test]

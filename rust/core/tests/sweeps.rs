@@ -769,25 +769,25 @@ fn the_fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64,
     }
 }
 
-/// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have an offset; and
-/// order 1 of one's torque, with a rod like that.
+/// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have this offset; and
+/// order 3 of one's torque, without it, for a rod as heavy as that.
 fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
     let at = |r: f64| Proportions::new(ratio, offset / r).unwrap();
     let second = |r: f64| harmonics::coefficients(&at(r), &[2])[0].norm();
     let place = |r: f64, m: f64, side: f64| {
         let bank = Angle::from_degrees(side).unwrap();
-        let cylinder = Cylinder::new(r, r / 0.3, m, 0.0).unwrap();
+        let cylinder = Cylinder::new(r, r / 0.3, m, offset).unwrap();
         Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.1, rotating_mass: 0.0 }
     };
     let other = 0.5 * 0.05 * second(0.05) / (0.03 * second(0.03));
     let pair = vec![place(0.05, 0.5, 0.0), place(0.03, other, 180.0)];
-    let one = place(0.05, 0.5, 0.0);
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
-        .map(|torque| torque(&Proportions::new(ratio, 0.0).unwrap(), &[1]).roll[0]);
-    let inertia = -(masses / rod).re * one.cylinder.second_moment();
-    let cylinder = one.cylinder.with_rod_inertia_excess(inertia).unwrap();
-    [pair, vec![Placement { cylinder, ..one }]]
-        .map(|placements| Arc::new(Engine::new("", "", placements).unwrap()))
+        .map(|torque| torque(&Proportions::new(ratio, 0.0).unwrap(), &[3]).roll[0]);
+    let inertia = -(masses / rod).re * cylinder.second_moment();
+    let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+    let one = vec![Placement { cylinder, ..pair[0] }];
+    [pair, one].map(|placements| Arc::new(Engine::new("", "", placements).unwrap()))
 }
 
 #[test]
@@ -817,6 +817,7 @@ fn the_fewest_orders_are_chosen_of_any_sweep() {
             let offset = Some(vec![0.01]);
             let cancelling = Axes { rod_ratio: ratios.clone(), ..none.clone() };
             chosen(&[one], &cancelling);
+            chosen(&[Arc::clone(&pair)], &cancelling);
             chosen(&[pair], &Axes { pin_offset: offset, ..cancelling });
         }
     }
@@ -864,6 +865,8 @@ fn a_sweep_has_an_order_even_where_none_is_needed() {
         let (axes, only) = (axes.clone(), Some(only.clone()));
         Sweep::within(1e-3, vec![engine], axes, None, only, false, &Cancel::new()).unwrap()
     };
+    let boxer = chosen(&[(0.0, 0.0), (0.0, 180.0)], 1e-6, Some(only.clone())).unwrap();
+    assert_eq!((boxer.orders(), boxer.omitted()), (&[4][..], &[][..]));
     // Pins carry mass, or not.
     assert_eq!((with(mixed()).orders(), with(plain()).orders()), (&[1, 4][..], &[4][..]));
 

@@ -167,7 +167,8 @@ impl<'a> Run<'a> {
 
     /// Functions of the bank angle by run of angles, where several engines have use for them.
     fn shared(&self, plan: &Plan) -> Vec<Functions> {
-        if !self.angles_abreast() || !self.worth_sharing(plan.orders.len()) {
+        let wanted = self.angles_abreast() && self.worth_sharing(plan.orders.len());
+        if !wanted {
             return Vec::new();
         }
         let runs = self.bank_angles.chunks(self.abreast());
