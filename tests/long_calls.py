@@ -39,6 +39,12 @@ def over_speeds() -> cp.Sweep:
     return cp.sweep(V8, rpm=np.linspace(500, 9000, 20_001), rod_ratio=RATIOS[:3])
 
 
+def waveforms(*, exact: bool) -> np.ndarray:
+    """Return forces of a sweep of more rows and angles than one task has."""
+    sweep = cp.sweep([V6, V8], rpm=[1000, 5000], rod_ratio=RATIOS[:150], orders=range(1, 10))
+    return sweep.waveform(np.linspace(0, 720, 2101), exact=exact).force
+
+
 def ranking() -> np.ndarray:
     """Return the bank angles of a ranking between the given ones."""
     found = cp.rank(
@@ -65,6 +71,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "waveform from orders": lambda: (
         V8.waveform(5000, np.linspace(0, 720, 50_001), orders=range(1, 20)).force
     ),
+    "waveforms of a sweep from orders": lambda: waveforms(exact=False),
+    "waveforms of a sweep from kinematics": lambda: waveforms(exact=True),
     "vanishing orders": lambda: repr(V8.vanishing_orders()),
     "ranking": ranking,
     "search": lambda: cp.search_arrangements(14).bank_angles_deg,

@@ -47,11 +47,16 @@ impl Angle {
 
     /// From `numerator / denominator` degrees.
     pub fn from_degree_fraction(numerator: i64, denominator: i64) -> Result<Self> {
-        if denominator == 0 {
-            let value = format!("{numerator}/0");
-            return Err(Error::value("angle", value, "the denominator must not be 0"));
-        }
-        match turns(i128::from(numerator), i128::from(denominator) * 360) {
+        let (above, below) = (i128::from(numerator), i128::from(denominator));
+        let exact = match denominator.signum() {
+            0 => {
+                let value = format!("{numerator}/0");
+                return Err(Error::value("angle", value, "the denominator must not be 0"));
+            }
+            -1 => turns(-above, -below * 360),
+            _ => turns(above, below * 360),
+        };
+        match exact {
             Some(angle) if angle.degrees().abs() <= LARGEST_ANGLE => Ok(angle),
             _ => Self::from_degrees(numerator as f64 / denominator as f64),
         }
@@ -164,10 +169,9 @@ fn rotate(radians: f64, quarters: i64) -> Complex64 {
     }
 }
 
-/// The reduced fraction of a turn, where its denominator is small enough to be added to others.
+/// The reduced fraction of a turn, where its denominator, given above 0, is small enough to be added
+/// to others.
 fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
-    let (numerator, denominator) =
-        if denominator < 0 { (-numerator, -denominator) } else { (numerator, denominator) };
     // Nearly always both fit in 64 bits, where division is many times faster.
     let divisor = match (u64::try_from(numerator.unsigned_abs()), u64::try_from(denominator)) {
         (Ok(a), Ok(b)) => rational::divisor(a, b).into(),
@@ -301,6 +305,22 @@ mod tests {
     }
 
     #[test]
+    fn a_float_is_a_fraction_within_four_units_in_the_last_place() {
+        for (parts, part) in [(7, 360.0 / 7.0), (-7, -360.0 / 7.0), (997, 360.0 / 997.0)] {
+            let exact = Angle::Turns(i64::from(parts).signum(), i64::from(parts).abs());
+            let moved = |step: fn(f64) -> f64, times: u32| (0..times).fold(part, |x, _| step(x));
+            for step in [f64::next_up, f64::next_down] {
+                assert_eq!(Angle::from_degrees(moved(step, 4)), Ok(exact));
+                let beyond = moved(step, 5);
+                assert_eq!(Angle::from_degrees(beyond), Ok(Angle::Degrees(beyond)));
+            }
+        }
+        // Given as a fraction it is one, of more parts too.
+        assert_eq!(Angle::from_degree_fraction(1, 7), Ok(Angle::Turns(1, 2520)));
+        assert_eq!(Angle::from_degree_fraction(1, -7), Ok(Angle::Turns(-1, 2520)));
+    }
+
+    #[test]
     fn quarter_turns_have_exact_phasors() {
         let quarter = Angle::from_degrees(90.0).unwrap();
         assert_eq!(quarter.cis(1), Complex64::new(0.0, 1.0));
@@ -316,6 +336,8 @@ mod tests {
         for bad in ["", "x", "1/0", "1/x", "nan", "1e400", "99999999999999999999/7"] {
             assert!(bad.parse::<Angle>().is_err(), "{bad}");
         }
+        let error = Angle::from_degree_fraction(1, 0).unwrap_err().to_string();
+        assert!(error.contains("1/0: the denominator"), "{error}");
     }
 
     #[test]
@@ -363,6 +385,18 @@ mod tests {
         let small = Angle::Turns((i64::MAX / 5) % 7, 7);
         assert_eq!(large.cis(10_000), small.cis(10_000));
         assert_eq!(large.cis(-10_001), small.cis(-10_001));
+    }
+
+    #[test]
+    fn angles_are_in_order_only_with_their_like_or_where_they_differ() {
+        let part = Angle::Turns(1, 4);
+        assert_eq!(
+            Angle::Degrees(49.54).partial_cmp(&Angle::Degrees(49.54)),
+            Some(Ordering::Equal)
+        );
+        // `==` has a quarter turn differ from 90°, which arithmetic never leaves as degrees.
+        assert_eq!(part.partial_cmp(&Angle::Degrees(90.0)), None);
+        assert_eq!(part.partial_cmp(&Angle::Degrees(89.9)), Some(Ordering::Greater));
     }
 
     proptest! {

@@ -182,7 +182,7 @@ fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
         let (bank, tdc) = (part.bank, part.tdc);
         let common = i128::from(bank.1).checked_mul(tdc.1.into()).ok_or_else(too_long)?;
         let direction = i128::from(bank.0) * i128::from(tdc.1);
-        let phase = i128::from(order) * i128::from(tdc.0) % i128::from(tdc.1) * i128::from(bank.1);
+        let phase = i128::from(order) * i128::from(tdc.0) * i128::from(bank.1);
         let turns = |numerator: i128| -> Result<(i128, i128)> {
             let ratio = Ratio::new(numerator, common).ok_or_else(too_long)?;
             Ok((ratio.numerator, ratio.denominator))
@@ -215,6 +215,7 @@ fn phasor(sum: &RootSum) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cancel::Cancel;
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
 
@@ -276,8 +277,12 @@ mod tests {
                         crate::balance::balance(&engine, rpm, &orders, reference, None).unwrap();
                     let shake = if moment { found.moment } else { found.force };
                     let cylinder = engine.placements()[form.unit].cylinder;
-                    let harmonic =
-                        crate::harmonics::coefficients(&cylinder.proportions(), &[order])[0];
+                    let harmonic = crate::harmonics::coefficients(
+                        &cylinder.proportions(),
+                        &[order],
+                        &Cancel::new(),
+                    )
+                    .unwrap()[0];
                     let length = if moment { form.spacing } else { 1.0 };
                     let unit = harmonic.re * cylinder.first_order() * length;
                     let expected =
@@ -310,8 +315,40 @@ mod tests {
         assert!(closed_form(&engine, 1, true, None).unwrap_err().to_string().contains('z'));
         assert!(closed_form(&engine, 1, false, None).is_ok());
         places[3].bank = Angle::Degrees(49.54);
+        let error = |places: &[Placement], order| {
+            let engine = Engine::new("", "", places.to_vec()).unwrap();
+            closed_form(&engine, order, false, None).unwrap_err().to_string()
+        };
+        let text = error(&places, 1);
+        assert!(text.contains("bank_deg = 49.54"), "{text}");
+        let mut places = crossplane().placements().to_vec();
+        places[2].cylinder = Cylinder::new(0.05, 0.15, 0.5 * 2.0_f64.sqrt(), 0.0).unwrap();
+        assert!(error(&places, 2).contains("rational multiples"));
+        // With an offset order 1 of the pistons is out of phase with what turns.
+        for place in &mut places {
+            place.cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+        }
+        places[2].rotating_mass = 0.25;
+        assert!(error(&places, 1).contains("pin_offset = 0.01"));
+        let engine = Engine::new("", "", places).unwrap();
+        assert!(closed_form(&engine, 2, false, None).is_ok());
+    }
+
+    #[test]
+    fn the_unit_is_the_first_cylinder_with_reciprocating_mass() {
+        let mut places = crossplane().placements()[..3].to_vec();
+        let massless = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
+        places[0].cylinder = massless;
+        let engine = Engine::new("", "", places.clone()).unwrap();
+        let form = closed_form(&engine, 1, false, None).unwrap();
+        assert_eq!(form.unit, 1);
+        let weights: Vec<Ratio> = form.parts.iter().map(|part| part.weight).collect();
+        assert_eq!(weights, [Ratio::ZERO, Ratio::ONE, Ratio::ONE]);
+        for place in &mut places {
+            place.cylinder = massless;
+        }
         let engine = Engine::new("", "", places).unwrap();
         let error = closed_form(&engine, 1, false, None).unwrap_err().to_string();
-        assert!(error.contains("bank_deg = 49.54"), "{error}");
+        assert!(error.contains("reciprocating_mass"), "{error}");
     }
 }

@@ -135,6 +135,31 @@ mod tests {
     }
 
     #[test]
+    fn there_are_as_many_as_were_given() {
+        for count in [0, 1, 7] {
+            let angles = CrankAngles::new(&vec![10.0; count]).unwrap();
+            assert_eq!((angles.len(), angles.is_empty()), (count, count == 0));
+        }
+    }
+
+    #[test]
+    fn parts_follow_each_other_to_the_end() {
+        for (range, length) in [(0..10, 3), (5..17, 4), (5..18, 4), (7..7, 4), (2..5, 100)] {
+            let found: Vec<_> = parts(range.clone(), length).collect();
+            assert!(found.iter().rev().skip(1).all(|part| part.len() == length));
+            assert!(found.iter().all(|part| (1..=length).contains(&part.len())));
+            assert_eq!(found.into_iter().flatten().collect::<Vec<_>>(), range.collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn many_angles_are_looked_at_to_the_last() {
+        let mut degrees = vec![0.0; 200_000];
+        degrees[199_999] = f64::NAN;
+        assert!(CrankAngles::new(&degrees).is_err());
+    }
+
+    #[test]
     fn no_angle_that_is_none() {
         for bad in [f64::NAN, f64::INFINITY, 2e12] {
             assert!(CrankAngles::new(&[0.0, bad]).is_err());

@@ -80,13 +80,13 @@ impl RootSum {
             return Ok(true);
         };
         // Turned back by its first root, a sum has often fewer roots to be made of.
-        let step = self
-            .terms
-            .iter()
-            .fold(self.period, |step, &(exponent, _)| common_divisor(step, exponent - first));
-        let period = self.period / step;
         let mut product: Vec<(i128, i128)> =
-            self.terms.iter().map(|&(e, weight)| ((e - first) / step, weight)).collect();
+            self.terms.iter().map(|&(e, weight)| (e - first, weight)).collect();
+        let step = product.iter().fold(self.period, |step, &(e, _)| common_divisor(step, e));
+        let period = self.period / step;
+        for (exponent, _) in &mut product {
+            *exponent /= step;
+        }
         for prime in primes(period) {
             let shift = period / prime;
             let shifted: Vec<(i128, i128)> =
@@ -144,7 +144,7 @@ impl RootSum {
         }
         // Φ_N reads the same backwards: ζ^{−φ/2}Φ_N(ζ) = b₀ + Σ bⱼ·2cos(2πj/N) = 0, b_{φ/2} = 1.
         // Times 2cos(2πs/N) it takes away the highest cosine.
-        let half = (modulus.len() - 1) / 2;
+        let half = modulus.len() / 2;
         let nonzero: Vec<(i64, i128)> =
             (-(half as i64)..).zip(modulus).filter(|&(_, coefficient)| coefficient != 0).collect();
         for top in (half..cosines.len()).rev() {
@@ -158,9 +158,8 @@ impl RootSum {
                 // ζ^{j ± s}; for s = 0 the two are one.
                 let (ahead, behind) = (place + shift, place - shift);
                 for k in if shift == 0 { vec![place] } else { vec![ahead, behind] } {
-                    if let Ok(k) = usize::try_from(k)
-                        && k < top
-                    {
+                    // At `top` itself, nothing is looked at any more.
+                    if let Ok(k) = usize::try_from(k) {
                         cosines[k] = checked(cosines[k].checked_sub(product))?;
                     }
                 }

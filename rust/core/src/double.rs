@@ -69,4 +69,31 @@ mod tests {
         assert!((whole.high - 1.0).abs() + whole.low.abs() < 1e-31);
         assert!((back.high - 1.0).abs() + back.low.abs() < 1e-31);
     }
+
+    /// Whole numbers of up to 120 bits, in integers and as two doubles.
+    #[test]
+    fn products_and_quotients_are_those_of_integers() {
+        let double = |whole: i128| {
+            let high = whole as f64;
+            Double { high, low: (whole - high as i128) as f64 }
+        };
+        for k in 0..200_i128 {
+            // 64 bits: both parts count.
+            let (a, b) =
+                ((1 << 63) + 0x0123_4567_89ab_cdef * (k + 1), (1 << 62) - 0x0357_9bdf_1357 * k);
+            let c = 0x1f_ffff_ffff_fff1 - 0x1_2345_6789 * k;
+            for (a, b) in [(a, b), (-a, b), (a, -b)] {
+                let product = double(a).times(double(b));
+                let rest = (a * b - product.high as i128) as f64 - product.low;
+                // 2⁻¹⁰⁴: the product of the rests, and roundings of rests.
+                assert!(rest.abs() <= product.high.abs() * 2_f64.powi(-104), "{a} {b}: {rest:e}");
+                let quotient = double(a).over(c as f64);
+                let back = quotient.times(double(c));
+                let rest = (a - back.high as i128) as f64 - back.low;
+                assert!(rest.abs() <= back.high.abs() * 2_f64.powi(-102), "{a} {c}: {rest:e}");
+                let sum = double(a).plus(c as f64);
+                assert_eq!(sum.high as i128 + sum.low as i128, a + c);
+            }
+        }
+    }
 }

@@ -239,6 +239,13 @@ mod tests {
         assert_eq!(vee(0.0, 180.0).banks().unwrap().right, degrees(0.0));
         assert_eq!(vee(350.0, 10.0).banks().unwrap().bisector(), degrees(0.0));
         assert!(vee(90.0, 90.0).banks().is_err());
+        // Opposite bores, whichever comes first; and two that only add up to half a turn more.
+        for (a, b) in [(90.0, 270.0), (270.0, 90.0)] {
+            let banks = vee(a, b).banks().unwrap();
+            assert_eq!((banks.right, banks.left), (degrees(90.0), degrees(270.0)));
+        }
+        let banks = vee(200.0, 340.0).banks().unwrap();
+        assert_eq!((banks.right, banks.left), (degrees(200.0), degrees(340.0)));
     }
 
     #[test]
@@ -253,6 +260,9 @@ mod tests {
             assert_eq!(before.tdc, after.tdc);
         }
         assert_eq!(by_pins.banks().unwrap().angle(), degrees(90.0));
+        // Each cylinder stays on its side.
+        let bores: Vec<f64> = by_pins.placements().iter().map(|p| p.bank.degrees()).collect();
+        assert_eq!(bores, [135.0, 45.0]);
     }
 
     #[test]

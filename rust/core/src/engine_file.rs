@@ -225,6 +225,47 @@ mod tests {
     }
 
     #[test]
+    fn what_is_shared_is_written_once_and_what_is_zero_not_at_all() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let other = cylinder.with_rod_inertia_excess(1e-3).unwrap();
+        let place = |cylinder| Placement {
+            cylinder,
+            tdc: Angle::ZERO,
+            bank: Angle::Turns(1, 4),
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        for (cylinders, lengths, inertias) in
+            [([cylinder, cylinder], 1, 0), ([cylinder, other], 2, 1)]
+        {
+            let engine = Engine::new("", "", cylinders.map(place).to_vec()).unwrap();
+            for text in [to_toml(&engine).unwrap(), to_json(&engine).unwrap()] {
+                assert_eq!(text.matches("rod_length").count(), lengths, "{text}");
+                assert_eq!(text.matches("rod_inertia_excess").count(), inertias, "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_error_tells_the_line() {
+        let error = from_toml("schema = 1\nname = \"a\"\nplacements = 3\n").unwrap_err();
+        assert!(error.to_string().contains("line 3"), "{error}");
+    }
+
+    #[test]
+    fn texts_have_a_longest() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let (tdc, bank) = (Angle::ZERO, Angle::Turns(1, 4));
+        let place = Placement { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let engine = Engine::new("", "", vec![place]).unwrap();
+        let padded = |text: String, length| format!("{text}{}", "\n".repeat(length - text.len()));
+        for (length, fits) in [(LONGEST_TEXT, true), (LONGEST_TEXT + 1, false)] {
+            assert_eq!(from_toml(&padded(to_toml(&engine).unwrap(), length)).is_ok(), fits);
+            assert_eq!(from_json(&padded(to_json(&engine).unwrap(), length)).is_ok(), fits);
+        }
+    }
+
+    #[test]
     fn hostile_texts_are_refused() {
         let deep = "[".repeat(100_000);
         assert!(from_json(&deep).is_err());

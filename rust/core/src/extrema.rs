@@ -1,8 +1,8 @@
 //! The true peak of a sum of orders: the largest magnitude of a trigonometric polynomial.
 //!
-//! Samples alone miss it by up to 1 − cos(nh/2). Here a grid of sixteen points to the shortest wave
-//! brackets every rise-then-fall, Newton's method polishes those that can hold the peak, and
-//! intervals without such a bracket are halved until a third-derivative bound rules them out.
+//! Samples alone miss it by up to 1 − cos(nh/2). Here intervals of a grid of sixteen points to the
+//! shortest wave are halved until bounds of the derivatives rule them out, or show that they hold one
+//! peak, which Newton's method polishes.
 
 use std::f64::consts::TAU;
 
@@ -11,8 +11,11 @@ use crate::rational::divisor;
 
 /// Grid points to the shortest wave.
 const POINTS_PER_WAVE: usize = 16;
-/// Halvings after which what an interval could hide is below 1e-13 of the peak.
-const MOST_HALVINGS: u32 = 12;
+/// Parts of a step of the grid in which what could be hidden is below 1e-13 of the peak.
+const MOST_PARTS: f64 = 4096.0;
+/// A polynomial falls from an extreme by 1 − cos nθ of its excursion at most (M. Riesz), and the nearest
+/// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
+const EXCURSION_OVER_SAMPLED: f64 = 0.51;
 
 /// A grid that serves every sum of the same orders.
 #[derive(Debug, Clone)]
@@ -45,9 +48,8 @@ impl PeakFinder {
     /// max over θ of |Re Σ Pₙ e^{inθ}|, phasors in the order of the orders.
     #[must_use]
     pub fn along_axis(&self, phasors: &[Complex64]) -> f64 {
-        let real = |sum: [Complex64; 3]| sum.map(|z| z.re);
-        let up = Self::peak(&self.linear, &|e| real(self.sum(phasors, e)));
-        let down = Self::peak(&self.linear, &|e| real(self.sum(phasors, e)).map(|v| -v));
+        let up = Self::peak(&self.linear, &|unit| self.sum(phasors, unit));
+        let down = Self::peak(&self.linear, &|unit| self.sum(phasors, unit).map(|v| -v));
         up.max(down).max(0.0)
     }
 
@@ -61,84 +63,114 @@ impl PeakFinder {
         }
         let scaled = |phasors: &[Complex64]| phasors.iter().map(|z| z / scale).collect::<Vec<_>>();
         let (x, y) = (scaled(x), scaled(y));
-        let squared = |e: Complex64| {
-            let mut jet = [0.0; 3];
-            for phasors in [&x, &y] {
-                let [v, slope, bend] = self.sum(phasors, e).map(|z| z.re);
-                jet[0] += v * v;
-                jet[1] += 2.0 * v * slope;
-                jet[2] += 2.0 * (slope * slope + v * bend);
-            }
-            jet
-        };
+        let squared = |unit| self.squared_length(&x, &y, unit);
         Self::peak(&self.quadratic, &squared).max(0.0).sqrt() * scale
     }
 
-    /// The sum and its two derivatives where `e^{iθ}` is given.
-    fn sum(&self, phasors: &[Complex64], unit: Complex64) -> [Complex64; 3] {
-        let mut sums = [Complex64::default(); 3];
+    /// The square of a vector's length, and its derivatives.
+    fn squared_length(&self, x: &[Complex64], y: &[Complex64], unit: Complex64) -> Jet {
+        let mut jet = [0.0; 3];
+        for phasors in [x, y] {
+            let [v, slope, bend] = self.sum(phasors, unit);
+            jet[0] += v * v;
+            jet[1] += 2.0 * v * slope;
+            jet[2] += 2.0 * (slope * slope + v * bend);
+        }
+        jet
+    }
+
+    /// The sum's real part and its two derivatives where `e^{iθ}` is given.
+    fn sum(&self, phasors: &[Complex64], unit: Complex64) -> Jet {
+        let mut jet = [0.0; 3];
         let (mut power, mut at) = (Complex64::new(1.0, 0.0), 0);
         for (&wave, &phasor) in self.waves.iter().zip(phasors) {
             // Ascending orders go from power to power; others start again.
             if wave < at {
                 (power, at) = (Complex64::new(1.0, 0.0), 0);
             }
-            power *= if wave - at == 1 { unit } else { unit.powu(wave - at) };
+            let step = wave - at;
+            power *= if step == 1 { unit } else { unit.powu(step) };
             at = wave;
             let n = f64::from(wave);
             let term = phasor * power;
-            sums[0] += term;
-            sums[1] += Complex64::new(-n * term.im, n * term.re);
-            sums[2] -= term * (n * n);
+            jet[0] += term.re;
+            jet[1] -= n * term.im;
+            jet[2] -= n * n * term.re;
         }
-        sums
+        jet
     }
 
     /// Largest value over the circle.
     fn peak(grid: &[Complex64], at: &impl Fn(Complex64) -> Jet) -> f64 {
         let jets: Vec<Jet> = grid.iter().map(|&unit| at(unit)).collect();
         let step = TAU / grid.len() as f64;
-        let degree = (grid.len() / POINTS_PER_WAVE) as f64;
         let highest = jets.iter().map(|jet| jet[0]).fold(f64::NEG_INFINITY, f64::max);
-        let size = jets.iter().map(|jet| jet[0].abs()).fold(0.0, f64::max);
-        if size == 0.0 {
-            return 0.0;
-        }
-        // A polynomial falls from its peak by 1 − cos of its largest excursion at most (M. Riesz); less
-        // a constant its excursion is half of what lies between its extremes.
         let lowest = jets.iter().map(|jet| jet[0]).fold(f64::INFINITY, f64::min);
-        let excursion = (highest - lowest) / (degree * step).cos();
-        let hidden = |width: f64| (width * degree).powi(3) / 12.0 * excursion;
+        let bounds = Bounds {
+            degree: (grid.len() / POINTS_PER_WAVE) as f64,
+            excursion: EXCURSION_OVER_SAMPLED * (highest - lowest),
+        };
+        // The mean is zero or more, and so is the highest.
+        let negligible = 0.25 * f64::EPSILON * highest;
         let mut best = highest;
-        let mut rest = Vec::new();
-        for (k, jet) in jets.iter().enumerate() {
-            let next = &jets[(k + 1) % jets.len()];
-            let interval =
-                Interval { from: k as f64 * step, width: step, ends: [*jet, *next], halvings: 0 };
-            if interval.rises_then_falls() {
-                // Within a step of its peak the polynomial falls by less than 1 − cos(nh).
-                if jet[0].max(next[0]) >= best - excursion * (1.0 - (degree * step).cos()) {
-                    best = best.max(interval.polish(at));
-                }
-            } else {
-                rest.push(interval);
-            }
-        }
+        let may_hold_more = |interval: &Interval, best: f64| {
+            let hidden = bounds.hidden(interval);
+            hidden > negligible && interval.highest_end() + hidden > best
+        };
+        let mut rest: Vec<Interval> = jets
+            .iter()
+            .zip(jets.iter().cycle().skip(1))
+            .enumerate()
+            .map(|(k, (&here, &next))| Interval {
+                from: k as f64 * step,
+                width: step,
+                ends: [here, next],
+            })
+            .filter(|interval| may_hold_more(interval, best))
+            .collect();
+        // The last is the first to be looked at: a peak found rules out others.
+        rest.sort_by_key(Interval::rises_then_falls);
         while let Some(interval) = rest.pop() {
-            let could_be = interval.ends[0][0].max(interval.ends[1][0]) + hidden(interval.width);
-            let negligible = hidden(interval.width) <= 0.25 * f64::EPSILON * size;
-            if could_be <= best || negligible || interval.halvings == MOST_HALVINGS {
+            best = best.max(interval.highest_end());
+            if !may_hold_more(&interval, best) {
                 continue;
             }
-            for half in interval.halve(at) {
-                if half.rises_then_falls() {
-                    best = best.max(half.polish(at));
-                } else {
-                    rest.push(half);
-                }
+            let last = interval.width <= step / MOST_PARTS;
+            if interval.rises_then_falls() && (last || bounds.bends_down(&interval)) {
+                best = best.max(interval.polish(at));
+            } else if !last {
+                let mut halves = interval.halve(at);
+                halves.sort_by_key(Interval::rises_then_falls);
+                rest.extend(halves);
             }
         }
         best
+    }
+}
+
+/// What a sum does between two points at most, by Bernstein's inequality: each derivative is within
+/// the degree times the one before.
+struct Bounds {
+    degree: f64,
+    /// Half of what lies between the extremes.
+    excursion: f64,
+}
+
+impl Bounds {
+    /// How far the sum may rise above both ends.
+    fn hidden(&self, interval: &Interval) -> f64 {
+        let width = self.degree * interval.width;
+        // From one peak to the nearer end by the second derivative. Without a bracket it rises from a
+        // dip to a peak: between two zeros of the slope, by the third.
+        let share =
+            if interval.rises_then_falls() { width.powi(2) / 8.0 } else { width.powi(3) / 12.0 };
+        share * self.excursion
+    }
+
+    /// Whether it has no more than one peak there, since the second derivative stays below zero.
+    fn bends_down(&self, interval: &Interval) -> bool {
+        let [left, right] = interval.ends;
+        left[2].max(right[2]) + 0.5 * interval.width * self.degree.powi(3) * self.excursion < 0.0
     }
 }
 
@@ -147,10 +179,13 @@ struct Interval {
     from: f64,
     width: f64,
     ends: [Jet; 2],
-    halvings: u32,
 }
 
 impl Interval {
+    fn highest_end(&self) -> f64 {
+        self.ends[0][0].max(self.ends[1][0])
+    }
+
     fn rises_then_falls(&self) -> bool {
         self.ends[0][1] > 0.0 && self.ends[1][1] < 0.0
     }
@@ -158,18 +193,17 @@ impl Interval {
     fn halve(&self, at: &impl Fn(Complex64) -> Jet) -> [Self; 2] {
         let width = 0.5 * self.width;
         let middle = at(Complex64::cis(self.from + width));
-        let halvings = self.halvings + 1;
         [
-            Self { from: self.from, width, ends: [self.ends[0], middle], halvings },
-            Self { from: self.from + width, width, ends: [middle, self.ends[1]], halvings },
+            Self { from: self.from, width, ends: [self.ends[0], middle] },
+            Self { from: self.from + width, width, ends: [middle, self.ends[1]] },
         ]
     }
 
-    /// Height of the maximum between the ends: Newton's method on the slope, bisection where it
-    /// would leave the bracket.
+    /// Height of the maximum between the ends: Newton's method on the slope, bisection where that
+    /// would leave the bracket or the top.
     fn polish(&self, at: &impl Fn(Complex64) -> Jet) -> f64 {
         let (mut low, mut high) = (self.from, self.from + self.width);
-        let mut best = self.ends[0][0].max(self.ends[1][0]);
+        let mut best = self.highest_end();
         let mut here = low + 0.5 * self.width;
         for _ in 0..60 {
             let [value, slope, bend] = at(Complex64::cis(here));
@@ -180,10 +214,14 @@ impl Interval {
                 high = here;
             }
             let newton = here - slope / bend;
-            let next =
-                if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
-            // The value has no slope here: 1e-9 rad off it is right to rounding.
-            if slope == 0.0 || (next - here).abs() < 1e-9 * self.width {
+            // Where it bends upwards Newton's method goes to a dip.
+            let next = if bend < 0.0 && (low..=high).contains(&newton) {
+                newton
+            } else {
+                f64::midpoint(low, high)
+            };
+            // The value has no slope at the top: 1e-9 of the width off it is right to rounding.
+            if (next - here).abs() <= 1e-9 * self.width {
                 break;
             }
             here = next;
@@ -258,6 +296,130 @@ mod tests {
             }
         }
         assert_eq!(PeakFinder::new(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_sum() {
+        // Not in ascending order, and with a common factor that is left out.
+        let finder = PeakFinder::new(&[4, 6, 8, 2]);
+        let phasors = |a: f64| {
+            [1.0, 2.0, 3.0, 4.0].map(|k| Complex64::new((a * k).sin() + 0.1, (a + k * k).cos()))
+        };
+        let (x, y) = (phasors(0.7), phasors(1.9));
+        for k in 0..10 {
+            let θ = 0.6 * f64::from(k);
+            let along = |θ: f64| finder.sum(&x, Complex64::cis(θ));
+            let squared = |θ: f64| finder.squared_length(&x, &y, Complex64::cis(θ));
+            let waves = [2.0, 3.0, 4.0, 1.0].iter().zip(&x);
+            let value: f64 = waves.map(|(n, p)| (p * Complex64::cis(n * θ)).re).sum();
+            assert!((along(θ)[0] - value).abs() < 1e-14);
+            let other = finder.sum(&y, Complex64::cis(θ))[0];
+            assert!((squared(θ)[0] - (value * value + other * other)).abs() < 1e-13);
+            for jet in [&along as &dyn Fn(f64) -> Jet, &squared] {
+                let (before, here, after) = (jet(θ - 1e-5), jet(θ), jet(θ + 1e-5));
+                for order in 1..3 {
+                    let slope = (after[order - 1] - before[order - 1]) / 2e-5;
+                    // A sixth of 1e-10 of a fourth derivative below 8⁴·50, and rounding over 1e-5.
+                    assert!((here[order] - slope).abs() < 1e-5, "{order} {θ}");
+                }
+            }
+        }
+    }
+
+    /// cos θ − (1 + s)/9 cos 3θ has two peaks either side of a dip, a good √s apart, where s = 0 has one
+    /// without second derivative; some sin θ makes one of them higher.
+    #[test]
+    fn of_two_peaks_close_together_the_higher_counts() {
+        let finder = PeakFinder::new(&[1, 3]);
+        for (exponent, tilt) in (0..16).flat_map(|k| [(k, 0.0), (k, 0.2), (k, -0.2)]) {
+            let s = 0.5_f64.powi(exponent);
+            let c = -(1.0 + s) / 9.0;
+            let tilt = tilt * s.powf(1.5);
+            let at = |θ: f64| θ.cos() + c * (3.0 * θ).cos() + tilt * θ.sin();
+            // 2e-4 of the distance between the peaks, which cover ±√s: half a step's square is 1e-8 s
+            // of a second derivative below 3s.
+            let near = |k: i32| at(f64::from(k) * 1e-4 * s.sqrt());
+            let peak = (-15_000..=15_000).map(near).fold(0.0, f64::max);
+            for k in 0..24 {
+                // Wherever they lie between points of the grid, also in the middle of two, in any unit.
+                let turn = f64::from(k) * TAU / 48.0 / 24.0;
+                let unit = [1.0, 1e-9, 1e9][k as usize % 3];
+                let first = Complex64::new(1.0, -tilt) * Complex64::cis(turn);
+                let phasors = [first, c * Complex64::cis(3.0 * turn)].map(|p| p * unit);
+                let vector = finder.of_vector(&phasors, &[Complex64::default(); 2]);
+                for found in [finder.along_axis(&phasors), vector] {
+                    let apart = found / unit - peak;
+                    // A few roundings of three terms; the samples miss the peak.
+                    let allowed = -2e-15..=2e-15 + 1e-8 * s * s;
+                    assert!(allowed.contains(&apart), "{s} {tilt} {k}: {apart:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn high_orders_peak_where_they_meet() {
+        let finder = PeakFinder::new(&[999, 1000]);
+        for k in 0..40 {
+            let at = 0.151 * f64::from(k);
+            let phasors = [999.0, 1000.0].map(|n| Complex64::cis(-n * at));
+            // The thousandth power of e^{iθ} has a thousand times its rounding.
+            let peak = finder.along_axis(&phasors);
+            assert!((peak - 2.0).abs() < 5e-13, "{k}: {peak}");
+        }
+    }
+
+    /// Beyond the grid, on average: a few steps of Newton's method for each peak that may be the highest,
+    /// and what rules out the rest. No bound of anything but time.
+    #[test]
+    fn few_values_are_needed() {
+        let calls = std::cell::Cell::new(0);
+        // Means of fifty sums, as measured: of a force's, and of a vector's squared length.
+        let most = [(1_u32, [8, 16]), (2, [9, 11]), (5, [10, 13]), (12, [16, 18]), (40, [24, 20])];
+        for (degree, most) in most {
+            let orders: Vec<u32> = (1..=degree).collect();
+            let finder = PeakFinder::new(&orders);
+            calls.set(0);
+            let (mut of_sums, mut of_vectors) = (0, 0);
+            for k in 0..50 {
+                let parts = |a: f64| -> Vec<Complex64> {
+                    let part = |&n: &u32| {
+                        let n = f64::from(n);
+                        Complex64::new((a + 3.7 * n * n).sin(), (1.3 * a * n).cos()) / n
+                    };
+                    orders.iter().map(part).collect()
+                };
+                let (x, y) = (parts(0.7 + 1.1 * f64::from(k)), parts(5.1 + 0.3 * f64::from(k)));
+                let counted = |jet: Jet| {
+                    calls.set(calls.get() + 1);
+                    jet
+                };
+                let along = |unit| counted(finder.sum(&x, unit));
+                PeakFinder::peak(&finder.linear, &along);
+                of_sums += calls.replace(0) - finder.linear.len();
+                let squared = |unit| counted(finder.squared_length(&x, &y, unit));
+                PeakFinder::peak(&finder.quadratic, &squared);
+                of_vectors += calls.replace(0) - finder.quadratic.len();
+            }
+            let mean = [of_sums, of_vectors].map(|calls| calls.div_ceil(50));
+            assert!(mean.iter().zip(most).all(|(mean, most)| *mean <= most), "{degree}: {mean:?}");
+        }
+    }
+
+    #[test]
+    fn a_dip_is_not_taken_for_a_peak() {
+        // −(θ² − 1/100)² between −1/4 and 1/4, where the slope in the middle is exactly zero.
+        let hump = |unit: Complex64| {
+            let θ = unit.arg();
+            let rest = θ * θ - 0.01;
+            [-rest * rest, -4.0 * θ * rest, -4.0 * (rest + 2.0 * θ * θ)]
+        };
+        let ends = [hump(Complex64::cis(-0.25)), hump(Complex64::cis(0.25))];
+        let interval = Interval { from: -0.25, width: 0.5, ends };
+        assert!(interval.rises_then_falls());
+        let peak = interval.polish(&hump);
+        // The peak is zero, the dip −1e-4; 1e-9 of the width off the top is its square.
+        assert!((-1e-17..=0.0).contains(&peak), "{peak}");
     }
 
     #[test]

@@ -448,12 +448,13 @@ impl Firing {
         };
         let period = |k: usize, (firing, placement): (Angle, &Placement)| {
             let downwards = top_to_bottom(placement);
-            let top = firing + Angle::Turns((k / 2) as i64, 1);
-            if k.is_multiple_of(2) {
-                self.period(top, downwards)
+            let turns = Angle::Turns((k / 2) as i64, 1);
+            let (from, length) = if k.is_multiple_of(2) {
+                (turns, downwards)
             } else {
-                self.period(top + downwards, Angle::Turns(1, 1) - downwards)
-            }
+                (turns + downwards, Angle::Turns(1, 1) - downwards)
+            };
+            self.period(firing + from, length)
         };
         names
             .iter()
@@ -476,7 +477,7 @@ impl Firing {
         for (firing, placement) in self.angles().into_iter().zip(self.engine.placements()) {
             let (turn, downwards) = (Angle::Turns(1, 1), top_to_bottom(placement));
             let [opens, closes] = timing.intake;
-            valves.intake.push(self.period(firing + turn - opens, opens + downwards + closes));
+            valves.intake.push(self.period(firing + (turn - opens), opens + downwards + closes));
             let [opens, closes] = timing.exhaust;
             let open = opens + (turn - downwards) + closes;
             valves.exhaust.push(self.period(firing + downwards - opens, open));
@@ -522,7 +523,7 @@ impl Firing {
                     }
                     let (rest, other) = (length(before) - gap, length(after));
                     let overlap = if rest < other { rest } else { other };
-                    if overlap.degrees() > 0.0 && !same(overlap, Angle::ZERO) {
+                    if overlap.degrees() > MOST_ROUNDING {
                         overlaps.push(Overlap { before, after, gap, overlap });
                     }
                 }
@@ -830,6 +831,19 @@ mod tests {
     }
 
     #[test]
+    fn the_most_even_way_comes_first_however_near_the_others() {
+        // Half of the ways come within a degree of another.
+        let tdcs = [0.0, 90.3, 180.4, 270.9];
+        let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        let unevenness: Vec<f64> = ways.iter().map(Firing::unevenness).collect();
+        assert!(
+            unevenness.windows(2).any(|pair| 1e-3 < pair[1] - pair[0] && pair[1] - pair[0] < 0.5)
+        );
+        assert!(unevenness.is_sorted_by(|a, b| *a <= b + 1e-6), "{unevenness:?}");
+    }
+
+    #[test]
     fn what_cannot_be_named_is_told_what_can() {
         let engine = placed(&[0.0, 180.0, 180.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
         let told = |strokes| {
@@ -934,17 +948,21 @@ mod tests {
         assert_eq!(found([50.0; 4], &[0, 3]), [(0, 3, 0.0, 50.0)]);
         let late = found([300.0, 0.0, 300.0, 0.0], &[0, 2]);
         assert_eq!(late, [(0, 2, 240.0, 60.0), (2, 0, 120.0, 180.0)]);
+        // What rounding may be is none.
+        assert_eq!(found([MOST_ROUNDING; 4], &[0, 3]), []);
+        let just = MOST_ROUNDING.next_up();
+        assert_eq!(found([just; 4], &[0, 3]), [(0, 3, 0.0, just)]);
     }
 
     #[test]
     fn what_only_rounding_parts_fires_together() {
         let apart = |by: f64| {
-            let tdcs = [17.123_456, 17.123_456 + by, 137.123_456];
+            let tdcs = [0.0, 17.123_456, 17.123_456 + by];
             let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
             Firing::all(&engine, Strokes::Two).unwrap()[0].to_string()
         };
-        assert_eq!(apart(0.0), "1+2-3");
-        assert_eq!(apart(0.1 * MOST_ROUNDING), "1+2-3");
+        assert_eq!(apart(0.0), "1-2+3");
+        assert_eq!(apart(0.1 * MOST_ROUNDING), "1-2+3");
         assert_eq!(apart(10.0 * MOST_ROUNDING), "1-2-3");
         // An offset of one and not of the other: tops asin(e/(l + r)) apart from their pins'.
         let past = (0.02_f64 / 0.2).asin().to_degrees();

@@ -96,6 +96,12 @@ impl Kinematics {
         }
         Self { groups, rotating }
     }
+
+    /// What they take, if cylinders that move alike take so much, and more with a rod's inertia.
+    pub fn cost(&self, alike: f64, rod: f64) -> f64 {
+        let of = |group: &Alike| if group.rod_inertia == 0.0 { alike } else { alike + rod };
+        self.groups.iter().map(of).sum()
+    }
 }
 
 /// `e^{iθ}` of a block of crank angles.

@@ -309,9 +309,8 @@ impl FiringOrder {
                     .zip(&ranks)
                     .filter(|&(other, &earlier)| other.side == seat.side && earlier < rank)
                     .count();
-                let lag = part(fired_before, 360, count / 2);
-                // Vertical crank at θ = 0: top dead centre at φ ∓ γ.
-                seat.bank - Angle::Turns(1, 4) + lag
+                // Top dead centre at φ ∓ γ, up to a turn of the whole crank.
+                seat.bank + part(fired_before, 360, count / 2)
             }
         };
         let tdcs: Vec<Angle> =
@@ -504,8 +503,11 @@ mod tests {
         assert_eq!(masses, [0.5, 0.5, 1.0, 1.0]);
         let tdcs: Vec<f64> = engine.placements().iter().map(|p| p.tdc.degrees()).collect();
         assert_eq!(tdcs, [30.0, 210.0, 210.0, 30.0]);
-        let odd: FiringOrder = "1-2-3".parse().unwrap();
-        assert!(odd.vee(cylinder(), &FiringRule::Ijesc, &layout).is_err());
+        let any = vee(90.0, Numbering::ByBank, Side::Right);
+        for (order, fits) in [("1-2", true), ("1-2-3", false), ("1-2-3-4-5", false)] {
+            let order: FiringOrder = order.parse().unwrap();
+            assert_eq!(order.vee(cylinder(), &FiringRule::Ijesc, &any).is_ok(), fits);
+        }
     }
 
     #[test]

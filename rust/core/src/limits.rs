@@ -126,6 +126,13 @@ mod tests {
         for value in [SMALLEST.next_down(), -SMALLEST, -1.0] {
             assert!(not_negative("", value).is_err() && length("", value).is_err());
         }
+        let (least, most) = (SMALLEST.powi(3), LARGEST.powi(3));
+        for value in [0.0, least, -least, -2.5, most, -most] {
+            assert_eq!(inertia("", value), Ok(value));
+        }
+        for value in [least.next_down(), -most.next_up(), f64::NAN] {
+            assert!(inertia("", value).is_err());
+        }
         for value in [1, 2, HIGHEST_ORDER] {
             assert_eq!(order(value), Ok(value));
         }

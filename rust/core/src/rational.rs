@@ -133,10 +133,8 @@ pub(crate) fn convergents(x: f64, most: i128) -> impl Iterator<Item = (i128, i12
     std::iter::from_fn(move || {
         let x = rest?;
         let whole = x.floor();
-        // Only the first whole part may exceed the largest denominator.
-        if q1 > 0 && whole > most as f64 {
-            return None;
-        }
+        // A whole part beyond 128 bits comes second, behind 0, if at all: the casts saturate and no
+        // product overflows.
         (p0, q0, p1, q1) = (p1, q1, whole as i128 * p1 + p0, whole as i128 * q1 + q0);
         rest = (x != whole).then(|| 1.0 / (x - whole));
         (q1 <= most).then_some((p1, q1))

@@ -111,6 +111,52 @@ mod tests {
     }
 
     #[test]
+    fn two_masses_stand_in_for_the_rod() {
+        let rod = Rod::new(0.6, 0.0022, 0.15, 0.045).unwrap();
+        let (piston, pin) = (rod.reciprocating_mass(), rod.rotating_mass());
+        // The same mass, and the same centre of mass, 0.045 from the crankpin and 0.105 from the
+        // piston pin.
+        assert_relative_eq!(piston + pin, 0.6, max_relative = 1e-15);
+        assert_relative_eq!(piston * 0.105, pin * 0.045, max_relative = 1e-15);
+        // Two masses and a flywheel have its moment of inertia.
+        let two_masses = piston * 0.105 * 0.105 + pin * 0.045 * 0.045;
+        assert_relative_eq!(two_masses + rod.inertia_excess(), 0.0022, max_relative = 1e-15);
+        for (to_crankpin, masses) in [(0.0, [0.0, 0.6]), (0.15, [0.6, 0.0])] {
+            let rod = Rod::new(0.6, 0.0022, 0.15, to_crankpin).unwrap();
+            assert_eq!([rod.reciprocating_mass(), rod.rotating_mass()], masses);
+            assert_eq!(rod.inertia_excess(), 0.0022);
+        }
+    }
+
+    #[test]
+    fn a_dumb_bell_has_no_inertia_of_its_own() {
+        for to_crankpin in [0.05, 0.07, 0.1] {
+            let inertia: f64 = 0.3 * (to_crankpin * (0.15 - to_crankpin));
+            let excess = |units: f64| {
+                let inertia = inertia * (1.0 + units * f64::EPSILON);
+                Rod::new(0.3, inertia, 0.15, to_crankpin).unwrap().inertia_excess()
+            };
+            // Three roundings are nothing, eight units in the last place are something.
+            assert_eq!([excess(-2.0), excess(0.0), excess(2.0)], [0.0; 3]);
+            for units in [-10.0, -8.0, 8.0, 10.0, 1e6] {
+                let expected = units * f64::EPSILON * inertia;
+                assert!((excess(units) - expected).abs() <= 3.0 * f64::EPSILON * inertia);
+                assert!(excess(units) * units > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn no_rod_that_is_none() {
+        assert!(Rod::new(-0.1, 0.001, 0.15, 0.05).is_err());
+        assert!(Rod::new(0.3, -0.001, 0.15, 0.05).is_err());
+        assert!(Rod::new(0.3, 0.001, 0.0, 0.05).is_err());
+        assert!(Rod::new(0.3, 0.001, 0.15, -0.01).is_err());
+        assert!(Rod::new(0.3, 0.001, 0.15, 0.16).is_err());
+        assert!(Rod::new(0.0, 0.0, 0.15, 0.15).is_ok());
+    }
+
+    #[test]
     fn swing_changes_as_it_moves() {
         let proportions = Proportions::new(0.4, -0.6).unwrap();
         let swing = |θ: f64| Swing::new(&proportions, &Crank::new(θ.sin(), θ.cos()));

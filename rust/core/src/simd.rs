@@ -51,9 +51,8 @@ pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64])
         let odd = rest.abs() == 1.0;
         let half = rest.abs() == 2.0;
         let (a, b) = if odd { (c, -s) } else { (s, c) };
-        let flip = if half || rest == -1.0 { -1.0 } else { 1.0 };
-        *sin = a * flip;
-        *cos = b * flip;
+        let (a, b) = if half || rest == -1.0 { (-a, -b) } else { (a, b) };
+        (*sin, *cos) = (a, b);
     }
 }
 

@@ -93,6 +93,12 @@ impl Cylinder {
         self.crank_radius / self.rod_length
     }
 
+    /// How much longer the rod is than one with which the crank cannot turn, in crank radii.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        slack(self.rod_length / self.crank_radius, self.pin_offset / self.crank_radius)
+    }
+
     /// m·r, the size of the first-order force over ω², kg·m.
     #[must_use]
     pub fn first_order(&self) -> f64 {
@@ -230,6 +236,12 @@ pub struct Motion {
     pub acceleration: f64,
 }
 
+/// [`Cylinder::slack`] of a rod and an offset, in crank radii.
+#[must_use]
+pub fn slack(rod: f64, offset: f64) -> f64 {
+    rod - offset.abs() - 1.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,6 +284,16 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn rod_inertia_changes_nothing_else() {
+        let plain = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+        let cylinder = plain.with_rod_inertia_excess(-2e-3).unwrap();
+        assert_eq!((plain.rod_inertia_excess(), plain.has_rod_inertia()), (0.0, false));
+        assert_eq!((cylinder.rod_inertia_excess(), cylinder.has_rod_inertia()), (-2e-3, true));
+        assert_eq!(cylinder.with_rod_inertia_excess(0.0).unwrap(), plain);
+        assert!(plain.with_rod_inertia_excess(f64::NAN).is_err());
     }
 
     #[test]

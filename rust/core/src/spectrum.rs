@@ -53,3 +53,19 @@ impl Spectrum {
         orders
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotating_mass_adds_the_first_order_where_it_is_not() {
+        let of = |orders: &[u32]| {
+            Spectrum::new(orders.iter().map(|&n| (n, Complex64::new(1.0, 0.0)))).unwrap()
+        };
+        assert_eq!(of(&[4, 2]).orders_with(false), [2, 4]);
+        assert_eq!(of(&[4, 2]).orders_with(true), [1, 2, 4]);
+        assert_eq!(of(&[1, 2]).orders_with(true), [1, 2]);
+        assert_eq!(of(&[1, 2]).orders_with(false), [1, 2]);
+    }
+}

@@ -110,11 +110,24 @@ pub struct Vanishing {
     pub obstacles: Vec<String>,
 }
 
+/// A harmonic, by the index of the first cylinder that has it; of torques that of the masses or of a
+/// whole cylinder with rod inertia, and what is odd in the pin offset of either apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+enum Channel {
+    /// a₁ = 1, the same for all, and for what turns with the pins.
+    #[default]
+    One,
+    Masses(usize),
+    OddOfMasses(usize),
+    Rod(usize),
+    OddOfRod(usize),
+}
+
 /// What a sum of roots of unity is multiplied by: indices of symbols, none of them zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 struct Symbol {
     /// Harmonic.
-    channel: usize,
+    channel: Channel,
     /// Unit of mass × radius.
     mass: usize,
     /// Unit of length.
@@ -185,15 +198,11 @@ impl Places {
         Self { multiples: Multiples::new(&levers, &errors) }
     }
 
-    /// The lever of a cylinder: parts that are multiples of different units.
-    fn lever(&self, cylinder: usize) -> Result<Vec<(usize, Ratio)>> {
-        let (unit, place) = self.multiples.of[cylinder];
+    /// The lever of a cylinder: place and plane, perhaps multiples of different units.
+    fn lever(&self, cylinder: usize) -> Vec<(usize, Ratio)> {
         let (of_plane, plane) = self.multiples.of[self.multiples.of.len() - 1];
-        if unit == of_plane || plane == Ratio::ZERO {
-            let lever = if plane == Ratio::ZERO { Some(place) } else { place.minus(plane) };
-            return Ok(vec![(unit, lever.ok_or_else(too_long)?)]);
-        }
-        Ok(vec![(unit, place), (of_plane, Ratio::ZERO.minus(plane).ok_or_else(too_long)?)])
+        let back = Ratio { numerator: -plane.numerator, ..plane };
+        vec![self.multiples.of[cylinder], (of_plane, back)]
     }
 }
 
@@ -272,29 +281,28 @@ impl<'a> Layout<'a> {
     }
 
     /// The harmonics that a cylinder's force is made of, and their signs; none where they are zero.
-    fn channels(&self, i: usize, order: u32, torque: bool, view: View) -> Vec<(usize, i128)> {
+    fn channels(&self, i: usize, order: u32, torque: bool, view: View) -> Vec<(Channel, i128)> {
+        use Channel::{Masses, OddOfMasses, OddOfRod, One, Rod};
         let (group, mirrored) = self.groups[i];
-        let count = self.groups.len();
         let (offset, odd) = (self.offset(i), order % 2 == 1);
-        let sign = if offset < 0.0 { -1 } else { 1 };
+        let sign = offset.signum() as i128;
         if torque {
-            let of_rod =
-                self.rods[i].map(|(group, mirrored)| (group + 2 * count, mirrored + 2 * count));
-            let (group, mirrored) = of_rod.unwrap_or((group, mirrored));
-            return match view {
-                View::Whole => vec![(group, 1)],
+            return match (self.rods[i], view) {
+                (None, View::Whole) => vec![(Masses(group), 1)],
                 // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
-                View::Parts if offset == 0.0 => vec![(mirrored, 1)],
-                View::Parts => vec![(mirrored, 1), (mirrored + count, sign)],
+                (None, View::Parts) => vec![(Masses(mirrored), 1), (OddOfMasses(mirrored), sign)],
+                (Some((group, _)), View::Whole) => vec![(Rod(group), 1)],
+                (Some((_, mirrored)), View::Parts) => {
+                    vec![(Rod(mirrored), 1), (OddOfRod(mirrored), sign)]
+                }
             };
         }
         match (offset == 0.0, order, view) {
-            // a₁ = 1, the same for all, and for what turns with the pins: channel `count`.
-            (true, 1, _) => vec![(count, 1)],
+            (true, 1, _) => vec![(One, 1)],
             (true, _, _) if odd => vec![],
-            (_, 1, View::Parts) => vec![(count, 1), (mirrored, sign)],
-            (_, _, View::Whole) => vec![(group, 1)],
-            (_, _, View::Parts) => vec![(mirrored, if odd { sign } else { 1 })],
+            (_, 1, View::Parts) => vec![(One, 1), (Masses(mirrored), sign)],
+            (_, _, View::Whole) => vec![(Masses(group), 1)],
+            (_, _, View::Parts) => vec![(Masses(mirrored), if odd { sign } else { 1 })],
         }
     }
 
@@ -303,7 +311,7 @@ impl<'a> Layout<'a> {
         let count = self.groups.len();
         let mut terms = Vec::new();
         for i in 0..count {
-            let levers = if levered { self.places.lever(i)? } else { vec![(0, Ratio::ONE)] };
+            let levers = if levered { self.places.lever(i) } else { vec![(0, Ratio::ONE)] };
             let masses = if direction.is_none() { &self.torques } else { &self.forces };
             for (channel, sign) in self.channels(i, order, direction.is_none(), view) {
                 for &lever in &levers {
@@ -337,7 +345,7 @@ impl<'a> Layout<'a> {
             return Ok(());
         }
         let (bank, tdc) = (self.banks[i], self.tdcs[i]);
-        let phase = (-i128::from(order) * tdc.turns.0, tdc.turns.1);
+        let phase = multiple(tdc.turns, -i128::from(order));
         let mut push = |bank_symbol, turns, sign| {
             let symbol = Symbol { mass, lever, tdc: tdc.symbol, bank: bank_symbol, ..symbol };
             let weight = Ratio { numerator: weight.numerator * sign, ..weight };
@@ -372,7 +380,8 @@ impl<'a> Layout<'a> {
         lever: (usize, Ratio),
     ) -> Result<()> {
         let count = self.groups.len();
-        let symbol = Symbol { channel: count, ..Symbol::default() };
+        // Of harmonic a₁ = 1.
+        let symbol = Symbol::default();
         let (unit, weight) = self.forces.of[count + i];
         let twice = Ratio { numerator: 2, denominator: 1 };
         let weight = weight.times(twice).ok_or_else(too_long)?;
@@ -426,10 +435,14 @@ impl<'a> Layout<'a> {
     }
 }
 
+fn multiple(turns: (i128, i128), times: i128) -> (i128, i128) {
+    (times * turns.0, turns.1)
+}
+
 /// One angle more, times a sign.
 fn turned(a: (i128, i128), b: (i128, i128), sign: i128) -> Result<(i128, i128)> {
     let denominator = common_multiple(a.1, b.1).ok_or_else(too_long)?;
-    let sum = a.0 % a.1 * (denominator / a.1) + sign * b.0 * (denominator / b.1);
+    let sum = a.0 * (denominator / a.1) + sign * b.0 * (denominator / b.1);
     Ok((sum, denominator))
 }
 
@@ -503,14 +516,13 @@ pub fn vanishing(
     })
 }
 
-/// What floating point says: at 60/2π rpm, where ω is 1.
+/// What floating point says, of no speed in particular.
 fn within_rounding(
     engine: &Engine,
     orders: &[u32],
     reference: Option<f64>,
 ) -> Result<Vec<[bool; 9]>> {
-    let rpm = 60.0 / std::f64::consts::TAU;
-    let found = balance::balance(engine, rpm, &Orders::Given(orders.to_vec()), reference, None)?;
+    let found = balance::balance(engine, 60.0, &Orders::Given(orders.to_vec()), reference, None)?;
     Ok((0..orders.len())
         .map(|k| {
             let zero = crate::Complex64::default();
@@ -527,6 +539,9 @@ fn within_rounding(
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
     use super::*;
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
@@ -635,6 +650,10 @@ mod tests {
             ((90.0, 90.0, 0.0, 0.45, 0.002), (180.0, 90.0, 0.0, 0.45 * 2_f64.sqrt(), 0.0));
         // At an order that is decided nothing is in the way.
         assert_eq!(obstacles(&engine(&[place, place]), 2), [""; 0]);
+        assert_eq!(obstacles(&engine(&[bank, bank]), 2), [""; 0]);
+        // Neither are places along the crank that are multiples of one length.
+        let further = (17.123_456, 90.0, 0.1, 0.45, 0.0);
+        assert_eq!(obstacles(&engine(&[place, further]), 2).len(), 1);
         assert_eq!(
             obstacles(&engine(&[place, tdc]), 2),
             ["tdc_deg is no rational part of a turn in cylinders 2"]
@@ -656,6 +675,92 @@ mod tests {
             obstacles(&engine(&spread), 2),
             ["places that are no rational multiples of each other"]
         );
+    }
+
+    /// Cylinders of few kinds, so that sums vanish now and then; m·r² of some is 1, the unit of rods.
+    fn placements() -> impl Strategy<Value = Vec<Placement>> {
+        let root = 2.0_f64.sqrt();
+        let mass = select(vec![400.0, 800.0, 400.0 * root]);
+        let cylinder =
+            (mass, select(vec![0.0, 0.001, -0.001, 0.002, 0.003]), select(vec![0.0, 0.3]));
+        let cylinder = cylinder.prop_map(|(mass, offset, inertia)| {
+            let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
+            cylinder.with_rod_inertia_excess(inertia).unwrap()
+        });
+        let tdc = select(vec![0.0, 90.0, 120.0, 180.0, 240.0, 17.123_456, 107.123_456]);
+        let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567]);
+        let z = select(vec![0.0, 0.1, 0.2, 0.1 * root]);
+        let place = (cylinder, tdc, bank, z, select(vec![0.0, 200.0])).prop_map(
+            |(cylinder, tdc, bank, z, rotating_mass)| Placement {
+                cylinder,
+                tdc: Angle::from_degrees(tdc).unwrap(),
+                bank: Angle::from_degrees(bank).unwrap(),
+                z,
+                rotating_mass,
+            },
+        );
+        let half = Angle::Turns(1, 2);
+        // With each a second one that differs in few things.
+        let pair = (place, any::<[bool; 4]>()).prop_map(move |(p, [tdc, bank, offset, rod])| {
+            let c = p.cylinder;
+            let e = if offset { -c.pin_offset() } else { c.pin_offset() };
+            let second = Cylinder::new(0.05, 0.15, c.reciprocating_mass(), e).unwrap();
+            let inertia = if rod { c.rod_inertia_excess() } else { 0.0 };
+            let second = Placement {
+                cylinder: second.with_rod_inertia_excess(inertia).unwrap(),
+                tdc: if tdc { p.tdc + half } else { p.tdc },
+                bank: if bank { p.bank + half } else { p.bank },
+                ..p
+            };
+            [p, second]
+        });
+        proptest::collection::vec(pair, 1..3).prop_map(|pairs| pairs.concat())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1024))]
+
+        #[test]
+        fn what_is_proved_is_so(
+            placements in placements(),
+            reference in select(vec![None, Some(0.0), Some(0.05), Some(0.05 * 2.0_f64.sqrt())]),
+        ) {
+            let engine = Engine::new("", "", placements).unwrap();
+            let orders = [1, 2, 3, 4];
+            let found = vanishing(&engine, &orders, reference, &crate::Cancel::new()).unwrap();
+            // Nothing of these kinds is near zero without being zero.
+            for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+                for (&verdict, &zero) in verdicts.iter().zip(zeros) {
+                    prop_assert!(verdict == U || (verdict == V) == zero, "{:?}", verdicts);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_reach_is_told_once() {
+        // Parts of a turn whose common denominator is beyond what is tested.
+        let tdc = |parts: i64| Angle::from_degree_fraction(360, parts).unwrap();
+        let places = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0); 2]).placements().to_vec();
+        let places = [
+            Placement { tdc: tdc(1_000_003), ..places[0] },
+            Placement { tdc: tdc(1_000_033), ..places[1] },
+        ];
+        let engine = Engine::new("", "", places.to_vec()).unwrap();
+        let found = vanishing(&engine, &[1, 2, 4], None, &crate::Cancel::new()).unwrap();
+        let moments = 4..8;
+        for verdicts in &found.verdicts {
+            assert!(verdicts[..4].iter().all(|&v| v == U));
+            assert!(verdicts[moments.clone()].iter().all(|&v| v == V));
+        }
+        let mut told = found.obstacles.clone();
+        assert!(
+            !told.is_empty() && told.iter().all(|text| text.contains("common denominator")),
+            "{told:?}"
+        );
+        told.sort();
+        told.dedup();
+        assert_eq!(told.len(), found.obstacles.len());
     }
 
     #[test]

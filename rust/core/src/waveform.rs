@@ -78,7 +78,7 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let kinematics = matches!(orders, Orders::Auto { .. }) && asked.spectrum.is_none();
-    let balance = match balance::of(engine, asked, orders) {
+    let balance = match balance::of(engine, asked, orders, cancel) {
         // Of a slider-crank alone.
         Err(Error::TooManyOrders { .. }) => None,
         found => Some(found?),
@@ -102,15 +102,15 @@ pub fn from_orders(
 /// What the kinematics of cylinders that move alike and an order of a sum take, in nanoseconds for an
 /// angle: slopes from 1 to 48 cylinders and from 1 to 16 orders, 1024 angles on one core (AMD EPYC,
 /// AVX-512).
-const COST: [f64; 2] = [1.5, 2.0];
-/// ... with roll and crank torque.
-const COST_WITH_TORQUE: [f64; 2] = [1.8, 2.3];
+const COST: [f64; 2] = [1.5, 1.9];
+/// ... with roll and crank torque, and what a rod's inertia adds to the first.
+const COST_WITH_TORQUE: [f64; 2] = [1.8, 2.2];
+const COST_OF_ROD: f64 = 1.4;
 
 /// Whether an engine's kinematics take less time than a sum of so many orders.
 fn kinematics_cost_less(engine: &Engine, orders: usize, torque: bool) -> bool {
-    let [alike, order] = if torque { COST_WITH_TORQUE } else { COST };
-    let groups = Kinematics::new(engine.placements(), 0.0).groups.len();
-    alike * groups as f64 <= order * orders as f64
+    let ([alike, order], rod) = if torque { (COST_WITH_TORQUE, COST_OF_ROD) } else { (COST, 0.0) };
+    Kinematics::new(engine.placements(), 0.0).cost(alike, rod) <= order * orders as f64
 }
 
 /// Force x, y, moment x, y, roll and crank torque.

@@ -244,7 +244,7 @@ proptest! {
             for p in engine.placements() {
                 let (c, radius) = (p.cylinder, p.cylinder.crank_radius());
                 let proportions = c.proportions();
-                let alone = harmonics::coefficients(&proportions, &[n])[0];
+                let alone = harmonics::coefficients(&proportions, &[n], &Cancel::new()).unwrap()[0];
                 let phase = p.tdc.cis(-i64::from(n)) * square;
                 let along = alone * phase * c.first_order();
                 let turning = if n == 1 {
@@ -263,7 +263,7 @@ proptest! {
                 }
                 moment[0] -= here[1] * lever;
                 moment[1] += here[0] * lever;
-                let torques = harmonics::torque::torque(&proportions, &[n]);
+                let torques = harmonics::torque::torque(&proportions, &[n], &Cancel::new()).unwrap();
                 let weight = c.first_order() * radius;
                 roll += torques.roll[0] * phase * weight;
                 crank += torques.crank[0] * phase * weight;
@@ -272,7 +272,7 @@ proptest! {
                 let larger = |of: &TorqueHarmonics| of.roll[0].norm().max(of.crank[0].norm());
                 terms[2] += larger(&torques) * weight * square;
                 let inertia = c.rod_inertia_excess();
-                let swing = harmonics::rod::torque(&proportions, &[n]);
+                let swing = harmonics::rod::torque(&proportions, &[n], &Cancel::new()).unwrap();
                 roll += swing.roll[0] * phase * inertia;
                 crank += swing.crank[0] * phase * inertia;
                 terms[2] += larger(&swing) * inertia.abs() * square;
@@ -354,7 +354,7 @@ proptest! {
         let cancel = Cancel::new();
         let exact = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
         let orders = Orders::Auto { rtol };
-        let chosen = balance::of(&engine, &ASKED, &orders).unwrap();
+        let chosen = balance::of(&engine, &ASKED, &orders, &Cancel::new()).unwrap();
         let cheaper = waveform::from_orders(&engine, &ASKED, &thetas, &orders, &cancel).unwrap();
         if let Some(balance) = &cheaper.balance {
             prop_assert_eq!(balance, &chosen);
@@ -393,9 +393,9 @@ proptest! {
         let proportions = cylinder.proportions();
         let orders: Vec<u32> = (highest + 1..=200).collect();
         let tail: f64 =
-            harmonics::coefficients(&proportions, &orders).iter().map(|a| a.norm()).sum();
+            harmonics::coefficients(&proportions, &orders, &Cancel::new()).unwrap().iter().map(|a| a.norm()).sum();
         prop_assert!(tail <= harmonics::tail_bound(&proportions, highest).unwrap());
-        let of_rod = harmonics::rod::torque(&proportions, &orders);
+        let of_rod = harmonics::rod::torque(&proportions, &orders, &Cancel::new()).unwrap();
         let bound = harmonics::rod::tail_bound(&proportions, highest).unwrap();
         for harmonics in [of_rod.roll, of_rod.crank] {
             prop_assert!(harmonics.iter().map(|a| a.norm()).sum::<f64>() <= bound);
@@ -504,14 +504,15 @@ fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
     let proportions = cylinder.proportions();
     let above: Vec<u32> = (1..=200).collect();
-    let sizes = harmonics::coefficients(&proportions, &above);
-    let torques = harmonics::torque::torque(&proportions, &above);
+    let sizes = harmonics::coefficients(&proportions, &above, &Cancel::new()).unwrap();
+    let torques = harmonics::torque::torque(&proportions, &above, &Cancel::new()).unwrap();
     let square = (3000.0 * TAU / 60.0).powi(2);
     // A part of a turn, and none.
     for tdc in [0.0, 90.0, 17.123_456_789] {
         let engine = in_phase(cylinder, tdc);
         for rtol in [0.3, 1e-2, 1e-5, 1e-9] {
-            let chosen = balance::of(&engine, &ASKED, &Orders::Auto { rtol }).unwrap();
+            let chosen =
+                balance::of(&engine, &ASKED, &Orders::Auto { rtol }, &Cancel::new()).unwrap();
             let left = |n: &u32| !chosen.orders.contains(n);
             let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
                 (0..above.len()).rev().filter(|&k| left(&above[k])).map(of).sum()
@@ -544,13 +545,14 @@ fn orders_that_a_layout_cancels_are_not_omitted() {
         |tdc, bank, z| Placement { cylinder, tdc: at(tdc), bank: at(bank), z, rotating_mass: 0.0 };
     let asked = Asked { torque: false, ..ASKED };
     let boxer = Engine::new("", "", vec![place(0.0, 0.0, 0.1), place(0.0, 180.0, 0.1)]).unwrap();
-    let balance = balance::of(&boxer, &asked, &Orders::Auto { rtol: 1e-9 }).unwrap();
+    let balance =
+        balance::of(&boxer, &asked, &Orders::Auto { rtol: 1e-9 }, &Cancel::new()).unwrap();
     assert_eq!(
         (balance.orders.len(), balance.omitted.len(), balance.force.error_bound),
         (0, 0, 0.0)
     );
     let pair = Engine::new("", "", vec![place(0.0, 90.0, 0.0), place(180.0, 90.0, 0.0)]).unwrap();
-    let balance = balance::of(&pair, &asked, &Orders::Auto { rtol: 1e-6 }).unwrap();
+    let balance = balance::of(&pair, &asked, &Orders::Auto { rtol: 1e-6 }, &Cancel::new()).unwrap();
     assert!(!balance.orders.is_empty() && !balance.omitted.is_empty());
     assert!(balance.orders.iter().chain(&balance.omitted).all(|n| n % 2 == 0));
 }
@@ -558,7 +560,9 @@ fn orders_that_a_layout_cancels_are_not_omitted() {
 #[test]
 fn tolerances_out_of_reach_are_refused() {
     let engine = |ratio: f64| in_phase(Cylinder::new(0.05, 0.05 / ratio, 0.5, 0.0).unwrap(), 0.0);
-    let auto = |ratio: f64, rtol: f64| balance::of(&engine(ratio), &ASKED, &Orders::Auto { rtol });
+    let auto = |ratio: f64, rtol: f64| {
+        balance::of(&engine(ratio), &ASKED, &Orders::Auto { rtol }, &Cancel::new())
+    };
     for rtol in [0.0, -1.0, 1.0, 1e-16, f64::NAN] {
         assert!(auto(0.3, rtol).unwrap_err().to_string().contains("rtol"), "{rtol}");
     }
@@ -574,7 +578,8 @@ fn a_spectrum_stands_in_for_the_rods() {
     let amplitudes = [(2, 0.2), (4, 1e-6), (6, 0.0)];
     let spectrum = Spectrum::new(amplitudes.map(|(n, a)| (n, Complex64::new(a, 0.0)))).unwrap();
     let asked = Asked { spectrum: Some(&spectrum), ..ASKED };
-    let auto = |engine| balance::of(engine, &asked, &Orders::Auto { rtol: 1e-3 }).unwrap();
+    let auto =
+        |engine| balance::of(engine, &asked, &Orders::Auto { rtol: 1e-3 }, &Cancel::new()).unwrap();
     let (still, turning) = (auto(&engine), auto(&turning));
     assert_eq!((&still.orders[..], &still.omitted[..]), (&[2][..], &[4][..]));
     // Rotating mass acts at order 1, which the spectrum does not have.

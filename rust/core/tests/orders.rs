@@ -5,9 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use crankpin_core::Complex64;
 use crankpin_core::harmonics::{self, torque};
 use crankpin_core::slider_crank::{Motion, Proportions};
+use crankpin_core::{Cancel, Complex64};
 
 const HIGHEST: u32 = 12;
 
@@ -59,12 +59,12 @@ fn a_cylinders_force_is_what_its_piston_does() {
     for (ratio, offset, samples) in PROPORTIONS {
         let proportions = Proportions::new(ratio, offset).unwrap();
         let (expected, largest) = sampled(&proportions, samples, |m| -m.acceleration);
-        let all = harmonics::coefficients(&proportions, &orders);
+        let all = harmonics::coefficients(&proportions, &orders, &Cancel::new()).unwrap();
         for (&n, found) in orders.iter().zip(&all) {
             let off = (found - expected[n as usize]).norm();
             assert!(off <= ROUNDING * largest, "{ratio} {offset} {n}: {found}, off {off:e}");
             // Alone as among others.
-            let alone = harmonics::coefficients(&proportions, &[n])[0];
+            let alone = harmonics::coefficients(&proportions, &[n], &Cancel::new()).unwrap()[0];
             assert!((alone - found).norm() <= ROUNDING * largest);
         }
     }
@@ -75,7 +75,7 @@ fn a_cylinders_torques_are_what_its_piston_does() {
     let orders: Vec<u32> = (1..=HIGHEST).collect();
     for (ratio, offset, samples) in PROPORTIONS {
         let proportions = Proportions::new(ratio, offset).unwrap();
-        let found = torque::torque(&proportions, &orders);
+        let found = torque::torque(&proportions, &orders, &Cancel::new()).unwrap();
         let roll = sampled(&proportions, samples, |m| m.acceleration * (m.velocity + offset));
         let crank = sampled(&proportions, samples, |m| -m.acceleration * m.velocity);
         for (found, (expected, largest)) in [(&found.roll, roll), (&found.crank, crank)] {
@@ -113,9 +113,10 @@ fn tails_are_the_sums_they_say_and_bound_what_is_above() {
             assert!((turning / expected - 1.0).abs() < 1e-10);
 
             let above: Vec<u32> = (highest + 1..=highest + 400).collect();
-            let coefficients = harmonics::coefficients(&proportions, &above);
+            let coefficients =
+                harmonics::coefficients(&proportions, &above, &Cancel::new()).unwrap();
             assert!(coefficients.iter().map(|a| a.norm()).sum::<f64>() <= force);
-            let torques = torque::torque(&proportions, &above);
+            let torques = torque::torque(&proportions, &above, &Cancel::new()).unwrap();
             let larger = |(a, b): (&Complex64, &Complex64)| a.norm().max(b.norm());
             let torques = torques.roll.iter().zip(&torques.crank);
             assert!(torques.map(larger).sum::<f64>() <= turning);

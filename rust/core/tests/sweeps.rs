@@ -87,7 +87,8 @@ fn each_point_is_a_balance(
                 torque: spectrum.is_none(),
             };
             let given = Orders::Given(orders.to_vec());
-            let balance = balance::of(&there(engine, &axes), &asked, &given).unwrap();
+            let balance =
+                balance::of(&there(engine, &axes), &asked, &given, &Cancel::new()).unwrap();
             let (expected, bounds, lengths) = of_balance(&balance, quantity);
             let width = orders.len() * count;
             let [amplitudes, vectors, sums, longest] = &all;
@@ -340,7 +341,9 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
                 Asked { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
             let given = Orders::Given(vec![order]);
             let of = |more: f64| {
-                let balance = balance::of(&there(&engine(more), &first), &asked, &given).unwrap();
+                let balance =
+                    balance::of(&there(&engine(more), &first), &asked, &given, &Cancel::new())
+                        .unwrap();
                 let (phasors, bounds, _) = of_balance(&balance, quantity);
                 (phasors.iter().map(|p| p.norm()).fold(0.0, f64::max), bounds[0])
             };
@@ -577,6 +580,30 @@ fn a_sweep_tells_what_it_is() {
     }
 }
 
+/// What takes longer is told to: more points and orders, true peaks, cranks that hardly turn.
+#[test]
+fn steps_grow_with_what_is_asked() {
+    let axes = |speeds: usize, ratio: Option<f64>, offset: Option<f64>| Axes {
+        rod_ratio: ratio.map(|ratio| vec![0.2, ratio]),
+        pin_offset: offset.map(|offset| vec![offset, 0.0]),
+        rpm: vec![1000.0; speeds],
+        ..Axes::default()
+    };
+    let steps =
+        |axes: &Axes, orders: &[u32], figure| sweep(&[plain()], axes, orders, None).steps(figure);
+    let amplitude = |axes: &Axes| steps(axes, &[1, 2], Figure::Amplitude);
+    let usual = axes(100, None, None);
+    assert!(amplitude(&usual) >= 2 * 100 * 2);
+    assert!(steps(&usual, &[1, 2, 4], Figure::Amplitude) > amplitude(&usual));
+    assert!(steps(&usual, &[1, 2], Figure::Sum) > amplitude(&usual));
+    assert!(amplitude(&axes(200, None, None)) > amplitude(&usual));
+    let [easy, stiff] = [0.3, 1.0 - 1e-9].map(|ratio| amplitude(&axes(1, Some(ratio), None)));
+    assert!(stiff > easy);
+    // 0.04 m of crank and 0.13 m of rod leave less than 0.09 m.
+    let [easy, stiff] = [0.01, -0.09 * (1.0 - 1e-9)].map(|e| amplitude(&axes(1, None, Some(e))));
+    assert!(stiff > easy);
+}
+
 #[test]
 fn results_are_as_large_as_there_is_room_for() {
     // 2 engines, 2 components of 8 bytes, or 16: 32 or 64 bytes a point of 2³².
@@ -646,7 +673,9 @@ impl Worst {
             let there = there(engine, &alone(&axes, place));
             let asked =
                 Asked { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
-            let balance = balance::of(&there, &asked, &Orders::Given(orders.clone())).unwrap();
+            let balance =
+                balance::of(&there, &asked, &Orders::Given(orders.clone()), &Cancel::new())
+                    .unwrap();
             for (which, quantity) in QUANTITIES.into_iter().enumerate() {
                 let (_, _, lengths) = of_balance(&balance, quantity);
                 for (size, length) in sizes.iter_mut().zip(lengths) {
@@ -772,8 +801,9 @@ fn the_fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64,
 /// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have this offset; and
 /// order 3 of one's torque, without it, for a rod as heavy as that.
 fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
+    let cancel = Cancel::new();
     let at = |r: f64| Proportions::new(ratio, offset / r).unwrap();
-    let second = |r: f64| harmonics::coefficients(&at(r), &[2])[0].norm();
+    let second = |r: f64| harmonics::coefficients(&at(r), &[2], &cancel).unwrap()[0].norm();
     let place = |r: f64, m: f64, side: f64| {
         let bank = Angle::from_degrees(side).unwrap();
         let cylinder = Cylinder::new(r, r / 0.3, m, offset).unwrap();
@@ -782,8 +812,9 @@ fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
     let other = 0.5 * 0.05 * second(0.05) / (0.03 * second(0.03));
     let pair = vec![place(0.05, 0.5, 0.0), place(0.03, other, 180.0)];
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
-        .map(|torque| torque(&Proportions::new(ratio, 0.0).unwrap(), &[3]).roll[0]);
+    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque].map(|torque| {
+        torque(&Proportions::new(ratio, 0.0).unwrap(), &[3], &cancel).unwrap().roll[0]
+    });
     let inertia = -(masses / rod).re * cylinder.second_moment();
     let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
     let one = vec![Placement { cylinder, ..pair[0] }];

@@ -125,7 +125,7 @@ fn sums_of_orders_are_sums_of_orders() {
         for (spectrum, torque) in [(None, true), (None, false), (Some(&spectrum), true)] {
             let asked = Asked { spectrum, torque, ..ASKED };
             let given = Orders::Given(vec![1, 4, 2, 7]);
-            let balance = balance::of(&engine, &asked, &given).unwrap();
+            let balance = balance::of(&engine, &asked, &given, &Cancel::new()).unwrap();
             for count in [1, 256, 257, 1300] {
                 let thetas = thetas(count);
                 let cancel = Cancel::new();
@@ -171,7 +171,8 @@ fn waveforms_keep_their_tolerance_whichever_way_is_taken() {
         // One cylinder to many orders, and forty to few.
         let (one, forty) = (of(&turned(1), &asked, 1e-12), of(&turned(40), &asked, 1e-2));
         assert_eq!(one, waveform::exact(&turned(1), &asked, &thetas, &cancel).unwrap());
-        let balance = balance::of(&turned(40), &asked, &Orders::Auto { rtol: 1e-2 }).unwrap();
+        let balance =
+            balance::of(&turned(40), &asked, &Orders::Auto { rtol: 1e-2 }, &Cancel::new()).unwrap();
         assert_eq!(forty.balance.as_ref(), Some(&balance));
     }
     // A rod as long as the crank takes more orders than there are.

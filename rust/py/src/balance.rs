@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, frozen, python_error, spectrum};
 use crate::engine::Engine;
+use crate::interrupt;
 
 /// Which orders: a list, or a tolerance to choose them by.
 pub fn orders(orders: Option<Vec<u32>>, rtol: f64) -> Orders {
@@ -22,7 +23,9 @@ pub struct Balance(pub core::Balance);
 /// Work out the balance.
 #[pyfunction]
 #[pyo3(name = "balance")]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn balance(
+    py: Python<'_>,
     engine: &Bound<'_, Engine>,
     rpm: f64,
     orders: Option<Vec<u32>>,
@@ -34,7 +37,11 @@ pub fn balance(
     let orders = self::orders(orders, rtol);
     let spectrum = self::spectrum(spectrum)?;
     let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
-    core::balance::of(&engine.get().0, &asked, &orders).or_raise().map(Balance)
+    let engine = &engine.get().0;
+    let balance = interrupt::run(py, orders.steps(engine), |cancel| {
+        core::balance::of(engine, &asked, &orders, cancel)
+    });
+    balance.map(Balance)
 }
 
 /// ω in rad/s.

@@ -62,7 +62,11 @@ pub fn cylinder_harmonics(
     orders: Vec<u32>,
 ) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
     limits::orders(&orders).or_raise()?;
-    let values = harmonics::coefficients(&cylinder(parts)?.proportions(), &orders);
+    let cylinder = cylinder(parts)?;
+    let steps = harmonics::steps(cylinder.slack(), orders.len());
+    let values = interrupt::run(py, steps, |cancel| {
+        harmonics::coefficients(&cylinder.proportions(), &orders, cancel)
+    })?;
     Ok(PyArray1::from_vec(py, values))
 }
 
@@ -76,7 +80,9 @@ pub fn cylinder_torque_harmonics(
 ) -> PyResult<(Bound<'_, PyArray1<Complex64>>, Bound<'_, PyArray1<Complex64>>)> {
     limits::orders(&orders).or_raise()?;
     let cylinder = cylinder(parts)?;
-    let torque = torque::over_second_moment(&cylinder, &orders).or_raise()?;
+    let steps = harmonics::steps(cylinder.slack(), 4 * orders.len());
+    let torque =
+        interrupt::run(py, steps, |cancel| torque::over_second_moment(&cylinder, &orders, cancel))?;
     Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 
@@ -92,7 +98,8 @@ pub fn centred_table<'py>(
     let ratios = rod_ratios.as_slice()?;
     table::check_size::<f64>(ratios.len(), &orders).or_raise()?;
     let shape = [ratios.len(), orders.len()];
-    interrupt::written(py, shape, ratios.len() * orders.len(), None, |out, cancel| {
+    let steps = table::steps(ratios, None, orders.len());
+    interrupt::written(py, shape, steps, None, |out, cancel| {
         table::write_centred(ratios, &orders, rtol, out, cancel)
     })
 }
@@ -111,7 +118,8 @@ pub fn offset_table<'py>(
     let (ratios, offsets) = (rod_ratios.as_slice()?, offsets.as_slice()?);
     table::check_size::<Complex64>(ratios.len(), &orders).or_raise()?;
     let shape = [ratios.len(), orders.len()];
-    interrupt::written(py, shape, ratios.len() * orders.len() * 32, None, |out, cancel| {
+    let steps = table::steps(ratios, Some(offsets), orders.len());
+    interrupt::written(py, shape, steps, None, |out, cancel| {
         table::write_offset(ratios, offsets, &orders, out, cancel)
     })
 }

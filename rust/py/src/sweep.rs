@@ -46,8 +46,6 @@ fn figure(name: &str) -> PyResult<Figure> {
     }
 }
 
-/// Steps that a true peak of a sum of orders costs more than an amplitude.
-const PEAK_STEPS: usize = 400;
 /// Numbers copied between two looks at cancellation.
 const PIECE: usize = 1 << 16;
 
@@ -86,13 +84,8 @@ impl Sweep {
     ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
         self.sweep.check_size(quantity, figure, size_of::<T>()).or_raise()?;
         let kept = self.dimensions(&self.sweep.result_shape(quantity, figure));
-        let each = match figure {
-            Figure::Amplitude | Figure::Length => 8,
-            Figure::Sum | Figure::LengthOfSum => PEAK_STEPS,
-        };
-        let points = self.sweep.shape().iter().fold(each, |size, &n| size.saturating_mul(n));
         let values: Bound<'py, PyArrayDyn<T>> =
-            interrupt::written(py, kept, points, progress, write)?;
+            interrupt::written(py, kept, self.sweep.steps(figure), progress, write)?;
         values.readwrite().make_nonwriteable();
         Ok(values)
     }
@@ -249,7 +242,9 @@ impl Sweep {
         let quantity = quantity(name)?;
         let angles = &angles.get().0;
         let out = out.as_slice_mut()?;
-        let steps = out.len().saturating_mul(if exact { 8 } else { self.sweep.orders().len() });
+        let each = if exact { 8 } else { self.sweep.orders().len() };
+        let steps =
+            out.len().saturating_mul(each).saturating_add(self.sweep.steps(Figure::Amplitude));
         interrupt::watched(py, steps, progress.as_ref(), |cancel| {
             self.sweep.waveforms(quantity, angles, exact, out, cancel)
         })

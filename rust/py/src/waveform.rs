@@ -49,13 +49,14 @@ pub fn waveform<'py>(
     let engine = &engine.get().0;
     let thetas = theta_deg.as_slice()?;
     let spectrum = self::spectrum(spectrum)?;
-    let steps = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
+    let orders = balance::orders(orders, rtol);
+    let by_angle = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
+    let steps = by_angle.saturating_add(orders.steps(engine));
     let waveform = interrupt::run(py, steps, |cancel| {
         let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
         if !summed {
             return core::waveform::exact(engine, &asked, thetas, cancel);
         }
-        let orders = balance::orders(orders, rtol);
         core::waveform::from_orders(engine, &asked, thetas, &orders, cancel)
     })?;
     Ok((

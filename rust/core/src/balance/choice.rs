@@ -8,6 +8,7 @@
 use super::fewest::most_left_out;
 use super::sums::Sums;
 use super::{Balance, Shake};
+use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::harmonics;
@@ -19,10 +20,16 @@ use crate::slider_crank::{Cylinder, Proportions};
 const NEGLIGIBLE: f64 = 1e-17;
 
 /// The fewest orders within `rtol`, the same at every speed.
-pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Result<Balance> {
+pub(super) fn within(
+    rtol: f64,
+    sums: &Sums,
+    engine: &Engine,
+    omega: f64,
+    cancel: &Cancel,
+) -> Result<Balance> {
     let candidates = candidates(limits::tolerance(rtol)?, engine, sums)?;
     let last = candidates.last().copied().unwrap_or(1);
-    let whole = sums.balance(&candidates, 1.0);
+    let whole = sums.balance(&candidates, 1.0, cancel)?;
     let tail = if sums.spectrum.is_some() { [0.0; 3] } else { sums.tail(last) };
     let allowed = scales(engine, sums.reference).map(|largest| rtol * largest);
     let share = |sizes: &[f64; 3]| -> Vec<f64> {
@@ -39,7 +46,7 @@ pub(super) fn within(rtol: f64, sums: &Sums, engine: &Engine, omega: f64) -> Res
     });
     let mut kept = candidates.clone();
     kept.retain(|n| left_out.binary_search_by(|&k| candidates[k].cmp(n)).is_err());
-    let mut balance = sums.balance(&kept, omega);
+    let mut balance = sums.balance(&kept, omega, cancel)?;
     balance.omitted = left_out
         .into_iter()
         .filter(|&k| sizes[k].iter().any(|&size| size > 0.0))
@@ -74,7 +81,7 @@ pub(crate) fn rod_share(cylinder: &Cylinder, scales: &[f64; 3]) -> f64 {
 }
 
 /// The last order worth a look, for so many cylinders of these proportions and shares of rod inertia:
-/// the rest is `negligible`, or at least within the tolerance.
+/// the rest is `negligible`, which is less than a quarter of the tolerance, or at least that.
 pub(crate) fn highest(
     rtol: f64,
     negligible: f64,
@@ -82,7 +89,7 @@ pub(crate) fn highest(
     cylinders: impl Iterator<Item = (Proportions, f64)>,
     torque: bool,
 ) -> Result<u32> {
-    let (needed, enough) = (0.25 * rtol / count as f64, negligible.min(0.25 * rtol) / count as f64);
+    let (needed, enough) = (0.25 * rtol / count as f64, negligible / count as f64);
     let mut highest = 1;
     for (proportions, rod_share) in cylinders {
         let torque = torque.then_some(rod_share);
@@ -133,5 +140,100 @@ impl Balance {
         let length = |shake: &Shake| shake.forward[k].norm() + shake.backward[k].norm();
         let torque = self.torque.as_ref().map_or(0.0, |t| t.roll[k].norm().max(t.crank[k].norm()));
         [length(&self.force), length(&self.moment), torque]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::angle::Angle;
+    use crate::engine::Placement;
+
+    fn placement(cylinder: Cylinder, z: f64, rotating_mass: f64) -> Placement {
+        Placement { cylinder, tdc: Angle::ZERO, bank: Angle::Turns(1, 4), z, rotating_mass }
+    }
+
+    fn engine(cylinders: &[Cylinder]) -> Engine {
+        let placements =
+            cylinders.iter().enumerate().map(|(i, &c)| placement(c, 0.1 * i as f64, 0.0));
+        Engine::new("", "", placements.collect()).unwrap()
+    }
+
+    #[test]
+    fn tolerances_are_relative_to_the_largest_cylinder() {
+        let small = Cylinder::new(0.05, 0.2, 2.0, 0.0).unwrap();
+        let large = Cylinder::new(0.08, 0.2, 4.0, 0.0).unwrap();
+        let near = |found: [f64; 3], expected: [f64; 3]| {
+            let close = |(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-14;
+            assert!(found.into_iter().zip(expected).all(close), "{found:?} {expected:?}");
+        };
+        // m·r = 0.1 and 0.32; the longest lever is that of the other cylinder.
+        let two = |rotating, inertia| {
+            let other = small.with_rod_inertia_excess(inertia).unwrap();
+            let places = vec![placement(other, 0.7, 0.0), placement(large, 0.1, rotating)];
+            Engine::new("", "", places).unwrap()
+        };
+        near(scales(&two(0.0, 0.0), 0.0), [0.32, 0.32 * 0.7, 0.32 * 0.08]);
+        // 5 kg at 0.08 m.
+        near(scales(&two(5.0, 0.0), 0.2), [0.4, 0.4 * 0.5, 0.4 * 0.08]);
+        // J·r/l = 0.25 J.
+        let with_inertia = two(0.0, -2.0);
+        near(scales(&with_inertia, 0.0), [0.32, 0.32 * 0.7, 0.5]);
+        let [inert, plain] = [0, 1].map(|i| with_inertia.placements()[i].cylinder);
+        assert_eq!(rod_share(&inert, &[1.0, 1.0, 0.5]), 4.0);
+        // Where nothing moves, nothing over nothing is nothing.
+        assert_eq!(rod_share(&plain, &[0.0; 3]), 0.0);
+    }
+
+    #[test]
+    fn candidates_end_where_the_rest_is_negligible() {
+        let short = Cylinder::new(0.05, 0.12, 1.0, 0.01).unwrap();
+        // Rods of which a few have a last order for their own inertia.
+        let cases = (0..20)
+            .flat_map(|k| [0.0, 0.001, 10.0].map(|inertia| (0.13 + 0.02 * f64::from(k), inertia)));
+        for (rod_length, inertia) in cases {
+            let plain = Cylinder::new(0.05, rod_length, 2.0, 0.0).unwrap();
+            let heavy = plain.with_rod_inertia_excess(inertia).unwrap();
+            for cylinders in
+                [vec![heavy; 2], vec![plain, heavy, heavy], vec![short, heavy, plain, short]]
+            {
+                let engine = engine(&cylinders);
+                for torque in [false, true] {
+                    let sums = Sums::new(&engine, 0.0, None, torque);
+                    let last = *candidates(1e-6, &engine, &sums).unwrap().last().unwrap();
+                    let largest = 0.005_f64.max(inertia * 0.05 / rod_length);
+                    // As if nothing cancelled, and each cylinder were the largest.
+                    let rest = |highest: u32| {
+                        let each = cylinders.iter().map(|c| {
+                            let [force, mut of_torque] = tail(&c.proportions(), highest, torque);
+                            if torque && c.has_rod_inertia() {
+                                of_torque +=
+                                    inertia / largest * rod_tail(&c.proportions(), highest);
+                            }
+                            force.max(of_torque)
+                        });
+                        each.fold(0.0, f64::max) * cylinders.len() as f64
+                    };
+                    assert!(rest(last) <= NEGLIGIBLE * (1.0 + 1e-12));
+                    assert!(rest(last - 1) > NEGLIGIBLE);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rest_that_never_is_negligible_must_be_within_the_tolerance() {
+        let proportions = Proportions::new(1.0 / (1.0 + 1e-6), 0.0).unwrap();
+        let rod_ratio = 1.0 / proportions.rod;
+        let [rest, _] = tail(&proportions, limits::HIGHEST_ORDER, false);
+        for count in [1, 5] {
+            let of =
+                |rtol: f64| highest(rtol, 1e-17, count, [(proportions, 0.0)].into_iter(), false);
+            // A quarter of the tolerance is for what is above the highest order.
+            let rtol = 4.0 * rest * count as f64;
+            assert_eq!(of(rtol * 1.000_001), Ok(limits::HIGHEST_ORDER));
+            let rtol = rtol * 0.999_999;
+            assert_eq!(of(rtol), Err(Error::TooManyOrders { rtol, rod_ratio }));
+        }
     }
 }

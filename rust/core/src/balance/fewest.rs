@@ -144,6 +144,42 @@ mod tests {
         }
     }
 
+    /// The most parts of three sums that may lose so much each, by dynamic programming.
+    fn most_of_three(sizes: &[[usize; 3]], largest: usize) -> usize {
+        let side = largest + 1;
+        let place = |i: usize, j: usize, k: usize| (i * side + j) * side + k;
+        let mut most = vec![0; side.pow(3)];
+        for &[a, b, c] in sizes {
+            for i in (a..side).rev() {
+                for j in (b..side).rev() {
+                    for k in (c..side).rev() {
+                        let with = most[place(i - a, j - b, k - c)] + 1;
+                        let best = &mut most[place(i, j, k)];
+                        *best = with.max(*best);
+                    }
+                }
+            }
+        }
+        most[place(largest, largest, largest)]
+    }
+
+    #[test]
+    fn fifty_parts_are_solved_within_the_work_allowed() {
+        // Of many such parts those that ask for most work: half of what is allowed, and more than all
+        // of it where the search is cut in one way alone.
+        let mut state = 12_u64;
+        let mut size = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            1 + (state >> 33) as usize % 8
+        };
+        let parts: Vec<[usize; 3]> = (0..50).map(|_| std::array::from_fn(|_| size())).collect();
+        let sizes: Vec<Vec<f64>> =
+            parts.iter().map(|part| part.map(|size| size as f64 / 96.0).to_vec()).collect();
+        assert_eq!(most_left_out(&sizes, &[0.0; 3]).len(), most_of_three(&parts, 96));
+    }
+
     #[test]
     fn the_smallest_first_is_not_always_best() {
         // The first is small in both, the others large in one each; any two of the others fit.

@@ -20,9 +20,11 @@ pub(crate) use self::fewest::most_left_out;
 use self::sums::Sums;
 pub(crate) use self::sums::{snapped, zero_factor};
 use crate::Complex64;
+use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::extrema::PeakFinder;
+use crate::harmonics;
 use crate::limits;
 pub(crate) use crate::limits::tolerance;
 use crate::spectrum::Spectrum;
@@ -38,6 +40,18 @@ pub enum Orders {
         /// Relative tolerance.
         rtol: f64,
     },
+}
+
+impl Orders {
+    /// About how many steps of some nanoseconds they take at most.
+    #[must_use]
+    pub fn steps(&self, engine: &Engine) -> usize {
+        /// More orders than a tolerance asks of a rod that is not next to the shortest.
+        const CHOSEN: usize = 256;
+        let count = if let Self::Given(orders) = self { orders.len() } else { CHOSEN };
+        let each = engine.placements().iter().map(|p| harmonics::steps(p.cylinder.slack(), count));
+        each.fold(0, usize::saturating_add)
+    }
 }
 
 /// Force and moment of one kind, order by order.
@@ -153,11 +167,12 @@ pub fn balance(
     reference_z: Option<f64>,
     spectrum: Option<&Spectrum>,
 ) -> Result<Balance> {
-    of(engine, &Asked { rpm, reference_z, spectrum, torque: true }, orders)
+    let asked = Asked { rpm, reference_z, spectrum, torque: true };
+    of(engine, &asked, orders, &Cancel::new())
 }
 
 /// How the engine shakes.
-pub fn of(engine: &Engine, asked: &Asked, orders: &Orders) -> Result<Balance> {
+pub fn of(engine: &Engine, asked: &Asked, orders: &Orders, cancel: &Cancel) -> Result<Balance> {
     let omega = angular_speed(asked.rpm)?;
     let reference = engine.reference(asked.reference_z)?;
     let sums = || Sums::new(engine, reference, asked.spectrum, asked.torque);
@@ -166,9 +181,9 @@ pub fn of(engine: &Engine, asked: &Asked, orders: &Orders) -> Result<Balance> {
             limits::orders(orders)?;
             let cure = "give fewer orders";
             limits::result_size("orders", &[orders.len(), 8], size_of::<Complex64>(), cure)?;
-            Ok(sums().balance(orders, omega))
+            sums().balance(orders, omega, cancel)
         }
-        Orders::Auto { rtol } => choice::within(*rtol, &sums(), engine, omega),
+        Orders::Auto { rtol } => choice::within(*rtol, &sums(), engine, omega, cancel),
     }
 }
 

@@ -6,7 +6,9 @@ use ndarray::{Array1, Array2};
 use super::{Balance, Shake, Torque, choice};
 use crate::Complex64;
 use crate::angle::Angle;
+use crate::cancel::Cancel;
 use crate::engine::{Engine, Placement};
+use crate::error::Result;
 use crate::harmonics::{self, torque::TorqueHarmonics};
 use crate::rational::common_multiple;
 use crate::slider_crank::{Cylinder, Proportions};
@@ -130,14 +132,15 @@ impl<'a> Sums<'a> {
         }
     }
 
-    pub fn balance(&self, orders: &[u32], omega: f64) -> Balance {
+    pub fn balance(&self, orders: &[u32], omega: f64, cancel: &Cancel) -> Result<Balance> {
         let square = omega * omega;
         let count = orders.len();
         let mut force = empty_shake(count);
         let mut moment = empty_shake(count);
-        let harmonics: Vec<Vec<Complex64>> =
-            self.groups.iter().map(|group| self.harmonics(group, orders)).collect();
+        let harmonics = self.groups.iter().map(|group| self.harmonics(group, orders, cancel));
+        let harmonics: Vec<Vec<Complex64>> = harmonics.collect::<Result<_>>()?;
         for (k, &n) in orders.iter().enumerate() {
+            cancel.check()?;
             let (mut forces, mut levered) = (Planar::default(), Planar::default());
             for (group, harmonics) in self.groups.iter().zip(&harmonics) {
                 if harmonics[k] == Complex64::default() {
@@ -154,15 +157,15 @@ impl<'a> Sums<'a> {
             store(&mut force, k, &forces, square, factor);
             store(&mut moment, k, &levered.quarter_turned(), square, factor);
         }
-        let torque = self.torque.then(|| self.torques(orders, square));
-        Balance { orders: orders.to_vec(), omitted: Vec::new(), force, moment, torque }
+        let torque = self.torque.then(|| self.torques(orders, square, cancel)).transpose()?;
+        Ok(Balance { orders: orders.to_vec(), omitted: Vec::new(), force, moment, torque })
     }
 
     /// Amplitudes by which the layout sums of a group are multiplied.
-    fn harmonics(&self, group: &Group, orders: &[u32]) -> Vec<Complex64> {
+    fn harmonics(&self, group: &Group, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         match self.spectrum {
-            Some(spectrum) => orders.iter().map(|&n| spectrum.amplitude(n)).collect(),
-            None => harmonics::coefficients(&group.proportions, orders),
+            Some(spectrum) => Ok(orders.iter().map(|&n| spectrum.amplitude(n)).collect()),
+            None => harmonics::coefficients(&group.proportions, orders, cancel),
         }
     }
 
@@ -192,7 +195,7 @@ impl<'a> Sums<'a> {
         }
     }
 
-    fn torques(&self, orders: &[u32], square: f64) -> Torque {
+    fn torques(&self, orders: &[u32], square: f64, cancel: &Cancel) -> Result<Torque> {
         let mut torque = Torque {
             roll: Array1::default(orders.len()),
             crank: Array1::default(orders.len()),
@@ -200,7 +203,7 @@ impl<'a> Sums<'a> {
             error_bound: 0.0,
         };
         for group in &self.groups {
-            let harmonics = harmonics::torque::torque(&group.proportions, orders);
+            let harmonics = harmonics::torque::torque(&group.proportions, orders, cancel)?;
             self.add_torques(
                 &mut torque,
                 group,
@@ -210,7 +213,7 @@ impl<'a> Sums<'a> {
                 Cylinder::second_moment,
             );
             if self.has_rod_inertia(group) {
-                let harmonics = harmonics::rod::torque(&group.proportions, orders);
+                let harmonics = harmonics::rod::torque(&group.proportions, orders, cancel)?;
                 let inertia = Cylinder::rod_inertia_excess;
                 self.add_torques(&mut torque, group, orders, square, &harmonics, inertia);
             }
@@ -220,7 +223,7 @@ impl<'a> Sums<'a> {
             torque.roll[k] = snapped(torque.roll[k], torque.zero_bound[k]);
             torque.crank[k] = snapped(torque.crank[k], torque.zero_bound[k]);
         }
-        torque
+        Ok(torque)
     }
 
     /// Torques of a group, whose harmonics count with m·r², or with the rod's inertia.
@@ -264,13 +267,11 @@ impl<'a> Sums<'a> {
         let mut tail = [0.0; 3];
         for group in &self.groups {
             let [force, torque] = choice::tail(&group.proportions, highest, self.torque);
-            let bounds = [force, force, torque];
-            let most = self.most(group, highest);
-            for (sum, (most, bound)) in tail.iter_mut().zip(most.into_iter().zip(bounds)) {
-                *sum += if most == 0.0 { 0.0 } else { most * bound };
-            }
-            if self.torque && most[3] > 0.0 {
-                tail[2] += most[3] * choice::rod_tail(&group.proportions, highest);
+            let of_rod =
+                if self.torque { choice::rod_tail(&group.proportions, highest) } else { 0.0 };
+            let parts = [0, 1, 2, 2].into_iter().zip([force, force, torque, of_rod]);
+            for ((sum, bound), most) in parts.zip(self.most(group, highest)) {
+                tail[sum] += if most == 0.0 { 0.0 } else { most * bound };
             }
         }
         tail
@@ -410,6 +411,17 @@ mod tests {
             }
             let [force, _, none] = Sums::new(&both, 0.1, None, false).tail(highest);
             assert_eq!((force, none), (tail[0], 0.0));
+        }
+        // A rod's inertia adds to torque what it makes, where it does not cancel.
+        let rod = a.with_rod_inertia_excess(-0.02).unwrap();
+        for (odd, tdc) in [(0.0, 180.0), (1.234_567, 90.0)] {
+            let pair = [(odd, 90.0, 0.0), (odd + tdc, 90.0, 0.3)];
+            let [with, without] =
+                [rod, a].map(|c| Sums::new(&engine(c, &pair), 0.1, None, true).tail(4));
+            let rods = 0.04 * choice::rod_tail(&a.proportions(), 4);
+            assert_eq!(with[..2], without[..2]);
+            assert!(((with[2] - without[2]) / rods - 1.0).abs() < 1e-12);
+            assert_eq!(Sums::new(&engine(rod, &pair), 0.1, None, false).tail(4)[2], 0.0);
         }
         // Nothing times a bound that is not finite is nothing.
         let stiff = Cylinder::new(0.05, 0.05 * (1.0 + 1e-15), 1.0, 0.0).unwrap();

@@ -16,7 +16,9 @@ pub mod torque;
 
 use self::spike::spike_integral;
 use crate::Complex64;
+use crate::cancel::Cancel;
 use crate::double::Double;
+use crate::error::Result;
 use crate::limits;
 use crate::slider_crank::Proportions;
 
@@ -34,16 +36,39 @@ const LONGEST_PLAIN_SERIES: f64 = 100.0;
 const ALL_DIGITS: f64 = 0.0;
 
 /// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
-#[must_use]
-pub fn coefficients(proportions: &Proportions, orders: &[u32]) -> Vec<Complex64> {
+pub fn coefficients(
+    proportions: &Proportions,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<Vec<Complex64>> {
     if proportions.offset == 0.0 {
         let centred = Centred::new(proportions);
-        return orders
-            .iter()
-            .map(|&n| Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
-            .collect();
+        let order = |&n: &u32| {
+            cancel.check()?;
+            Ok(Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
+        };
+        return orders.iter().map(order).collect();
     }
-    Offset::new(proportions).coefficients(orders)
+    Offset::new(proportions).coefficients(orders, cancel)
+}
+
+/// About how many steps of some nanoseconds so many orders of a cylinder take at most, by the slack of
+/// its rod.
+#[must_use]
+pub fn steps(slack: f64, orders: usize) -> usize {
+    /// With less slack it may take hundreds of terms or a quadrature.
+    const LITTLE: f64 = 0.02;
+    orders.saturating_mul(if slack < LITTLE { 1 << 15 } else { 64 })
+}
+
+/// Whether an order is better integrated than summed from so many terms.
+fn is_by_quadrature(n: u32, terms: f64) -> bool {
+    terms > LONGEST_SERIES && terms > SERIES_TERMS_PER_ORDER * f64::from(n)
+}
+
+/// Coefficients whose products, n apart, are so many terms of each order.
+fn series_length(highest: u32, terms: f64) -> usize {
+    highest as usize + terms.ceil() as usize + 1
 }
 
 /// Ratio of term j + 1 to term j.
@@ -130,10 +155,9 @@ impl Centred {
         let last = may_be_missing(n, rtol) * (1.0 - self.fourth.high);
         let digits = NEGLIGIBLE_LOG.min(-last.ln());
         let count = (digits / -self.fourth.high.ln()).ceil();
-        if count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n) {
-            let reach = self.reach;
-            return spike_integral(reach, reach, 0.0, n)
-                * if n.is_multiple_of(4) { 1.0 } else { -1.0 };
+        if is_by_quadrature(n, count) {
+            let integral = spike_integral(self.reach, self.reach, 0.0, n);
+            return if n.is_multiple_of(4) { integral } else { -integral };
         }
         let rest = if count > LONGEST_PLAIN_SERIES {
             self.long_series(n, last)
@@ -193,24 +217,23 @@ impl Offset {
         Self { size: offset.abs(), mirrored, above, below }
     }
 
-    fn coefficients(&self, orders: &[u32]) -> Vec<Complex64> {
+    fn coefficients(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let highest = orders.iter().copied().max().unwrap_or(1);
         let roots = Roots::new(self.size, self.above, self.below);
-        let count = NEGLIGIBLE_LOG / (-2.0 * roots.p2.ln());
-        let by_quadrature =
-            |n: u32| count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n);
-        let series = if orders.iter().all(|&n| by_quadrature(n)) {
+        let count = roots.terms();
+        let series = if orders.iter().all(|&n| is_by_quadrature(n, count)) {
             Vec::new()
         } else {
-            roots.series(highest as usize + count.ceil() as usize + 1)
+            roots.series(series_length(highest, count))
         };
         orders
             .iter()
             .map(|&n| {
-                let magnitude = if by_quadrature(n) {
+                cancel.check()?;
+                let magnitude = if is_by_quadrature(n, count) {
                     // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
-                    let sign = if n % 2 == 1 { -1.0 } else { 1.0 };
-                    sign * spike_integral(self.above.high, self.below.high, self.size, n)
+                    let integral = spike_integral(self.above.high, self.below.high, self.size, n);
+                    if n % 2 == 1 { -integral } else { integral }
                 } else {
                     let terms = series.len() - n as usize;
                     // From the smallest term up.
@@ -218,7 +241,7 @@ impl Offset {
                         (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
                     f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
                 };
-                self.turned(n, magnitude)
+                Ok(self.turned(n, magnitude))
             })
             .collect()
     }
@@ -261,12 +284,17 @@ impl Roots {
         Self { p1, p2, product, difference }
     }
 
+    /// How many terms of a series in p₂² matter.
+    fn terms(&self) -> f64 {
+        NEGLIGIBLE_LOG / (-2.0 * self.p2.ln())
+    }
+
     /// h₀ … h_{count − 1} of √((1 + p₁w)(1 − p₂w)): all below zero from h₁ on, since p₁ ≤ p₂, so
     /// that the recurrence adds terms of one sign.
     fn series(&self, count: usize) -> Vec<f64> {
         let mut h = Vec::with_capacity(count.max(2));
         h.extend([1.0, 0.5 * self.difference]);
-        for k in 1..count.max(2) - 1 {
+        for k in 1..count.saturating_sub(1) {
             let x = k as f64;
             let next = self.difference * (0.5 - x) * h[k] + self.product * (x - 2.0) * h[k - 1];
             h.push(next / (x + 1.0));

@@ -9,16 +9,21 @@ use std::f64::consts::FRAC_2_PI;
 
 use super::spike::graded_panels;
 use super::torque::{RationalPart, TorqueHarmonics};
-use super::{LONGEST_SERIES, NEGLIGIBLE_LOG, Offset, Root, Roots, SERIES_TERMS_PER_ORDER};
+use super::{Offset, Root, Roots, is_by_quadrature, series_length};
 use crate::Complex64;
+use crate::cancel::Cancel;
+use crate::error::Result;
 use crate::slider_crank::Proportions;
 
 /// Harmonics of the torques of a rod's moment of inertia beyond that of its two masses, over it and
 /// ω², as peak phasors: roll `φ''(1 + φ')`, crank `−φ''φ'`.
-#[must_use]
-pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
+pub fn torque(
+    proportions: &Proportions,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<TorqueHarmonics> {
     let swing = Swing::new(proportions);
-    let velocities = swing.velocities(orders);
+    let velocities = swing.velocities(orders, cancel)?;
     let half_derivatives =
         orders.iter().map(|&n| Complex64::new(0.0, 0.5 * f64::from(n)) * swing.square(n));
     let (mut roll, mut crank) = (Vec::new(), Vec::new());
@@ -26,7 +31,7 @@ pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
         roll.push(Complex64::new(0.0, f64::from(n)) * velocity + half_derivative);
         crank.push(-half_derivative);
     }
-    TorqueHarmonics { roll, crank }
+    Ok(TorqueHarmonics { roll, crank })
 }
 
 /// Bound of what orders above `highest` can add to either torque over inertia and ω².
@@ -61,18 +66,16 @@ impl<'a> Swing<'a> {
     }
 
     /// Peak phasors of φ'.
-    fn velocities(&self, orders: &[u32]) -> Vec<Complex64> {
+    fn velocities(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let Offset { size, above, below, .. } = self.offset;
         let roots = Roots::new(size, above, below);
-        let count = NEGLIGIBLE_LOG / (-2.0 * roots.p2.ln());
-        let by_quadrature =
-            |n: u32| count > LONGEST_SERIES && count > SERIES_TERMS_PER_ORDER * f64::from(n);
-        let highest = orders.iter().copied().filter(|&n| !by_quadrature(n)).max();
+        let count = roots.terms();
+        let highest = orders.iter().copied().filter(|&n| !is_by_quadrature(n, count)).max();
         let series = highest
-            .map(|highest| self.series(&roots, highest as usize + count.ceil() as usize + 1))
+            .map(|highest| self.series(&roots, series_length(highest, count)))
             .unwrap_or_default();
         let magnitude = |n: u32| {
-            if by_quadrature(n) {
+            if is_by_quadrature(n, count) {
                 return self.integral(n);
             }
             // From the smallest term up.
@@ -80,7 +83,11 @@ impl<'a> Swing<'a> {
             let sum: f64 = terms.rev().map(|((g, _), (_, step))| g * step).sum();
             2.0 * roots.product.sqrt() * sum
         };
-        orders.iter().map(|&n| self.turned(n, magnitude(n))).collect()
+        let order = |&n: &u32| {
+            cancel.check()?;
+            Ok(self.turned(n, magnitude(n)))
+        };
+        orders.iter().map(order).collect()
     }
 
     /// gₖ and gₖ − gₖ₊₂, k < count.
@@ -159,7 +166,9 @@ mod tests {
             let proportions = Proportions::new(rod_ratio, share * reach).unwrap();
             let orders: Vec<u32> = (1..40).collect();
             let swing = Swing::new(&proportions);
-            for (&n, by_series) in orders.iter().zip(swing.velocities(&orders)) {
+            for (&n, by_series) in
+                orders.iter().zip(swing.velocities(&orders, &Cancel::new()).unwrap())
+            {
                 let by_panels = swing.turned(n, swing.integral(n));
                 // A few units of order 1, which is 4/π.
                 let apart = (by_series - by_panels).norm();

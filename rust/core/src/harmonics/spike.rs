@@ -88,3 +88,38 @@ static GAUSS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
         })
         .collect()
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ cos nφ/(w² + φ²): between 0 and π/2 by the exponential of a wide range, and its spike.
+    #[test]
+    fn panels_follow_spike_and_waves_and_no_more() {
+        for exponent in 0..30 {
+            let width = 0.5_f64.powi(exponent);
+            for n in [0.0, 1.0, 30.0, 1000.0] {
+                let calls = std::cell::Cell::new(0);
+                // w/(w² + φ²) is the slope of arctan(φ/w), n cos nφ that of sin nφ.
+                let integral = graded_panels(width, n, |φ| {
+                    calls.set(calls.get() + 1);
+                    width / (width * width + φ * φ) + n * (n * φ).cos()
+                });
+                let exact = (FRAC_PI_2 / width).atan() + (n * FRAC_PI_2).sin();
+                // Twenty nodes to a panel: 1e-15 of its size, waves of n included.
+                assert!(
+                    (integral - exact).abs() < 1e-14 * (1.0 + n),
+                    "{width} {n}: {integral} {exact}"
+                );
+                // One panel for each halving, and one for each four radians of waves.
+                let halvings = (PI / width).log2().ceil() + 1.0;
+                let most = 20.0 * (halvings + n * FRAC_PI_2 / 4.0);
+                assert!(
+                    f64::from(calls.get()) <= most + 20.0,
+                    "{width} {n}: {} {most}",
+                    calls.get()
+                );
+            }
+        }
+    }
+}

@@ -13,10 +13,10 @@ use crate::cancel::Cancel;
 use crate::error::Result;
 use crate::limits;
 use crate::simd::vectorised;
-use crate::slider_crank::Proportions;
+use crate::slider_crank::{Proportions, slack};
 
-/// Up to this power repeated multiplication is within 2e-15.
-const LARGEST_PLAIN_POWER: u32 = 15;
+/// Up to this order repeated multiplication to the power below it is within 2e-15.
+const LARGEST_PLAIN_ORDER: u32 = 16;
 
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
@@ -55,11 +55,25 @@ pub fn write_offset(
     fill(pairs, orders.len(), out, cancel, |range, rows| {
         let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
         for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
-            cancel.check()?;
-            row.copy_from_slice(&coefficients(&Proportions::new(rod_ratio, offset)?, orders));
+            let proportions = Proportions::new(rod_ratio, offset)?;
+            row.copy_from_slice(&coefficients(&proportions, orders, cancel)?);
         }
         Ok(())
     })
+}
+
+/// About how many steps of some nanoseconds tables of so many orders take at most, with offsets over r
+/// or none.
+#[must_use]
+pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usize {
+    let least = match offsets {
+        Some(offsets) => {
+            let pairs = rod_ratios.iter().zip(offsets);
+            pairs.map(|(λ, &offset)| slack(1.0 / λ, offset)).fold(f64::INFINITY, f64::min)
+        }
+        None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
+    };
+    super::steps(least, orders.saturating_mul(rod_ratios.len()))
 }
 
 /// A table of numbers of type `T` is not too large.
@@ -129,12 +143,18 @@ fn centred_rows(
     )
 }
 
+/// p of a rod ratio, to a few units in the last place.
+#[inline(always)]
+fn root(λ: f64) -> f64 {
+    λ / (1.0 + ((1.0 - λ) * (1.0 + λ)).sqrt())
+}
+
 #[inline(always)]
 fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
     let width = orders.len();
     let mut p = [0.0; LANES];
     for (p, &λ) in p.iter_mut().zip(rod_ratios) {
-        *p = λ / (1.0 + ((1.0 - λ) * (1.0 + λ)).sqrt());
+        *p = root(λ);
     }
     let square = p.map(|p| p * p);
     let fourth = square.map(|s| s * s);
@@ -164,13 +184,14 @@ fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], r
             }
         }
         let mut power = p;
-        if n - 1 <= LARGEST_PLAIN_POWER {
-            for _ in 1..n / 2 {
+        if n <= LARGEST_PLAIN_ORDER {
+            let squares = n / 2 - 1;
+            for _ in 0..squares {
                 for lane in 0..LANES {
                     power[lane] *= square[lane];
                 }
             }
-            let (degree, squares) = (f64::from(n - 1), f64::from(n / 2 - 1));
+            let (degree, squares) = (f64::from(n - 1), f64::from(squares));
             for lane in 0..LANES {
                 let correction = degree * of_p[lane] + squares * of_square[lane];
                 power[lane] = power[lane].mul_add(correction, power[lane]);
@@ -207,8 +228,8 @@ impl Horner {
         let within = rod_ratios.iter().filter(|&&λ| λ <= Self::LARGEST_ROD_RATIO);
         // Others' lanes are filled with 1/2.
         let largest = within.fold(0.5_f64, |a, &b| a.max(b));
-        let fourth = (largest / (1.0 + ((1.0 - largest) * (1.0 + largest)).sqrt())).powi(4);
-        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil() as usize + 1;
+        let fourth = root(largest).powi(4);
+        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil() as usize;
         let negligible: Vec<f64> = (0..count).map(|j| (-NEGLIGIBLE_LOG / j as f64).exp()).collect();
         orders.iter().map(|&n| Self::new(n, &negligible, fourth, rtol)).collect()
     }

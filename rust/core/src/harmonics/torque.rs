@@ -2,6 +2,7 @@
 
 use super::{Offset, Roots, coefficients, rod};
 use crate::Complex64;
+use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::slider_crank::{Cylinder, Proportions};
 
@@ -19,11 +20,16 @@ pub struct TorqueHarmonics {
 /// `x'' x'` is half the derivative of `x'²`. With `x' = h' − sin θ`, `x'² = sin²θ − 2 sin θ h' + h'²`,
 /// where the middle term shifts the orders of h by one and `h'² = u²cos²θ/h²` is rational: its
 /// partial fractions in sin θ have the geometric series in p₁ and p₂ as Fourier series.
-#[must_use]
-pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
+pub fn torque(
+    proportions: &Proportions,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<TorqueHarmonics> {
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
-    let force = coefficients(proportions, &around.iter().map(|&n| n.max(1)).collect::<Vec<_>>());
+    let force = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {
+        coefficients(proportions, orders, cancel)
+    })?;
     // Order n of h' from order n of the acceleration: h'ₙ = i n hₙ and aₙ = n² hₙ.
     let slope = |index: usize| -> Complex64 {
         let n = around[index];
@@ -44,38 +50,59 @@ pub fn torque(proportions: &Proportions, orders: &[u32]) -> TorqueHarmonics {
         // x'' = −Σ aₙ e^{inθ}
         roll.push(half_derivative - force[3 * k + 1] * proportions.offset);
     }
-    TorqueHarmonics { roll, crank }
+    Ok(TorqueHarmonics { roll, crank })
+}
+
+/// A function of orders that takes long for each, asked but once for those that come again.
+fn once_each(
+    orders: &[u32],
+    of: impl Fn(&[u32]) -> Result<Vec<Complex64>>,
+) -> Result<Vec<Complex64>> {
+    /// Up to so many orders it is asked at once.
+    const FEW: usize = 64;
+    if orders.len() <= FEW {
+        return of(orders);
+    }
+    let mut distinct = orders.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let values = of(&distinct)?;
+    Ok(orders.iter().map(|n| values[distinct.partition_point(|other| other < n)]).collect())
 }
 
 /// Both torques of a cylinder over ω², rod inertia and all, with proportions of their own.
-#[must_use]
 pub fn of_cylinder(
     cylinder: &Cylinder,
     proportions: &Proportions,
     orders: &[u32],
-) -> TorqueHarmonics {
-    let mut sum = torque(proportions, orders);
-    let of_rod = rod::torque(proportions, orders);
+    cancel: &Cancel,
+) -> Result<TorqueHarmonics> {
+    let mut sum = torque(proportions, orders, cancel)?;
+    let of_rod = rod::torque(proportions, orders, cancel)?;
     let (masses, inertia) = (cylinder.second_moment(), cylinder.rod_inertia_excess());
     for (sum, of_rod) in [(&mut sum.roll, of_rod.roll), (&mut sum.crank, of_rod.crank)] {
         for (value, of_rod) in sum.iter_mut().zip(of_rod) {
             *value = *value * masses + of_rod * inertia;
         }
     }
-    sum
+    Ok(sum)
 }
 
 /// Both torques of a cylinder over m·r²·ω², rod inertia and all.
-pub fn over_second_moment(cylinder: &Cylinder, orders: &[u32]) -> Result<TorqueHarmonics> {
+pub fn over_second_moment(
+    cylinder: &Cylinder,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<TorqueHarmonics> {
     let (proportions, masses) = (cylinder.proportions(), cylinder.second_moment());
     if !cylinder.has_rod_inertia() {
-        return Ok(torque(&proportions, orders));
+        return torque(&proportions, orders, cancel);
     }
     if masses == 0.0 {
         let cure = "torques of rod inertia are over m·r² of a mass above zero";
         return Err(Error::figure("reciprocating_mass", 0.0, cure));
     }
-    let TorqueHarmonics { roll, crank } = of_cylinder(cylinder, &proportions, orders);
+    let TorqueHarmonics { roll, crank } = of_cylinder(cylinder, &proportions, orders, cancel)?;
     let over = |values: Vec<Complex64>| values.into_iter().map(|value| value / masses).collect();
     Ok(TorqueHarmonics { roll: over(roll), crank: over(crank) })
 }
@@ -134,7 +161,7 @@ impl RationalPart {
             return Complex64::new(0.0, if n % 4 == 1 { magnitude } else { -magnitude });
         }
         let sum = (1.0 - p1 * p1) * power(p1, n - 1) + (1.0 - p2 * p2) * power(p2, n - 1);
-        let fraction = 0.5 * self.rod * sum * if n.is_multiple_of(4) { -1.0 } else { 1.0 };
+        let fraction = 0.5 * self.rod * if n.is_multiple_of(4) { -sum } else { sum };
         Complex64::new(if n == 2 { fraction - 0.5 } else { fraction }, 0.0)
     }
 }

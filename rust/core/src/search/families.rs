@@ -9,9 +9,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::enumerate::{Entries, Entry, LARGEST_SEARCH, classes, key, packed};
+use super::enumerate::{Entries, Entry, LARGEST_SEARCH, classes, packed};
 use super::images::Image;
-use super::moments::{Moments, NEAR, fold};
+use super::moments::{Moments, NEAR, fold, near};
 use super::same::Same;
 use super::window::Wanted;
 use crate::cancel::Cancel;
@@ -78,12 +78,21 @@ pub(super) struct Families<'a> {
 impl Families<'_> {
     /// Those whose folded angle is wanted, ascending, each once.
     pub(super) fn all(self, wanted: &Wanted, cancel: &Cancel) -> Result<Vec<Family>> {
-        // Each arrangement and its mirror image make two families. Half of what is to be expected
-        // will come, and they are grouped, gathered, sorted and joined.
-        let mirrored = if self.moments.images.mirror.is_some() { 2.0 } else { 0.0 };
-        let expected = mirrored * self.entries.all.len() as f64 * wanted.share();
-        refuse_too_many(4 * (0.5 * expected) as usize + self.entries.all.len())?;
-        let ranges = (self.entries.all.len() / RANGE).clamp(1, MOST_RANGES);
+        let entries = self.entries.all.len();
+        refuse_too_many(least(entries, self.moments.images.mirror.is_some(), wanted), entries)?;
+        let ranges = (entries / RANGE).clamp(1, MOST_RANGES);
+        let per_radian = ranges as f64 / (0.5 * self.moments.turn);
+        self.in_ranges(ranges, per_radian, wanted, cancel)
+    }
+
+    /// The same, shared out among so many ranges of folded angles.
+    fn in_ranges(
+        self,
+        ranges: usize,
+        per_radian: f64,
+        wanted: &Wanted,
+        cancel: &Cancel,
+    ) -> Result<Vec<Family>> {
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
         let found = self.entries.ranges().map(|(start, range)| -> Result<Sorted> {
@@ -99,14 +108,14 @@ impl Families<'_> {
                 });
                 place += class.len();
             }
-            let so_far = count.fetch_add(families.len(), Ordering::Relaxed) + families.len();
-            refuse_too_many(4 * so_far + self.entries.all.len())?;
+            count.fetch_add(families.len(), Ordering::Relaxed);
+            refuse_too_many(count.load(Ordering::Relaxed), self.entries.all.len())?;
             cancel.step()?;
-            Ok(Sorted::new(&families, ranges, 0.5 * self.moments.turn))
+            Ok(Sorted::new(&families, ranges, per_radian))
         });
         let mut found = found.collect::<Result<Vec<_>>>()?;
         let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
-        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, 0.5 * self.moments.turn));
+        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian));
         let parts = (0..ranges).into_par_iter().map(|range| -> Result<[Vec<Family>; 2]> {
             let mut families: Vec<Family> =
                 found.iter().flat_map(|sorted| sorted.range(range)).copied().collect();
@@ -139,7 +148,7 @@ impl Families<'_> {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
             let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
-            let (low, high) = (family.folded() - NEAR / size, family.folded() + NEAR / size);
+            let (low, high) = (family.folded() - near(size), family.folded() + near(size));
             let start = to.partition_point(|other| other.folded() < low);
             let close = to[start..].iter().take_while(|other| other.folded() <= high);
             if !close.chain(&new).any(|&other| same.angle(family, other)) {
@@ -156,8 +165,8 @@ impl Families<'_> {
     /// none of the class of Z = 0.
     fn members(self, start: usize, class: &[Entry], members: &mut Vec<Member>) {
         members.clear();
-        // Rows of a remainder that is zero are zero, and so is the key.
-        if key(class[0]) == 0 && self.moments.vanishes(packed(class[0])) {
+        // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
+        if start == 0 && self.moments.vanishes(packed(class[0])) {
             return;
         }
         for (i, &entry) in class.iter().enumerate() {
@@ -171,7 +180,7 @@ impl Families<'_> {
             member.folded = self.moments.folded(member.argument);
         }
         members.sort_unstable_by(|a, b| a.folded.total_cmp(&b.folded).then(a.place.cmp(&b.place)));
-        let near = NEAR / self.moments.twice(packed(class[0])).norm().min(1.0);
+        let near = near(self.moments.twice(packed(class[0])).norm());
         let known = |member: &Member| (packed(class[member.place - start]), member.argument);
         let mut distinct = 0;
         for i in 0..members.len() {
@@ -252,9 +261,8 @@ struct Sorted {
 }
 
 impl Sorted {
-    fn new(families: &[Family], ranges: usize, largest: f64) -> Self {
-        let scale = ranges as f64 / largest;
-        let range = |family: &Family| ((family.folded() * scale) as usize).min(ranges - 1);
+    fn new(families: &[Family], ranges: usize, per_radian: f64) -> Self {
+        let range = |family: &Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
         let mut starts = vec![0; ranges + 1];
         for family in families {
             starts[range(family) + 1] += 1;
@@ -277,9 +285,15 @@ impl Sorted {
     }
 }
 
-/// Families and entries are of one size.
-fn refuse_too_many(count: usize) -> Result<()> {
-    let bytes = count as u128 * size_of::<Family>() as u128;
+/// How many families are sure to come: half of what is to be expected where each arrangement and its
+/// mirror image make two.
+fn least(entries: usize, mirrored: bool, wanted: &Wanted) -> usize {
+    if mirrored { (entries as f64 * wanted.share()) as usize } else { 0 }
+}
+
+/// Families and entries are of one size; families are grouped, gathered, sorted and joined.
+fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
+    let bytes = (4 * families as u128 + entries as u128) * size_of::<Family>() as u128;
     if bytes <= LARGEST_SEARCH {
         return Ok(());
     }
@@ -295,8 +309,11 @@ fn refuse_too_many(count: usize) -> Result<()> {
 mod tests {
     use super::super::magnitude::Magnitude;
     use super::super::throws::Bank;
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::angle::Angle;
+    use crate::engine::Hold;
 
     fn with_entries(bank: Bank, look: impl Fn(&Moments, &Entries)) {
         let moments = Moments::new(bank).unwrap();
@@ -370,6 +387,7 @@ mod tests {
                         }
                         assert!(!moments.same((a, arg_a), (b, arg_b + 0.3 * moments.turn), 0.0));
                     }
+                    assert!(moments.same((a, arg_a), (a, arg_a), 0.0));
                 }
             });
         }
@@ -402,7 +420,158 @@ mod tests {
     #[test]
     fn what_does_not_fit_into_memory_is_refused() {
         let most = (LARGEST_SEARCH / 16) as usize;
-        assert!(refuse_too_many(most).is_ok());
-        assert!(refuse_too_many(most + 1).is_err());
+        for (families, entries) in [(0, most), (most / 4, 0), (most / 4 - 1, 4)] {
+            assert!(refuse_too_many(families, entries).is_ok());
+            assert!(refuse_too_many(families, entries + 1).is_err());
+        }
+        let quarter = Wanted::new([0.0, 45.0], Hold::Firing, TAU);
+        assert_eq!((least(1000, true, &quarter), least(1000, false, &quarter)), (250, 0));
+    }
+
+    #[test]
+    fn what_is_not_small_is_close_wherever_rounding_put_it() {
+        assert_eq!(near(SMALL), CLOSE);
+    }
+
+    /// |Z| nearly vanishes in some classes.
+    fn small_banks() -> Vec<Bank> {
+        let of = |parts: i64, phases: &[i64]| {
+            let phases: Vec<Angle> = phases.iter().map(|&k| Angle::Turns(k, parts)).collect();
+            Bank::with_phases(&phases).unwrap()
+        };
+        vec![
+            of(15, &[0, 1, 2, 14]),
+            of(21, &[0, 3, 9, 11, 17, 20]),
+            of(16, &[0, 2, 7, 9, 12, 13]),
+            of(28, &[0, 2, 13, 14, 16, 17]),
+            of(30, &[0, 5, 6, 10, 19, 20]),
+        ]
+    }
+
+    fn of_class(families: Families<'_>, class: &[Entry]) -> (usize, Vec<Family>) {
+        let start = families.entries.all.iter().position(|e| e == &class[0]).unwrap();
+        let (mut members, mut found) = (Vec::new(), Vec::new());
+        families.members(start, class, &mut members);
+        families.class(&members, |family| found.push(family));
+        (members.len(), found)
+    }
+
+    #[test]
+    fn a_class_has_each_z_once_and_each_pair_as_all_images() {
+        for bank in banks().into_iter().chain(small_banks()) {
+            with_entries(bank, |moments, entries| {
+                for class in classes(&entries.all) {
+                    let z = |entry: &Entry| moments.twice(packed(*entry));
+                    let size = z(&class[0]).norm();
+                    let mut folded: Vec<f64> =
+                        class.iter().map(|entry| moments.folded(z(entry).arg())).collect();
+                    folded.sort_by(f64::total_cmp);
+                    // With a mirror 0 and the end of a range are turning points, without they are one.
+                    folded.dedup_by(|a, b| (*a - *b).abs() < APART);
+                    let count = if size < APART { 0 } else { folded.len() };
+                    let images = moments.images.count() as usize;
+                    let (members, found) = of_class(Families { moments, entries }, class);
+                    assert_eq!(members, count);
+                    let pairs = count * count.saturating_sub(1) / 2 * images;
+                    // Itself and itself reversed are common to all.
+                    assert_eq!(found.len(), pairs + count * (images - 2));
+                    assert!(found.iter().all(|family| family.is_small() == (size < SMALL)));
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn what_is_joined_is_there_once() {
+        for bank in banks().into_iter().take(3).chain(small_banks()) {
+            with_entries(bank, |moments, entries| {
+                let families = Families { moments, entries };
+                let mut found: Vec<Family> = classes(&entries.all)
+                    .flat_map(|class| of_class(families, class).1)
+                    .filter(|family| !family.is_small())
+                    .take(200)
+                    .collect();
+                found.sort();
+                let mut joined = Vec::new();
+                join(&mut joined, &found, &mut Same::new(families));
+                found.dedup_by(|a, b| a.folded() - b.folded() < APART);
+                assert_eq!(joined, found);
+            });
+        }
+    }
+
+    #[test]
+    fn small_ones_are_inserted_once_wherever_rounding_put_them() {
+        for bank in small_banks() {
+            with_entries(bank, |moments, entries| {
+                let families = Families { moments, entries };
+                let small: Vec<Family> = classes(&entries.all)
+                    .flat_map(|class| of_class(families, class).1)
+                    .filter(|family| family.is_small())
+                    .collect();
+                assert!(!small.is_empty());
+                let inserted = |to: &[Family], family: &[Family]| {
+                    let mut to = to.to_vec();
+                    families.insert(&mut to, family, &mut Same::new(families));
+                    to
+                };
+                let all = inserted(&[], &small);
+                assert!(all.windows(2).all(|pair| pair[1].folded() - pair[0].folded() > APART));
+                let known =
+                    |a: &Family| all.iter().any(|b| (a.folded() - b.folded()).abs() < APART);
+                assert!(small.iter().all(known));
+                for (k, family) in all.iter().enumerate() {
+                    let others = [&all[..k], &all[k + 1..]].concat();
+                    assert_eq!(inserted(&others, &[*family]), all);
+                    let size = moments.twice(packed(entries.all[family.first()])).norm();
+                    for by in [-0.9, -0.1, 0.1, 0.9] {
+                        let (second, image) = family.second();
+                        let folded = family.folded() + by * NEAR / size;
+                        if folded >= 0.0 {
+                            let moved = Family::new(folded, family.first(), second, image, true);
+                            assert_eq!(inserted(&all, &[moved]), all);
+                            assert_eq!(inserted(&all, &[moved, *family, moved]), all);
+                            assert_eq!(inserted(&[], &[moved, *family]), [moved]);
+                        }
+                    }
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn however_they_are_shared_out_they_are_the_same() {
+        for bank in banks().into_iter().chain(small_banks()) {
+            with_entries(bank, |moments, entries| {
+                let families = Families { moments, entries };
+                let wanted = Wanted::new([0.0, 180.0], Hold::Firing, moments.turn);
+                let all = families.all(&wanted, &Cancel::new()).unwrap();
+                let check = |ranges: usize, per_radian: f64| {
+                    let cancel = Cancel::new();
+                    let found = families.in_ranges(ranges, per_radian, &wanted, &cancel);
+                    assert_eq!(found.unwrap(), all, "{ranges} {per_radian}");
+                    let (done, total) = cancel.progress();
+                    assert_eq!(done, total);
+                };
+                for ranges in 1..10 {
+                    check(ranges, ranges as f64 / (0.5 * moments.turn));
+                }
+                // Also where a range ends between angles that only rounding parts.
+                let mut found: Vec<f64> = classes(&entries.all)
+                    .flat_map(|class| of_class(families, class).1)
+                    .map(Family::folded)
+                    .collect();
+                found.sort_by(f64::total_cmp);
+                let parted = |pair: &&[f64]| {
+                    let apart = pair[1] - pair[0];
+                    apart < APART && apart > 4.0 * f64::EPSILON * pair[1]
+                };
+                for pair in found.windows(2).filter(parted).take(20) {
+                    let per_radian = 1.0 / f64::midpoint(pair[0], pair[1]);
+                    assert!(pair[0] * per_radian < 1.0 && pair[1] * per_radian >= 1.0);
+                    check(2, per_radian);
+                }
+            });
+        }
     }
 }

@@ -196,8 +196,9 @@ impl Search {
         // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.
         let angle = self.families().angle(family);
         let sigma = if angle.rem_euclid(*turn) <= 0.5 * turn { 1 } else { -1 };
-        let own = (angle - f64::from(sigma) * family.folded()) / turn;
-        let ahead = i64::from(sigma) * origin.sign * origin.middle - own.round() as i64;
+        let own = (angle - sigma as f64 * family.folded()) / turn;
+        let middle = if sigma == origin.sign { origin.middle } else { -origin.middle };
+        let ahead = middle - own.round() as i64;
         let ahead = ahead.rem_euclid(i64::from(bank.turns())) as u32 * (bank.parts / bank.turns());
         for phase in &mut banks[1] {
             *phase = (*phase + ahead) % bank.parts;

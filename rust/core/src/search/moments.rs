@@ -15,6 +15,11 @@ use crate::error::Result;
 /// 15 terms of at most 14, good to 1e-13.
 pub(super) const NEAR: f64 = 1e-12;
 
+/// The same of arrangements of this |2Z|.
+pub(super) fn near(size: f64) -> f64 {
+    NEAR / size.min(1.0)
+}
+
 /// What Z of a bank's arrangements is worked out from.
 #[derive(Debug)]
 pub(super) struct Moments {
@@ -147,4 +152,45 @@ impl Moments {
 pub(super) fn fold(angle: f64, turn: f64) -> f64 {
     let rest = angle - turn * (angle / turn).floor();
     rest.min(turn - rest).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_argument_is_as_uncertain_as_z_is_over_its_size() {
+        for size in [1e-9, 1e-4, 0.01, 0.3, 1.0, 5.0] {
+            let z = Complex64::from_polar(size, 0.7);
+            // Across z, where it turns it most.
+            let moved = (z + Complex64::from_polar(NEAR, 0.7 + 0.5 * PI)).arg() - z.arg();
+            // Arguments are rounded to 1e-16.
+            assert!(moved <= near(size) + 1e-15, "{moved}");
+            assert!(size > 1.0 || moved >= 0.99 * near(size) - 1e-15, "{moved}");
+        }
+    }
+
+    #[test]
+    fn a_combination_is_what_an_image_sees() {
+        let phases = [0, 2, 7, 9, 12, 13].map(|k| Angle::Turns(k, 16));
+        for bank in [Bank::with_phases(&phases), Bank::even_firing(7, false)] {
+            let moments = Moments::new(bank.unwrap()).unwrap();
+            let throws = moments.bank.throws();
+            // Phases in some order, by index among the distinct ones.
+            let packed =
+                (0..throws).fold(0, |packed, i| packed | ((5 * i % throws) as u64) << (4 * i + 4));
+            let z = moments.twice(packed);
+            let mut combination = Vec::new();
+            for image in Image::ALL.into_iter().filter(|&image| moments.images.has(image)) {
+                moments.combination(packed, image, &mut combination);
+                let parts = combination.len() as f64;
+                let unit = |k: usize| Complex64::cis(TAU * k as f64 / parts);
+                let sum: Complex64 =
+                    combination.iter().enumerate().map(|(k, &c)| unit(k) * c as f64).sum();
+                // Sums of few terms of at most 7.
+                let seen = Complex64::from_polar(z.norm(), moments.seen(z.arg(), image));
+                assert!((sum - seen).norm() < 1e-12, "{sum} {seen}");
+            }
+        }
+    }
 }

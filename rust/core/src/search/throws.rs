@@ -144,18 +144,14 @@ impl Bank {
             _ => {
                 // Phases in firing order are two parts apart; from the central throw on, odd steps
                 // are of one half and even ones of the other.
-                let from_centre = |centre: usize, odd: usize| {
-                    with(1, &|phase| {
-                        let step = (phase + 2 * n - centre) % n;
-                        let step = if step.is_multiple_of(2) { step / 2 } else { step.midpoint(n) };
-                        step > 0 && step % 2 == odd
-                    })
+                let both_ways = |centre: usize| {
+                    let [odd, even] = [1, 2].map(|first| {
+                        let steps = (first..n).step_by(2);
+                        with(1, &|phase| steps.clone().any(|step| (centre + 2 * step) % n == phase))
+                    });
+                    [[odd, even], [even, odd]].map(|halves| Pool::apart(halves, Some(centre)))
                 };
-                let pool = |centre: usize, front: usize| {
-                    let halves = [from_centre(centre, front), from_centre(centre, 1 - front)];
-                    Pool::apart(halves, Some(centre))
-                };
-                (0..2 * n).map(|k| pool(k / 2, k % 2)).collect()
+                (0..n).flat_map(both_ways).collect()
             }
         }
     }

@@ -124,16 +124,15 @@ impl Sweep {
         let in_a_row = offsets.map_or(1, <[f64]>::len);
         let mut table = Array2::default((points.len(), self.orders.len()));
         for (mut row, point) in table.rows_mut().into_iter().zip(points.clone()) {
-            cancel.check()?;
             let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
             let offset = offsets.map(|offsets| offsets[point % in_a_row]);
             let proportions = proportions(cylinder, ratio, offset)?;
             let values = match quantity {
                 Quantity::Torque if cylinder.has_rod_inertia() => {
-                    torque::of_cylinder(cylinder, &proportions, &self.orders).roll
+                    torque::of_cylinder(cylinder, &proportions, &self.orders, cancel)?.roll
                 }
-                Quantity::Torque => torque::torque(&proportions, &self.orders).roll,
-                _ => harmonics::coefficients(&proportions, &self.orders),
+                Quantity::Torque => torque::torque(&proportions, &self.orders, cancel)?.roll,
+                _ => harmonics::coefficients(&proportions, &self.orders, cancel)?,
             };
             row.assign(&ArrayView1::from(&values));
         }

@@ -32,6 +32,7 @@ use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
 use crate::limits;
+use crate::slider_crank::{Cylinder, slack};
 use crate::spectrum::Spectrum;
 
 /// What is swept; `None` leaves what each engine has.
@@ -166,6 +167,29 @@ impl Sweep {
             length(&self.axes.pin_offset),
             self.squares.len(),
         ]
+    }
+
+    /// About how many steps of some nanoseconds a result takes at most.
+    #[must_use]
+    pub fn steps(&self, figure: Figure) -> usize {
+        /// A true peak of a sum of orders, in steps for each.
+        const PEAK: usize = 100;
+        let each = match figure {
+            Figure::Amplitude | Figure::Length => 2,
+            Figure::Sum | Figure::LengthOfSum => PEAK,
+        };
+        let orders = self.orders.len();
+        let sums = self.shape().iter().fold(each * orders, |size, &n| size.saturating_mul(n));
+        let [ratio, offset] = self.extremes;
+        let slack_of = |cylinder: &Cylinder| {
+            let radius = cylinder.crank_radius();
+            let rod = ratio.map_or(cylinder.rod_length() / radius, |ratio| 1.0 / ratio);
+            slack(rod, offset.unwrap_or(cylinder.pin_offset()) / radius)
+        };
+        let cylinders = self.engines.iter().flat_map(|engine| engine.placements());
+        let least = cylinders.map(|p| slack_of(&p.cylinder)).fold(f64::INFINITY, f64::min);
+        let points = self.engines.len().saturating_mul(self.points());
+        sums.saturating_add(crate::harmonics::steps(least, orders.saturating_mul(points)))
     }
 
     /// Largest mean piston speed of any cylinder at any speed, m/s.

@@ -28,7 +28,9 @@ const WORTH_A_THREAD: usize = 1 << 15;
 /// What cylinders that move alike and an order of a sum take, in nanoseconds for an angle of a
 /// point: slopes from 1 to 8 groups and from 1 to 16 orders, 300 points of 720 angles on one core
 /// (AMD EPYC, AVX-512).
-const COST: [f64; 2] = [1.0, 0.5];
+const COST: [f64; 2] = [1.0, 0.35];
+/// What a rod's inertia adds to the first, of force, moment and torque on average: it is in torque.
+const COST_OF_ROD: f64 = 0.3;
 
 impl Sweep {
     /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
@@ -42,11 +44,13 @@ impl Sweep {
     /// Whether exact kinematics take less time than the sum of the orders.
     #[must_use]
     pub fn kinematics_cost_less(&self) -> bool {
-        let groups =
-            |engine: &crate::Engine| Kinematics::new(engine.placements(), 0.0).groups.len();
-        let groups: usize = self.engines.iter().map(|engine| groups(engine)).sum();
+        let of_rod = if self.torque { COST_OF_ROD } else { 0.0 };
+        let cost = |engine: &crate::Engine| {
+            Kinematics::new(engine.placements(), 0.0).cost(COST[0], of_rod)
+        };
+        let kinematics: f64 = self.engines.iter().map(|engine| cost(engine)).sum();
         let orders = self.engines.len() * self.orders.len();
-        self.spectrum.is_none() && COST[0] * groups as f64 <= COST[1] * orders as f64
+        self.spectrum.is_none() && kinematics <= COST[1] * orders as f64
     }
 
     /// Values over crank angle, as a sum of orders or by exact kinematics: (…, `n_theta`, and 2 but
