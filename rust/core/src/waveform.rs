@@ -79,7 +79,8 @@ pub fn from_orders(
 ) -> Result<Waveform> {
     let kinematics = matches!(orders, Orders::Auto { .. }) && asked.spectrum.is_none();
     let balance = match balance::of(engine, asked, orders, cancel) {
-        Err(Error::TooManyOrders { .. }) if kinematics => None,
+        // Of a slider-crank alone.
+        Err(Error::TooManyOrders { .. }) => None,
         found => Some(found?),
     };
     let balance = balance.filter(|balance| {
@@ -244,4 +245,59 @@ fn in_blocks(
         return Err(cancelled);
     }
     Ok(memory)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::{Angle, Cylinder, Placement};
+
+    /// Cylinders none of which moves like another.
+    fn engine(count: u32) -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |k: u32| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        Engine::new("", "", (0..count).map(place).collect()).unwrap()
+    }
+
+    #[test]
+    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
+        // Four blocks are worked out one by one.
+        let thetas = [0.0; 4 * BLOCK];
+        let run = |last: usize| {
+            let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
+            let add = |_: &CrankAngles, _: &mut Rows| {
+                if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                    cancel.raise();
+                }
+            };
+            let result = in_blocks(&thetas, true, &cancel, add).map(drop);
+            (result, blocks.into_inner())
+        };
+        assert_eq!(run(0), (Ok(()), 4));
+        for last in 1..4 {
+            assert_eq!(run(last), (Err(Error::Cancelled), last));
+        }
+    }
+
+    #[test]
+    fn how_many_orders_a_group_is_worth_does_not_depend_on_how_many_there_are() {
+        for torque in [true, false] {
+            let less = |groups, orders| kinematics_cost_less(&engine(groups), orders, torque);
+            for groups in 1..8 {
+                for orders in 1..16 {
+                    let twice = less(2 * groups, 2 * orders);
+                    assert_eq!(less(groups, orders), twice, "{groups} {orders}");
+                }
+            }
+            assert!(less(1, 16) && !less(16, 1));
+        }
+    }
 }

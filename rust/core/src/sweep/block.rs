@@ -89,7 +89,6 @@ impl Functions {
             for (turn, pair) in turns.into_iter().zip(functions.chunks_exact_mut(2)) {
                 let [out_cos, out_sin] = pair else { continue };
                 let multiple = turn.unsigned_abs() as u32;
-                let sign = if turn < 0 { -1.0 } else { 1.0 };
                 if multiple == 0 {
                     out_cos.fill(1.0);
                     out_sin.fill(0.0);
@@ -103,15 +102,16 @@ impl Functions {
                 if multiple < power {
                     (power, power_cos, power_sin) = (1, cos, sin);
                 }
-                while power < multiple {
+                for _ in power..multiple {
                     for i in 0..lanes {
                         let (re, im) = (power_cos[i], power_sin[i]);
                         power_cos[i] = re * cos[i] - im * sin[i];
                         power_sin[i] = re * sin[i] + im * cos[i];
                     }
-                    power += 1;
                 }
+                power = multiple;
                 *out_cos = power_cos;
+                let sign = turn.signum() as f64;
                 for i in 0..lanes {
                     out_sin[i] = sign * power_sin[i];
                 }

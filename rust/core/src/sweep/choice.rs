@@ -121,7 +121,7 @@ impl Sweep {
             rest[1] += first_order * force * (placement.z - self.references[engine]).abs();
             rest[2] += first_order * placement.cylinder.crank_radius() * torque;
             let inertia = placement.cylinder.rod_inertia_excess().abs();
-            if self.torque && inertia > 0.0 {
+            if inertia > 0.0 {
                 rest[2] += inertia * rod_tail(&self.slowest(placement)?, last);
             }
         }

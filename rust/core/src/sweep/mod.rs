@@ -500,3 +500,60 @@ fn not_empty(argument: &str, length: usize) -> Result<()> {
     }
     Err(Error::value(argument, "[]", "give at least one value"))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::{Angle, Cylinder, Placement};
+
+    #[test]
+    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |bank: f64| Placement {
+            cylinder,
+            tdc: Angle::ZERO,
+            bank: Angle::from_degrees(bank).unwrap(),
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let engine = Arc::new(Engine::new("", "", vec![place(60.0), place(120.0)]).unwrap());
+        let engines = vec![Arc::clone(&engine), engine];
+        let some = |count| Some(vec![0.3; count]);
+        let angles = |count| Some((vec![60.0; count], Hold::Pins));
+        // Angles side by side at one point and at several, and points side by side; engines, units
+        // and blocks of each.
+        for (bank_angle, rod_ratio, steps) in [
+            (None, None, 2),
+            (angles(300), None, 2 * 3),
+            (angles(300), some(4), 2 * 3 * 4),
+            (None, some(1200), 2 * 10),
+            (angles(2), some(200), 2 * 2 * 2),
+        ] {
+            for rpm in [vec![3000.0], vec![3000.0, 1000.0]] {
+                let (bank_angle, rod_ratio) = (bank_angle.clone(), rod_ratio.clone());
+                let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
+                let sweep =
+                    Sweep::new(engines.clone(), axes, vec![2], None, None, &Cancel::new()).unwrap();
+                let what = (Quantity::Force, Figure::Length, Cost::Small);
+                let run = |last: usize| {
+                    let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
+                    let shape = sweep.result_shape(what.0, what.1);
+                    let mut out = vec![0.0; shape.iter().product()];
+                    let finish = |_: &mut Block, _: f64, _: &mut [f64]| {
+                        if done.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                            cancel.raise();
+                        }
+                        Ok(())
+                    };
+                    (sweep.fill(what, &mut out, &cancel, finish), done.into_inner())
+                };
+                assert_eq!(run(0), (Ok(()), steps));
+                for last in 1..steps {
+                    assert_eq!(run(last), (Err(Error::Cancelled), last));
+                }
+            }
+        }
+    }
+}

@@ -206,7 +206,7 @@ impl Layout<'_> {
         let size: f64 = members.iter().map(|p| weight(p) * lever(p).1).sum();
         let constants = self.orders.iter().map(|&n| {
             if self.quantity == Quantity::Torque {
-                let [[cos, sin]] = self.functions(members, n, [0], |p| weight(p) * lever(p).0);
+                let [[cos, sin]] = self.functions(members, n, [0], &weight);
                 return [cos, sin, Complex64::default(), Complex64::default()];
             }
             let [ahead, against] = self.functions(members, n, [1, -1], |p| weight(p) * lever(p).0);

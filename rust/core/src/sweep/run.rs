@@ -135,13 +135,10 @@ impl<'a> Run<'a> {
         values: &mut [T],
         finish: &(impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
-        let units = self.units();
-        let largest =
-            if self.angles_abreast() { self.abreast() * self.points } else { self.abreast() };
+        let (units, together) = (self.units(), self.units_in_a_slab());
         let speeds = self.squares.len();
-        let together = (SLAB / (largest * self.width)).max(1);
         self.cancel.expect(units);
-        let shared = if self.is_large(values.len() / speeds) { self.shared(plan) } else { vec![] };
+        let shared = self.shared(plan);
         let mut before_speed = Vec::new();
         let mut rest = values;
         for first in (0..units).step_by(together) {
@@ -161,13 +158,20 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Units that are worked out at a time.
+    fn units_in_a_slab(&self) -> usize {
+        let largest =
+            if self.angles_abreast() { self.abreast() * self.points } else { self.abreast() };
+        (SLAB / (largest * self.width)).max(1)
+    }
+
     /// Functions of the bank angle by run of angles, where several engines have use for them.
     fn shared(&self, plan: &Plan) -> Vec<Functions> {
-        let runs = self.bank_angles.chunks(self.abreast());
-        let bytes = runs.len() * plan.orders.len() * size_of::<[[f64; BLOCK]; 4]>();
-        if self.engines == 1 || !self.angles_abreast() || bytes > MOST_SHARED {
+        let wanted = self.angles_abreast() && self.worth_sharing(plan.orders.len());
+        if !wanted {
             return Vec::new();
         }
+        let runs = self.bank_angles.chunks(self.abreast());
         let mut shared = vec![Functions::new(plan); runs.len()];
         vectorised(
             #[inline(always)]
@@ -178,6 +182,15 @@ impl<'a> Run<'a> {
             },
         );
         shared
+    }
+
+    /// Whether functions of so many orders are: in threads each would work them out anew.
+    fn worth_sharing(&self, orders: usize) -> bool {
+        let angles = self.bank_angles.len();
+        let bytes = angles.div_ceil(self.abreast()) * orders * size_of::<[[f64; BLOCK]; 4]>();
+        self.engines > 1
+            && bytes <= MOST_SHARED
+            && self.is_large(self.engines * angles * self.points * self.width)
     }
 
     /// Rows of some units, before speed or at the only one.
@@ -271,10 +284,15 @@ impl<'a> Run<'a> {
         )
     }
 
+    /// Rows at a speed that are written in one piece.
+    fn piece(&self) -> usize {
+        (PIECE / self.width).max(1)
+    }
+
     /// Every row at every speed.
     fn at_every_speed<T: Number>(&self, rows: &[T], out: &mut [T]) -> Result<()> {
         let (speeds, width) = (self.squares.len(), self.width);
-        let piece = (PIECE / width).max(1);
+        let piece = self.piece();
         let write = |(part, mut out): (usize, &mut [T])| -> Result<()> {
             self.cancel.check()?;
             let mut at = part * piece;

@@ -91,7 +91,7 @@ impl Sweep {
             Tiles::new(rows.angles, range, &self.orders, terms)
         };
         // Of fewer rows than share a tile each is used once, and not worth keeping.
-        let shared = (phasors.len() > ROWS * width)
+        let shared = (phasors.chunks_exact(width).len() > ROWS)
             .then(|| tiles(&(0..rows.angles.len()), &Term::of(phasors, orders, components)));
         rows.fill(
             out,
@@ -213,7 +213,7 @@ impl Rows<'_> {
         work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) + Sync,
     ) -> Result<()> {
         let row = self.angles.len() * self.components;
-        if row == 0 || out.is_empty() {
+        if out.is_empty() {
             return Ok(());
         }
         let large = out.len() >= WORTH_A_THREAD;
@@ -241,5 +241,71 @@ impl Rows<'_> {
             return out.par_chunks_mut(ROWS * row).enumerate().try_for_each(group);
         }
         out.chunks_mut(ROWS * row).enumerate().try_for_each(group)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::sweep::Axes;
+    use crate::{Cylinder, Engine, Placement};
+
+    #[test]
+    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
+        // Three groups of rows of two spans each.
+        let angles = CrankAngles::new(&[0.0; SPAN + 1]).unwrap();
+        let mut out = vec![0.0; 3 * ROWS * angles.len()];
+        let mut run = |last: usize| {
+            let (cancel, steps) = (Cancel::new(), AtomicUsize::new(0));
+            let rows = Rows { angles: &angles, components: 1, cancel: &cancel };
+            let work = |(): &(), _: Range<usize>, _: Vec<&mut [f64]>| {
+                if steps.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                    cancel.raise();
+                }
+            };
+            let result = rows.fill(&mut out, |_| Ok(()), work);
+            (result, steps.into_inner(), cancel.progress().1)
+        };
+        assert_eq!(run(0), (Ok(()), 6, 6));
+        for last in 1..=6 {
+            let (result, steps, _) = run(last);
+            assert_eq!(result, Err(Error::Cancelled));
+            // Threads that were at work finish their step.
+            assert!((last..=last + rayon::current_num_threads()).contains(&steps));
+        }
+    }
+
+    #[test]
+    fn a_group_is_worth_as_many_orders_as_it_costs() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |k: u32| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
+        let engine =
+            |groups| Arc::new(Engine::new("", "", (0..groups).map(place).collect()).unwrap());
+        for groups in 1..8 {
+            let worth = (f64::from(groups) * COST[0] / COST[1]).ceil() as u32;
+            for (orders, expected) in [(worth, true), (worth - 1, false)] {
+                if orders == 0 {
+                    continue;
+                }
+                // Three engines are as one.
+                for count in [1, 3] {
+                    let engines = (0..count).map(|_| engine(groups)).collect();
+                    let orders: Vec<u32> = (1..=orders).collect();
+                    let cancel = Cancel::new();
+                    let sweep = Sweep::new(engines, axes.clone(), orders, None, None, &cancel);
+                    assert_eq!(sweep.unwrap().kinematics_cost_less(), expected, "{groups}");
+                }
+            }
+        }
     }
 }

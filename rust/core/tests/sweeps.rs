@@ -1,0 +1,908 @@
+//! Sweeps: each point is the balance of the engine that stands there, whatever else is swept.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{alone, in_line, mixed, places, plain, there};
+use crankpin_core::extrema::PeakFinder;
+use crankpin_core::slider_crank::Proportions;
+use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::{
+    Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders, Placement,
+    Spectrum, Sweep, balance, harmonics,
+};
+
+const QUANTITIES: [Quantity; 3] = [Quantity::Force, Quantity::Moment, Quantity::Torque];
+const REFERENCE: f64 = 0.07;
+
+fn sweep(
+    engines: &[Arc<Engine>],
+    axes: &Axes,
+    orders: &[u32],
+    spectrum: Option<&Spectrum>,
+) -> Sweep {
+    let (axes, orders) = (axes.clone(), orders.to_vec());
+    Sweep::new(engines.to_vec(), axes, orders, Some(REFERENCE), spectrum.cloned(), &Cancel::new())
+        .unwrap()
+}
+
+fn phasors(sweep: &Sweep, quantity: Quantity) -> Vec<Complex64> {
+    sweep.phasors(quantity, &Cancel::new()).unwrap().into_raw_vec_and_offset().0
+}
+
+fn peaks(sweep: &Sweep, quantity: Quantity, figure: Figure) -> Vec<f64> {
+    let cancel = Cancel::new();
+    let peaks = sweep.peaks(quantity, figure, &cancel).unwrap();
+    assert_eq!(peaks.shape(), sweep.result_shape(quantity, figure));
+    // All that was to be done was done.
+    let (done, total) = cancel.progress();
+    assert!(done == total && total > 0, "{done} of {total}");
+    peaks.into_raw_vec_and_offset().0
+}
+
+fn components(quantity: Quantity) -> usize {
+    if quantity == Quantity::Torque { 1 } else { 2 }
+}
+
+/// Phasors of a quantity, order by order and component by component, what rounding can leave of each
+/// order, and the lengths of the orders.
+fn of_balance(balance: &Balance, quantity: Quantity) -> (Vec<Complex64>, Vec<f64>, Vec<f64>) {
+    let shake = match quantity {
+        Quantity::Force => &balance.force,
+        Quantity::Moment => &balance.moment,
+        Quantity::Torque => {
+            let torque = balance.torque.as_ref().unwrap();
+            let lengths = torque.roll.iter().map(|roll| roll.norm()).collect();
+            return (torque.roll.to_vec(), torque.zero_bound.to_vec(), lengths);
+        }
+    };
+    let lengths = shake.forward.iter().zip(&shake.backward).map(|(f, b)| f.norm() + b.norm());
+    (shake.xy.iter().copied().collect(), shake.zero_bound.to_vec(), lengths.collect())
+}
+
+/// Every figure of every point is that of the balance, to what rounding can leave; and the same, bit
+/// for bit, where that point is all there is.
+#[track_caller]
+fn each_point_is_a_balance(
+    engines: &[Arc<Engine>],
+    axes: &Axes,
+    orders: &[u32],
+    spectrum: Option<&Spectrum>,
+) {
+    let together = sweep(engines, axes, orders, spectrum);
+    let finder = PeakFinder::new(orders);
+    let quantities = if spectrum.is_some() { &QUANTITIES[..2] } else { &QUANTITIES };
+    for &quantity in quantities {
+        let count = components(quantity);
+        let figures = [Figure::Amplitude, Figure::Length, Figure::Sum, Figure::LengthOfSum];
+        let all_phasors = phasors(&together, quantity);
+        let all = figures.map(|figure| peaks(&together, quantity, figure));
+        for (point, place) in places(together.shape()).enumerate() {
+            let (engine, axes) = (&engines[place[0]], alone(axes, place));
+            let asked = Asked {
+                rpm: axes.rpm[0],
+                reference_z: Some(REFERENCE),
+                spectrum,
+                torque: spectrum.is_none(),
+            };
+            let given = Orders::Given(orders.to_vec());
+            let balance =
+                balance::of(&there(engine, &axes), &asked, &given, &Cancel::new()).unwrap();
+            let (expected, bounds, lengths) = of_balance(&balance, quantity);
+            let width = orders.len() * count;
+            let [amplitudes, vectors, sums, longest] = &all;
+            let found = &all_phasors[point * width..][..width];
+            let context = format!("{quantity:?} at {place:?}");
+            // What either lets rounding leave.
+            let bound = |k: usize| 2.0 * bounds[k / count];
+            for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                assert!((found - expected).norm() <= bound(k), "{context} {k}: {found} {expected}");
+                let amplitude = amplitudes[point * width + k];
+                // Three roundings.
+                assert!((amplitude - found.norm()).abs() <= 1e-15 * amplitude, "{context} {k}");
+                assert_eq!(amplitude == 0.0, *found == Complex64::default());
+            }
+            for (k, expected) in lengths.iter().enumerate() {
+                let length = vectors[point * orders.len() + k];
+                assert!((length - expected).abs() <= bound(k * count), "{context} {k} {length}");
+            }
+            let slack = bounds.iter().sum::<f64>() * 2.0 + 1e-13 * lengths.iter().sum::<f64>();
+            let of = |axis: usize| -> Vec<Complex64> {
+                expected.iter().skip(axis).step_by(count).copied().collect()
+            };
+            for axis in 0..count {
+                let peak = finder.along_axis(&of(axis));
+                assert!((sums[point * count + axis] - peak).abs() <= slack, "{context}");
+            }
+            if count == 2 {
+                let peak = finder.of_vector(&of(0), &of(1));
+                assert!((longest[point] - peak).abs() <= slack, "{context}");
+            }
+            let only = sweep(&[Arc::clone(engine)], &axes, orders, spectrum);
+            assert_eq!(phasors(&only, quantity), found, "{context}");
+            for (figure, all) in figures.into_iter().zip(&all) {
+                let here = peaks(&only, quantity, figure);
+                assert_eq!(here, all[point * here.len()..][..here.len()], "{context} {figure:?}");
+            }
+        }
+    }
+}
+
+/// Every choice of axes, each with these values.
+fn axes(
+    angles: &[f64],
+    ratios: &[f64],
+    offsets: &[f64],
+    rpm: &[f64],
+) -> impl Iterator<Item = Axes> {
+    let holds = [None, Some(Hold::Pins), Some(Hold::Firing)];
+    (0..12).map(move |k| Axes {
+        bank_angle: holds[k % 3].map(|hold| (angles.to_vec(), hold)),
+        rod_ratio: (k / 3 % 2 == 1).then(|| ratios.to_vec()),
+        pin_offset: (k / 6 == 1).then(|| offsets.to_vec()),
+        rpm: rpm.to_vec(),
+    })
+}
+
+/// Multiples of half the bank angle up to 16 are reached by multiplication, also from a lower one.
+const ORDERS: [u32; 9] = [1, 2, 3, 5, 4, 15, 16, 17, 18];
+
+#[test]
+fn each_point_is_a_balance_whatever_is_swept() {
+    let engines = [mixed(), plain()];
+    let (angles, ratios) = ([0.0, 37.0, 90.0, 180.0], [0.4, 0.1, 0.3]);
+    for axes in axes(&angles, &ratios, &[-0.003, 0.0, 0.005], &[3000.0, 0.0, 1000.0]) {
+        each_point_is_a_balance(&engines, &axes, &ORDERS, None);
+    }
+    // One engine, one speed, and banks that are not two.
+    for axes in axes(&[60.0], &ratios, &[0.001], &[2000.0]).step_by(3) {
+        each_point_is_a_balance(&[in_line()], &axes, &ORDERS, None);
+    }
+}
+
+#[test]
+fn each_point_is_a_balance_of_any_number_of_orders() {
+    let engines = [plain(), mixed()];
+    for count in 1..6 {
+        for axes in axes(&[50.0, 110.0], &[0.25, 0.35], &[0.002, -0.001], &[3000.0]) {
+            each_point_is_a_balance(&engines, &axes, &ORDERS[..count], None);
+        }
+    }
+    // Without the first, at which pins turn, and with it in another place.
+    for orders in [&[2, 4][..], &[6, 1, 2]] {
+        for axes in axes(&[50.0], &[0.25], &[0.002], &[3000.0, 1000.0]) {
+            each_point_is_a_balance(&engines, &axes, orders, None);
+        }
+    }
+}
+
+#[test]
+fn each_point_is_a_balance_with_a_spectrum() {
+    let terms = [(1, Complex64::new(0.02, 0.003)), (4, Complex64::new(-0.001, 0.004))];
+    let spectrum = Spectrum::new(terms).unwrap();
+    for axes in axes(&[0.0, 50.0, 77.0], &[], &[], &[3000.0, 500.0]).take(3) {
+        each_point_is_a_balance(&[mixed(), plain()], &axes, &[1, 2, 4], Some(&spectrum));
+    }
+}
+
+/// Values alone are those in company, bit for bit, at places near the ends of an axis and on either
+/// side of each whole block of 128.
+#[track_caller]
+fn alone_as_in_company(
+    engines: &[Arc<Engine>],
+    axes: &Axes,
+    orders: &[u32],
+    (quantity, figure): (Quantity, Figure),
+) {
+    let together = sweep(engines, axes, orders, None);
+    let shape = together.shape();
+    let all = peaks(&together, quantity, figure);
+    let looked_at = |k: usize, length: usize| {
+        k < 9 || k + 2 >= length || [0, 127].contains(&(k % 128)) && k + 130 >= length
+    };
+    for (point, place) in places(shape).enumerate() {
+        if place.into_iter().zip(shape).all(|(k, length)| looked_at(k, length)) {
+            let engine = Arc::clone(&engines[place[0]]);
+            let here =
+                peaks(&sweep(&[engine], &alone(axes, place), orders, None), quantity, figure);
+            assert_eq!(here, all[point * here.len()..][..here.len()], "{shape:?} {place:?}");
+        }
+    }
+}
+
+/// So many values, evenly from one to another.
+fn evenly(count: usize, [from, to]: [f64; 2]) -> Vec<f64> {
+    (0..count).map(|k| from + (to - from) * (k as f64 / count as f64)).collect()
+}
+
+const DEGREES: [f64; 2] = [0.0, 180.0];
+const RATIOS: [f64; 2] = [0.1, 0.45];
+const OFFSETS: [f64; 2] = [-0.004, 0.006];
+
+#[test]
+fn nothing_depends_on_how_long_an_axis_is() {
+    let moments = (Quantity::Moment, Figure::Amplitude);
+    let engines = [plain(), mixed()];
+    let pins = |angles| Some((angles, Hold::Pins));
+    for count in [7, 8, 9, 127, 128, 129, 256, 1023, 1024, 1025] {
+        let angles = pins(evenly(count, DEGREES));
+        let ratios = Some(evenly(count, RATIOS));
+        let offsets = Some(evenly(count, OFFSETS));
+        let (two, three) = (Some(vec![0.3, 0.2]), Some(vec![0.3, 0.2, 0.4]));
+        let one_speed = Axes { rpm: vec![3000.0], ..Axes::default() };
+        let long = [
+            Axes { bank_angle: angles.clone(), ..one_speed.clone() },
+            Axes { rod_ratio: ratios.clone(), ..one_speed.clone() },
+            Axes { pin_offset: offsets.clone(), rod_ratio: two.clone(), ..one_speed.clone() },
+            Axes { bank_angle: angles.clone(), rod_ratio: three, ..one_speed.clone() },
+            Axes { bank_angle: pins(vec![40.0, 70.0]), rod_ratio: ratios.clone(), ..one_speed },
+        ];
+        for (k, axes) in long.into_iter().enumerate() {
+            alone_as_in_company(&engines, &axes, &[1, 2, 6], moments);
+            alone_as_in_company(&engines[1..], &axes, &[2], moments);
+            let axes = Axes { rpm: vec![1000.0, 4000.0], ..axes };
+            alone_as_in_company(&engines, &axes, &[2, 4], (Quantity::Torque, Figure::Amplitude));
+            alone_as_in_company(&engines[..1], &axes, &[3], (Quantity::Force, Figure::Length));
+            if count < 129 || k == 0 {
+                alone_as_in_company(&engines, &axes, &[1, 2], (Quantity::Force, Figure::Sum));
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_depends_on_how_much_is_worked_out_together() {
+    let amplitude = (Quantity::Force, Figure::Amplitude);
+    let orders: Vec<u32> = (1..=64).collect();
+    let (angles, ratios) = (evenly(2400, DEGREES), evenly(2400, RATIOS));
+    let angles = Axes { bank_angle: Some((angles, Hold::Firing)), ..Axes::default() };
+    let ratios = Axes { rod_ratio: Some(ratios), ..Axes::default() };
+    for axes in [angles, ratios] {
+        // More than one slab of numbers before speed, and in threads.
+        for rpm in [vec![3000.0], vec![3000.0, 1000.0]] {
+            let axes = Axes { rpm, ..axes.clone() };
+            alone_as_in_company(&[plain()], &axes, &orders, amplitude);
+        }
+    }
+    // More than one piece of numbers at all speeds, and a row in several pieces.
+    for (count, speeds) in [(300, 257), (3, 30_000)] {
+        let axes = Axes {
+            rod_ratio: Some(evenly(count, RATIOS)),
+            rpm: evenly(speeds, [100.0, 9000.0]),
+            ..Axes::default()
+        };
+        alone_as_in_company(&[plain()], &axes, &[1, 4], amplitude);
+        alone_as_in_company(&[plain()], &axes, &[1, 2, 4], (Quantity::Torque, Figure::Amplitude));
+    }
+}
+
+/// Two cylinders whose forces, moments and odd torques cancel but for a part of one's mass, beside
+/// two that cancel wholly.
+fn nearly_balanced(more: f64, inertia: f64) -> Engine {
+    let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+    let place = |rod: f64, mass: f64, side: f64, z| {
+        let cylinder = Cylinder::new(0.05, rod, mass, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+        Placement { cylinder, tdc: angle(side), bank: angle(side), z, rotating_mass: 0.0 }
+    };
+    let cylinders = [
+        place(0.15, 0.5, 0.0, 0.25),
+        place(0.15, 0.5 * (1.0 + more), 180.0, 0.25),
+        place(0.12, 0.75, 0.0, -0.5),
+        place(0.12, 0.75, 180.0, -0.5),
+    ];
+    Engine::new("", "", cylinders.to_vec()).unwrap()
+}
+
+/// The crankpins of [`nearly_balanced`] lie in one direction: odd orders of force add up, unless top
+/// dead centres are the same.
+fn boxer(engine: &Engine, rotating_mass: f64) -> Engine {
+    let same = |p: &Placement| Placement { tdc: Angle::ZERO, rotating_mass, ..*p };
+    Engine::new("", "", engine.placements().iter().map(same).collect()).unwrap()
+}
+
+/// What is left is zero up to what rounding can leave and not above, by the balance's account of it.
+#[test]
+fn what_rounding_can_leave_is_zero_and_no_more() {
+    let bank_angle = Some((vec![180.0, 90.0, 45.0], Hold::Firing));
+    let rpm = vec![3000.0];
+    let ratio = Some(vec![0.05 / 0.15]);
+    let ratios = Some(vec![0.05 / 0.15, 0.2]);
+    let long = Some(vec![0.05 / 0.15; 130]);
+    let none = Axes { rpm, ..Axes::default() };
+    let all = [
+        none.clone(),
+        Axes { bank_angle: bank_angle.clone(), ..none.clone() },
+        Axes { rod_ratio: ratios.clone(), ..none.clone() },
+        Axes { bank_angle: bank_angle.clone(), rod_ratio: ratio, ..none.clone() },
+        Axes { bank_angle, rod_ratio: ratios, ..none.clone() },
+        Axes { rod_ratio: long, rpm: vec![3000.0, 500.0], ..none },
+    ];
+    let cases = [
+        (Quantity::Force, 1, 0.0, 0.0),
+        (Quantity::Force, 1, 0.4, 0.0),
+        (Quantity::Force, 4, 0.4, 0.0),
+        (Quantity::Moment, 1, 0.3, 0.0),
+        (Quantity::Moment, 2, 0.3, 0.0),
+        (Quantity::Torque, 1, 0.0, 0.0),
+        (Quantity::Torque, 3, 0.0, 0.0),
+        (Quantity::Torque, 1, 0.0, 2e-4),
+        (Quantity::Torque, 3, 0.0, -2e-4),
+    ];
+    for axes in &all {
+        for (quantity, order, rotating_mass, inertia) in cases {
+            let engine = |more| {
+                let engine = nearly_balanced(more, inertia);
+                if quantity == Quantity::Torque { engine } else { boxer(&engine, rotating_mass) }
+            };
+            let first = alone(axes, [0; 5]);
+            let asked =
+                Asked { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+            let given = Orders::Given(vec![order]);
+            let of = |more: f64| {
+                let balance =
+                    balance::of(&there(&engine(more), &first), &asked, &given, &Cancel::new())
+                        .unwrap();
+                let (phasors, bounds, _) = of_balance(&balance, quantity);
+                (phasors.iter().map(|p| p.norm()).fold(0.0, f64::max), bounds[0])
+            };
+            let (balanced, bound) = of(0.0);
+            assert_eq!(balanced, 0.0);
+            let (left, _) = of(1e-3);
+            for (part, figure) in [
+                (0.85, Figure::Amplitude),
+                (1.2, Figure::Amplitude),
+                (0.85, Figure::Sum),
+                (1.2, Figure::Sum),
+                // Half of it turns with the crank and half against it.
+                (1.7, Figure::Length),
+                (2.4, Figure::Length),
+            ] {
+                if quantity == Quantity::Torque && figure == Figure::Length {
+                    continue;
+                }
+                let engine = Arc::new(engine(1e-3 * bound / left * part));
+                let sweep = sweep(&[engine], axes, &[order], None);
+                let here = peaks(&sweep, quantity, figure);
+                let count = if figure == Figure::Length { 1 } else { components(quantity) };
+                let largest = here[..count].iter().copied().fold(0.0, f64::max);
+                let zero = [0.85, 1.7].contains(&part);
+                assert_eq!(
+                    largest == 0.0,
+                    zero,
+                    "{quantity:?} {order} {part} of {bound}: {largest} {:?}",
+                    sweep.shape()
+                );
+            }
+        }
+    }
+}
+
+/// As large as what rounding can leave, to the last bit, is zero: a lever of 25 ε between two planes
+/// 1 m in all from the origin, of one cylinder at order 1.
+#[test]
+fn as_much_as_rounding_can_leave_is_zero() {
+    let lever = 25.0 * f64::EPSILON;
+    let [z, reference] = [0.5 + 0.5 * lever, 0.5 - 0.5 * lever];
+    let cylinder = Cylinder::new(0.5, 2.0, 2.0, 0.0).unwrap();
+    let place = Placement { cylinder, tdc: Angle::ZERO, bank: Angle::ZERO, z, rotating_mass: 0.0 };
+    let engine = Arc::new(Engine::new("", "", vec![place]).unwrap());
+    let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
+    let of = |reference: f64| {
+        let (axes, spectrum) = (Axes { rpm: vec![3000.0], ..Axes::default() }, spectrum.clone());
+        let engines = vec![Arc::clone(&engine)];
+        let reference = Some(reference);
+        let sweep =
+            Sweep::new(engines, axes, vec![1], reference, Some(spectrum), &Cancel::new()).unwrap();
+        peaks(&sweep, Quantity::Moment, Figure::Amplitude)[1]
+    };
+    assert_eq!(of(reference), 0.0);
+    assert!(of(reference.next_down()) > 0.0);
+}
+
+fn refusal(result: Result<impl Sized, Error>) -> String {
+    match result {
+        Err(error) => error.to_string(),
+        Ok(_) => String::new(),
+    }
+}
+
+fn new(axes: &Axes, orders: &[u32], spectrum: Option<Spectrum>) -> Result<Sweep, Error> {
+    let engines = vec![plain(), mixed()];
+    Sweep::new(engines, axes.clone(), orders.to_vec(), None, spectrum, &Cancel::new())
+}
+
+#[test]
+fn values_that_cannot_be_are_refused() {
+    let good = Axes { rpm: vec![3000.0], ..Axes::default() };
+    assert!(new(&good, &[1], None).is_ok());
+    assert!(refusal(new(&good, &[], None)).contains("orders"));
+    assert!(refusal(new(&good, &[2, 2], None)).contains("orders"));
+    let no_engine = Sweep::new(vec![], good.clone(), vec![1], None, None, &Cancel::new());
+    assert!(refusal(no_engine).starts_with("engines = []"));
+    let engines = vec![plain()];
+    let far = Sweep::new(engines, good.clone(), vec![1], Some(f64::NAN), None, &Cancel::new());
+    assert!(refusal(far).contains("reference_z"));
+
+    // Behind many that can be.
+    let among = |bad: f64| {
+        let mut values = vec![0.01; 70_000];
+        values[69_000] = bad;
+        values
+    };
+    for (rpm, told) in
+        [(vec![], "rpm = []"), (among(-1.0), "rpm = -1"), (among(f64::NAN), "rpm = NaN")]
+    {
+        assert!(
+            refusal(new(&Axes { rpm, ..good.clone() }, &[1], None)).starts_with(told),
+            "{told}"
+        );
+    }
+    for (angles, told) in [
+        (vec![], "bank_angle_deg = []"),
+        (among(180.5), "bank_angle_deg = 180.5"),
+        (among(-0.5), "bank_angle_deg = -0.5"),
+        (among(f64::NAN), "bank_angle_deg = NaN"),
+    ] {
+        let axes = Axes { bank_angle: Some((angles, Hold::Pins)), ..good.clone() };
+        assert!(refusal(new(&axes, &[1], None)).starts_with(told), "{told}");
+    }
+    let axes = Axes { bank_angle: Some((vec![60.0], Hold::Pins)), ..good.clone() };
+    let no_banks = Sweep::new(vec![plain(), in_line()], axes, vec![1], None, None, &Cancel::new());
+    assert!(refusal(no_banks).starts_with("bank_angle_deg = of an engine with bores along"));
+
+    let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
+    for (name, swept) in [
+        ("rod_ratio", Axes { rod_ratio: Some(vec![0.3]), ..good.clone() }),
+        ("pin_offset", Axes { pin_offset: Some(vec![0.0]), ..good.clone() }),
+    ] {
+        assert!(new(&swept, &[1], None).is_ok());
+        let told = refusal(new(&swept, &[1], Some(spectrum.clone())));
+        assert!(told.starts_with(&format!("{name} = swept together")), "{told}");
+    }
+    for empty in [
+        Axes { rod_ratio: Some(vec![]), ..good.clone() },
+        Axes { pin_offset: Some(vec![]), ..good.clone() },
+    ] {
+        assert!(refusal(new(&empty, &[1], None)).contains("= []"));
+    }
+}
+
+/// A sweep is refused where a point of it would be alone, with one's words.
+#[test]
+fn cranks_that_cannot_turn_are_refused() {
+    let nan = f64::NAN;
+    let good = Axes { rpm: vec![3000.0], ..Axes::default() };
+    let mut refused = 0;
+    let ratio_lists: [&[f64]; 9] = [
+        &[],
+        &[0.3, 0.2],
+        &[0.2, 0.9, 0.95, 0.3],
+        &[1.5, 0.2],
+        &[0.2, nan, 0.3],
+        &[nan, 0.3],
+        &[0.3, nan],
+        &[0.2, -0.1],
+        &[0.5, 0.0],
+    ];
+    let offset_lists: [&[f64]; 9] = [
+        &[],
+        &[0.0, 0.003],
+        &[-0.02, 0.01],
+        &[0.02, -0.09],
+        &[0.2, -0.3, 0.0],
+        &[0.0, nan],
+        &[nan, 0.0],
+        &[0.001, f64::INFINITY],
+        &[0.001, 0.3, 0.001],
+    ];
+    for ratios in ratio_lists {
+        for offsets in offset_lists {
+            let some = |values: &[f64]| (!values.is_empty()).then(|| values.to_vec());
+            let axes = Axes { rod_ratio: some(ratios), pin_offset: some(offsets), ..good.clone() };
+            let found = new(&axes, &[1], None);
+            let shape = [1, 1, ratios.len().max(1), offsets.len().max(1), 1];
+            let alone: Vec<String> =
+                places(shape).map(|place| refusal(new(&alone(&axes, place), &[1], None))).collect();
+            let fails = alone.iter().any(|told| !told.is_empty());
+            assert_eq!(found.is_err(), fails, "{ratios:?} {offsets:?}");
+            if let Err(error) = found {
+                refused += 1;
+                let told = error.to_string();
+                assert!(alone.contains(&told), "{ratios:?} {offsets:?}: {told}, not of {alone:?}");
+                // The first wrong ratio, if it is wrong with no offset at all.
+                if let Some(bad) = ratios.iter().find(|λ| !(1e-30..1.0).contains(*λ)) {
+                    assert!(
+                        told.starts_with(&format!("rod_ratio = {bad:?}"))
+                            || told.contains("pin_offset")
+                    );
+                }
+            }
+        }
+    }
+    assert!(refused > 40);
+}
+
+#[test]
+fn a_sweep_tells_what_it_is() {
+    let axes = Axes {
+        bank_angle: Some((vec![60.0, 90.0, 10.0], Hold::Pins)),
+        rod_ratio: Some(vec![0.3, 0.2]),
+        pin_offset: Some(vec![0.001; 5]),
+        rpm: vec![3000.0, 6000.0, 1000.0, 0.0],
+    };
+    let all = new(&axes, &[4, 2, 1], None).unwrap();
+    assert_eq!(all.shape(), [2, 3, 2, 5, 4]);
+    assert_eq!((all.orders(), all.omitted()), (&[4, 2, 1][..], &[][..]));
+    assert_eq!(all.error_bound(), [0.0; 3]);
+    assert_eq!(all.axes().rpm, axes.rpm);
+    assert_eq!(all.axes().rod_ratio, axes.rod_ratio);
+    // Twice the stroke of the longest, 0.1 m, a turn; 100 turns a second.
+    assert!((all.mean_piston_speed() - 20.0).abs() < 1e-14);
+    let tails: [(Quantity, Figure, &[usize]); 8] = [
+        (Quantity::Force, Figure::Amplitude, &[3, 2]),
+        (Quantity::Moment, Figure::Length, &[3]),
+        (Quantity::Moment, Figure::Sum, &[2]),
+        (Quantity::Force, Figure::LengthOfSum, &[]),
+        (Quantity::Torque, Figure::Amplitude, &[3]),
+        (Quantity::Torque, Figure::Length, &[3]),
+        (Quantity::Torque, Figure::Sum, &[]),
+        (Quantity::Torque, Figure::LengthOfSum, &[]),
+    ];
+    for (quantity, figure, tail) in tails {
+        let shape = [&[2, 3, 2, 5, 4], tail].concat();
+        assert_eq!(all.result_shape(quantity, figure), shape);
+        let length = shape.iter().product::<usize>();
+        // Room for as much, no less and no more.
+        for (room, fits) in [(length, true), (length - 1, false), (length + 1, false), (0, false)] {
+            let mut out = vec![f64::NAN; room];
+            let told = refusal(all.write_peaks(quantity, figure, &mut out, &Cancel::new()));
+            assert_eq!(told.is_empty(), fits);
+            assert!(fits || told.starts_with(&format!("out = {room}")), "{told}");
+            assert_eq!(out.iter().all(|x| x.is_finite()), fits || room == 0);
+        }
+    }
+    let mut out = vec![Complex64::default(); 7];
+    assert!(all.write_phasors(Quantity::Force, &mut out, &Cancel::new()).is_err());
+    let mut out = vec![Complex64::new(f64::NAN, 0.0); 2 * 3 * 2 * 5 * 4 * 6];
+    all.write_phasors(Quantity::Force, &mut out, &Cancel::new()).unwrap();
+    assert_eq!(out, phasors(&all, Quantity::Force));
+
+    // Torque, if it was wanted and is known.
+    let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
+    let speeds = Axes { rpm: vec![3000.0], ..Axes::default() };
+    for sweep in [all.without_torque(), new(&speeds, &[1], Some(spectrum)).unwrap()] {
+        for (quantity, known) in [(Quantity::Force, true), (Quantity::Torque, false)] {
+            assert_eq!(sweep.phasors(quantity, &Cancel::new()).is_ok(), known);
+            assert_eq!(sweep.peaks(quantity, Figure::Sum, &Cancel::new()).is_ok(), known);
+        }
+    }
+}
+
+/// What takes longer is told to: more points and orders, true peaks, cranks that hardly turn.
+#[test]
+fn steps_grow_with_what_is_asked() {
+    let axes = |speeds: usize, ratio: Option<f64>, offset: Option<f64>| Axes {
+        rod_ratio: ratio.map(|ratio| vec![0.2, ratio]),
+        pin_offset: offset.map(|offset| vec![offset, 0.0]),
+        rpm: vec![1000.0; speeds],
+        ..Axes::default()
+    };
+    let steps =
+        |axes: &Axes, orders: &[u32], figure| sweep(&[plain()], axes, orders, None).steps(figure);
+    let amplitude = |axes: &Axes| steps(axes, &[1, 2], Figure::Amplitude);
+    let usual = axes(100, None, None);
+    assert!(amplitude(&usual) >= 2 * 100 * 2);
+    assert!(steps(&usual, &[1, 2, 4], Figure::Amplitude) > amplitude(&usual));
+    assert!(steps(&usual, &[1, 2], Figure::Sum) > amplitude(&usual));
+    assert!(amplitude(&axes(200, None, None)) > amplitude(&usual));
+    let [easy, stiff] = [0.3, 1.0 - 1e-9].map(|ratio| amplitude(&axes(1, Some(ratio), None)));
+    assert!(stiff > easy);
+    // 0.04 m of crank and 0.13 m of rod leave less than 0.09 m.
+    let [easy, stiff] = [0.01, -0.09 * (1.0 - 1e-9)].map(|e| amplitude(&axes(1, None, Some(e))));
+    assert!(stiff > easy);
+}
+
+#[test]
+fn results_are_as_large_as_there_is_room_for() {
+    // 2 engines, 2 components of 8 bytes, or 16: 32 or 64 bytes a point of 2³².
+    let sized = |angles: usize, speeds: usize| {
+        let bank_angle = Some((vec![60.0; angles], Hold::Pins));
+        new(&Axes { bank_angle, rpm: vec![1000.0; speeds], ..Axes::default() }, &[1], None).unwrap()
+    };
+    let (fits, does_not) = (sized(1 << 13, 1 << 14), sized(1 << 13, (1 << 14) + 1));
+    for (sweep, expected) in [(&fits, true), (&does_not, false)] {
+        assert_eq!(sweep.check_size(Quantity::Force, Figure::Amplitude, 8).is_ok(), expected);
+        assert_eq!(sweep.waveform_shape(Quantity::Force, 1).is_ok(), expected);
+    }
+    let too_large = |result: Result<_, Error>| matches!(result, Err(Error::TooLarge { .. }));
+    assert!(too_large(does_not.check_size(Quantity::Force, Figure::Sum, 8)));
+    let cancel = Cancel::new();
+    assert!(too_large(does_not.peaks(Quantity::Force, Figure::Amplitude, &cancel).map(drop)));
+    assert!(too_large(fits.phasors(Quantity::Force, &cancel).map(drop)));
+    assert!(fits.check_size(Quantity::Torque, Figure::Amplitude, 16).is_ok());
+}
+
+#[test]
+fn whoever_no_longer_waits_is_told_so() {
+    let raised = Cancel::new();
+    raised.raise();
+    let axes = Axes {
+        bank_angle: Some((evenly(9, DEGREES), Hold::Pins)),
+        rod_ratio: Some(evenly(200, RATIOS)),
+        pin_offset: None,
+        rpm: vec![3000.0, 1000.0],
+    };
+    let engines = || vec![plain(), mixed()];
+    let stopped = |result: Result<_, Error>| result.err() == Some(Error::Cancelled);
+    assert!(stopped(
+        Sweep::new(engines(), axes.clone(), vec![1, 2], None, None, &raised).map(drop)
+    ));
+    assert!(stopped(
+        Sweep::within(1e-3, engines(), axes.clone(), None, None, true, &raised).map(drop)
+    ));
+    let speeds = Axes { rpm: vec![3000.0, 1000.0], ..Axes::default() };
+    for axes in [axes, speeds] {
+        let sweep = new(&axes, &[1, 2], None).unwrap();
+        for quantity in QUANTITIES {
+            assert!(stopped(sweep.phasors(quantity, &raised).map(drop)));
+            for figure in [Figure::Amplitude, Figure::Length, Figure::Sum, Figure::LengthOfSum] {
+                assert!(stopped(sweep.peaks(quantity, figure, &raised).map(drop)));
+            }
+        }
+    }
+}
+
+/// What an engine's orders come to over ω² at the worst point of a sweep, what is above them all, and
+/// what may be left out: force, moment and torque.
+struct Worst {
+    sizes: Vec<[f64; 3]>,
+    rest: [f64; 3],
+    allowed: [f64; 3],
+}
+
+impl Worst {
+    fn of(engine: &Arc<Engine>, axes: &Axes, last: u32, rtol: f64) -> Self {
+        let rpm = vec![3000.0];
+        let axes = Axes { rpm, ..axes.clone() };
+        let orders: Vec<u32> = (1..=last).collect();
+        let one = sweep(&[Arc::clone(engine)], &axes, &[1], None);
+        let (mut sizes, mut rest) = (vec![[0.0_f64; 3]; orders.len()], [0.0_f64; 3]);
+        for place in places(one.shape()) {
+            let there = there(engine, &alone(&axes, place));
+            let asked =
+                Asked { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+            let balance =
+                balance::of(&there, &asked, &Orders::Given(orders.clone()), &Cancel::new())
+                    .unwrap();
+            for (which, quantity) in QUANTITIES.into_iter().enumerate() {
+                let (_, _, lengths) = of_balance(&balance, quantity);
+                for (size, length) in sizes.iter_mut().zip(lengths) {
+                    size[which] = size[which].max(length / square(3000.0));
+                }
+            }
+            let mut here = [0.0; 3];
+            for p in there.placements() {
+                let (c, proportions) = (p.cylinder, p.cylinder.proportions());
+                let force = c.first_order() * harmonics::tail_bound(&proportions, last).unwrap();
+                let torque = harmonics::torque::tail_bound(&proportions, last).unwrap();
+                let swing = harmonics::rod::tail_bound(&proportions, last).unwrap();
+                here[0] += force;
+                here[1] += force * (p.z - REFERENCE).abs();
+                here[2] += c.second_moment() * torque + c.rod_inertia_excess().abs() * swing;
+            }
+            (0..3).for_each(|which| rest[which] = rest[which].max(here[which]));
+        }
+        let allowed = scales(engine).map(|scale| rtol * scale);
+        Self { sizes, rest, allowed }
+    }
+}
+
+/// The largest m·r of a cylinder, reciprocating or not, times the longest lever and the crank radius;
+/// or what rod inertia makes of order 1.
+fn scales(engine: &Engine) -> [f64; 3] {
+    let mut largest = [0.0_f64; 2];
+    for p in engine.placements() {
+        let (c, r) = (p.cylinder, p.cylinder.crank_radius());
+        let force = c.first_order().max(p.rotating_mass * r);
+        let of_rod = c.rod_inertia_excess().abs() * r / c.rod_length();
+        largest = [largest[0].max(force), largest[1].max(force * r).max(of_rod)];
+    }
+    [largest[0], largest[0] * engine.longest_lever(REFERENCE), largest[1]]
+}
+
+/// The last order that is looked at: what is above comes to a hundredth of the tolerance at most, even
+/// if every cylinder of the largest engine had its part in it.
+fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
+    let count = engines.iter().map(|engine| engine.placements().len()).max().unwrap();
+    let mut last = 1;
+    for place in places(sweep(engines, axes, &[1], None).shape()) {
+        let engine = &engines[place[0]];
+        for p in there(engine, &alone(axes, place)).placements() {
+            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine)[2];
+            let (proportions, part) = (p.cylinder.proportions(), 0.01 * rtol / count as f64);
+            let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
+            last = last.max(here.unwrap());
+        }
+    }
+    last
+}
+
+fn square(rpm: f64) -> f64 {
+    (rpm * std::f64::consts::TAU / 60.0).powi(2)
+}
+
+/// As many parts as can be left out, all sets of them tried: parts over what may be lost, by sum.
+fn most(parts: &[Vec<f64>], lost: &[f64], out: usize, best: &mut usize) {
+    *best = out.max(*best);
+    let Some((first, rest)) = parts.split_first() else { return };
+    if out + parts.len() <= *best {
+        return;
+    }
+    let with: Vec<f64> = lost.iter().zip(first).map(|(a, b)| a + b).collect();
+    if with.iter().all(|&lost| lost <= 1.0) {
+        most(rest, &with, out + 1, best);
+    }
+    most(rest, lost, out, best);
+}
+
+/// No more orders can be left out, and those that are come to what is said.
+#[track_caller]
+fn the_fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) {
+    let reference = Some(REFERENCE);
+    let cancel = Cancel::new();
+    let chosen =
+        Sweep::within(rtol, engines.to_vec(), axes.clone(), reference, None, torque, &cancel)
+            .unwrap();
+    assert_eq!(chosen.shape(), sweep(engines, axes, &[1], None).shape());
+    let known = |quantity| chosen.peaks(quantity, Figure::Sum, &cancel).is_ok();
+    assert_eq!((known(Quantity::Force), known(Quantity::Torque)), (true, torque));
+    let last = last(engines, axes, rtol, torque);
+    let sums = if torque { 3 } else { 2 };
+    let all: Vec<Worst> =
+        engines.iter().map(|engine| Worst::of(engine, axes, last, rtol)).collect();
+    for of in &all {
+        (0..sums).for_each(|sum| assert!(of.rest[sum] <= 0.01 * of.allowed[sum]));
+    }
+    let share = |sizes: &[f64; 3], of: &Worst| -> Vec<f64> {
+        (0..sums).map(|sum| sizes[sum] / of.allowed[sum]).collect()
+    };
+    let mut parts: Vec<Vec<f64>> = (0..last as usize)
+        .map(|k| all.iter().flat_map(|of| share(&of.sizes[k], of)).collect())
+        .collect();
+    let nothing = |part: &Vec<f64>| part.iter().all(|&size| size == 0.0);
+    let left = |n: &u32| !chosen.orders().contains(n);
+    let omitted: Vec<u32> =
+        (1..=last).filter(|n| left(n) && !nothing(&parts[*n as usize - 1])).collect();
+    assert_eq!(chosen.omitted(), omitted);
+    let count = (1..=last).filter(left).count();
+    let lost: Vec<f64> = all.iter().flat_map(|of| share(&of.rest, of)).collect();
+    parts.reverse();
+    let mut best = 0;
+    most(&parts, &lost, 0, &mut best);
+    // Where all could be, one stays, and counts all the same.
+    let every = best == last as usize;
+    assert_eq!(count + usize::from(every), best, "{:?} of {last}", chosen.orders());
+    let out = if every { (1..=last).collect() } else { omitted };
+    let fastest = axes.rpm.iter().copied().fold(0.0, f64::max);
+    for sum in 0..3 {
+        let of_engine = |of: &Worst| -> f64 {
+            let sizes: f64 = out.iter().map(|&n| of.sizes[n as usize - 1][sum]).sum();
+            (sizes + of.rest[sum]) * square(fastest)
+        };
+        let expected = if sum < sums { all.iter().map(of_engine).fold(0.0, f64::max) } else { 0.0 };
+        let found = chosen.error_bound()[sum];
+        // Tails amplify what λ and e/r are rounded by, up to the order-th power.
+        assert!((found - expected).abs() <= 1e-11 * expected, "{sum}: {found} {expected}");
+    }
+}
+
+/// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have this offset; and
+/// order 3 of one's torque, without it, for a rod as heavy as that.
+fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
+    let cancel = Cancel::new();
+    let at = |r: f64| Proportions::new(ratio, offset / r).unwrap();
+    let second = |r: f64| harmonics::coefficients(&at(r), &[2], &cancel).unwrap()[0].norm();
+    let place = |r: f64, m: f64, side: f64| {
+        let bank = Angle::from_degrees(side).unwrap();
+        let cylinder = Cylinder::new(r, r / 0.3, m, offset).unwrap();
+        Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.1, rotating_mass: 0.0 }
+    };
+    let other = 0.5 * 0.05 * second(0.05) / (0.03 * second(0.03));
+    let pair = vec![place(0.05, 0.5, 0.0), place(0.03, other, 180.0)];
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque].map(|torque| {
+        torque(&Proportions::new(ratio, 0.0).unwrap(), &[3], &cancel).unwrap().roll[0]
+    });
+    let inertia = -(masses / rod).re * cylinder.second_moment();
+    let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+    let one = vec![Placement { cylinder, ..pair[0] }];
+    [pair, one].map(|placements| Arc::new(Engine::new("", "", placements).unwrap()))
+}
+
+#[test]
+fn the_fewest_orders_are_chosen_of_any_sweep() {
+    let rpm = vec![1000.0, 3000.0, 2000.0];
+    let ratios = Some(vec![0.2, 0.4, 0.3]);
+    let none = Axes { rpm, ..Axes::default() };
+    let turned = |hold| Some((vec![40.0, 90.0], hold));
+    for rtol in [0.2, 1e-2, 1e-4] {
+        for torque in [false, true] {
+            let chosen = |engines: &[Arc<Engine>], axes: &Axes| {
+                the_fewest_orders_are_chosen(engines, axes, rtol, torque);
+            };
+            chosen(&[mixed(), plain(), in_line()], &none);
+            chosen(&[plain()], &Axes { rod_ratio: ratios.clone(), ..none.clone() });
+            let both =
+                Axes { bank_angle: turned(Hold::Pins), rod_ratio: ratios.clone(), ..none.clone() };
+            chosen(&[mixed(), plain()], &both);
+            let offsets = Some(vec![-0.004, 0.002]);
+            let three =
+                Axes { bank_angle: turned(Hold::Firing), pin_offset: offsets, ..both.clone() };
+            chosen(&[plain(), mixed()], &three);
+            let offsets = Some(vec![0.001, 0.004, -0.002]);
+            chosen(&[mixed()], &Axes { pin_offset: offsets, ..none.clone() });
+            chosen(&[mixed()], &Axes { pin_offset: Some(vec![0.0; 2]), ..both });
+            let [pair, one] = cancelling_at(0.4, 0.01);
+            let offset = Some(vec![0.01]);
+            let cancelling = Axes { rod_ratio: ratios.clone(), ..none.clone() };
+            chosen(&[one], &cancelling);
+            chosen(&[Arc::clone(&pair)], &cancelling);
+            chosen(&[pair], &Axes { pin_offset: offset, ..cancelling });
+        }
+    }
+}
+
+#[test]
+fn a_sweep_has_an_order_even_where_none_is_needed() {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let place = |tdc: f64, bank: f64| Placement {
+        cylinder,
+        tdc: Angle::from_degrees(tdc).unwrap(),
+        bank: Angle::from_degrees(bank).unwrap(),
+        z: REFERENCE,
+        rotating_mass: 0.0,
+    };
+    let chosen = |places: &[(f64, f64)], rtol: f64, spectrum: Option<Spectrum>| {
+        let placements = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
+        let engine = Arc::new(Engine::new("", "", placements).unwrap());
+        let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
+        let reference = Some(REFERENCE);
+        let torque = spectrum.is_some();
+        let cancel = Cancel::new();
+        Sweep::within(rtol, vec![engine], axes, reference, spectrum, torque, &cancel)
+    };
+    // A boxer pair in one plane: nothing at all.
+    let boxer = chosen(&[(0.0, 0.0), (0.0, 180.0)], 1e-6, None).unwrap();
+    assert_eq!((boxer.orders(), boxer.omitted()), (&[1][..], &[][..]));
+    // Half a turn apart: order 2 is two thirds of m·r·ω², and may be left out.
+    let twin = chosen(&[(0.0, 90.0), (180.0, 90.0)], 0.9, None).unwrap();
+    assert_eq!(twin.orders(), [2]);
+    assert!(twin.omitted().iter().all(|n| *n > 2 && n % 2 == 0));
+    // Of a spectrum, what it names, as one engine does.
+    let terms = [(1, 0.02), (3, 1e-5), (4, 2e-5), (6, 0.01)];
+    let terms = terms.map(|(n, size)| (n, Complex64::new(0.0, size)));
+    let spectrum = Spectrum::new(terms).unwrap();
+    let one = chosen(&[(0.0, 90.0)], 2e-3, Some(spectrum.clone())).unwrap();
+    assert_eq!((one.orders(), one.omitted()), (&[1, 6][..], &[3, 4][..]));
+    // Nothing is above it.
+    let bound = 3e-5 * square(3000.0);
+    assert!((one.error_bound()[0] - bound).abs() <= 1e-14 * bound);
+    assert_eq!(one.error_bound()[1..], [0.0, 0.0]);
+    let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
+    let only = Spectrum::new([(4, Complex64::i())]).unwrap();
+    let with = |engine| {
+        let (axes, only) = (axes.clone(), Some(only.clone()));
+        Sweep::within(1e-3, vec![engine], axes, None, only, false, &Cancel::new()).unwrap()
+    };
+    let boxer = chosen(&[(0.0, 0.0), (0.0, 180.0)], 1e-6, Some(only.clone())).unwrap();
+    assert_eq!((boxer.orders(), boxer.omitted()), (&[4][..], &[][..]));
+    // Pins carry mass, or not.
+    assert_eq!((with(mixed()).orders(), with(plain()).orders()), (&[1, 4][..], &[4][..]));
+
+    assert!(refusal(chosen(&[(0.0, 90.0)], 1.0, None)).starts_with("rtol = 1"));
+    let stiff = Axes { rod_ratio: Some(vec![0.3, 1.0 - 1e-12]), ..axes };
+    let stiff = Sweep::within(1e-6, vec![plain()], stiff, None, None, true, &Cancel::new());
+    assert!(matches!(stiff, Err(Error::TooManyOrders { .. })));
+}
