@@ -204,7 +204,7 @@ impl Interval {
     fn polish(&self, at: &impl Fn(Complex64) -> Jet) -> f64 {
         let (mut low, mut high) = (self.from, self.from + self.width);
         let mut best = self.highest_end();
-        let mut here = low + 0.5 * self.width;
+        let mut here = f64::midpoint(low, high);
         for _ in 0..60 {
             let [value, slope, bend] = at(Complex64::cis(here));
             best = best.max(value);

@@ -135,3 +135,27 @@ impl Units {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::angle::Angle;
+
+    #[test]
+    fn groups_cost_alike_and_more_with_a_rods_inertia() {
+        let plain = Cylinder::new(0.05, 0.15, 1.0, 0.0).unwrap();
+        let with_rod = plain.with_rod_inertia_excess(1e-3).unwrap();
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let place = |cylinder, tdc| Placement {
+            cylinder,
+            tdc: angle(tdc),
+            bank: angle(0.0),
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let cost = |placements: &[Placement]| Kinematics::new(placements, 0.0).cost(2.0, 3.0);
+        // Two that move alike are one.
+        assert_eq!(cost(&[place(plain, 0.0), place(plain, 0.0)]), 2.0);
+        assert_eq!(cost(&[place(plain, 0.0), place(with_rod, 90.0)]), 2.0 + 2.0 + 3.0);
+    }
+}

@@ -350,6 +350,14 @@ fn store(shake: &mut Shake, k: usize, sum: &Planar, square: f64, factor: f64) {
 mod tests {
     use super::*;
 
+    #[test]
+    fn what_is_longer_than_the_bound_stays_though_its_parts_are_not() {
+        let z = Complex64::new(0.8, -0.8);
+        assert_eq!(snapped(z, 1.0), z);
+        assert_eq!(snapped(z, 1.2), Complex64::default());
+        assert_eq!(snapped(z, 0.7), z);
+    }
+
     fn engine(cylinder: Cylinder, places: &[(f64, f64, f64)]) -> Engine {
         let angle = |degrees| Angle::from_degrees(degrees).unwrap();
         let place = |&(tdc, bank, z): &(f64, f64, f64)| Placement {
