@@ -32,6 +32,11 @@ const SERIES_TERMS_PER_ORDER: f64 = 4.0;
 /// With more terms than this their roundings would pass a few units in the last place.
 const LONGEST_PLAIN_SERIES: f64 = 100.0;
 
+/// With less slack an order may take hundreds of terms, or a quadrature.
+pub(crate) const LITTLE_SLACK: f64 = 0.01;
+/// What that is, in steps of some nanoseconds.
+const MOST_STEPS: usize = 1 << 15;
+
 /// The tolerance that leaves nothing out but what rounding loses anyway.
 const ALL_DIGITS: f64 = 0.0;
 
@@ -43,22 +48,26 @@ pub fn coefficients(
 ) -> Result<Vec<Complex64>> {
     if proportions.offset == 0.0 {
         let centred = Centred::new(proportions);
-        let order = |&n: &u32| {
-            cancel.check()?;
-            Ok(Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0))
-        };
-        return orders.iter().map(order).collect();
+        return each(orders, cancel, |n| Complex64::new(centred.coefficient(n, ALL_DIGITS), 0.0));
     }
     Offset::new(proportions).coefficients(orders, cancel)
+}
+
+/// A function of every order, until somebody stops waiting.
+fn each(orders: &[u32], cancel: &Cancel, of: impl Fn(u32) -> Complex64) -> Result<Vec<Complex64>> {
+    let mut values = Vec::with_capacity(orders.len());
+    for &n in orders {
+        cancel.check()?;
+        values.push(of(n));
+    }
+    Ok(values)
 }
 
 /// About how many steps of some nanoseconds so many orders of a cylinder take at most, by the slack of
 /// its rod.
 #[must_use]
 pub fn steps(slack: f64, orders: usize) -> usize {
-    /// With less slack it may take hundreds of terms or a quadrature.
-    const LITTLE: f64 = 0.02;
-    orders.saturating_mul(if slack < LITTLE { 1 << 15 } else { 64 })
+    orders.saturating_mul(if slack < LITTLE_SLACK { MOST_STEPS } else { 64 })
 }
 
 /// Whether an order is better integrated than summed from so many terms.
@@ -226,24 +235,19 @@ impl Offset {
         } else {
             roots.series(series_length(highest, count))
         };
-        orders
-            .iter()
-            .map(|&n| {
-                cancel.check()?;
-                let magnitude = if is_by_quadrature(n, count) {
-                    // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
-                    let integral = spike_integral(self.above.high, self.below.high, self.size, n);
-                    if n % 2 == 1 { -integral } else { integral }
-                } else {
-                    let terms = series.len() - n as usize;
-                    // From the smallest term up.
-                    let tail: f64 =
-                        (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
-                    f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
-                };
-                Ok(self.turned(n, magnitude))
-            })
-            .collect()
+        each(orders, cancel, |n| {
+            let magnitude = if is_by_quadrature(n, count) {
+                // The integral is over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
+                let integral = spike_integral(self.above.high, self.below.high, self.size, n);
+                if n % 2 == 1 { -integral } else { integral }
+            } else {
+                let terms = series.len() - n as usize;
+                // From the smallest term up.
+                let tail: f64 = (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
+                f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
+            };
+            self.turned(n, magnitude)
+        })
     }
 
     /// iⁿ times a real magnitude, mirrored in time where the offset is negative, plus the crank.

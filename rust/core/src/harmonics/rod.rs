@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_2_PI;
 
 use super::spike::graded_panels;
 use super::torque::{RationalPart, TorqueHarmonics};
-use super::{Offset, Root, Roots, is_by_quadrature, series_length};
+use super::{Offset, Root, Roots, each, is_by_quadrature, series_length};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
@@ -83,11 +83,7 @@ impl<'a> Swing<'a> {
             let sum: f64 = terms.rev().map(|((g, _), (_, step))| g * step).sum();
             2.0 * roots.product.sqrt() * sum
         };
-        let order = |&n: &u32| {
-            cancel.check()?;
-            Ok(self.turned(n, magnitude(n)))
-        };
-        orders.iter().map(order).collect()
+        each(orders, cancel, |n| self.turned(n, magnitude(n)))
     }
 
     /// gₖ and gₖ − gₖ₊₂, k < count.

@@ -6,7 +6,8 @@ use ndarray::Array2;
 use rayon::prelude::*;
 
 use super::{
-    ALL_DIGITS, Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, may_be_missing, next_term,
+    ALL_DIGITS, Centred, LITTLE_SLACK, MOST_STEPS, NEGLIGIBLE_LOG, Root, coefficients, leading,
+    may_be_missing, next_term,
 };
 use crate::Complex64;
 use crate::cancel::Cancel;
@@ -73,7 +74,13 @@ pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usiz
         }
         None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
     };
-    super::steps(least, orders.saturating_mul(rod_ratios.len()))
+    let each = match offsets {
+        _ if least < LITTLE_SLACK => MOST_STEPS,
+        // Side by side.
+        None => 1,
+        Some(_) => 32,
+    };
+    orders.saturating_mul(rod_ratios.len()).saturating_mul(each)
 }
 
 /// A table of numbers of type `T` is not too large.
