@@ -171,6 +171,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (lists, "rotating_mass", -1.0, "-1"),
     (lists, "rotating_mass", [1.0], "1 entries"),
     (lists, "rotating_mass", [1.0, NAN], "NaN"),
+    (lists, "rotating_mass", [Fraction(1, 3), np.complex128(1j)], "complex"),
     (lists, "cylinder", [CYLINDER] * 3, "3 entries"),
     (lists, "cylinder", 0.05, "0.05"),
     (lists, "cylinder", [None, CYLINDER], "None"),

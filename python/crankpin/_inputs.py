@@ -62,7 +62,7 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             if found.dtype.kind != "O":
                 raise TypeError(f"{found.dtype} is no real number")
             # Fractions and the like, each by its own conversion.
-            found = np.array([float(value) for value in found.ravel()]).reshape(found.shape)
+            found = np.array([_real(value) for value in found.ravel()]).reshape(found.shape)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
     if found.size > MOST_NUMBERS:
@@ -123,11 +123,15 @@ def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that floa
     if type(value) is float:
         return value
     try:
-        if np.iscomplexobj(value) or value is np.ma.masked:
-            raise TypeError("it is complex or masked")
-        return float(value)
+        return _real(value)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise InputError(f"{name} = {shorten(value)}: give a number ({error})") from None
+
+
+def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
+    if np.iscomplexobj(value) or value is np.ma.masked:
+        raise TypeError("it is complex or masked")
+    return float(value)
 
 
 def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as above
