@@ -142,6 +142,10 @@ def test_units_are_warned_of_once() -> None:
     ("arguments", "message"),
     [
         ({"rpm": [1, 2], "chunks": {"speed": 1}}, "chunks = .*mapping of rpm to"),
+        *(
+            ({"rpm": [1, 2], "chunks": chunks}, "chunks = .*mapping of rpm to")
+            for chunks in (False, True, 0, -5, {"rpm": False}, {"rpm": (0, 2)})
+        ),
         ({"rpm": [1, 2], "chunks": "much"}, "chunks = 'much'"),
         ({"rpm": [1, 2], "chunks": (3,)}, "chunks = "),
         ({"rpm": [1, 2], "chunks": {"rpm": (1, 2)}}, "chunks = "),

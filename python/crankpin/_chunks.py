@@ -99,9 +99,13 @@ def _normalized(
     else:
         wanted |= dict.fromkeys(lengths, chunks)
     try:
+        if any(isinstance(length, (bool, np.bool_)) for length in wanted.values()):
+            raise TypeError("True and False are no numbers of points")
         found: tuple[tuple[int, ...], ...] = _tables.dask().core.normalize_chunks(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
-    except (TypeError, ValueError, NotImplementedError) as error:
+        if any(length < 1 for lengths in found for length in lengths):
+            raise ValueError("a chunk has one point at least")
+    except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
         raise InputError(f"chunks = {_inputs.shorten(chunks)}: {cure} ({error})") from None
     return found
