@@ -137,22 +137,32 @@ impl Units {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::angle::Angle;
+    use crate::engine::Engine;
+
+    fn place(cylinder: Cylinder, tdc: f64) -> Placement {
+        Placement {
+            cylinder,
+            tdc: Angle::from_degrees(tdc).unwrap(),
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        }
+    }
+
+    /// An engine of so many cylinders, none of which moves like another.
+    pub(crate) fn unlike(count: u32) -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let placements = (0..count).map(|k| place(cylinder, f64::from(k))).collect();
+        Engine::new("", "", placements).unwrap()
+    }
 
     #[test]
     fn groups_cost_alike_and_more_with_a_rods_inertia() {
         let plain = Cylinder::new(0.05, 0.15, 1.0, 0.0).unwrap();
         let with_rod = plain.with_rod_inertia_excess(1e-3).unwrap();
-        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
-        let place = |cylinder, tdc| Placement {
-            cylinder,
-            tdc: angle(tdc),
-            bank: angle(0.0),
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
         let cost = |placements: &[Placement]| Kinematics::new(placements, 0.0).cost(2.0, 3.0);
         // Two that move alike are one.
         assert_eq!(cost(&[place(plain, 0.0), place(plain, 0.0)]), 2.0);

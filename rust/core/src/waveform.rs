@@ -252,20 +252,7 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
-    use crate::{Angle, Cylinder, Placement};
-
-    /// Cylinders none of which moves like another.
-    fn engine(count: u32) -> Engine {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |k: u32| Placement {
-            cylinder,
-            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        Engine::new("", "", (0..count).map(place).collect()).unwrap()
-    }
+    use crate::kinematics::tests::unlike as engine;
 
     #[test]
     fn whoever_stops_waiting_at_any_step_is_told_at_once() {

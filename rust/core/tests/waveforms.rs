@@ -148,6 +148,19 @@ fn sums_of_orders_are_sums_of_orders() {
     }
 }
 
+/// Equal cylinders with top dead centres at these degrees.
+fn at_degrees(degrees: impl Iterator<Item = u32>) -> Engine {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let place = |k: u32| Placement {
+        cylinder,
+        tdc: Angle::from_degrees(f64::from(k)).unwrap(),
+        bank: Angle::ZERO,
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    Engine::new("", "", degrees.map(place).collect()).unwrap()
+}
+
 #[test]
 fn waveforms_keep_their_tolerance_whichever_way_is_taken() {
     let thetas = thetas(90);
@@ -155,17 +168,7 @@ fn waveforms_keep_their_tolerance_whichever_way_is_taken() {
     let of = |engine: &Engine, asked: &Asked, rtol: f64| {
         waveform::from_orders(engine, asked, &thetas, &Orders::Auto { rtol }, &cancel).unwrap()
     };
-    let turned = |count: u32| {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |k: u32| Placement {
-            cylinder,
-            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        Engine::new("", "", (0..count).map(place).collect()).unwrap()
-    };
+    let turned = |count: u32| at_degrees(0..count);
     for torque in [true, false] {
         let asked = Asked { torque, ..ASKED };
         // One cylinder to many orders, and forty to few.
@@ -416,18 +419,7 @@ fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders
 #[test]
 fn kinematics_cost_less_than_many_orders() {
     // Two alike among them: they move as one.
-    let engine = |groups: u32| {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |k: u32| Placement {
-            cylinder,
-            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        let placements = (0..groups).chain([0]).map(place).collect();
-        Arc::new(Engine::new("", "", placements).unwrap())
-    };
+    let engine = |groups: u32| Arc::new(at_degrees((0..groups).chain([0])));
     let axes = Axes { rpm: vec![RPM], ..Axes::default() };
     let less = |engines: &[Arc<Engine>], orders: u32| {
         sweep(engines, &axes, &(1..=orders).collect::<Vec<_>>()).kinematics_cost_less()

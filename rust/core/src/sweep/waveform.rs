@@ -250,8 +250,8 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
+    use crate::kinematics::tests::unlike;
     use crate::sweep::Axes;
-    use crate::{Cylinder, Engine, Placement};
 
     #[test]
     fn whoever_stops_waiting_at_any_step_is_told_at_once() {
@@ -280,17 +280,8 @@ mod tests {
 
     #[test]
     fn a_group_is_worth_as_many_orders_as_it_costs() {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |k: u32| Placement {
-            cylinder,
-            tdc: Angle::from_degrees(f64::from(k)).unwrap(),
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
         let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
-        let engine =
-            |groups| Arc::new(Engine::new("", "", (0..groups).map(place).collect()).unwrap());
+        let engine = |groups| Arc::new(unlike(groups));
         for groups in 1..8 {
             let worth = (f64::from(groups) * COST[0] / COST[1]).ceil() as u32;
             for (orders, expected) in [(worth, true), (worth - 1, false)] {
