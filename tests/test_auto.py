@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
-    from crankpin._engine import Hold
+    from crankpin.model.engine import Hold
     from numpy.typing import NDArray
 
 RPM = 100.0

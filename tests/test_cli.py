@@ -15,8 +15,8 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from crankpin import _cli
-from crankpin._cli import main
+from crankpin import cli
+from crankpin.cli import main
 from matplotlib import pyplot as plt
 
 DATA = Path(__file__).parent / "data"
@@ -302,9 +302,9 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
 def test_ranges(text: str, values: float | list[float] | None) -> None:
     if values is None:
         with pytest.raises(cp.InputError, match=r"^--x = "):
-            _cli._range("--x", text)
+            cli._range("--x", text)
     else:
-        result = _cli._range("--x", text)
+        result = cli._range("--x", text)
         assert np.ndim(result) == np.ndim(values)
         np.testing.assert_array_equal(result, values)
 
@@ -569,7 +569,7 @@ def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
 ) -> None:
     code = (
         "import sys; sys.modules['matplotlib'] = None\n"
-        "from crankpin._cli import main\n"
+        "from crankpin.cli import main\n"
         f"assert main({argv.split()[:2]!r}) == 0\n"
         f"sys.exit(main({argv.split()!r}))"
     )

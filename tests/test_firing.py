@@ -20,7 +20,7 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from crankpin._cli import main
+from crankpin.cli import main
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin import _presets
+from crankpin.model import presets as presets_module
 from rederivation import crossplane, ebook, ijesc
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def test_names_and_conventions(name: str) -> None:
 
 
 def test_no_two_have_the_same_name_or_title() -> None:
-    assert len(NAMES) == len(_presets.CATALOGUE)
+    assert len(NAMES) == len(presets_module.CATALOGUE)
     assert len({cp.Engine.preset(name).name for name in NAMES}) == len(NAMES)
 
 
@@ -592,7 +592,7 @@ def test_refusals() -> None:
 
 
 def test_families() -> None:
-    assert _presets.family("ijesc-v6") == [f"ijesc-v6-{order}" for order in LAGS]
-    assert _presets.family("v14") == ["v14-9.13", "v14-49.54", "v14-63.03", "v14-170.87"]
-    assert _presets.family("v6-60") == ["v6-60"]  # not v6-60-ebook: a preset is itself
-    assert _presets.family("v7") == ["v7"]
+    assert presets_module.family("ijesc-v6") == [f"ijesc-v6-{order}" for order in LAGS]
+    assert presets_module.family("v14") == ["v14-9.13", "v14-49.54", "v14-63.03", "v14-170.87"]
+    assert presets_module.family("v6-60") == ["v6-60"]  # not v6-60-ebook: a preset is itself
+    assert presets_module.family("v7") == ["v7"]

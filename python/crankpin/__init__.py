@@ -9,12 +9,10 @@ flywheel x points right, y up, z from the front to the flywheel, and the crank t
 counter-clockwise.
 """
 
-from crankpin._balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin._core import InputError, __version__
-from crankpin._cylinder import Cylinder, Rod, slider_crank_harmonics
-from crankpin._engine import Engine
-from crankpin._exact import ClosedForm, VanishingOrders
-from crankpin._firing import (
+from crankpin.analysis.balance import Balance, Ellipse, ErrorBound, OrderBalance
+from crankpin.analysis.exact import ClosedForm, VanishingOrders
+from crankpin.analysis.firing import (
     Firing,
     Gap,
     Overlap,
@@ -25,12 +23,14 @@ from crankpin._firing import (
     ValveTiming,
     throws,
 )
-from crankpin._presets import presets
-from crankpin._rank import Choice, Ranking, rank
-from crankpin._search import Arrangement, ArrangementSearch, search_arrangements
-from crankpin._sweep import Sweep, sweep
-from crankpin._sweep_waveform import SweepWaveform
-from crankpin._waveform import Waveform
+from crankpin.analysis.rank import Choice, Ranking, rank
+from crankpin.analysis.search import Arrangement, ArrangementSearch, search_arrangements
+from crankpin.analysis.sweep import Sweep, sweep
+from crankpin.analysis.sweep_waveform import SweepWaveform
+from crankpin.analysis.waveform import Waveform
+from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
+from crankpin.model.engine import Engine
+from crankpin.model.presets import presets
 
 __all__ = [
     "Arrangement",

@@ -4,7 +4,7 @@ import io
 import os
 import sys
 
-from crankpin._cli import main
+from crankpin.cli import main
 
 if __name__ == "__main__":
     os.environ["MPLBACKEND"] = "agg"  # pictures go to files; no window, no display needed

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin import _inputs, _tables
 from crankpin._core import InputError
-from crankpin._sweep import Sweep, sweep, variables_of
+from crankpin._support import inputs, tables
+from crankpin.analysis.sweep import Sweep, sweep, variables_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,7 +23,7 @@ Chunks: TypeAlias = "int | str | Mapping[str, int | str | tuple[int, ...]]"
 
 def dataset(whole: Sweep, chunks: Chunks) -> xr.Dataset:
     """Return the sweep's phasors and peaks as an xarray Dataset of dask arrays."""
-    dask = _tables.dask()
+    dask = tables.dask()
     lengths = {name: len(values) for name, values in whole.coords.items()}
     if not lengths:
         raise InputError("chunks: nothing is swept; leave it out")
@@ -76,7 +76,7 @@ def _block(
 
 def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array
     """Return the values of a dimension in chunks; of "engine" the engines."""
-    dask = _tables.dask()
+    dask = tables.dask()
     if name != "engine":
         return dask.from_array(whole.coords[name], chunks=(chunks,))
     engines = np.empty(len(whole.engines), dtype=object)
@@ -94,18 +94,18 @@ def _normalized(
     if isinstance(chunks, Mapping):
         for name in chunks:
             if name not in lengths:
-                raise InputError(f"chunks = {_inputs.shorten(chunks)}: {cure}")
+                raise InputError(f"chunks = {inputs.shorten(chunks)}: {cure}")
         wanted |= chunks
     else:
         wanted |= dict.fromkeys(lengths, chunks)
     try:
         if any(isinstance(length, (bool, np.bool_)) for length in wanted.values()):
             raise TypeError("True and False are no numbers of points")
-        found: tuple[tuple[int, ...], ...] = _tables.dask().core.normalize_chunks(
+        found: tuple[tuple[int, ...], ...] = tables.dask().core.normalize_chunks(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
         if any(length < 1 for lengths in found for length in lengths):
             raise ValueError("a chunk has one point at least")
     except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
-        raise InputError(f"chunks = {_inputs.shorten(chunks)}: {cure} ({error})") from None
+        raise InputError(f"chunks = {inputs.shorten(chunks)}: {cure} ({error})") from None
     return found

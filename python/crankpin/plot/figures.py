@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from crankpin import _inputs, _tables
 from crankpin._core import InputError
+from crankpin._support import inputs, tables
 
 try:
     import matplotlib as mpl
@@ -29,13 +29,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin._balance import Balance
-    from crankpin._engine import Engine
-    from crankpin._firing import Firing
-    from crankpin._rank import Ranking
-    from crankpin._sweep import Quantity, Sweep
-    from crankpin._sweep_waveform import SweepWaveform
-    from crankpin._waveform import Waveform
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.firing import Firing
+    from crankpin.analysis.rank import Ranking
+    from crankpin.analysis.sweep import Quantity, Sweep
+    from crankpin.analysis.sweep_waveform import SweepWaveform
+    from crankpin.analysis.waveform import Waveform
+    from crankpin.model.engine import Engine
 
 AXES: dict[str, tuple[str, ...]] = {
     "force": ("along x", "along y"),
@@ -83,7 +83,7 @@ def balance(balance: Balance, ax: Axes | None, quantity: str) -> Axes:
     ax.tick_params(axis="x", length=0)
     ax.set_xticks(places, [str(order) for order in balance.orders])
     ax.set_xlabel("order (multiples of crank speed)")
-    ax.set_ylabel(f"peak {_tables.NAMES[kind]}, {_tables.UNITS[kind]}")
+    ax.set_ylabel(f"peak {tables.NAMES[kind]}, {tables.UNITS[kind]}")
     _from_zero(ax, float(peaks.max(initial=0.0)))
     how = "" if balance.spectrum is None else ", spectrum given"
     _entitle(ax, _name(balance.engine), f"{_number(balance.rpm)} rpm{how}")
@@ -105,7 +105,7 @@ def waveform(waveform: Waveform, ax: Axes | None, quantity: str) -> Axes:
     _dress(ax)
     _degrees(ax, waveform.theta_deg)
     ax.set_xlabel("crank angle θ")
-    ax.set_ylabel(f"{_tables.NAMES[kind]}, {_tables.UNITS[kind]}")
+    ax.set_ylabel(f"{tables.NAMES[kind]}, {tables.UNITS[kind]}")
     if not values.any():
         ax.set_ylim(-1.0, 1.0)
         ax.set_yticks([0.0])
@@ -121,7 +121,7 @@ def _summed(waveform: Waveform | SweepWaveform, kind: Quantity) -> str:
     text += ", ".join(map(str, waveform.orders)) or "none"
     bound = 0.0 if kind == "torque" else getattr(waveform.error_bound, kind)
     return (
-        f"{text} (the rest ≤ {_number(float(f'{bound:.2g}'))} {_tables.UNITS[kind]})"
+        f"{text} (the rest ≤ {_number(float(f'{bound:.2g}'))} {tables.UNITS[kind]})"
         if bound
         else text
     )
@@ -176,7 +176,7 @@ def firing(
     ax.tick_params(axis="y", length=0, pad=8)
     ax.set_xlabel("crank angle θ")
     ax.set_ylabel("cylinder, bank by bank" if len(firing.banks) > 1 else "cylinder")
-    _entitle(ax, _name(firing.engine), _tables.cut(firing._told()))
+    _entitle(ax, _name(firing.engine), tables.cut(firing._told()))
     return ax
 
 
@@ -226,7 +226,7 @@ def sweep(sweep: Sweep, quantity: Quantity, x: str | None) -> Figure:
                 _dots(ax, words.names, peaks[..., row, column], curves)
             else:
                 _lines(ax, np.asarray(sweep.coords[x]), peaks[..., row, column], curves)
-        unit, largest = f"peak, {_tables.UNITS[kind]}", float(peaks[..., row, :].max(initial=0.0))
+        unit, largest = f"peak, {tables.UNITS[kind]}", float(peaks[..., row, :].max(initial=0.0))
         if x == "engine":
             _from_zero(panels[row, 0], largest, "x")
             for ax in panels[row]:
@@ -270,7 +270,7 @@ def sweep_waveform(waveform: SweepWaveform, quantity: Quantity) -> Figure:
         ax.set_xlabel("crank angle θ")
         if not values[..., column].any():
             _say_zero(ax)
-    panels[0, 0].set_ylabel(f"{_tables.NAMES[kind]}, {_tables.UNITS[kind]}")
+    panels[0, 0].set_ylabel(f"{tables.NAMES[kind]}, {tables.UNITS[kind]}")
     if not values.any():
         panels[0, 0].set_ylim(-1.0, 1.0)
         panels[0, 0].set_yticks([0.0])
@@ -318,14 +318,14 @@ class _Words(NamedTuple):
     """What was fixed or held."""
 
     def subtitle(self, kind: Quantity) -> str:
-        return ", ".join([_tables.NAMES[kind], *self.parts])
+        return ", ".join([tables.NAMES[kind], *self.parts])
 
 
 def _words(sweep: Sweep) -> _Words:
-    parts = [_tables.value_text(dim, value) for dim, value in sweep.fixed.items()]
+    parts = [tables.value_text(dim, value) for dim, value in sweep.fixed.items()]
     if sweep.hold is not None:
-        parts.append(_tables.HELD[sweep.hold])
-    full = _tables.engine_names(sweep)
+        parts.append(tables.HELD[sweep.hold])
+    full = tables.engine_names(sweep)
     if "engine" not in sweep.coords:
         return _Words([], "", full[0], parts)
     names, shared = _short_names(full)
@@ -419,7 +419,7 @@ def _dots(ax: Axes, names: list[str], peaks: NDArray[np.float64], curves: list[_
 def _label_x(ax: Axes, x: str, values: NDArray[np.float64]) -> None:
     if x.endswith("_deg"):
         _degrees(ax, values)
-        ax.set_xlabel(_tables.SWEPT[x][0])
+        ax.set_xlabel(tables.SWEPT[x][0])
     else:
         ax.set_xlabel(_dimension(x, unit=True))
         ax.xaxis.set_major_locator(MaxNLocator(7, steps=STEPS))
@@ -479,7 +479,7 @@ def _explain(
 def _values(sweep: Sweep, dims: Sequence[str]) -> list[str]:
     each = [
         [
-            str(value) if dim == "engine" else _tables.value_text(dim, float(value))
+            str(value) if dim == "engine" else tables.value_text(dim, float(value))
             for value in sweep.coords[dim]
         ]
         for dim in dims
@@ -490,7 +490,7 @@ def _values(sweep: Sweep, dims: Sequence[str]) -> list[str]:
 def _dimension(dim: str, *, unit: bool = False) -> str:
     if dim == "engine":
         return "engine"
-    name, symbol = _tables.SWEPT[dim]
+    name, symbol = tables.SWEPT[dim]
     # Degrees stand at the numbers.
     symbol = symbol.strip(" °") if unit else ""
     return ", ".join(part for part in (name or "crank speed", symbol) if part)
@@ -565,7 +565,7 @@ def ranking(ranking: Ranking, ax: Axes | None) -> Axes:
     if not (heights < 0.0).any():
         largest = float(np.nanmax(np.append(heights, 0.0)))
         _from_zero(ax, largest, along)
-    ax.set_title(f"{title}\n{_tables.cut(ranking._told(1), 80)}", loc="left", fontsize=11)
+    ax.set_title(f"{title}\n{tables.cut(ranking._told(1), 80)}", loc="left", fontsize=11)
     if len(ax.get_legend_handles_labels()[1]) > 1:
         ax.legend(loc="best", fontsize=8, title=common or None, title_fontsize=8)
     return ax
@@ -613,7 +613,7 @@ def _name(engine: Engine) -> str:
 def _given_or_new(ax: Axes | None) -> Axes:
     if ax is not None:
         if not isinstance(ax, Axes):
-            raise InputError(f"ax = {_inputs.shorten(ax)}: give matplotlib axes")
+            raise InputError(f"ax = {inputs.shorten(ax)}: give matplotlib axes")
         return ax
     return plt.subplots(figsize=(7.2, 4.2), layout="constrained")[1]
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _inputs, _tables
-from crankpin._balance import ErrorBound, error_bound, no_torque
 from crankpin._core import InputError
-from crankpin._frozen import Frozen
+from crankpin._support import inputs, tables
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.balance import ErrorBound, error_bound, no_torque
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin import _core
-    from crankpin._engine import Engine
+    from crankpin.model.engine import Engine
 
 
 class Waveform(Frozen):
@@ -64,9 +64,9 @@ class Waveform(Frozen):
         by_spectrum: bool,
     ) -> None:
         if not isinstance(parts, tuple):
-            raise InputError(f"Waveform({_inputs.shorten(parts)}): use Engine.waveform")
+            raise InputError(f"Waveform({inputs.shorten(parts)}): use Engine.waveform")
         force, moment, torque, crank_torque, balance = parts
-        theta = _inputs.copied(theta_deg)
+        theta = inputs.copied(theta_deg)
         theta.setflags(write=False)
         known = torque is not None
         exact = ErrorBound(0.0, 0.0, 0.0 if known else None)
@@ -108,7 +108,7 @@ class Waveform(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a crank angle (needs pandas)."""
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         columns = {
             "force_x": self.force[:, 0],
             "force_y": self.force[:, 1],
@@ -135,7 +135,7 @@ class Waveform(Frozen):
             "axis": ("axis", ["x", "y"]),
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, attributes)
         return dataset
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
@@ -148,9 +148,9 @@ class Waveform(Frozen):
         quantity
             ``"force"``, ``"moment"`` or ``"torque"``.
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.waveform(self, ax, quantity)
+        return figures.waveform(self, ax, quantity)
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"

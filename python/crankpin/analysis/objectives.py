@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from crankpin import _inputs, _tables
-from crankpin._balance import Balance
 from crankpin._core import InputError
+from crankpin._support import inputs, tables
+from crankpin.analysis.balance import Balance
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from crankpin._sweep import Sweep
+    from crankpin.analysis.sweep import Sweep
 
 Measure: TypeAlias = Callable[[Balance], float]
 """An objective of the user's own."""
@@ -42,7 +42,7 @@ class Objective(NamedTuple):
     def values(self, swept: Sweep) -> NDArray[np.float64]:
         """Return the value of each engine at each bank angle: (n_engines, n_angles)."""
         if self.order is not None and self.order not in swept.orders:
-            given = _inputs.shorten(list(swept.orders))
+            given = inputs.shorten(list(swept.orders))
             raise InputError(f'orders = {given}: by = "{self.label}" takes order {self.order} too')
         if self.of_sweep is not None:
             found = self.of_sweep(swept).reshape(len(swept.engines), -1)
@@ -58,7 +58,7 @@ class Objective(NamedTuple):
 
     def _value(self, balance: Balance) -> float:
         assert self.of_balance is not None  # noqa: S101 - one of the two is there
-        value = _inputs.number("by", self.of_balance(balance))
+        value = inputs.number("by", self.of_balance(balance))
         if value == -np.inf:
             raise InputError("by = -inf: return finite numbers, inf for what is not to be chosen")
         return value
@@ -103,10 +103,10 @@ def named(label: str) -> Objective:
         return Objective(label, words, "°", of_balance=_unevenness)
     if found := _OF_ONE_ORDER.fullmatch(label):
         kind, order = found[1] or found[2], int(found[3])
-        words = f"longest {_tables.NAMES[kind]} of order {order}"
-        return Objective(label, words, _tables.UNITS[kind], _one_order(kind, order), order=order)
-    kind, _, what = _inputs.one_of("by", label, KNOWN).partition("_")
-    name, unit = _tables.NAMES[kind], _tables.UNITS[kind]
+        words = f"longest {tables.NAMES[kind]} of order {order}"
+        return Objective(label, words, tables.UNITS[kind], _one_order(kind, order), order=order)
+    kind, _, what = inputs.one_of("by", label, KNOWN).partition("_")
+    name, unit = tables.NAMES[kind], tables.UNITS[kind]
     if what == "after_counterweight":
         words = f"first-order {name} after the best counterweight"
         return Objective(label, words, unit, lambda swept: _backward(swept, kind), order=1)
@@ -160,7 +160,7 @@ def listed(by: object) -> list[Objective]:
         by = [by]
     cure = f"give a name ({', '.join(KNOWN)}), a function of a Balance, or a list of these"
     found: list[Objective] = []
-    for each in _inputs.items("by", by, cure):
+    for each in inputs.items("by", by, cure):
         if isinstance(each, str):
             found.append(named(each))
         elif callable(each):
@@ -168,12 +168,12 @@ def listed(by: object) -> list[Objective]:
             words = f"{label}, a function given"
             found.append(Objective(label, words, "", of_balance=each))
         else:
-            raise InputError(f"by = {_inputs.shorten(each)}: {cure}")
+            raise InputError(f"by = {inputs.shorten(each)}: {cure}")
     if not found:
-        raise InputError(f"by = {_inputs.shorten(by)}: {cure}")
+        raise InputError(f"by = {inputs.shorten(by)}: {cure}")
     twice = {each.label for each in found if [one.label for one in found].count(each.label) > 1}
     if twice:
-        raise InputError(f"by = {_inputs.shorten(by)}: {min(twice)} is given twice; give it once")
+        raise InputError(f"by = {inputs.shorten(by)}: {min(twice)} is given twice; give it once")
     return found
 
 

@@ -16,13 +16,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from crankpin import _inputs
 from crankpin._core import InputError
-from crankpin._cylinder import Cylinder
-from crankpin._engine import Engine
+from crankpin._support import inputs
+from crankpin.model.cylinder import Cylinder
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from crankpin._inputs import Angle
+    from crankpin._support.inputs import Angle
 
 Build: TypeAlias = Callable[[float], Engine]
 """Makes the engine of a given spacing between neighbouring throws, the front one at z = 0."""
@@ -69,8 +69,8 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     """
     entry = _find(name)
     if cylinder is not None and not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {_inputs.shorten(cylinder)}: give a crankpin.Cylinder")
-    distance = entry.spacing if spacing is None else _inputs.number("spacing", spacing)
+        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+    distance = entry.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):
         raise InputError(f"spacing = {distance}: give a finite distance in metres")
     engine = entry.build(distance)
@@ -102,7 +102,7 @@ def family(name: str) -> list[str]:
 
 def _find(name: str) -> Preset:
     if not isinstance(name, str):
-        raise InputError(f"name = {_inputs.shorten(name)}: give the name of a preset, as a string")
+        raise InputError(f"name = {inputs.shorten(name)}: give the name of a preset, as a string")
     by_name = {entry.name: entry for entry in CATALOGUE}
     if name in by_name:
         return by_name[name]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from crankpin._sweep import Sweep
+    from crankpin.analysis.sweep import Sweep
 
 Label: TypeAlias = "str | Sequence[str | float]"
 """What stands before a row's numbers: a text, or several texts and numbers, a column each."""

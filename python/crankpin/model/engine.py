@@ -8,19 +8,20 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin import _core, _inputs
-from crankpin._balance import Balance
+from crankpin import _core
 from crankpin._core import InputError
-from crankpin._cylinder import Cylinder
-from crankpin._exact import ClosedForm, VanishingOrders
-from crankpin._firing import Firing, stroke_count
-from crankpin._frozen import Frozen
-from crankpin._waveform import Waveform
+from crankpin._support import inputs
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.balance import Balance
+from crankpin.analysis.exact import ClosedForm, VanishingOrders
+from crankpin.analysis.firing import Firing, stroke_count
+from crankpin.analysis.waveform import Waveform
+from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._inputs import Angle, Angles, Orders, Spectrum
+    from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
 
 Hold: TypeAlias = Literal["pins", "firing"]
 Numbering: TypeAlias = Literal["alternating", "by-bank"]
@@ -56,11 +57,11 @@ class Engine(Frozen):
     def __init__(self, core: _CoreEngine, name: str = "", source: str = "") -> None:
         if not isinstance(core, _core.Engine):
             raise InputError(
-                f"Engine({_inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
+                f"Engine({inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
                 ".boxer, .from_firing_order, .preset or .load"
             )
         if name != "" or source != "":
-            core = core.named(_inputs.text("name", name), _inputs.text("source", source))
+            core = core.named(inputs.text("name", name), inputs.text("source", source))
         self._set(_core=core)
 
     # --- builders -------------------------------------------------------------------------------
@@ -116,14 +117,14 @@ class Engine(Frozen):
         >>> abs(i3.balance(rpm=10, orders=[1]).moment).round(3)
         array([[1.33, 0.  ]])
         """
-        banks = _inputs.angles("bank_deg", bank_deg)
+        banks = inputs.angles("bank_deg", bank_deg)
         core = _core.Engine.from_lists(
             _each(cylinder, len(banks)),
-            None if tdc_deg is None else _inputs.angles("tdc_deg", tdc_deg),
-            None if pin_deg is None else _inputs.angles("pin_deg", pin_deg),
+            None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
+            None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
             banks,
-            _inputs.vector("z", z).tolist(),
-            _inputs.per_item("rotating_mass", rotating_mass, len(banks)),
+            inputs.vector("z", z).tolist(),
+            inputs.per_item("rotating_mass", rotating_mass, len(banks)),
             "",
             "",
         )
@@ -358,9 +359,9 @@ class Engine(Frozen):
 
         See :func:`crankpin.throws` for the crank alone.
         """
-        text = _inputs.firing_order(firing_order)
-        rule_text = _inputs.text("rule", rule, 'give "even" or "ijesc"')
-        listed = None if intervals_deg is None else _inputs.angles("intervals_deg", intervals_deg)
+        text = inputs.firing_order(firing_order)
+        rule_text = inputs.text("rule", rule, 'give "even" or "ijesc"')
+        listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
         order = (text, rule_text, listed, stroke_count(strokes))
         if bank_angle_deg is None:
             inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)
@@ -407,9 +408,9 @@ class Engine(Frozen):
         >>> cp.Engine.preset("v8-crossplane").name
         'V8 90°, cross-plane'
         """
-        from crankpin import _presets  # noqa: PLC0415 - presets are made of engines
+        from crankpin.model import presets  # noqa: PLC0415 - presets are made of engines
 
-        return _presets.preset(name, cylinder=cylinder, spacing=spacing)
+        return presets.preset(name, cylinder=cylinder, spacing=spacing)
 
     # --- files ----------------------------------------------------------------------------------
 
@@ -604,14 +605,14 @@ class Engine(Frozen):
         >>> v6.bank_angle_deg
         90.0
         """
-        held = _inputs.text("hold", hold, 'give "pins" or "firing"')
+        held = inputs.text("hold", hold, 'give "pins" or "firing"')
         return Engine(
-            self._core.with_bank_angle(_inputs.angle("bank_angle_deg", bank_angle_deg), held)
+            self._core.with_bank_angle(inputs.angle("bank_angle_deg", bank_angle_deg), held)
         )
 
     def with_first_tdc(self, tdc_deg: Angle) -> Engine:
         """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle."""
-        return Engine(self._core.with_first_tdc(_inputs.angle("tdc_deg", tdc_deg)))
+        return Engine(self._core.with_first_tdc(inputs.angle("tdc_deg", tdc_deg)))
 
     # --- how it shakes --------------------------------------------------------------------------
 
@@ -666,14 +667,14 @@ class Engine(Frozen):
         >>> b.force[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
-        rpm = _inputs.number("rpm", rpm)
-        wanted = _inputs.orders(orders)
-        rtol = _inputs.number("rtol", rtol)
-        plane = _inputs.optional_number("reference_z", reference_z)
-        pairs = _inputs.spectrum(spectrum)
-        torque = _inputs.flag("torque", torque)
+        rpm = inputs.number("rpm", rpm)
+        wanted = inputs.orders(orders)
+        rtol = inputs.number("rtol", rtol)
+        plane = inputs.optional_number("reference_z", reference_z)
+        pairs = inputs.spectrum(spectrum)
+        torque = inputs.flag("torque", torque)
         core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs, torque)
-        _inputs.warn_of_units(self._mean_piston_speed(rpm))
+        inputs.warn_of_units(self._mean_piston_speed(rpm))
         how: dict[str, Any] = ({"rtol": rtol} if wanted is None else {}) | {"torque": torque}
         return Balance(core, self, rpm, plane, None if pairs is None else dict(pairs), how)
 
@@ -720,8 +721,8 @@ class Engine(Frozen):
         >>> w.force.shape
         (3, 2)
         """
-        rpm = _inputs.number("rpm", rpm)
-        theta = _inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+        rpm = inputs.number("rpm", rpm)
+        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
         if spectrum is not None and orders is None:
             cure = 'give orders, or orders="auto", with a spectrum'
             raise InputError(f"orders = None: exact kinematics needs the slider-crank; {cure}")
@@ -730,13 +731,13 @@ class Engine(Frozen):
             rpm,
             theta,
             orders is not None,
-            None if orders is None else _inputs.orders(orders),
-            _inputs.number("rtol", rtol),
-            _inputs.optional_number("reference_z", reference_z),
-            _inputs.spectrum(spectrum),
-            _inputs.flag("torque", torque),
+            None if orders is None else inputs.orders(orders),
+            inputs.number("rtol", rtol),
+            inputs.optional_number("reference_z", reference_z),
+            inputs.spectrum(spectrum),
+            inputs.flag("torque", torque),
         )
-        _inputs.warn_of_units(self._mean_piston_speed(rpm))
+        inputs.warn_of_units(self._mean_piston_speed(rpm))
         return Waveform(self, rpm, theta, waveform, by_spectrum=spectrum is not None)
 
     # --- when it fires --------------------------------------------------------------------------
@@ -767,7 +768,7 @@ class Engine(Frozen):
         >>> cp.Engine.preset("v6-90-odd-fire").firing("1-6-5-4-3-2")
         <Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>
         """
-        text, number = _inputs.firing_order(firing_order), stroke_count(strokes)
+        text, number = inputs.firing_order(firing_order), stroke_count(strokes)
         return Firing(_core.Firing.named(self._core, text, number), self)
 
     def firings(self, firing_order: str | Iterable[int], *, strokes: int = 4) -> tuple[Firing, ...]:
@@ -789,7 +790,7 @@ class Engine(Frozen):
         <Firing 4-stroke 1-2, 180-540°>
         <Firing 4-stroke 1-2, 540-180°>
         """
-        text, number = _inputs.firing_order(firing_order), stroke_count(strokes)
+        text, number = inputs.firing_order(firing_order), stroke_count(strokes)
         found = _core.Firing.all_named(self._core, text, number)
         return tuple(Firing(each, self) for each in found)
 
@@ -898,7 +899,7 @@ class Engine(Frozen):
 def parts(cylinder: Cylinder) -> tuple[float, float, float, float, float]:
     """Return the figures of a cylinder, or say that it is none."""
     if not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {_inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
     return cylinder._parts
 
 
@@ -907,7 +908,7 @@ def _each(
 ) -> list[tuple[float, float, float, float, float]]:
     if isinstance(cylinder, Cylinder):
         return [parts(cylinder)] * count
-    listed = _inputs.items(
+    listed = inputs.items(
         "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
     )
     return [parts(each) for each in listed]
@@ -917,10 +918,10 @@ def _inline_layout(
     throws_deg: Angles, spacing: float, rotating_mass: ArrayLike, first_tdc_deg: Angle
 ) -> dict[str, Any]:
     return {
-        "throws": _inputs.angles("throws_deg", throws_deg),
-        "spacing": _inputs.number("spacing", spacing),
-        "rotating_mass": _inputs.vector("rotating_mass", rotating_mass).tolist(),
-        "first_tdc": _inputs.angle("first_tdc_deg", first_tdc_deg),
+        "throws": inputs.angles("throws_deg", throws_deg),
+        "spacing": inputs.number("spacing", spacing),
+        "rotating_mass": inputs.vector("rotating_mass", rotating_mass).tolist(),
+        "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
     }
 
 
@@ -937,9 +938,9 @@ def _vee_layout(
     first_tdc_deg: Angle,
 ) -> dict[str, Any]:
     return _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg) | {
-        "bank_angle": _inputs.angle("bank_angle_deg", bank_angle_deg),
-        "pin_split": _inputs.angle("pin_split_deg", pin_split_deg),
-        "bank_stagger": _inputs.number("bank_stagger", bank_stagger),
-        "numbering": _inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
-        "odd_bank": _inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
+        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
+        "pin_split": inputs.angle("pin_split_deg", pin_split_deg),
+        "bank_stagger": inputs.number("bank_stagger", bank_stagger),
+        "numbering": inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
+        "odd_bank": inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
     }

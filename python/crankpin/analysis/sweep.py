@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from crankpin import _core, _inputs, _progress, _tables
-from crankpin._balance import ErrorBound
-from crankpin._engine import Engine
-from crankpin._frozen import Frozen
-from crankpin._sweep_waveform import SweepWaveform
+from crankpin import _core
+from crankpin._support import inputs, tables
+from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.balance import ErrorBound
+from crankpin.analysis.sweep_waveform import SweepWaveform
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,10 +23,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._chunks import Chunks
-    from crankpin._engine import Hold
-    from crankpin._inputs import Orders, Spectrum
-    from crankpin._progress import Progress
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.chunks import Chunks
+    from crankpin.model.engine import Hold
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 Quantity: TypeAlias = Literal["force", "moment", "torque"]
@@ -142,7 +144,7 @@ def sweep(
     >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
     (1, 2, 4, 6)
     """
-    shown = _progress.checked(progress)
+    shown = progress_bar.checked(progress)
     listed, names = _listed(engines)
     given = {
         "bank_angle_deg": bank_angle_deg,
@@ -150,26 +152,26 @@ def sweep(
         "pin_offset": pin_offset,
     }
     swept = {name: values for name, values in given.items() if values is not None} | {"rpm": rpm}
-    arrays = {name: _inputs.array(name, values) for name, values in swept.items()}
+    arrays = {name: inputs.array(name, values) for name, values in swept.items()}
     ranks = {name: values.ndim for name, values in arrays.items()}
-    axes = {name: _inputs.vector(name, values) for name, values in arrays.items()}
-    wanted, rtol = _inputs.orders(orders), _inputs.number("rtol", rtol)
-    torque = _inputs.flag("torque", torque)
+    axes = {name: inputs.vector(name, values) for name, values in arrays.items()}
+    wanted, rtol = inputs.orders(orders), inputs.number("rtol", rtol)
+    torque = inputs.flag("torque", torque)
     core = _core.Sweep(
         [engine._core for engine in listed],
         axes.get("bank_angle_deg"),
-        None if hold is None else _inputs.text("hold", hold, 'give "pins" or "firing"'),
+        None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"'),
         axes.get("rod_ratio"),
         axes.get("pin_offset"),
         axes["rpm"],
         wanted,
         rtol,
-        _inputs.optional_number("reference_z", reference_z),
-        _inputs.spectrum(spectrum),
+        inputs.optional_number("reference_z", reference_z),
+        inputs.spectrum(spectrum),
         torque,
         [names is not None, *(ranks.get(name, 0) > 0 for name in (*given, "rpm"))],
     )
-    _inputs.warn_of_units(core.mean_piston_speed)
+    inputs.warn_of_units(core.mean_piston_speed)
     arguments = {
         "hold": hold,
         "orders": "auto" if wanted is None else tuple(wanted),
@@ -185,9 +187,9 @@ def sweep(
         raise _core.InputError(
             "progress: dask tells it itself, by dask.diagnostics.ProgressBar; leave it out"
         )
-    from crankpin import _chunks  # noqa: PLC0415 - it makes sweeps
+    from crankpin.analysis.chunks import dataset  # noqa: PLC0415 - it makes sweeps
 
-    return _chunks.dataset(whole, chunks)
+    return dataset(whole, chunks)
 
 
 class Sweep(Frozen):
@@ -220,7 +222,7 @@ class Sweep(Frozen):
         progress: Progress,
     ) -> None:
         if not isinstance(core, _core.Sweep):
-            raise _core.InputError(f"Sweep({_inputs.shorten(core)}): use crankpin.sweep")
+            raise _core.InputError(f"Sweep({inputs.shorten(core)}): use crankpin.sweep")
         self._set(
             _core=core,
             engines=tuple(engines),
@@ -283,7 +285,7 @@ class Sweep(Frozen):
 
     def dims(self, quantity: Quantity = "moment") -> tuple[str, ...]:
         """Return the names of a quantity's dimensions."""
-        return (*self.coords, *_ORDER_DIMS[_inputs.one_of("quantity", quantity, _ORDER_DIMS)])
+        return (*self.coords, *_ORDER_DIMS[inputs.one_of("quantity", quantity, _ORDER_DIMS)])
 
     # --- phasors --------------------------------------------------------------------------------
 
@@ -391,11 +393,11 @@ class Sweep(Frozen):
         >>> s.waveform(range(360)).torque.shape
         (2, 2, 360)
         """
-        theta = _inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
         by_spectrum = self._arguments["spectrum"] is not None
         if exact is None:
             exact = self._arguments["orders"] == "auto" and self._core.kinematics_cost_less
-        elif _inputs.flag("exact", exact) and by_spectrum:
+        elif inputs.flag("exact", exact) and by_spectrum:
             cure = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
             raise _core.InputError(f"exact = True: {cure}")
         return SweepWaveform(self, theta, exact=bool(exact))
@@ -435,11 +437,11 @@ class Sweep(Frozen):
 
     def _dataset(self, variables: dict[str, Any], quantities: Sequence[Quantity]) -> xr.Dataset:
         """Return variables with this sweep's coordinates."""
-        coords = _tables.coordinates(self.coords)
-        coords["order"] = ("order", list(self.orders), {"units": _tables.XARRAY_UNITS["order"]})
+        coords = tables.coordinates(self.coords)
+        coords["order"] = ("order", list(self.orders), {"units": tables.XARRAY_UNITS["order"]})
         if any(quantity != "torque" for quantity in quantities):
             coords["axis"] = ("axis", ["x", "y"])
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, self._attributes)
+        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, self._attributes)
         return dataset
 
     @property
@@ -459,7 +461,7 @@ class Sweep(Frozen):
         >>> s.to_pandas("force").shape
         (2, 2)
         """
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         peaks = self._peaks(quantity)
         axes = ["z"] if quantity == "torque" else ["x", "y"]
         columns = pandas.MultiIndex.from_product([self.orders, axes], names=["order", "axis"])
@@ -488,20 +490,20 @@ class Sweep(Frozen):
         x
             The dimension along the horizontal axis; by default the longest.
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.sweep(self, quantity, x)
+        return figures.sweep(self, quantity, x)
 
     def _phasors(self, quantity: Quantity) -> NDArray[np.complex128]:
-        with _progress.shown(self._progress, f"{quantity}, phasors") as told:
+        with progress_bar.shown(self._progress, f"{quantity}, phasors") as told:
             return self._core.phasors(quantity, told)
 
     def _figures(self, quantity: Quantity, which: str) -> NDArray[np.float64]:
-        with _progress.shown(self._progress, f"{quantity}, {which}") as told:
+        with progress_bar.shown(self._progress, f"{quantity}, {which}") as told:
             return self._core.peaks(quantity, which, told)
 
     def _peaks(self, quantity: Quantity) -> NDArray[np.float64]:
-        _inputs.one_of("quantity", quantity, _ORDER_DIMS)
+        inputs.one_of("quantity", quantity, _ORDER_DIMS)
         name = "torque_peak" if quantity == "torque" else f"{quantity}_peak_xy"
         return getattr(self, name)  # type: ignore[no-any-return]
 
@@ -538,13 +540,13 @@ class Variable(NamedTuple):
     @property
     def attributes(self) -> dict[str, str]:
         """What an xarray variable is labelled with."""
-        return {"units": _tables.XARRAY_UNITS[self.quantity]}
+        return {"units": tables.XARRAY_UNITS[self.quantity]}
 
 
 def variables_of(*quantities: Quantity) -> Iterator[Variable]:
     """Yield phasors and peaks of some quantities."""
     for quantity in quantities:
-        dims = _ORDER_DIMS[_inputs.one_of("quantity", quantity, _ORDER_DIMS)]
+        dims = _ORDER_DIMS[inputs.one_of("quantity", quantity, _ORDER_DIMS)]
         yield Variable(quantity, quantity, dims)
         if quantity == "torque":
             yield Variable("torque_peak", quantity, dims)
@@ -573,11 +575,11 @@ def _listed(engines: Engines) -> tuple[list[Engine], Sequence[str] | None]:
     if not isinstance(engines, (list, tuple)):
         if isinstance(engines, Mapping):
             names, engines = [str(name) for name in engines], engines.values()
-        engines = _inputs.items("engines", engines, "give crankpin.Engine objects")
+        engines = inputs.items("engines", engines, "give crankpin.Engine objects")
     for engine in engines:
         if not isinstance(engine, Engine):
             raise _core.InputError(
-                f"engines = {_inputs.shorten(engine)}: give crankpin.Engine objects"
+                f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects"
             )
     return list(engines), [engine.name for engine in engines] if names is None else names
 

@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
+from crankpin import _core
 from crankpin._core import InputError
-from crankpin._frozen import Frozen
+from crankpin._support import inputs, tables
+from crankpin._support.frozen import Frozen
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin._engine import Engine
-    from crankpin._inputs import Angle, Angles
+    from crankpin._support.inputs import Angle, Angles
+    from crankpin.model.engine import Engine
 
 TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
 PORT_TIMES = ("transfer_opens_deg", "exhaust_opens_deg")
@@ -110,12 +111,12 @@ class ValveTiming:
         for name in TIMES:
             value = getattr(self, name)
             if not isinstance(value, (str, Fraction)):
-                object.__setattr__(self, name, _inputs.number(name, value))
+                object.__setattr__(self, name, inputs.number(name, value))
         _core.valve_timing(self._given)
 
     @property
     def _given(self) -> tuple[str, str, str, str]:
-        first, second, third, fourth = (_inputs.angle(name, getattr(self, name)) for name in TIMES)
+        first, second, third, fourth = (inputs.angle(name, getattr(self, name)) for name in TIMES)
         return first, second, third, fourth
 
 
@@ -151,12 +152,12 @@ class PortTiming:
         for name in PORT_TIMES:
             value = getattr(self, name)
             if not isinstance(value, (str, Fraction)):
-                object.__setattr__(self, name, _inputs.number(name, value))
+                object.__setattr__(self, name, inputs.number(name, value))
         _core.port_timing(self._given)
 
     @property
     def _given(self) -> tuple[str, str]:
-        transfer, exhaust = (_inputs.angle(name, getattr(self, name)) for name in PORT_TIMES)
+        transfer, exhaust = (inputs.angle(name, getattr(self, name)) for name in PORT_TIMES)
         return transfer, exhaust
 
 
@@ -197,7 +198,7 @@ class Firing(Frozen):
     def __init__(self, core: _core.Firing, engine: Engine) -> None:
         if not isinstance(core, _core.Firing):
             raise InputError(
-                f"Firing({_inputs.shorten(core)}): use Engine.firing, .firings or .firing_orders"
+                f"Firing({inputs.shorten(core)}): use Engine.firing, .firings or .firing_orders"
             )
         self._set(_core=core, engine=engine, strokes=core.strokes)
 
@@ -358,7 +359,7 @@ class Firing(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a cylinder in firing order (needs pandas)."""
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
@@ -385,26 +386,26 @@ class Firing(Frozen):
             When valves open and close; by default ``ValveTiming()``, of a two-stroke
             ``PortTiming()``.
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
         if self.strokes == 2:
             ports = self.ports(_port_timing(timing))
-            return _plots.firing(self, ax, "transfer open", ports.transfer, ports.exhaust)
+            return figures.firing(self, ax, "transfer open", ports.transfer, ports.exhaust)
         valves = self.valves(_timing(timing))
-        return _plots.firing(self, ax, "intake open", valves.intake, valves.exhaust)
+        return figures.firing(self, ax, "intake open", valves.intake, valves.exhaust)
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""
         gaps = {gap.before: gap.gap_deg for bank in self.gaps() for gap in bank}
         return np.array([gaps[cylinder] for cylinder in self.order])
 
-    def _table(self) -> _tables.Table:
+    def _table(self) -> tables.Table:
         name = self.engine.name or f"{len(self.engine)} cylinders"
         header = ["cylinder", "fires at °", "to the next °", "to the next of its bank °"]
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
         labels = [f"{cylinder}" for cylinder in self.order]
-        return _tables.Table(f"{name}: {self._told()}", header, labels, rows)
+        return tables.Table(f"{name}: {self._told()}", header, labels, rows)
 
     def _told(self) -> str:
         how = f"even, {self.intervals_deg[0]:.10g}°" if self.even else f"{self._intervals()}°"
@@ -447,10 +448,10 @@ class Throws(Frozen):
         self, throws_deg: NDArray[np.float64], pin_splits_deg: NDArray[np.float64]
     ) -> None:
         given = {"throws_deg": throws_deg, "pin_splits_deg": pin_splits_deg}
-        arrays = {name: _inputs.vector(name, values).copy() for name, values in given.items()}
+        arrays = {name: inputs.vector(name, values).copy() for name, values in given.items()}
         for name, array in arrays.items():
             if not np.isfinite(array).all():
-                raise InputError(f"{name} = {_inputs.shorten(array)}: give finite degrees")
+                raise InputError(f"{name} = {inputs.shorten(array)}: give finite degrees")
             array.setflags(write=False)
         self._set(**arrays)
 
@@ -523,12 +524,12 @@ def throws(
     >>> cp.throws("1-6-5-4-3-2", bank_angle_deg=90, odd_bank="left", intervals_deg=[150, 90] * 3)
     <Throws 0-240-120, shared pins>
     """
-    text = _inputs.firing_order(firing_order)
-    listed = None if intervals_deg is None else _inputs.angles("intervals_deg", intervals_deg)
+    text = inputs.firing_order(firing_order)
+    listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
     number = stroke_count(strokes)
     # Whatever is given is looked at, for an inline engine too.
-    side = _inputs.text("odd_bank", odd_bank, 'give "right" or "left"')
-    scheme = _inputs.text("numbering", numbering, 'give "alternating" or "by-bank"')
+    side = inputs.text("odd_bank", odd_bank, 'give "right" or "left"')
+    scheme = inputs.text("numbering", numbering, 'give "alternating" or "by-bank"')
     if bank_angle_deg is None:
         return Throws(_core.inline_throws(text, listed, number), np.empty(0))
     layout = {
@@ -536,7 +537,7 @@ def throws(
         "spacing": 0.0,
         "rotating_mass": [],
         "first_tdc": "0",
-        "bank_angle": _inputs.angle("bank_angle_deg", bank_angle_deg),
+        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
         "pin_split": "0",
         "bank_stagger": 0.0,
         "numbering": scheme,
@@ -553,7 +554,7 @@ def stroke_count(strokes: object) -> int:
     except TypeError:
         number = 0
     if number not in (2, 4):
-        raise InputError(f"strokes = {_inputs.shorten(strokes)}: {cure}")
+        raise InputError(f"strokes = {inputs.shorten(strokes)}: {cure}")
     return number
 
 
@@ -567,7 +568,7 @@ def _timing(timing: object) -> ValveTiming:
         return ValveTiming()
     if not isinstance(timing, ValveTiming):
         cure = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
-        raise InputError(f"timing = {_inputs.shorten(timing)}: {cure}")
+        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
     return timing
 
 
@@ -576,7 +577,7 @@ def _port_timing(timing: object) -> PortTiming:
         return PortTiming()
     if not isinstance(timing, PortTiming):
         cure = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
-        raise InputError(f"timing = {_inputs.shorten(timing)}: {cure}")
+        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
     return timing
 
 
@@ -585,14 +586,14 @@ def _groups(groups: Groups | None) -> list[list[int]] | None:
         return None
     cure = "give lists of cylinder numbers, such as [[1, 4], [2, 3]]"
     listed = []
-    for k, group in enumerate(_inputs.items("groups", groups, cure)):
+    for k, group in enumerate(inputs.items("groups", groups, cure)):
         name = f"groups[{k}]"
         try:
-            numbers = [operator.index(number) for number in _inputs.items(name, group, cure)]
+            numbers = [operator.index(number) for number in inputs.items(name, group, cure)]
         except TypeError:
-            raise InputError(f"{name} = {_inputs.shorten(group)}: {cure}") from None
+            raise InputError(f"{name} = {inputs.shorten(group)}: {cure}") from None
         for number in numbers:
             if not 1 <= number < 2**32:
-                raise InputError(f"{name} = {_inputs.shorten(number)}: {cure}")
+                raise InputError(f"{name} = {inputs.shorten(number)}: {cure}")
         listed.append(numbers)
     return listed

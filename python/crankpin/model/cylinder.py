@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from crankpin import _core, _inputs
+from crankpin import _core
+from crankpin._support import inputs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._inputs import Orders
+    from crankpin._support.inputs import Orders
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -90,8 +91,8 @@ class Cylinder:
         (0.6, -0.0005)
         """
         if not isinstance(rod, Rod):
-            raise _core.InputError(f"rod = {_inputs.shorten(rod)}: give a Rod")
-        mass = _inputs.number("piston_mass", piston_mass)
+            raise _core.InputError(f"rod = {inputs.shorten(rod)}: give a Rod")
+        mass = inputs.number("piston_mass", piston_mass)
         if not mass >= 0.0:
             raise _core.InputError(f"piston_mass = {mass!r}: give a number that is zero or more")
         reciprocating = mass + rod.reciprocating_mass
@@ -99,7 +100,7 @@ class Cylinder:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = _inputs.number(field.name, getattr(self, field.name))
+            value = inputs.number(field.name, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
         _core.check_cylinder(self._parts)
 
@@ -168,7 +169,7 @@ class Cylinder:
         >>> float(cp.Cylinder(0.05, 0.15, 0.5).velocity(90, rpm=6000).round(3))
         -31.416
         """
-        return self._motion(theta_deg, 1) * _inputs.angular_speed(rpm)
+        return self._motion(theta_deg, 1) * inputs.angular_speed(rpm)
 
     def acceleration(self, theta_deg: ArrayLike, rpm: float) -> NDArray[np.float64]:
         """Return the piston's acceleration along the bore, away from the crank, m/s².
@@ -188,7 +189,7 @@ class Cylinder:
         >>> float(cp.Cylinder(0.05, 0.15, 0.5).acceleration(0, rpm=6000).round(1))
         -26318.9
         """
-        return self._motion(theta_deg, 2) * _inputs.angular_speed(rpm) ** 2
+        return self._motion(theta_deg, 2) * inputs.angular_speed(rpm) ** 2
 
     def harmonics(self, orders: Orders) -> NDArray[np.complex128]:
         """Return the harmonics aₙ of the inertia force, exact, complex, (n_orders,).
@@ -201,7 +202,7 @@ class Cylinder:
         >>> cp.Cylinder(1, 2, 7).harmonics([1, 2, 4]).real.round(9)
         array([ 1.        ,  0.53555286, -0.03842615])
         """
-        return _core.cylinder_harmonics(self._parts, _inputs.explicit_orders(orders))
+        return _core.cylinder_harmonics(self._parts, inputs.explicit_orders(orders))
 
     def torque_harmonics(self, orders: Orders) -> tuple[NDArray[np.complex128], ...]:
         """Return the harmonics of roll torque and crank torque over m·r²·ω², each (n_orders,).
@@ -223,10 +224,10 @@ class Cylinder:
         >>> float(abs(roll + crank).max())
         0.0
         """
-        return _core.cylinder_torque_harmonics(self._parts, _inputs.explicit_orders(orders))
+        return _core.cylinder_torque_harmonics(self._parts, inputs.explicit_orders(orders))
 
     def _motion(self, theta_deg: ArrayLike, column: int) -> NDArray[np.float64]:
-        theta = _inputs.array("theta_deg", theta_deg)
+        theta = inputs.array("theta_deg", theta_deg)
         return _core.motion(self._parts, theta.ravel())[:, column].reshape(theta.shape)
 
 
@@ -270,7 +271,7 @@ class Rod:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = _inputs.number(field.name, getattr(self, field.name))
+            value = inputs.number(field.name, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
         _core.rod_parts(self._figures)
 
@@ -361,19 +362,19 @@ def slider_crank_harmonics(
     >>> cp.slider_crank_harmonics(0.5, [2], rtol=1e-2).round(4)
     array([0.5359])
     """
-    listed = _inputs.explicit_orders(orders)
-    ratios = _inputs.array("rod_ratio", rod_ratio)
-    within = None if rtol is None else _inputs.number("rtol", rtol)
+    listed = inputs.explicit_orders(orders)
+    ratios = inputs.array("rod_ratio", rod_ratio)
+    within = None if rtol is None else inputs.number("rtol", rtol)
     if pin_offset_ratio is None:
-        table = _core.centred_table(_inputs.contiguous(ratios).reshape(-1), listed, within)
+        table = _core.centred_table(inputs.contiguous(ratios).reshape(-1), listed, within)
         return table.reshape(*ratios.shape, len(listed))
-    offsets = _inputs.array("pin_offset_ratio", pin_offset_ratio)
+    offsets = inputs.array("pin_offset_ratio", pin_offset_ratio)
     try:
         shape = np.broadcast_shapes(ratios.shape, offsets.shape)
     except (ValueError, RuntimeError) as error:
         raise _core.InputError(f"rod_ratio and pin_offset_ratio: {error}") from None
     # Nothing is copied until its size is known to be small enough.
-    ratios = _inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
-    offsets = _inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
-    ratios, offsets = (_inputs.contiguous(a).reshape(-1) for a in (ratios, offsets))
+    ratios = inputs.array("rod_ratio", np.broadcast_to(ratios, shape))
+    offsets = inputs.array("pin_offset_ratio", np.broadcast_to(offsets, shape))
+    ratios, offsets = (inputs.contiguous(a).reshape(-1) for a in (ratios, offsets))
     return _core.offset_table(ratios, offsets, listed, within).reshape(*shape, len(listed))

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
-from crankpin import _presets, _tables
 from crankpin._core import InputError, __version__
-from crankpin._engine import Engine
-from crankpin._rank import rank
-from crankpin._sweep import Sweep, sweep
+from crankpin._support import tables
+from crankpin.analysis.rank import rank
+from crankpin.analysis.sweep import Sweep, sweep
+from crankpin.model import presets
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from crankpin._balance import Balance
-    from crankpin._inputs import Orders, Spectrum
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.analysis.balance import Balance
 
 PROG = "python -m crankpin"
 MOST_ROWS = 1_000_000
@@ -255,8 +256,8 @@ def _cylinder_and_output(parser: _Parser) -> None:
 
 
 def _list(arguments: argparse.Namespace) -> str:
-    labels = list(_presets.presets().items())
-    table = _tables.Table("", ["name", "engine"], labels, np.empty((len(labels), 0)))
+    labels = list(presets.presets().items())
+    table = tables.Table("", ["name", "engine"], labels, np.empty((len(labels), 0)))
     return _printed([table], csv=arguments.csv)
 
 
@@ -390,7 +391,7 @@ def _firing_orders(engine: Engine, strokes: int, *, csv: bool) -> str:
     rows = np.array([[each.unevenness_deg] for each in shown])
     name = engine.name or f"{len(engine)} cylinders"
     header = ["firing order", "intervals °", "rms from even °"]
-    table = _tables.Table(f"{name}: {strokes}-stroke, most even first", header, labels, rows)
+    table = tables.Table(f"{name}: {strokes}-stroke, most even first", header, labels, rows)
     text = _printed([table], csv=csv)
     rest = len(firings) - len(shown)
     return f"{text}and {rest} more: --csv prints all\n" if rest else text
@@ -414,7 +415,7 @@ def _engines(names: Sequence[str]) -> dict[str, Engine]:
         if Path(name).suffix.lower() in (".toml", ".json"):
             typed[name] = Engine.load(name)
         else:
-            typed |= {member: Engine.preset(member) for member in _presets.family(name)}
+            typed |= {member: Engine.preset(member) for member in presets.family(name)}
     titles = [engine.name for engine in typed.values()]
     return {
         title if title and titles.count(title) == 1 else name: engine
@@ -426,7 +427,7 @@ def _engine(name: str, command: str) -> Engine:
     """Return the engine of a command that takes one."""
     engines = _engines([name])
     if len(engines) > 1:
-        members = ", ".join(_presets.family(name))
+        members = ", ".join(presets.family(name))
         raise InputError(f"NAME = {name}: {command} takes one engine of {members}")
     return next(iter(engines.values()))
 
@@ -506,34 +507,34 @@ def _picture_file(text: str | None) -> Path | None:
 # --- from values to text ------------------------------------------------------------------------
 
 
-def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[_tables.Table]:
+def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[tables.Table]:
     """Return a table for each engine, or a single one with a column of engines.
 
     For reading, engines that are swept along something else stand below each other, as in the
     papers; a program wants a single table, and so does a comparison of engines alone.
     """
     quantity = arguments.quantity
-    columns = len(_tables.SYMBOLS[quantity]) * len(result.orders)
+    columns = len(tables.SYMBOLS[quantity]) * len(result.orders)
     peaks = result.torque_peak if quantity == "torque" else getattr(result, f"{quantity}_peak_xy")
     rows = peaks.reshape(len(result.engines), -1, columns)
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     heads = [COLUMNS[dim] for dim in dims]
     heads += [
-        f"{symbol} order {order} {_tables.UNITS[quantity]}"
+        f"{symbol} order {order} {tables.UNITS[quantity]}"
         for order in result.orders
-        for symbol in _tables.SYMBOLS[quantity]
+        for symbol in tables.SYMBOLS[quantity]
     ]
     how = _how(result, arguments)
-    decimals = _tables.decimals(rows)
+    decimals = tables.decimals(rows)
     if "engine" not in result.coords or (dims and not arguments.csv):
         return [
-            _tables.Table(f"{name}: {how}", heads, swept, each, decimals)
-            for name, each in zip(_tables.engine_names(result), rows, strict=True)
+            tables.Table(f"{name}: {how}", heads, swept, each, decimals)
+            for name, each in zip(tables.engine_names(result), rows, strict=True)
         ]
     labels = [(name, *point) for name in result.coords["engine"] for point in swept]
     return [
-        _tables.Table(
+        tables.Table(
             f"{how[0].upper()}{how[1:]}",
             ["engine", *heads],
             labels,
@@ -545,10 +546,10 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[_tables.Tab
 
 def _how(result: Sweep, arguments: argparse.Namespace) -> str:
     """Say what the table shows, and what was fixed, held or given."""
-    parts = [f"peaks of {_tables.NAMES[arguments.quantity]}"]
-    parts += [_tables.value_text(dim, value) for dim, value in result.fixed.items()]
+    parts = [f"peaks of {tables.NAMES[arguments.quantity]}"]
+    parts += [tables.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:
-        parts.append(_tables.HELD[result.hold])
+        parts.append(tables.HELD[result.hold])
     if arguments.quantity == "moment" and arguments.reference_z is not None:
         parts.append(f"about z = {_number('', arguments.reference_z):g} m")
     if arguments.spectrum is not None:
@@ -556,7 +557,7 @@ def _how(result: Sweep, arguments: argparse.Namespace) -> str:
     return ", ".join(parts)
 
 
-def _printed(tables: list[_tables.Table], *, csv: bool) -> str:
+def _printed(tables: list[tables.Table], *, csv: bool) -> str:
     if csv:
         return "".join(table.csv() for table in tables)
     return "\n\n".join(table.text() for table in tables) + "\n"

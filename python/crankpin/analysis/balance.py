@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
-from crankpin._frozen import Frozen
+from crankpin import _core
+from crankpin._support import inputs, tables
+from crankpin._support.frozen import Frozen
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin._engine import Engine
-    from crankpin._inputs import Orders, Spectrum
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.model.engine import Engine
 
 
 class Ellipse(NamedTuple):
@@ -125,7 +126,7 @@ class Balance(Frozen):
         how: Mapping[str, Any],
     ) -> None:
         if not isinstance(core, _core.Balance):
-            raise _core.InputError(f"Balance({_inputs.shorten(core)}): use Engine.balance")
+            raise _core.InputError(f"Balance({inputs.shorten(core)}): use Engine.balance")
         plane = engine.reference_z if reference_z is None else reference_z
         frozen = None if spectrum is None else MappingProxyType(dict(spectrum))
         self._set(
@@ -303,7 +304,7 @@ class Balance(Frozen):
         if not isinstance(order, (int, np.integer)) or order not in self.orders:
             listed = ", ".join(map(str, self.orders))
             raise _core.InputError(
-                f"order = {_inputs.shorten(order)}: this balance has orders {listed}"
+                f"order = {inputs.shorten(order)}: this balance has orders {listed}"
             )
         k = self.orders.index(order)
         return OrderBalance(
@@ -322,7 +323,7 @@ class Balance(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return the complex peak phasors as a table, one row an order (needs pandas)."""
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         columns = {
             "force_x": self.force[:, 0],
             "force_y": self.force[:, 1],
@@ -349,7 +350,7 @@ class Balance(Frozen):
             "axis": ("axis", ["x", "y"]),
         }
         attributes = {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, attributes)
         return dataset
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
@@ -362,11 +363,11 @@ class Balance(Frozen):
         quantity
             ``"force"``, ``"moment"`` or ``"torque"``.
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.balance(self, ax, quantity)
+        return figures.balance(self, ax, quantity)
 
-    def _table(self) -> _tables.Table:
+    def _table(self) -> tables.Table:
         header = ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m"]
         columns = [self.force_peak_xy, self.moment_peak_xy]
         if self._has_torque:
@@ -376,7 +377,7 @@ class Balance(Frozen):
         name = self.engine.name or f"{len(self.engine)} cylinders"
         title = f"{name} at {self.rpm:g} rpm: peaks of force, rocking moment and roll torque"
         labels = [f"{order}" for order in self.orders]
-        return _tables.Table(title, header, labels, rows)
+        return tables.Table(title, header, labels, rows)
 
     def __repr__(self) -> str:
         return self._table().text()

@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from crankpin import _core, _inputs, _tables
+from crankpin import _core
 from crankpin._core import InputError
-from crankpin._frozen import Frozen
+from crankpin._support import inputs, tables
+from crankpin._support.frozen import Frozen
 
 if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
-    from crankpin._engine import Engine
-    from crankpin._inputs import Orders
+    from crankpin._support.inputs import Orders
+    from crankpin.model.engine import Engine
 
 Expression: TypeAlias = Any
 """A SymPy expression; SymPy is imported when it is used."""
@@ -44,7 +45,7 @@ AXES = ("x", "y", "forward", "backward")
 def _engine_core(engine: object) -> _core.Engine:
     core = getattr(engine, "_core", None)
     if not isinstance(core, _core.Engine):
-        raise InputError(f"engine = {_inputs.shorten(engine)}: give a crankpin.Engine")
+        raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
     return core
 
 
@@ -99,8 +100,8 @@ class VanishingOrders(Frozen):
 
     def __init__(self, engine: Engine, orders: Orders, reference_z: float | None = None) -> None:
         core = _engine_core(engine)
-        listed = _inputs.explicit_orders(orders)
-        plane = _inputs.optional_number("reference_z", reference_z)
+        listed = inputs.explicit_orders(orders)
+        plane = inputs.optional_number("reference_z", reference_z)
         vanishes, remains, within_rounding, obstacles = _core.vanishing(core, listed, plane)
         undecided = ~(vanishes | remains)
         undecided.setflags(write=False)
@@ -125,7 +126,7 @@ class VanishingOrders(Frozen):
             One of ``quantities``, or ``"force"`` or ``"moment"`` for both directions.
         """
         names = [*self.quantities, "force", "moment"]
-        name = _inputs.one_of("quantity", quantity, names)
+        name = inputs.one_of("quantity", quantity, names)
         wanted = [name] if name in self.quantities else [f"{name}_x", f"{name}_y"]
         columns = [self.quantities.index(each) for each in wanted]
         rows = self.vanishes[:, columns].tolist()
@@ -142,13 +143,13 @@ class VanishingOrders(Frozen):
         if not isinstance(order, (int, np.integer)) or order not in self.orders:
             listed = ", ".join(map(str, self.orders))
             cure = f"these answers are of orders {listed}"
-            raise InputError(f"order = {_inputs.shorten(order)}: {cure}")
+            raise InputError(f"order = {inputs.shorten(order)}: {cure}")
         k = self.orders.index(order)
         return {name: self._verdict(k, column) for column, name in enumerate(self.quantities)}
 
     def to_pandas(self) -> pd.DataFrame:
         """Return the verdicts as a table of words, one row an order (needs pandas)."""
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         table: pd.DataFrame = pandas.DataFrame(
             [self.order(n) for n in self.orders], index=pandas.Index(self.orders, name="order")
         )
@@ -159,7 +160,7 @@ class VanishingOrders(Frozen):
             return "vanishes"
         return "remains" if self.remains[k, column] else "undecided"
 
-    def _table(self) -> _tables.Table:
+    def _table(self) -> tables.Table:
         name = self.engine.name or f"{len(self.engine)} cylinders"
         title = f"{name}: 0 vanishes, ≠0 remains, both proved"
         if self.undecided.any():
@@ -173,7 +174,7 @@ class VanishingOrders(Frozen):
                 cells.append(words.get(self._verdict(k, column), guess))
             labels.append(cells)
         header = ["order", *QUANTITIES.values()]
-        return _tables.Table(title, header, labels, np.empty((len(labels), 0)))
+        return tables.Table(title, header, labels, np.empty((len(labels), 0)))
 
     def __repr__(self) -> str:
         return "\n".join([self._table().text(), *self.obstacles])
@@ -238,9 +239,9 @@ class ClosedForm(Frozen):
     ) -> None:
         core = _engine_core(engine)
         (n,) = _one_order(order)
-        word = _inputs.one_of("quantity", quantity, ["force", "moment"])
-        plane = _inputs.optional_number("reference_z", reference_z)
-        sp = _tables.sympy()
+        word = inputs.one_of("quantity", quantity, ["force", "moment"])
+        plane = inputs.optional_number("reference_z", reference_z)
+        sp = tables.sympy()
         moment = word == "moment"
         unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
             core, n, moment, plane
@@ -322,7 +323,7 @@ class ClosedForm(Frozen):
     @cached_property
     def magnitude(self) -> Expression:
         """Length of the longest vector: forward and backward parts in line."""
-        sp = _tables.sympy()
+        sp = tables.sympy()
         return sp.expand(self._size("forward") + self._size("backward")) * self._unit
 
     @cached_property
@@ -361,7 +362,7 @@ class ClosedForm(Frozen):
 
     def evaluate(self, rpm: float) -> dict[str, complex]:
         """Return the phasors "x", "y", "forward" and "backward" at a speed, N or N·m."""
-        omega = _inputs.angular_speed(rpm)
+        omega = inputs.angular_speed(rpm)
         cylinder = self.engine.cylinders[self.unit_cylinder - 1]
         scale = cylinder.reciprocating_mass * cylinder.crank_radius * omega**2
         unit = scale * complex(cylinder.harmonics(self.order)[0])
@@ -378,7 +379,7 @@ class ClosedForm(Frozen):
 
     def _cosines(self, coefficients: list[int], denominator: int) -> Expression:
         """Σ cₖ 2cos(2πk/N), of radicals where SymPy knows them."""
-        sp = _tables.sympy()
+        sp = tables.sympy()
         if self._zero:
             return sp.Integer(0)
         terms = [
@@ -397,17 +398,17 @@ class ClosedForm(Frozen):
 
     def _phasor(self, axis: str) -> Expression:
         real, imaginary = self._parts_of(axis)
-        return (real + _tables.sympy().I * imaginary) * self._unit
+        return (real + tables.sympy().I * imaginary) * self._unit
 
     def _size(self, axis: str) -> Expression:
-        sp = _tables.sympy()
+        sp = tables.sympy()
         square = self._cosines(self._phasors[axis][2], self._denominator**2)
         if square.has(sp.cos):
             return sp.sqrt(square)
         return sp.sqrtdenest(sp.sqrt(square))
 
     def _phase(self, axis: str) -> Expression:
-        sp = _tables.sympy()
+        sp = tables.sympy()
         real, imaginary = self._parts_of(axis)
         if real == 0 or imaginary == 0:
             return sp.atan2(imaginary, real) if real != imaginary else sp.Integer(0)
@@ -420,7 +421,7 @@ class ClosedForm(Frozen):
         return sp.atan(ratio) + (sp.pi if imaginary.evalf() > 0 else -sp.pi)
 
     def _terms(self, axis: str) -> tuple[Expression, ...]:
-        sp = _tables.sympy()
+        sp = tables.sympy()
         if self._zero:
             return ()
         # The moment of a force about x comes from its part along y, and is negative.
@@ -445,13 +446,13 @@ class ClosedForm(Frozen):
 
     def _wave(self, turns: Fraction) -> Expression:
         """cos(nθ + phase), written as it stands: SymPy would make sines of some."""
-        sp = _tables.sympy()
+        sp = tables.sympy()
         lag = -turns % 1
         phase = 2 * sp.pi * sp.Rational(lag.numerator, lag.denominator)
         return sp.cos(self.order * self.theta - phase, evaluate=False)
 
     def _sum(self, axis: str) -> Expression:
-        sp = _tables.sympy()
+        sp = tables.sympy()
         real, imaginary = self._parts_of(axis)
         angle = self.order * self.theta
         return (real * sp.cos(angle) - imaginary * sp.sin(angle)) * self._unit
@@ -460,13 +461,13 @@ class ClosedForm(Frozen):
 
     def __repr__(self) -> str:
         name = self.engine.name or f"{len(self.engine)} cylinders"
-        lines = [f"{name}: {_tables.NAMES[self.quantity]} of order {self.order}"]
+        lines = [f"{name}: {tables.NAMES[self.quantity]} of order {self.order}"]
         lines += [f"{axis:>9} {getattr(self, axis)}" for axis in AXES]
         lines.append(f"{'longest':>9} {self.magnitude}")
         return "\n".join(lines)
 
     def _repr_latex_(self) -> str:
-        sp = _tables.sympy()
+        sp = tables.sympy()
         letter = "F" if self.quantity == "force" else "M"
         rows = []
         for axis in ("x", "y"):
@@ -509,7 +510,7 @@ def _rows(name: str, terms: list[str]) -> list[str]:
 def _one_order(order: object) -> list[int]:
     """Return a single order, as a list."""
     try:
-        return _inputs.explicit_orders([operator.index(order)], "order")  # type: ignore[arg-type]
+        return inputs.explicit_orders([operator.index(order)], "order")  # type: ignore[arg-type]
     except TypeError:
         cure = "give one whole multiple of crank speed, such as 1"
-        raise InputError(f"order = {_inputs.shorten(order)}: {cure}") from None
+        raise InputError(f"order = {inputs.shorten(order)}: {cure}") from None

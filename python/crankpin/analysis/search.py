@@ -11,18 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _core, _inputs, _progress, _tables
-from crankpin._engine import Engine, parts
-from crankpin._frozen import Frozen
+from crankpin import _core
+from crankpin._support import inputs, tables
+from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
+from crankpin.model.engine import Engine, parts
 
 if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
-    from crankpin._cylinder import Cylinder
-    from crankpin._engine import Hold
-    from crankpin._inputs import Angles
-    from crankpin._progress import Progress
+    from crankpin._support.inputs import Angles
+    from crankpin._support.progress import Progress
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Hold
 
 _WHOLE = (0.0, 180.0)
 _LARGE = 1 << 21
@@ -48,12 +50,12 @@ class Arrangement:
 
     def __post_init__(self) -> None:
         for name in ("bank_angle_deg", "counterweight"):
-            object.__setattr__(self, name, _inputs.number(name, getattr(self, name)))
+            object.__setattr__(self, name, inputs.number(name, getattr(self, name)))
         for name in ("first_deg", "second_deg", "second_order"):
             values = getattr(self, name)
             if type(values) is not tuple or any(type(value) is not float for value in values):
-                object.__setattr__(self, name, tuple(_inputs.vector(name, values).tolist()))
-        _inputs.one_of("hold", self.hold, ("firing", "pins"))
+                object.__setattr__(self, name, tuple(inputs.vector(name, values).tolist()))
+        inputs.one_of("hold", self.hold, ("firing", "pins"))
 
     @property
     def near_circular(self) -> bool:
@@ -79,13 +81,13 @@ class Arrangement:
         >>> engine.balance(rpm=6000, orders=[1]).backward_moment
         array([0.+0.j])
         """
-        angle = _inputs.number("bank_angle_deg", self.bank_angle_deg)
+        angle = inputs.number("bank_angle_deg", self.bank_angle_deg)
         banks = (
-            _inputs.angles("first_deg", self.first_deg),
-            _inputs.angles("second_deg", self.second_deg),
+            inputs.angles("first_deg", self.first_deg),
+            inputs.angles("second_deg", self.second_deg),
         )
-        distance = _inputs.number("spacing", spacing)
-        held = _inputs.text("hold", self.hold)
+        distance = inputs.number("spacing", spacing)
+        held = inputs.text("hold", self.hold)
         return Engine(_core.arrangement(held, angle, *banks, parts(cylinder), distance))
 
 
@@ -148,14 +150,14 @@ def search_arrangements(
         count = operator.index(cylinders)
     except TypeError:
         cure = "give a whole number, such as 14"
-        raise _core.InputError(f"cylinders = {_inputs.shorten(cylinders)}: {cure}") from None
+        raise _core.InputError(f"cylinders = {inputs.shorten(cylinders)}: {cure}") from None
     if not 0 <= count < 2**32:
-        raise _core.InputError(f"cylinders = {_inputs.shorten(count)}: give 4 to 30")
-    phases = None if phases_deg is None else _inputs.angles("phases_deg", phases_deg)
-    rule = _inputs.flag("alternating", alternating)
-    held = _inputs.text("hold", hold, 'give "firing" or "pins"')
-    watched = _progress.checked(progress)
-    with _progress.shown(watched, f"V{count}") as told:
+        raise _core.InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
+    phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
+    rule = inputs.flag("alternating", alternating)
+    held = inputs.text("hold", hold, 'give "firing" or "pins"')
+    watched = progress_bar.checked(progress)
+    with progress_bar.shown(watched, f"V{count}") as told:
         core = _core.Search(count, rule, phases, held, told)
     return ArrangementSearch(core, count, rule, phases, hold, progress=watched)
 
@@ -199,7 +201,7 @@ class ArrangementSearch(Frozen):
     ) -> None:
         if not isinstance(core, _core.Search):
             cure = "use crankpin.search_arrangements"
-            raise _core.InputError(f"ArrangementSearch({_inputs.shorten(core)}): {cure}")
+            raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {cure}")
         self._set(
             _search=core,
             cylinders=cylinders,
@@ -231,7 +233,7 @@ class ArrangementSearch(Frozen):
 
     @cached_property
     def _angles(self) -> _core.BankAngles:
-        with _progress.shown(self._progress, f"V{self.cylinders} bank angles") as told:
+        with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as told:
             return _core.BankAngles(self._search, self.window_deg, told)
 
     @cached_property
@@ -251,7 +253,7 @@ class ArrangementSearch(Frozen):
         >>> cp.search_arrangements(cylinders=14).within(60, 60.2).bank_angles_deg.round(2)
         array([60.09, 60.13])
         """
-        ends = (_inputs.number("low", low), _inputs.number("high", high))
+        ends = (inputs.number("low", low), inputs.number("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
         rest = (self.cylinders, self.alternating, self._phases, self.hold, window)
         return ArrangementSearch(self._search, *rest, progress=self._progress)
@@ -272,8 +274,8 @@ class ArrangementSearch(Frozen):
 
     def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
         """Return the arrangements whose bank angle is this one within a tolerance; maybe none."""
-        angle = _inputs.number("bank_angle_deg", bank_angle_deg)
-        tolerance = _inputs.number("tolerance_deg", tolerance_deg)
+        angle = inputs.number("bank_angle_deg", bank_angle_deg)
+        tolerance = inputs.number("tolerance_deg", tolerance_deg)
         return tuple(self._from(angle - tolerance, angle + tolerance))
 
     def best(
@@ -303,10 +305,10 @@ class ArrangementSearch(Frozen):
         >>> round(search.best(within=(5, 60))[0].bank_angle_deg, 2)
         9.13
         """
-        measure = by if callable(by) else _MEASURES[_inputs.one_of("by", by, _MEASURES)]
-        wanted = _inputs.number("count", count)
+        measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
+        wanted = inputs.number("count", count)
         if not wanted >= 0:
-            raise _core.InputError(f"count = {_inputs.shorten(count)}: give 0 or more")
+            raise _core.InputError(f"count = {inputs.shorten(count)}: give 0 or more")
         return tuple(heapq.nsmallest(int(wanted), self._from(*_window(within)), key=measure))
 
     def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
@@ -315,7 +317,7 @@ class ArrangementSearch(Frozen):
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         rows = list(self._from(*_window(within)))
         columns = {
             "first_deg": [row.first_deg for row in rows],
@@ -342,11 +344,11 @@ class ArrangementSearch(Frozen):
         try:
             position = operator.index(index)
         except TypeError:
-            given = _inputs.shorten(index)
+            given = inputs.shorten(index)
             raise _core.InputError(f"index = {given}: give a whole number") from None
         if not -len(self) <= position < len(self):
             # IndexError is what ends iteration over a sequence.
-            given = _inputs.shorten(position)
+            given = inputs.shorten(position)
             raise IndexError(f"index = {given}: there are {len(self)} bank angles")
         return position % len(self)
 
@@ -383,10 +385,10 @@ def _again(
 
 def _window(within: object) -> tuple[float, float]:
     cure = "give two bank angles, such as (45, 90)"
-    ends = _inputs.items("within", within, cure)
+    ends = inputs.items("within", within, cure)
     if len(ends) != 2:
-        raise _core.InputError(f"within = {_inputs.shorten(within)}: {cure}")
-    low, high = (_inputs.number("within", end) for end in ends)
+        raise _core.InputError(f"within = {inputs.shorten(within)}: {cure}")
+    low, high = (inputs.number("within", end) for end in ends)
     return low, high
 
 

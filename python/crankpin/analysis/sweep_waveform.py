@@ -9,17 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin import _core, _inputs, _progress, _tables
-from crankpin._balance import ErrorBound
-from crankpin._frozen import Frozen
+from crankpin import _core
+from crankpin._support import inputs, tables
+from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.balance import ErrorBound
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from crankpin._progress import Progress
-    from crankpin._sweep import Quantity, Sweep
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.sweep import Quantity, Sweep
 
 DIMS: dict[str, tuple[str, ...]] = {
     "force": ("theta_deg", "axis"),
@@ -139,12 +141,12 @@ class SweepWaveform(Frozen):
         >>> force is buffer
         True
         """
-        name = _inputs.one_of("quantity", quantity, DIMS)
-        progress = _progress.checked(progress)
+        name = inputs.one_of("quantity", quantity, DIMS)
+        progress = progress_bar.checked(progress)
         core: _core.Sweep = self.sweep._core
         shape = tuple(core.waveform_shape(name, len(self.theta_deg)))
-        values = np.empty(shape) if out is None else _inputs.output("out", out, shape)
-        with _progress.shown(progress, "waveforms") as told:
+        values = np.empty(shape) if out is None else inputs.output("out", out, shape)
+        with progress_bar.shown(progress, "waveforms") as told:
             core.waveform(name, self._angles, self.orders is None, values.reshape(-1), told)
         return values
 
@@ -155,7 +157,7 @@ class SweepWaveform(Frozen):
 
     def dims(self, quantity: Quantity = "moment") -> tuple[str, ...]:
         """Return the names of a quantity's dimensions."""
-        return (*self.sweep.coords, *DIMS[_inputs.one_of("quantity", quantity, DIMS)])
+        return (*self.sweep.coords, *DIMS[inputs.one_of("quantity", quantity, DIMS)])
 
     def to_xarray(self, *quantities: Quantity) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray).
@@ -174,13 +176,13 @@ class SweepWaveform(Frozen):
         """
         chosen = quantities or ("force", "moment")
         variables: dict[str, Any] = {
-            name: (self.dims(name), getattr(self, name), {"units": _tables.XARRAY_UNITS[name]})
+            name: (self.dims(name), getattr(self, name), {"units": tables.XARRAY_UNITS[name]})
             for name in chosen
         }
-        coords = _tables.coordinates(self.coords)
+        coords = tables.coordinates(self.coords)
         if any(quantity != "torque" for quantity in chosen):
             coords["axis"] = ("axis", ["x", "y"])
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, self.sweep._attributes)
+        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, self.sweep._attributes)
         return dataset
 
     def plot(self, quantity: Quantity = "moment") -> Figure:
@@ -197,9 +199,9 @@ class SweepWaveform(Frozen):
         >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
         >>> figure = s.waveform().plot("moment")
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.sweep_waveform(self, quantity)
+        return figures.sweep_waveform(self, quantity)
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from crankpin import _inputs, _objectives, _tables
 from crankpin._core import InputError
-from crankpin._engine import Engine
-from crankpin._frozen import Frozen
-from crankpin._search import Arrangement, ArrangementSearch
-from crankpin._sweep import Sweep, sweep
+from crankpin._support import inputs, tables
+from crankpin._support.frozen import Frozen
+from crankpin.analysis import objectives
+from crankpin.analysis.search import Arrangement, ArrangementSearch
+from crankpin.analysis.sweep import Sweep, sweep
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,11 +26,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._cylinder import Cylinder
-    from crankpin._engine import Hold
-    from crankpin._inputs import Orders, Spectrum
-    from crankpin._objectives import Measure, Objective
-    from crankpin._sweep import Engines
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.analysis.objectives import Measure, Objective
+    from crankpin.analysis.sweep import Engines
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Hold
 
 SHOWN = 10
 """Engines that text shows."""
@@ -167,32 +168,32 @@ def rank(
     >>> round(best.bank_angles_deg[0], 3)
     140.657
     """
-    objectives = _objectives.listed(by)
-    tolerance = _inputs.number("rtol", rtol)
+    ranked_by = objectives.listed(by)
+    tolerance = inputs.number("rtol", rtol)
     if not 0.0 <= tolerance < 1.0:
-        raise InputError(f"rtol = {_inputs.shorten(rtol)}: give 0 or more, less than 1")
-    between = _inputs.flag("refine", refine)
+        raise InputError(f"rtol = {inputs.shorten(rtol)}: give 0 or more, less than 1")
+    between = inputs.flag("refine", refine)
     of_engines = _engines(engines, cylinder, spacing)
     with warnings.catch_warnings():
         # Once for the whole call, below.
         warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
         swept = sweep(
             of_engines,
-            rpm=_inputs.number("rpm", rpm),
+            rpm=inputs.number("rpm", rpm),
             bank_angle_deg=(
-                None if bank_angle_deg is None else _inputs.vector("bank_angle_deg", bank_angle_deg)
+                None if bank_angle_deg is None else inputs.vector("bank_angle_deg", bank_angle_deg)
             ),
             hold=hold,
             orders=orders,
             reference_z=reference_z,
             spectrum=spectrum,
         )
-        values = [objective.values(swept) for objective in objectives]
+        values = [objective.values(swept) for objective in ranked_by]
         if between and "bank_angle_deg" not in swept.coords:
             raise InputError("refine = True: looks between bank angles; give bank_angle_deg")
-        choices = _chosen(swept, objectives, values, tolerance, refine=between)
-    _inputs.warn_of_units(swept._core.mean_piston_speed)
-    return Ranking(swept, [objective.bare() for objective in objectives], values, choices)
+        choices = _chosen(swept, ranked_by, values, tolerance, refine=between)
+    inputs.warn_of_units(swept._core.mean_piston_speed)
+    return Ranking(swept, [objective.bare() for objective in ranked_by], values, choices)
 
 
 class Ranking(Frozen):
@@ -224,7 +225,7 @@ class Ranking(Frozen):
         choices: tuple[Choice, ...],
     ) -> None:
         if not isinstance(swept, Sweep):
-            raise InputError(f"Ranking({_inputs.shorten(swept)}): use crankpin.rank")
+            raise InputError(f"Ranking({inputs.shorten(swept)}): use crankpin.rank")
         for each in values:
             each.setflags(write=False)
         self._set(
@@ -247,7 +248,7 @@ class Ranking(Frozen):
     @cached_property
     def names(self) -> tuple[str, ...]:
         """What the engines are called, as given."""
-        return tuple(_tables.engine_names(self._sweep))
+        return tuple(tables.engine_names(self._sweep))
 
     @property
     def hold(self) -> Hold | None:
@@ -283,17 +284,17 @@ class Ranking(Frozen):
         cylinders, the unevenness of firing.
         """
         columns = dict(zip(self.by, self._values, strict=True))
-        for objective in _objectives.of_table(self._sweep):
+        for objective in objectives.of_table(self._sweep):
             if objective.label not in columns:
                 columns[objective.label] = objective.values(self._sweep)
         return MappingProxyType(columns)
 
     def best(self, count: int = 1) -> tuple[Choice, ...]:
         """Return so many engines, the best first."""
-        wanted = _inputs.number("count", count)
+        wanted = inputs.number("count", count)
         if not 0 <= wanted <= len(self) or wanted != int(wanted):
             cure = f"give a whole number, 0 to {len(self)}"
-            raise InputError(f"count = {_inputs.shorten(count)}: {cure}")
+            raise InputError(f"count = {inputs.shorten(count)}: {cure}")
         return self.choices[: int(wanted)]
 
     def __len__(self) -> int:
@@ -322,7 +323,7 @@ class Ranking(Frozen):
         >>> cp.rank(v6, rpm=5000, bank_angle_deg=[60, 90], hold="pins").to_pandas().shape
         (2, 8)
         """
-        pandas = _tables.pandas()
+        pandas = tables.pandas()
         angles = self.bank_angles_deg
         if angles is None:
             rows = list(zip(self.names, self._own_angles_deg, strict=True))
@@ -348,7 +349,7 @@ class Ranking(Frozen):
         """
         angles = self.bank_angles_deg
         dims = ("engine",) if angles is None else ("engine", "bank_angle_deg")
-        units = {each.label: each.unit for each in _objectives.of_table(self._sweep)}
+        units = {each.label: each.unit for each in objectives.of_table(self._sweep)}
         units |= {each.label: each.unit for each in self._objectives}
         variables: dict[str, Any] = {
             label: (
@@ -368,7 +369,7 @@ class Ranking(Frozen):
         }
         attributes: dict[str, Any] = {"rpm": self._sweep.fixed["rpm"]}
         attributes |= {"hold": self.hold} if self.hold else {}
-        dataset: xr.Dataset = _tables.xarray().Dataset(variables, coords, attributes)
+        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, attributes)
         return dataset
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -379,24 +380,24 @@ class Ranking(Frozen):
         ax
             Axes to draw on; by default new ones.
         """
-        from crankpin import _plots  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
 
-        return _plots.ranking(self, ax)
+        return figures.ranking(self, ax)
 
     def _told(self, objectives: int | None = None) -> str:
         """Say what was ranked by, all or the first few objectives."""
         least = ", then ".join(each.words for each in self._objectives[:objectives])
-        return f"{least}, {_tables.value_text('rpm', self._sweep.fixed['rpm'])}"
+        return f"{least}, {tables.value_text('rpm', self._sweep.fixed['rpm'])}"
 
-    def _table(self, shown: int | None = None) -> _tables.Table:
+    def _table(self, shown: int | None = None) -> tables.Table:
         choices = self.choices[:shown]
         rest = len(self) - len(choices)
-        parts = [f"Ranked by {self._told()}", *([_tables.HELD[self.hold]] if self.hold else [])]
+        parts = [f"Ranked by {self._told()}", *([tables.HELD[self.hold]] if self.hold else [])]
         title = ", ".join(parts) + (f"; {len(choices)} of {len(self)}" if rest else "")
         heads = [f"{each.label} {each.unit}".strip() for each in self._objectives]
         labels = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
-        return _tables.Table(title, ["place", "engine", "bank angle °", *heads], labels, rows)
+        return tables.Table(title, ["place", "engine", "bank angle °", *heads], labels, rows)
 
     def __repr__(self) -> str:
         return self._table(SHOWN).text()
@@ -440,7 +441,7 @@ def _chosen(
 ) -> tuple[Choice, ...]:
     """Return each engine at its best angles, the best engine first."""
     tolerances = np.array([rtol * _largest(each) for each in values])
-    names, grid = _tables.engine_names(swept), _angles(swept)
+    names, grid = tables.engine_names(swept), _angles(swept)
     found: list[Choice] = []
     for k, engine in enumerate(swept.engines):
         rows = np.stack([each[k] for each in values], axis=1)
@@ -567,9 +568,9 @@ def _engines(
     spacing: object,
 ) -> Engines:
     """Return engines, or those of arrangements."""
-    if isinstance(given, ArrangementSearch) and len(given) > _inputs.MOST_ITEMS:
+    if isinstance(given, ArrangementSearch) and len(given) > inputs.MOST_ITEMS:
         raise InputError(
-            f"engines is a search with {len(given)} bank angles, more than {_inputs.MOST_ITEMS}: "
+            f"engines is a search with {len(given)} bank angles, more than {inputs.MOST_ITEMS}: "
             "give those of interest, such as its best(count=100) or within(60, 61)"
         )
     arrangements: list[Arrangement] = []
@@ -581,7 +582,7 @@ def _engines(
         for name, value in (("cylinder", cylinder), ("spacing", spacing)):
             if value is not None:
                 cure = "is for arrangements; engines have theirs, leave it out"
-                raise InputError(f"{name} = {_inputs.shorten(value)}: {cure}")
+                raise InputError(f"{name} = {inputs.shorten(value)}: {cure}")
         return cast("Engines", [given] if isinstance(given, Engine) else given)
     for name, value in (("cylinder", cylinder), ("spacing", spacing)):
         if value is None:

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, TypeAlias
 
-from crankpin import _inputs
 from crankpin._core import InputError
+from crankpin._support import inputs
 
 Progress: TypeAlias = bool | Callable[[int, int], object]
 """True for a tqdm bar, or a function of (steps done, steps in all) that is called now and then."""
@@ -48,4 +48,4 @@ def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may 
     if progress is False or callable(progress):
         return progress  # type: ignore[no-any-return] # callables return what they like
     cure = "give True for a tqdm bar, or a function of (steps done, steps in all)"
-    raise InputError(f"progress = {_inputs.shorten(progress)}: {cure}")
+    raise InputError(f"progress = {inputs.shorten(progress)}: {cure}")

@@ -1,0 +1,1 @@
+"""Inputs, tables and other tools that know nothing of engines."""

@@ -1,0 +1,1 @@
+"""Analyses of engines: one question, one function, one result a file."""

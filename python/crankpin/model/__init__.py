@@ -1,0 +1,1 @@
+"""Engines: cylinders, shafts, layouts, presets, files."""
