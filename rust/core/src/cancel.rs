@@ -45,6 +45,11 @@ impl Cancel {
         self.check()
     }
 
+    /// So many more steps are done.
+    pub fn advance(&self, steps: usize) {
+        self.done.fetch_add(steps, Ordering::Relaxed);
+    }
+
     /// Steps done, and how many are known of.
     #[must_use]
     pub fn progress(&self) -> (usize, usize) {

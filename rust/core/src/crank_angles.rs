@@ -5,12 +5,13 @@ use std::ops::Range;
 use crate::angle::LARGEST_ANGLE;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
+use crate::order::Order;
 use crate::simd::sin_cos_degrees;
 
-/// Crank angles less whole turns.
+/// Crank angles modulo two turns, in which half orders come round.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrankAngles {
-    /// Degrees, in [−180, 180].
+    /// Degrees, in [−360, 360].
     reduced: Vec<f64>,
 }
 
@@ -25,19 +26,19 @@ impl CrankAngles {
     pub(crate) fn of_checked(theta_deg: &[f64]) -> Self {
         /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
         const ROUND: f64 = 6_755_399_441_055_744.0;
-        // Both terms are multiples of θ's last place, and the difference is less than θ or 180:
+        // Both terms are multiples of θ's last place, and the difference is less than θ or 360:
         // nothing is rounded.
-        let reduced = theta_deg.iter().map(|θ| θ - 360.0 * ((θ * (1.0 / 360.0) + ROUND) - ROUND));
+        let reduced = theta_deg.iter().map(|θ| θ - 720.0 * ((θ * (1.0 / 720.0) + ROUND) - ROUND));
         Self { reduced: reduced.collect() }
     }
 
-    /// How many.
+    /// Number of angles.
     #[must_use]
     pub fn len(&self) -> usize {
         self.reduced.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no angles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.reduced.is_empty()
@@ -47,12 +48,12 @@ impl CrankAngles {
     #[inline(always)]
     pub(crate) fn multiples(
         &self,
-        order: u32,
+        order: Order,
         range: Range<usize>,
         cos: &mut [f64],
         sin: &mut [f64],
     ) {
-        let n = f64::from(order);
+        let n = order.number();
         let reduced = self.reduced.get(range).unwrap_or_default();
         let mut product = [0.0; 64];
         let parts = reduced.chunks(64).zip(cos.chunks_mut(64)).zip(sin.chunks_mut(64));
@@ -61,7 +62,7 @@ impl CrankAngles {
                 *product = n * θ;
             }
             sin_cos_degrees(&product[..reduced.len()], sin, cos);
-            // nθ is the product and what its rounding took, at most 1.2e-10 degrees: 2e-12 rad,
+            // nθ is the product and what its rounding took, at most 2.4e-10 degrees: 4e-12 rad,
             // whose square is nothing.
             for (((cos, sin), product), θ) in cos.iter_mut().zip(sin).zip(&product).zip(reduced) {
                 let rest = n.mul_add(*θ, -product).to_radians();
@@ -103,7 +104,8 @@ mod tests {
     use crate::simd::vectorised;
     use proptest::prelude::*;
 
-    fn multiples(degrees: &[f64], order: u32) -> (Vec<f64>, Vec<f64>) {
+    fn multiples(degrees: &[f64], halves: u32) -> (Vec<f64>, Vec<f64>) {
+        let order = Order::from_halves(halves).unwrap();
         let angles = CrankAngles::new(degrees).unwrap();
         let (mut cos, mut sin) = (vec![0.0; degrees.len()], vec![0.0; degrees.len()]);
         vectorised(
@@ -119,7 +121,7 @@ mod tests {
             degrees in prop_oneof![-720.0..720.0, -1e12..1e12, Just(1e-300)],
             order in 1_u32..10_000,
         ) {
-            let (cos, sin) = multiples(&[degrees; 65], order);
+            let (cos, sin) = multiples(&[degrees; 65], 2 * order);
             let exact = Angle::Degrees(degrees).cis(i64::from(order));
             // two units in the last place of numbers below 1: one of each way
             prop_assert!((cos[64] - exact.re).abs() <= 4.5e-16, "{} {}", cos[64], exact.re);
@@ -129,13 +131,20 @@ mod tests {
 
     #[test]
     fn quarter_turns_are_exact() {
-        let (cos, sin) = multiples(&[0.0, 90.0, 180.0, 270.0, 360.0, -90.0, 1e12 - 280.0], 1);
+        let (cos, sin) = multiples(&[0.0, 90.0, 180.0, 270.0, 360.0, -90.0, 1e12 - 280.0], 2);
         assert_eq!(cos, [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, 1.0].map(|x| x));
         assert_eq!(sin, [0.0, 1.0, 0.0, -1.0, 0.0, -1.0, 0.0].map(|x| x));
     }
 
     #[test]
-    fn there_are_as_many_as_were_given() {
+    fn half_orders_come_round_in_two_turns() {
+        let (cos, sin) = multiples(&[0.0, 180.0, 360.0, 540.0, 720.0, -360.0, 1080.0], 1);
+        assert_eq!(cos, [1.0, 0.0, -1.0, 0.0, 1.0, -1.0, -1.0]);
+        assert_eq!(sin, [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn angles_are_as_many_as_were_given() {
         for count in [0, 1, 7] {
             let angles = CrankAngles::new(&vec![10.0; count]).unwrap();
             assert_eq!((angles.len(), angles.is_empty()), (count, count == 0));

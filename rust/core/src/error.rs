@@ -35,6 +35,17 @@ pub enum Error {
         /// Rod length less the offset, m.
         reach: f64,
     },
+    /// A quantity that this engine does not have.
+    #[error("{argument} is undefined for this engine: {reason}")]
+    Undefined {
+        /// The quantity as the caller typed it.
+        argument: &'static str,
+        /// What is missing.
+        reason: String,
+    },
+    /// Torque that was not computed.
+    #[error("torque is not available: {0}")]
+    NoTorque(&'static str),
     /// Lists that should be equally long.
     #[error("{argument} has {found} entries, {reference} has {expected}: give one for each {item}")]
     Length {
@@ -73,6 +84,12 @@ pub enum Error {
         limit: u128,
         /// How to ask for it in parts.
         cure: &'static str,
+    },
+    /// Memory that cannot be had.
+    #[error("no memory for {bytes} bytes")]
+    OutOfMemory {
+        /// Size of what was to be allocated.
+        bytes: u128,
     },
     /// An engine file that cannot be read.
     #[error("engine file ({format}): {reason}")]

@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use crate::Complex64;
+use crate::order::Order;
 use crate::rational::divisor;
 
 /// Grid points to the shortest wave.
@@ -34,9 +35,10 @@ type Jet = [f64; 3];
 impl PeakFinder {
     /// For sums of these orders.
     #[must_use]
-    pub fn new(orders: &[u32]) -> Self {
-        let common = orders.iter().fold(0, |a, &b| divisor(a, b));
-        let waves: Vec<u32> = orders.iter().map(|n| n / common).collect();
+    pub fn new(orders: &[Order]) -> Self {
+        let halves = || orders.iter().map(|order| order.halves());
+        let common = halves().fold(0, divisor);
+        let waves: Vec<u32> = halves().map(|n| n / common.max(1)).collect();
         let degree = waves.iter().copied().max().unwrap_or(1) as usize;
         Self {
             waves,
@@ -239,6 +241,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn finder(orders: &[u32]) -> PeakFinder {
+        PeakFinder::new(&Order::all_whole(orders).unwrap())
+    }
+
     fn sampled(orders: &[u32], phasors: &[Complex64], points: usize) -> f64 {
         let at = |k: usize| {
             let θ = k as f64 * TAU / points as f64;
@@ -250,7 +256,7 @@ mod tests {
 
     #[test]
     fn one_order_peaks_at_its_magnitude() {
-        let finder = PeakFinder::new(&[3]);
+        let finder = finder(&[3]);
         let p = Complex64::new(3.0, -4.0);
         // 16 roundings of half a unit at most
         assert!((finder.along_axis(&[p]) - 5.0).abs() < 1e-14);
@@ -262,7 +268,7 @@ mod tests {
     #[test]
     fn a_flat_maximum_is_found() {
         // cos θ − cos 2θ / 4 has T'' = 0 at θ = 0
-        let finder = PeakFinder::new(&[1, 2]);
+        let finder = finder(&[1, 2]);
         let phasors = [Complex64::new(1.0, 0.0), Complex64::new(-0.25, 0.0)];
         // its largest magnitude is at θ = π
         assert!((finder.along_axis(&phasors) - 1.25).abs() < 1e-15);
@@ -290,18 +296,18 @@ mod tests {
             // Large and small vectors alike: they are scaled.
             for scale in [1.0, 1e-200, 1e200] {
                 let scaled = |phasors: [Complex64; 3]| phasors.map(|p| p * scale);
-                let peak = PeakFinder::new(&orders).of_vector(&scaled(x), &scaled(y)) / scale;
+                let peak = finder(&orders).of_vector(&scaled(x), &scaled(y)) / scale;
                 // Rounding of twelve terms; half a step of 20 000 at order 5, of a length below 5.
                 assert!(dense <= peak + 1e-13 && peak <= dense + 2e-6, "{dense} {peak}");
             }
         }
-        assert_eq!(PeakFinder::new(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
+        assert_eq!(finder(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
     }
 
     #[test]
     fn derivatives_are_those_of_the_sum() {
         // Not in ascending order, and with a common factor that is left out.
-        let finder = PeakFinder::new(&[4, 6, 8, 2]);
+        let finder = finder(&[4, 6, 8, 2]);
         let phasors = |a: f64| {
             [1.0, 2.0, 3.0, 4.0].map(|k| Complex64::new((a * k).sin() + 0.1, (a + k * k).cos()))
         };
@@ -330,7 +336,7 @@ mod tests {
     /// without second derivative; some sin θ makes one of them higher.
     #[test]
     fn of_two_peaks_close_together_the_higher_counts() {
-        let finder = PeakFinder::new(&[1, 3]);
+        let finder = finder(&[1, 3]);
         for (exponent, tilt) in (0..16).flat_map(|k| [(k, 0.0), (k, 0.2), (k, -0.2)]) {
             let s = 0.5_f64.powi(exponent);
             let c = -(1.0 + s) / 9.0;
@@ -359,7 +365,7 @@ mod tests {
 
     #[test]
     fn high_orders_peak_where_they_meet() {
-        let finder = PeakFinder::new(&[999, 1000]);
+        let finder = finder(&[999, 1000]);
         for k in 0..40 {
             let at = 0.151 * f64::from(k);
             let phasors = [999.0, 1000.0].map(|n| Complex64::cis(-n * at));
@@ -378,7 +384,7 @@ mod tests {
         let most = [(1_u32, [8, 16]), (2, [9, 11]), (5, [10, 13]), (12, [16, 18]), (40, [24, 20])];
         for (degree, most) in most {
             let orders: Vec<u32> = (1..=degree).collect();
-            let finder = PeakFinder::new(&orders);
+            let finder = finder(&orders);
             calls.set(0);
             let (mut of_sums, mut of_vectors) = (0, 0);
             for k in 0..50 {
@@ -426,9 +432,9 @@ mod tests {
     fn orders_in_any_order_and_with_a_common_factor() {
         let phasors = [1.0, 0.7, -0.4].map(|re| Complex64::new(re, 0.3 * re * re));
         let [a, b, c] = phasors;
-        let peak = PeakFinder::new(&[2, 6, 8]).along_axis(&phasors);
-        assert!((PeakFinder::new(&[8, 2, 6]).along_axis(&[c, a, b]) - peak).abs() < 1e-14);
-        assert!((PeakFinder::new(&[1, 3, 4]).along_axis(&phasors) - peak).abs() < 1e-14);
+        let peak = finder(&[2, 6, 8]).along_axis(&phasors);
+        assert!((finder(&[8, 2, 6]).along_axis(&[c, a, b]) - peak).abs() < 1e-14);
+        assert!((finder(&[1, 3, 4]).along_axis(&phasors) - peak).abs() < 1e-14);
         assert!((sampled(&[2, 6, 8], &phasors, 20_000) - peak).abs() < 1e-5);
     }
 
@@ -440,7 +446,7 @@ mod tests {
         ) {
             let phasors: Vec<_> =
                 orders.iter().zip(&parts).map(|(_, &(re, im))| Complex64::new(re, im)).collect();
-            let peak = PeakFinder::new(&orders).along_axis(&phasors);
+            let peak = finder(&orders).along_axis(&phasors);
             let dense = sampled(&orders, &phasors, 20_000);
             let size: f64 = phasors.iter().map(|p| p.norm()).sum();
             // rounding of six terms, and of θ·n at the samples

@@ -1,15 +1,17 @@
-//! Exact kinematics of a whole engine: cylinders that move alike are worked out once.
+//! Exact kinematics of a whole engine: its loads gathered by motion and top dead centre.
 
 use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
-use crate::engine::Placement;
+use crate::crank_angles::CrankAngles;
+use crate::load::{Load, Loads, Source};
+use crate::order::Order;
 use crate::slider_crank::{Crank, Cylinder};
 
-/// Crank angles that go through a cylinder's kinematics side by side.
+/// Crank angles evaluated side by side.
 pub(crate) const BLOCK: usize = 256;
 
-/// One value for each crank angle of a block; whole lines of the cache.
+/// One value for each crank angle of a block; whole cache lines.
 #[derive(Clone)]
 #[repr(align(64))]
 pub(crate) struct Column([f64; BLOCK]);
@@ -34,77 +36,89 @@ impl DerefMut for Column {
     }
 }
 
-/// What turns a cylinder's motion into forces, over ω².
+/// An engine's loads as functions of crank angle, over ω².
 pub(crate) struct Kinematics {
-    pub groups: Vec<Alike>,
-    /// Rotating masses: force and moment at θ = 0 as x + iy, both turning with the crank.
-    pub rotating: [Complex64; 2],
+    pub pistons: Vec<Pistons>,
+    pub unbalances: Vec<Unbalances>,
 }
 
-/// Cylinders with the same slider-crank and the same top dead centre.
-pub(crate) struct Alike {
-    /// One of them.
+/// Pistons of one motion and top dead centre.
+pub(crate) struct Pistons {
+    /// Index into [`Loads::motions`].
+    pub motion: usize,
     pub cylinder: Cylinder,
     /// `e^{−i·tdc}`.
     pub phase: Complex64,
-    /// Force and moment, x + iy, for one radius of acceleration.
-    pub along: [Complex64; 2],
+    /// Force and moment, x + iy, for one crank radius of acceleration.
+    pub planar: [Complex64; 2],
     /// Σ m·r².
-    pub torque: f64,
+    pub second_moment: f64,
     /// Σ of the rods' inertia beyond their two masses.
     pub rod_inertia: f64,
 }
 
+/// Unbalances on shafts of one ratio: all at θ = 0.
+pub(crate) struct Unbalances {
+    pub ratio: i32,
+    /// Force and moment, x + iy.
+    pub planar: [Complex64; 2],
+    /// Roll torque as the imaginary part.
+    pub roll: Complex64,
+}
+
 impl Kinematics {
-    pub fn new(placements: &[Placement], reference: f64) -> Self {
-        let (mut groups, mut found) = (Vec::<Alike>::new(), Vec::<&Placement>::new());
-        let mut rotating = [Complex64::default(); 2];
-        // A moment is its levered force turned by a quarter.
-        let both =
-            |force: Complex64, p: &Placement| [force, Complex64::new(0.0, p.z - reference) * force];
-        for p in placements {
-            let same = |other: &&Placement| {
-                let [a, b] = [other.cylinder, p.cylinder];
-                other.tdc == p.tdc
-                    && a.crank_radius() == b.crank_radius()
-                    && a.rod_length() == b.rod_length()
-                    && a.pin_offset() == b.pin_offset()
-            };
-            let k = found.iter().position(same).unwrap_or_else(|| {
-                found.push(p);
-                groups.push(Alike {
-                    cylinder: p.cylinder,
-                    phase: p.tdc.cis(-1),
-                    along: Default::default(),
-                    torque: 0.0,
-                    rod_inertia: 0.0,
-                });
-                groups.len() - 1
-            });
-            let (radius, weight) = (p.cylinder.crank_radius(), p.cylinder.first_order());
-            for (sum, term) in groups[k].along.iter_mut().zip(both(-p.bank.cis(1) * weight, p)) {
-                *sum += term;
-            }
-            groups[k].torque += weight * radius;
-            groups[k].rod_inertia += p.cylinder.rod_inertia_excess();
-            if p.rotating_mass > 0.0 {
-                let force = p.pin().cis(1) * (p.rotating_mass * radius);
-                for (sum, term) in rotating.iter_mut().zip(both(force, p)) {
-                    *sum += term;
+    pub fn new(loads: &Loads) -> Self {
+        let (mut pistons, mut found) = (Vec::<Pistons>::new(), Vec::<&Load>::new());
+        let mut unbalances = Vec::<Unbalances>::new();
+        for load in &loads.list {
+            // A moment is its levered force turned by a quarter.
+            let lever = Complex64::new(0.0, load.z - loads.reference);
+            match load.source {
+                Source::Piston { motion, second_moment, rod_inertia } => {
+                    let same = |other: &&Load| {
+                        other.phase == load.phase
+                            && matches!(other.source, Source::Piston { motion: m, .. } if m == motion)
+                    };
+                    let k = found.iter().position(same).unwrap_or_else(|| {
+                        found.push(load);
+                        pistons.push(Pistons {
+                            motion,
+                            cylinder: loads.motions[motion],
+                            phase: load.phase.cis(-1),
+                            planar: Default::default(),
+                            second_moment: 0.0,
+                            rod_inertia: 0.0,
+                        });
+                        pistons.len() - 1
+                    });
+                    // The force is against the acceleration of the piston away from the crank.
+                    let force = -load.unit() * load.weight;
+                    for (sum, term) in pistons[k].planar.iter_mut().zip([force, lever * force]) {
+                        *sum += term;
+                    }
+                    pistons[k].second_moment += second_moment;
+                    pistons[k].rod_inertia += rod_inertia;
+                }
+                Source::Unbalance { ratio, axis } => {
+                    let k = unbalances.iter().position(|u| u.ratio == ratio).unwrap_or_else(|| {
+                        let roll = Complex64::default();
+                        unbalances.push(Unbalances { ratio, planar: Default::default(), roll });
+                        unbalances.len() - 1
+                    });
+                    let square = f64::from(ratio) * f64::from(ratio);
+                    let force = load.unit() * load.phase.cis(-1) * (load.weight * square);
+                    for (sum, term) in unbalances[k].planar.iter_mut().zip([force, lever * force]) {
+                        *sum += term;
+                    }
+                    unbalances[k].roll += axis.conj() * force;
                 }
             }
         }
-        Self { groups, rotating }
-    }
-
-    /// What they take, if cylinders that move alike take so much, and more with a rod's inertia.
-    pub fn cost(&self, alike: f64, rod: f64) -> f64 {
-        let of = |group: &Alike| if group.rod_inertia == 0.0 { alike } else { alike + rod };
-        self.groups.iter().map(of).sum()
+        Self { pistons, unbalances }
     }
 }
 
-/// `e^{iθ}` of a block of crank angles.
+/// `e^{iθ}` of a block of crank angles, or of a multiple of θ.
 #[derive(Clone)]
 pub(crate) struct Units {
     pub cos: Column,
@@ -112,60 +126,29 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    /// At θ = 0.
-    pub const START: Self = Self { cos: Column([1.0; BLOCK]), sin: Column::ZERO };
+    /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
+    #[inline(always)]
+    pub fn new(angles: &CrankAngles, range: std::ops::Range<usize>, order: Order) -> Self {
+        let mut units = Self { cos: Column([1.0; BLOCK]), sin: Column::ZERO };
+        angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
+        units
+    }
 
-    /// Where a crank stands that is `phase` ahead.
+    /// Position of a crank that is `phase` ahead.
     #[inline(always)]
     pub fn crank(&self, phase: Complex64, i: usize) -> Crank {
         let (cos, sin) = (self.cos[i], self.sin[i]);
         Crank::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
     }
 
-    /// Add what turns with the crank, x + iy.
+    /// Adds real and imaginary part of a vector that turns from here at ±1 times these angles.
     #[inline(always)]
-    pub fn add_turning(&self, at_start: Complex64, [x, y]: [&mut Column; 2]) {
-        if at_start == Complex64::default() {
-            return;
+    pub fn add_turning(&self, at_start: Complex64, sense: i32, [x, y]: [&mut [f64]; 2]) {
+        let sign = f64::from(sense.signum());
+        for ((x, y), (cos, sin)) in x.iter_mut().zip(y).zip(self.cos.iter().zip(&self.sin[..])) {
+            let sin = sign * sin;
+            *x += at_start.re * cos - at_start.im * sin;
+            *y += at_start.re * sin + at_start.im * cos;
         }
-        for i in 0..BLOCK {
-            let (cos, sin) = (self.cos[i], self.sin[i]);
-            x[i] += at_start.re * cos - at_start.im * sin;
-            y[i] += at_start.re * sin + at_start.im * cos;
-        }
-    }
-}
-
-#[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-    use crate::angle::Angle;
-    use crate::engine::Engine;
-
-    fn place(cylinder: Cylinder, tdc: f64) -> Placement {
-        Placement {
-            cylinder,
-            tdc: Angle::from_degrees(tdc).unwrap(),
-            bank: Angle::ZERO,
-            z: 0.0,
-            rotating_mass: 0.0,
-        }
-    }
-
-    /// An engine of so many cylinders, none of which moves like another.
-    pub(crate) fn unlike(count: u32) -> Engine {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let placements = (0..count).map(|k| place(cylinder, f64::from(k))).collect();
-        Engine::new("", "", placements).unwrap()
-    }
-
-    #[test]
-    fn groups_cost_alike_and_more_with_a_rods_inertia() {
-        let plain = Cylinder::new(0.05, 0.15, 1.0, 0.0).unwrap();
-        let with_rod = plain.with_rod_inertia_excess(1e-3).unwrap();
-        let cost = |placements: &[Placement]| Kinematics::new(placements, 0.0).cost(2.0, 3.0);
-        // Two that move alike are one.
-        assert_eq!(cost(&[place(plain, 0.0), place(plain, 0.0)]), 2.0);
-        assert_eq!(cost(&[place(plain, 0.0), place(with_rod, 90.0)]), 2.0 + 2.0 + 3.0);
     }
 }

@@ -14,22 +14,24 @@
 
 #![forbid(unsafe_code)]
 
+mod amplitude;
 pub mod angle;
 pub mod balance;
 pub mod cancel;
+mod choice;
 pub mod closed_form;
 pub mod crank_angles;
 pub mod cyclotomic;
 pub mod double;
 pub mod engine;
-pub mod engine_file;
 pub mod error;
 pub mod extrema;
 pub mod firing;
 pub mod harmonics;
 mod kinematics;
-pub mod layout;
 pub mod limits;
+mod load;
+pub mod order;
 pub mod rational;
 pub mod rod;
 pub mod search;
@@ -39,13 +41,15 @@ pub mod spectrum;
 pub mod sweep;
 pub mod vanishing;
 pub mod waveform;
+pub mod wrench;
 
 pub use angle::Angle;
-pub use balance::{Asked, Balance, Orders};
+pub use balance::{Balance, Orders, Request};
 pub use cancel::Cancel;
 pub use crank_angles::CrankAngles;
-pub use engine::{Engine, Hold, Placement};
+pub use engine::{Engine, Hold, Placement, Shaft, Unbalance, layout};
 pub use error::{Error, Result};
+pub use order::Order;
 pub use firing::Firing;
 pub use slider_crank::Cylinder;
 pub use spectrum::Spectrum;

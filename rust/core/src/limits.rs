@@ -11,6 +11,8 @@ pub const LARGEST: f64 = 1e30;
 pub const SMALLEST: f64 = 1e-30;
 /// Most cylinders in an engine.
 pub const MOST_CYLINDERS: usize = 1000;
+/// Most shafts of an engine, and most unbalances of a shaft.
+pub const MOST_UNBALANCES: usize = 1000;
 /// Longest name and source of an engine, bytes: files and copies go through a text of limited size.
 pub const LONGEST_NAME: usize = 10_000;
 /// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.
@@ -61,28 +63,6 @@ pub fn length(argument: &str, value: f64) -> Result<f64> {
     Err(Error::figure(argument, value, cure))
 }
 
-/// An order between 1 and [`HIGHEST_ORDER`].
-pub fn order(value: u32) -> Result<u32> {
-    if (1..=HIGHEST_ORDER).contains(&value) {
-        return Ok(value);
-    }
-    let cure = format!("orders are whole multiples of crank speed, 1 to {HIGHEST_ORDER}");
-    Err(Error::value("orders", value, cure))
-}
-
-/// Distinct orders, at least one, each in range.
-pub fn orders(values: &[u32]) -> Result<()> {
-    if values.is_empty() {
-        return Err(Error::value("orders", "[]", "give at least one order, such as [1, 2]"));
-    }
-    let mut seen = values.to_vec();
-    seen.sort_unstable();
-    if let Some(pair) = seen.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(Error::value("orders", pair[0], "is given twice; give each order once"));
-    }
-    values.iter().try_for_each(|&n| order(n).map(drop))
-}
-
 /// A relative tolerance that can be reached.
 pub fn tolerance(rtol: f64) -> Result<f64> {
     if (1e-15..1.0).contains(&rtol) {
@@ -104,6 +84,28 @@ pub fn result_size(
         return Ok(());
     }
     Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
+}
+
+/// Most values of one swept axis.
+pub const LONGEST_AXIS: usize = 1 << 26;
+
+/// An axis of at most [`LONGEST_AXIS`] values.
+pub fn axis_length(argument: &'static str, length: usize) -> Result<()> {
+    if length <= LONGEST_AXIS {
+        return Ok(());
+    }
+    let hint = format!("give at most {LONGEST_AXIS}; sweep it in parts");
+    Err(Error::value(argument, format!("{length} values"), hint))
+}
+
+/// Zeros for a result or a table of it, or an error where there is no memory.
+pub(crate) fn zeros<T: Clone + Default>(length: usize) -> Result<Vec<T>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(length).map_err(|_| Error::OutOfMemory {
+        bytes: length as u128 * size_of::<T>() as u128,
+    })?;
+    values.resize(length, T::default());
+    Ok(values)
 }
 
 #[cfg(test)]
@@ -133,13 +135,6 @@ mod tests {
         for value in [least.next_down(), -most.next_up(), f64::NAN] {
             assert!(inertia("", value).is_err());
         }
-        for value in [1, 2, HIGHEST_ORDER] {
-            assert_eq!(order(value), Ok(value));
-        }
-        for bad in [&[][..], &[0], &[HIGHEST_ORDER + 1], &[1, 2, 1]] {
-            assert!(orders(bad).is_err(), "{bad:?}");
-        }
-        assert!(orders(&[2, 1, HIGHEST_ORDER]).is_ok());
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use crate::Complex64;
 use crate::error::{Error, Result};
 use crate::limits;
+use crate::order::Order;
 
 /// Amplitudes in kg·m per order: the force along the bore is `ω² Re Σ Sₙ e^{in(θ − tdc)}`.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +17,7 @@ impl Spectrum {
     pub fn new(terms: impl IntoIterator<Item = (u32, Complex64)>) -> Result<Self> {
         let mut spectrum = BTreeMap::new();
         for (order, amplitude) in terms {
-            limits::order(order)?;
+            Order::whole(order)?;
             let argument = format!("spectrum[{order}]");
             limits::finite(&argument, amplitude.re)?;
             limits::finite(&argument, amplitude.im)?;
@@ -42,30 +43,5 @@ impl Spectrum {
     #[must_use]
     pub fn orders(&self) -> Vec<u32> {
         self.0.keys().copied().collect()
-    }
-
-    /// The orders that may matter: those named, and the first where mass turns with the pins.
-    pub(crate) fn orders_with(&self, rotating: bool) -> Vec<u32> {
-        let mut orders = self.orders();
-        if rotating && !self.0.contains_key(&1) {
-            orders.insert(0, 1);
-        }
-        orders
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rotating_mass_adds_the_first_order_where_it_is_not() {
-        let of = |orders: &[u32]| {
-            Spectrum::new(orders.iter().map(|&n| (n, Complex64::new(1.0, 0.0)))).unwrap()
-        };
-        assert_eq!(of(&[4, 2]).orders_with(false), [2, 4]);
-        assert_eq!(of(&[4, 2]).orders_with(true), [1, 2, 4]);
-        assert_eq!(of(&[1, 2]).orders_with(true), [1, 2]);
-        assert_eq!(of(&[1, 2]).orders_with(false), [1, 2]);
     }
 }

@@ -4,13 +4,15 @@ use ndarray::{Array1, Array2};
 use rayon::prelude::*;
 
 use crate::Complex64;
-use crate::balance::{self, Asked, Balance, Orders, angular_speed};
-use crate::cancel::{Cancel, give_back};
+use crate::balance::{self, Balance, Orders, Request, Vector, angular_speed};
+use crate::cancel::Cancel;
 use crate::crank_angles::{CrankAngles, check};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
-use crate::kinematics::{Alike, BLOCK, Column, Kinematics, Units};
+use crate::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
 use crate::limits;
+use crate::load::{Alike, Loads};
+use crate::order::Order;
 use crate::rod::Swing;
 use crate::simd::vectorised;
 
@@ -25,92 +27,50 @@ pub struct Waveform {
     pub torque: Option<Array1<f64>>,
     /// Inertia torque on the crank about +z, N·m: (`n_theta`,).
     pub crank_torque: Option<Array1<f64>>,
-    /// The orders summed; none where the kinematics were.
+    /// The orders summed; none for exact kinematics.
     pub balance: Option<Balance>,
 }
 
 /// From exact kinematics at crank angles in degrees.
 pub fn exact(
     engine: &Engine,
-    asked: &Asked,
+    request: &Request,
     theta_deg: &[f64],
     cancel: &Cancel,
 ) -> Result<Waveform> {
-    if asked.spectrum.is_some() {
+    if request.spectrum.is_some() {
         let cure = "exact kinematics needs the slider-crank; give orders, or \"auto\"";
         return Err(Error::value("spectrum", "given", cure));
     }
-    let omega = angular_speed(asked.rpm)?;
-    let reference = engine.reference(asked.reference_z)?;
-    let kinematics = Kinematics::new(engine.placements(), reference);
-    let memory = in_blocks(theta_deg, asked.torque, cancel, |angles, rows| {
+    let omega = angular_speed(request.rpm)?;
+    let loads = Loads::new(engine, engine.reference(request.reference_z)?, Alike::Proportions);
+    let kinematics = Kinematics::new(&loads);
+    let memory = in_blocks(theta_deg, request.torque, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
-            || {
-                let mut units = Units::START;
-                angles.multiples(1, 0..angles.len(), &mut units.cos[..], &mut units.sin[..]);
-                for alike in &kinematics.groups {
-                    if asked.torque {
-                        rows.add::<true>(alike, omega * omega, &units);
-                    } else {
-                        rows.add::<false>(alike, omega * omega, &units);
-                    }
-                }
-                let [force_x, force_y, moment_x, moment_y, ..] = &mut rows.columns;
-                let [force, moment] = kinematics.rotating.map(|sum| sum * (omega * omega));
-                units.add_turning(force, [force_x, force_y]);
-                units.add_turning(moment, [moment_x, moment_y]);
-            },
-        );
+            || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
+        )
     })?;
-    memory.waveform(None, asked.torque)
+    memory.waveform(None, request.torque)
 }
 
-/// As a sum of orders; a spectrum may stand in for the kinematics.
-///
-/// Orders are given, or the fewest that reach a tolerance: unless the kinematics cost less than
-/// their sum, or more orders were needed than there are. The kinematics are taken then.
+/// As a sum of orders; a spectrum may replace the slider-cranks.
 pub fn from_orders(
     engine: &Engine,
-    asked: &Asked,
+    request: &Request,
     theta_deg: &[f64],
     orders: &Orders,
     cancel: &Cancel,
 ) -> Result<Waveform> {
-    let kinematics = matches!(orders, Orders::Auto { .. }) && asked.spectrum.is_none();
-    let balance = match balance::of(engine, asked, orders, cancel) {
-        // Of a slider-crank alone.
-        Err(Error::TooManyOrders { .. }) => None,
-        found => Some(found?),
-    };
-    let balance = balance.filter(|balance| {
-        !kinematics || !kinematics_cost_less(engine, balance.orders.len(), asked.torque)
-    });
-    let Some(balance) = balance else {
-        return exact(engine, asked, theta_deg, cancel);
-    };
-    let torque = balance.torque.is_some();
-    let memory = in_blocks(theta_deg, torque, cancel, |angles, rows| {
+    let balance = balance::balance(engine, request, orders, cancel)?;
+    let memory = in_blocks(theta_deg, balance.has_torque, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
             || rows.add_orders(&balance, angles),
-        );
+        )
     })?;
+    let torque = balance.has_torque;
     memory.waveform(Some(balance), torque)
-}
-
-/// What the kinematics of cylinders that move alike and an order of a sum take, in nanoseconds for an
-/// angle: slopes from 1 to 48 cylinders and from 1 to 16 orders, 1024 angles on one core (AMD EPYC,
-/// AVX-512).
-const COST: [f64; 2] = [1.5, 1.9];
-/// ... with roll and crank torque, and what a rod's inertia adds to the first.
-const COST_WITH_TORQUE: [f64; 2] = [1.8, 2.2];
-const COST_OF_ROD: f64 = 1.4;
-
-/// Whether an engine's kinematics take less time than a sum of so many orders.
-fn kinematics_cost_less(engine: &Engine, orders: usize, torque: bool) -> bool {
-    let ([alike, order], rod) = if torque { (COST_WITH_TORQUE, COST_OF_ROD) } else { (COST, 0.0) };
-    Kinematics::new(engine.placements(), 0.0).cost(alike, rod) <= order * orders as f64
 }
 
 /// Force x, y, moment x, y, roll and crank torque.
@@ -120,12 +80,44 @@ struct Rows {
 
 impl Rows {
     #[inline(always)]
-    fn add<const TORQUE: bool>(&mut self, alike: &Alike, square: f64, units: &Units) {
+    fn add_kinematics(
+        &mut self,
+        kinematics: &Kinematics,
+        angles: &CrankAngles,
+        torque: bool,
+        square: f64,
+    ) -> Result<()> {
+        let units = Units::new(angles, 0..angles.len(), Order::FIRST);
+        for pistons in &kinematics.pistons {
+            if torque {
+                self.add::<true>(pistons, square, &units);
+            } else {
+                self.add::<false>(pistons, square, &units);
+            }
+        }
+        let [force_x, force_y, moment_x, moment_y, roll, _] = &mut self.columns;
+        for unbalances in &kinematics.unbalances {
+            let order = Order::whole(unbalances.ratio.unsigned_abs())?;
+            let units = Units::new(angles, 0..angles.len(), order);
+            let [force, moment] = unbalances.planar.map(|sum| sum * square);
+            units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
+            units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
+            if torque && unbalances.roll != Complex64::default() {
+                let mut real = Column::ZERO;
+                let at_start = unbalances.roll * square;
+                units.add_turning(at_start, unbalances.ratio, [&mut real[..], &mut roll[..]]);
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn add<const TORQUE: bool>(&mut self, pistons: &Pistons, square: f64, units: &Units) {
         let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut self.columns;
-        let [force, moment] = alike.along.map(|along| along * square);
-        let (proportions, torque) = (alike.cylinder.proportions(), alike.torque * square);
+        let [force, moment] = pistons.planar.map(|sum| sum * square);
+        let (proportions, torque) = (pistons.cylinder.proportions(), pistons.second_moment * square);
         for i in 0..BLOCK {
-            let motion = proportions.motion_at(&units.crank(alike.phase, i));
+            let motion = proportions.motion_at(&units.crank(pistons.phase, i));
             force_x[i] += force.re * motion.acceleration;
             force_y[i] += force.im * motion.acceleration;
             moment_x[i] += moment.re * motion.acceleration;
@@ -136,10 +128,10 @@ impl Rows {
                 crank[i] -= torque * motion.velocity;
             }
         }
-        if TORQUE && alike.rod_inertia != 0.0 {
-            let inertia = alike.rod_inertia * square;
+        if TORQUE && pistons.rod_inertia != 0.0 {
+            let inertia = pistons.rod_inertia * square;
             for i in 0..BLOCK {
-                let swing = Swing::new(&proportions, &units.crank(alike.phase, i));
+                let swing = Swing::new(&proportions, &units.crank(pistons.phase, i));
                 roll[i] += inertia * swing.roll();
                 crank[i] += inertia * swing.crank();
             }
@@ -147,22 +139,15 @@ impl Rows {
     }
 
     #[inline(always)]
-    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
-        let (mut cos, mut sin) = (Column::ZERO, Column::ZERO);
+    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) -> Result<()> {
         for (k, &order) in balance.orders.iter().enumerate() {
-            angles.multiples(order, 0..angles.len(), &mut cos[..], &mut sin[..]);
-            let zero = Complex64::default();
-            let torque = balance.torque.as_ref();
-            let phasors = [
-                balance.force.xy[[k, 0]],
-                balance.force.xy[[k, 1]],
-                balance.moment.xy[[k, 0]],
-                balance.moment.xy[[k, 1]],
-                torque.map_or(zero, |t| t.roll[k]),
-                torque.map_or(zero, |t| t.crank[k]),
-            ];
+            let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
+            let ([force_x, force_y], [moment_x, moment_y]) =
+                (balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k));
+            let torque = &balance.wrenches[k].torque;
+            let phasors = [force_x, force_y, moment_x, moment_y, torque.roll, torque.crank];
             for (column, phasor) in self.columns.iter_mut().zip(phasors) {
-                if phasor == zero {
+                if phasor == Complex64::default() {
                     continue;
                 }
                 for i in 0..BLOCK {
@@ -170,6 +155,7 @@ impl Rows {
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -202,7 +188,7 @@ fn in_blocks(
     theta_deg: &[f64],
     torque: bool,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut Rows) + Sync,
+    add: impl Fn(&CrankAngles, &mut Rows) -> Result<()> + Sync,
 ) -> Result<Memory> {
     let cure = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), cure)?;
@@ -223,7 +209,7 @@ fn in_blocks(
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 2])| {
         cancel.check()?;
         let mut rows = Rows { columns: [const { Column::ZERO }; 6] };
-        add(&CrankAngles::of_checked(thetas), &mut rows);
+        add(&CrankAngles::of_checked(thetas), &mut rows)?;
         let [force_x, force_y, moment_x, moment_y, roll, crank] = &rows.columns;
         for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {
             for (pair, (x, y)) in out.chunks_exact_mut(2).zip(x.iter().zip(&y[..])) {
@@ -240,10 +226,7 @@ fn in_blocks(
     } else {
         tasks.into_par_iter().try_for_each(block)
     };
-    if let Err(cancelled) = done {
-        give_back(memory);
-        return Err(cancelled);
-    }
+    done?;
     Ok(memory)
 }
 
@@ -252,11 +235,10 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
-    use crate::kinematics::tests::unlike as engine;
 
     #[test]
-    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
-        // Four blocks are worked out one by one.
+    fn cancellation_stops_at_the_next_block() {
+        // Four blocks are evaluated one by one.
         let thetas = [0.0; 4 * BLOCK];
         let run = |last: usize| {
             let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
@@ -264,6 +246,7 @@ mod tests {
                 if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }
+                Ok(())
             };
             let result = in_blocks(&thetas, true, &cancel, add).map(drop);
             (result, blocks.into_inner())
@@ -271,20 +254,6 @@ mod tests {
         assert_eq!(run(0), (Ok(()), 4));
         for last in 1..4 {
             assert_eq!(run(last), (Err(Error::Cancelled), last));
-        }
-    }
-
-    #[test]
-    fn how_many_orders_a_group_is_worth_does_not_depend_on_how_many_there_are() {
-        for torque in [true, false] {
-            let less = |groups, orders| kinematics_cost_less(&engine(groups), orders, torque);
-            for groups in 1..8 {
-                for orders in 1..16 {
-                    let twice = less(2 * groups, 2 * orders);
-                    assert_eq!(less(groups, orders), twice, "{groups} {orders}");
-                }
-            }
-            assert!(less(1, 16) && !less(16, 1));
         }
     }
 }

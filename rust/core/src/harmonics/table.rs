@@ -13,6 +13,7 @@ use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
 use crate::limits;
+use crate::order::{self, Order};
 use crate::simd::vectorised;
 use crate::slider_crank::{Proportions, slack};
 
@@ -85,7 +86,7 @@ pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usiz
 
 /// A table of numbers of type `T` is not too large.
 pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
-    limits::orders(orders)?;
+    order::check_list(&Order::all_whole(orders)?)?;
     let cure = "split rod_ratio into parts";
     limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)
 }

@@ -1,22 +1,15 @@
-//! What a sweep's rod ratios and offsets change: the harmonics of its cylinders.
+//! What a sweep's rod ratios and pin offsets change: the amplitudes of its pistons.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use ndarray::parallel::prelude::*;
-use ndarray::{Array2, ArrayView1, Axis};
-
+use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::cancel::Cancel;
-use crate::error::{Error, Result};
-use crate::harmonics::{self, table, torque};
+use crate::error::Result;
+use crate::harmonics::{self, table};
+use crate::load::Channel;
 use crate::slider_crank::{Cylinder, Proportions};
-
-/// Points whose harmonics are worked out in one piece.
-const CHUNK: usize = 1024;
-/// Bytes of harmonics that are kept.
-const LARGEST_TABLE: usize = 1 << 28;
 
 /// A cylinder's proportions with rod ratio and pin offset replaced.
 pub(super) fn proportions(
@@ -32,110 +25,105 @@ pub(super) fn proportions(
     }
 }
 
-/// Harmonics of one cylinder at the points of a sweep.
-pub(super) enum Harmonics {
-    /// All of them, or the one row that serves every point.
-    Table(Array2<Complex64>),
-    /// Worked out where they are wanted.
-    Later(Cylinder, Quantity),
+/// Amplitudes of every channel at some points: real and imaginary parts, order by order.
+pub(super) struct Amplitudes {
+    channels: Vec<(Channel, Vec<[Vec<f64>; 2]>)>,
 }
 
-/// Harmonics at some points: rows of (point, order).
-pub(super) struct Rows<'a> {
-    table: Cow<'a, Array2<Complex64>>,
-    /// The point of the first row.
-    first: usize,
-}
-
-impl Rows<'_> {
-    #[inline(always)]
-    pub fn at(&self, point: usize, order: usize) -> Complex64 {
-        self.table[[point - self.first, order]]
-    }
-}
-
-impl Harmonics {
-    /// A table where the points are passed over more than once and it is of moderate size.
+impl Amplitudes {
+    /// Amplitudes at points of rod ratio and pin offset of the channels that a layout has.
     pub fn new(
         sweep: &Sweep,
-        cylinder: Cylinder,
+        layout: &Layout,
         quantity: Quantity,
-        passes: usize,
+        points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let (points, orders) = (sweep.points(), sweep.orders.len());
-        if points == 1 {
-            return sweep.harmonics(&cylinder, quantity, &(0..1), cancel).map(Self::Table);
+        let mut channels: Vec<(Channel, Vec<[Vec<f64>; 2]>)> = Vec::new();
+        for channel in layout.by_order.iter().flatten().map(|sum| sum.channel) {
+            if channel == Channel::Unit || channels.iter().any(|(known, _)| *known == channel) {
+                continue;
+            }
+            let columns = sweep.amplitudes(layout, channel, quantity, points.clone(), cancel)?;
+            channels.push((channel, columns));
         }
-        if passes == 1 || points * orders * size_of::<Complex64>() > LARGEST_TABLE {
-            return Ok(Self::Later(cylinder, quantity));
-        }
-        let mut table = Array2::default((points, orders));
-        cancel.expect(points.div_ceil(CHUNK));
-        table.axis_chunks_iter_mut(Axis(0), CHUNK).into_par_iter().enumerate().try_for_each(
-            |(chunk, mut rows)| {
-                cancel.step()?;
-                let first = chunk * CHUNK;
-                let points = first..first + rows.nrows();
-                rows.assign(&sweep.harmonics(&cylinder, quantity, &points, cancel)?);
-                Result::Ok(())
-            },
-        )?;
-        Ok(Self::Table(table))
+        Ok(Self { channels })
     }
 
-    /// Those at a range of points.
-    pub fn rows(&self, sweep: &Sweep, points: &Range<usize>, cancel: &Cancel) -> Result<Rows<'_>> {
-        Ok(match self {
-            Self::Table(table) => Rows { table: Cow::Borrowed(table), first: 0 },
-            Self::Later(cylinder, quantity) => {
-                let table = sweep.harmonics(cylinder, *quantity, points, cancel)?;
-                Rows { table: Cow::Owned(table), first: points.start }
-            }
-        })
+    /// Those of a channel and order, at so many points.
+    pub fn of(&self, channel: Channel, order: usize, points: usize) -> [std::borrow::Cow<'_, [f64]>; 2] {
+        let found = self.channels.iter().find(|(known, _)| *known == channel);
+        found.map_or_else(
+            || [vec![1.0; points].into(), vec![0.0; points].into()],
+            |(_, columns)| columns[order].each_ref().map(|column| column.as_slice().into()),
+        )
     }
 }
 
 impl Sweep {
-    /// Harmonics of a cylinder at points of rod ratio and offset: (points, `n_orders`).
-    fn harmonics(
+    fn amplitudes(
         &self,
-        cylinder: &Cylinder,
+        layout: &Layout,
+        channel: Channel,
         quantity: Quantity,
-        points: &Range<usize>,
+        points: Range<usize>,
         cancel: &Cancel,
-    ) -> Result<Array2<Complex64>> {
+    ) -> Result<Vec<[Vec<f64>; 2]>> {
+        let orders = &self.whole_orders();
+        let mut columns: Vec<[Vec<f64>; 2]> =
+            orders.iter().map(|_| [(); 2].map(|()| vec![0.0; points.len()])).collect();
+        let (Channel::Masses(motion) | Channel::Rod(motion)) = channel else {
+            return Ok(columns);
+        };
+        let cylinder = &layout.motions[motion];
         if let Some(spectrum) = &self.spectrum {
-            if quantity == Quantity::Torque {
-                let cure = "a spectrum of forces tells nothing of torque; leave it out";
-                return Err(Error::value("spectrum", "given", cure));
+            for (column, &order) in columns.iter_mut().zip(orders) {
+                let amplitude = spectrum.amplitude(order);
+                column[0].fill(amplitude.re);
+                column[1].fill(amplitude.im);
             }
-            let row: Vec<_> = self.orders.iter().map(|&n| spectrum.amplitude(n)).collect();
-            return Ok(Array2::from_shape_fn((1, row.len()), |(_, order)| row[order]));
+            return Ok(columns);
         }
         let centred = cylinder.pin_offset() == 0.0 && self.axes.pin_offset.is_none();
         if let (Some(ratios), true, true) =
-            (&self.axes.rod_ratio, centred, quantity != Quantity::Torque)
+            (&self.axes.rod_ratio, centred, matches!(quantity, Quantity::Force | Quantity::Moment))
         {
-            let table = table::centred_table(&ratios[points.clone()], &self.orders, cancel)?;
-            return Ok(table.mapv(Complex64::from));
+            let table = table::centred_table(&ratios[points], orders, cancel)?;
+            for (column, values) in columns.iter_mut().zip(table.columns()) {
+                column[0].iter_mut().zip(values).for_each(|(out, &value)| *out = value);
+            }
+            return Ok(columns);
         }
         let offsets = self.axes.pin_offset.as_deref();
         let in_a_row = offsets.map_or(1, <[f64]>::len);
-        let mut table = Array2::default((points.len(), self.orders.len()));
-        for (mut row, point) in table.rows_mut().into_iter().zip(points.clone()) {
+        for (row, point) in points.enumerate() {
+            cancel.check()?;
             let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
             let offset = offsets.map(|offsets| offsets[point % in_a_row]);
             let proportions = proportions(cylinder, ratio, offset)?;
-            let values = match quantity {
-                Quantity::Torque if cylinder.has_rod_inertia() => {
-                    torque::of_cylinder(cylinder, &proportions, &self.orders, cancel)?.roll
-                }
-                Quantity::Torque => torque::torque(&proportions, &self.orders, cancel)?.roll,
-                _ => harmonics::coefficients(&proportions, &self.orders, cancel)?,
-            };
-            row.assign(&ArrayView1::from(&values));
+            let values = of_channel(channel, quantity, &proportions, orders, cancel)?;
+            for (column, value) in columns.iter_mut().zip(values) {
+                (column[0][row], column[1][row]) = (value.re, value.im);
+            }
         }
-        Ok(table)
+        Ok(columns)
     }
+}
+
+/// Harmonics by which the sums of a channel are multiplied.
+fn of_channel(
+    channel: Channel,
+    quantity: Quantity,
+    proportions: &Proportions,
+    orders: &[u32],
+    cancel: &Cancel,
+) -> Result<Vec<Complex64>> {
+    let torques = match (channel, quantity) {
+        (_, Quantity::Force | Quantity::Moment) => {
+            return harmonics::coefficients(proportions, orders, cancel);
+        }
+        (Channel::Rod(_), _) => harmonics::rod::torque(proportions, orders, cancel)?,
+        _ => harmonics::torque::torque(proportions, orders, cancel)?,
+    };
+    Ok(if quantity == Quantity::Torque { torques.roll } else { torques.crank })
 }

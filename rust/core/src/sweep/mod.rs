@@ -1,55 +1,35 @@
 //! Sweeps over engines, bank angle, rod ratio, pin offset and speed, without a sample of θ.
 //!
-//! One point of a sweep is a product: ω², the harmonic aₙ(λ, e) and a layout sum. With the two
-//! banks at `bisector ∓ γ` (γ half the bank angle) and the bank sums right ± left, the layout sum
-//! along (about) each axis is four functions of γ times four complex constants of the engine: with
-//! pins held, bores turn a cylinder's direction and its phase together,
-//! `Σ e^{±i·bank} e^{−in(bank − pin)}`, and the functions are cosine and sine of (n ∓ 1)γ; with the
-//! firing held they are cosine and sine of γ. The four are worked out once for all engines.
+//! One point of a sweep is a product: ω², harmonics of rod ratio and pin offset, and sums of the
+//! engine's loads with its banks turned.
 
-mod block;
+mod axes;
 mod choice;
 mod harmonics;
+mod kernel;
+mod layout;
 mod placed;
-mod plan;
-mod run;
 mod tiles;
 mod waveform;
 
-use std::mem;
 use std::sync::Arc;
 
 use ndarray::{Array, IxDyn};
 
-use self::block::Block;
-use self::harmonics::proportions;
-use self::plan::Plan;
-use self::run::{Cost, Number, Run};
+pub use self::axes::Axes;
+use self::kernel::{Block, Job, Number};
 use crate::Complex64;
-use crate::balance::{angular_speed, snapped};
-use crate::cancel::{Cancel, give_back};
-use crate::engine::{Engine, Hold, bank_angle_in_range};
+use crate::cancel::Cancel;
+use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
 use crate::harmonics::LITTLE_SLACK;
 use crate::limits;
+use crate::order::{self, Order};
 use crate::slider_crank::{Cylinder, slack};
 use crate::spectrum::Spectrum;
 
-/// What is swept; `None` leaves what each engine has.
-#[derive(Debug, Clone, Default)]
-pub struct Axes {
-    /// Degrees between the banks, and what is held as they change.
-    pub bank_angle: Option<(Vec<f64>, Hold)>,
-    /// λ; the crank radius stays and the rod changes.
-    pub rod_ratio: Option<Vec<f64>>,
-    /// Pin offset of every cylinder, m.
-    pub pin_offset: Option<Vec<f64>>,
-    /// Speeds.
-    pub rpm: Vec<f64>,
-}
-
-/// What is asked of each point.
+/// What is evaluated at each point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Shaking force along x and y.
@@ -58,27 +38,31 @@ pub enum Quantity {
     Moment,
     /// Roll torque on the block.
     Torque,
+    /// Inertia torque on the crank.
+    CrankTorque,
 }
 
-/// Which figure of force, moment or torque over the turn.
+/// Which value of force, moment or torque over the turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Figure {
-    /// Of each order along (about) each axis: (…, `n_orders`, and 2 but for torque).
+    /// Of each order along (about) each axis: (…, `n_orders`, and 2 except for torque).
     Amplitude,
+    /// Forward and backward part of each order: (…, `n_orders`, 2).
+    Turning,
     /// The longest vector of each order: (…, `n_orders`).
     Length,
-    /// Of all orders together along (about) each axis: (…, and 2 but for torque).
+    /// Of all orders together along (about) each axis: (…, and 2 except for torque).
     Sum,
     /// The longest vector of all orders together: (…).
     LengthOfSum,
 }
 
-/// Engines and axes, checked; values are worked out when they are asked for.
+/// Engines and axes, checked; values are evaluated when they are asked for.
 #[derive(Debug)]
 pub struct Sweep {
     engines: Vec<Arc<Engine>>,
     axes: Axes,
-    orders: Vec<u32>,
+    orders: Vec<Order>,
     references: Vec<f64>,
     spectrum: Option<Spectrum>,
     /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
@@ -87,74 +71,40 @@ pub struct Sweep {
     squares: Vec<f64>,
     /// Whether torque is wanted.
     torque: bool,
-    omitted: Vec<u32>,
+    omitted: Vec<Order>,
     error_bound: [f64; 3],
 }
-
-/// Values of an axis between two looks at cancellation.
-const PART: usize = 1 << 16;
 
 /// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
 pub type Values<T> = Array<T, IxDyn>;
 
 impl Sweep {
-    /// Check everything that can be wrong.
+    /// Checks everything that can be wrong.
     pub fn new(
         engines: Vec<Arc<Engine>>,
         axes: Axes,
-        orders: Vec<u32>,
+        orders: Vec<Order>,
         reference_z: Option<f64>,
         spectrum: Option<Spectrum>,
-        cancel: &Cancel,
     ) -> Result<Self> {
-        limits::orders(&orders)?;
-        not_empty("engines", engines.len())?;
-        not_empty("rpm", axes.rpm.len())?;
-        let mut squares = Vec::with_capacity(axes.rpm.len());
-        for part in axes.rpm.chunks(PART) {
-            cancel.check()?;
-            for &rpm in part {
-                squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
-            }
-        }
-        if let Some((angles, _)) = &axes.bank_angle {
-            not_empty("bank_angle_deg", angles.len())?;
-            for part in angles.chunks(PART) {
-                cancel.check()?;
-                // Counted before they are looked at one by one, which takes longer.
-                if part.iter().filter(|angle| !(0.0..=180.0).contains(*angle)).count() > 0 {
-                    part.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
-                }
-            }
-            engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
-        }
-        for (name, values) in [("rod_ratio", &axes.rod_ratio), ("pin_offset", &axes.pin_offset)] {
-            let Some(values) = values else { continue };
-            not_empty(name, values.len())?;
-            if spectrum.is_some() {
-                let cure = "a spectrum stands in for the slider-crank: leave out one of the two";
-                return Err(Error::value(name, "swept together with a spectrum", cure));
-            }
-        }
+        order::check_list(&orders)?;
+        axes::not_empty("engines", engines.len())?;
+        let squares = axes.squares()?;
+        axes.check(&engines, spectrum.is_some())?;
+        let extremes = axes.check_geometry(&engines)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
-        let references = references.collect::<Result<_>>()?;
-        let replaced = axes.rod_ratio.is_some() || axes.pin_offset.is_some();
-        let mut sweep = Self {
+        Ok(Self {
+            references: references.collect::<Result<_>>()?,
             engines,
             axes,
             orders,
-            references,
+            torque: spectrum.is_none(),
             spectrum,
-            extremes: [None; 2],
+            extremes,
             squares,
-            torque: true,
             omitted: Vec::new(),
             error_bound: [0.0; 3],
-        };
-        if replaced {
-            sweep.extremes = sweep.check_geometry(cancel)?;
-        }
-        Ok(sweep)
+        })
     }
 
     /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed.
@@ -176,7 +126,7 @@ impl Sweep {
         /// A true peak of a sum of orders, in steps for each.
         const PEAK: usize = 100;
         let each = match figure {
-            Figure::Amplitude | Figure::Length => 2,
+            Figure::Amplitude | Figure::Turning | Figure::Length => 2,
             Figure::Sum | Figure::LengthOfSum => PEAK,
         };
         let orders = self.orders.len();
@@ -187,8 +137,8 @@ impl Sweep {
             let rod = ratio.map_or(cylinder.rod_length() / radius, |ratio| 1.0 / ratio);
             slack(rod, offset.unwrap_or(cylinder.pin_offset()) / radius)
         };
-        let cylinders = self.engines.iter().flat_map(|engine| engine.placements());
-        let least = cylinders.map(|p| slack_of(&p.cylinder)).fold(f64::INFINITY, f64::min);
+        let gears = self.engines.iter().flat_map(|engine| engine.gears());
+        let least = gears.map(slack_of).fold(f64::INFINITY, f64::min);
         if least >= LITTLE_SLACK {
             return sums;
         }
@@ -207,23 +157,23 @@ impl Sweep {
 
     /// Multiples of crank speed.
     #[must_use]
-    pub fn orders(&self) -> &[u32] {
+    pub fn orders(&self) -> &[Order] {
         &self.orders
     }
 
-    /// Orders that were looked at and left out, of those that are not zero everywhere.
+    /// Orders evaluated and left out, of those that are not zero everywhere.
     #[must_use]
-    pub fn omitted(&self) -> &[u32] {
+    pub fn omitted(&self) -> &[Order] {
         &self.omitted
     }
 
-    /// What orders left out can add to force, moment and torque at any crank angle of any point.
+    /// Bounds of what orders left out add to force, moment and torque at any crank angle and point.
     #[must_use]
     pub fn error_bound(&self) -> [f64; 3] {
         self.error_bound
     }
 
-    /// The same, and no torque can be asked of it.
+    /// The same sweep without torque.
     #[must_use]
     pub fn without_torque(mut self) -> Self {
         self.torque = false;
@@ -242,6 +192,7 @@ impl Sweep {
         let orders = &[self.orders.len()][..];
         let tail: [&[usize]; 2] = match figure {
             Figure::Amplitude => [orders, quantity.shape()],
+            Figure::Turning => [orders, &[2]],
             Figure::Length => [orders, &[]],
             Figure::Sum => [&[], quantity.shape()],
             Figure::LengthOfSum => [&[], &[]],
@@ -249,15 +200,20 @@ impl Sweep {
         [&self.shape()[..], &tail.concat()].concat()
     }
 
-    /// A result of numbers of this many bytes is not too large for one call.
+    /// Rejects a result of numbers of this many bytes that is too large for one call.
     pub fn check_size(&self, quantity: Quantity, figure: Figure, bytes: usize) -> Result<()> {
-        let cure = "sweep one axis in parts, or give chunks";
+        let cure = "sweep one axis in parts, or use to_dask";
         limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, cure)
     }
 
-    /// Peak phasors of each order: (…, `n_orders`, and 2 but for torque).
-    pub fn phasors(&self, quantity: Quantity, cancel: &Cancel) -> Result<Values<Complex64>> {
-        self.allocated(quantity, Figure::Amplitude, |out| self.write_phasors(quantity, out, cancel))
+    /// Peak phasors of each order, along (about) x and y or as forward and backward parts.
+    pub fn phasors(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<Values<Complex64>> {
+        self.allocated(quantity, figure, |out| self.write_phasors(quantity, figure, out, cancel))
     }
 
     /// A figure of every point.
@@ -270,36 +226,30 @@ impl Sweep {
         self.allocated(quantity, figure, |out| self.write_peaks(quantity, figure, out, cancel))
     }
 
-    /// [`Self::phasors`] into memory that is there, as long as the product of
-    /// [`Self::result_shape`].
+    /// [`Self::phasors`] into a buffer as long as the product of [`Self::result_shape`].
     pub fn write_phasors(
         &self,
         quantity: Quantity,
+        figure: Figure,
         out: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
-        self.write_phasors_of(quantity, Cost::Small, out, cancel)
-    }
-
-    fn write_phasors_of(
-        &self,
-        quantity: Quantity,
-        cost: Cost,
-        out: &mut [Complex64],
-        cancel: &Cancel,
-    ) -> Result<()> {
-        let width = self.orders.len() * quantity.components();
+        let components = if figure == Figure::Turning { 2 } else { quantity.components() };
         self.fill(
-            (quantity, Figure::Amplitude, cost),
+            (quantity, figure, false),
             out,
             cancel,
             #[inline(always)]
-            |block: &mut Block, factor: f64, out: &mut [Complex64]| {
-                block.evaluate();
-                for (i, row) in out.chunks_exact_mut(width).enumerate() {
-                    for (order, phasors) in row.chunks_exact_mut(quantity.components()).enumerate()
-                    {
-                        for (out, phasor) in phasors.iter_mut().zip(block.phasors(order, i)) {
+            |block: &Block, factor: f64, out: &mut [Complex64]| {
+                for (i, row) in out.chunks_exact_mut(block.orders() * components).enumerate() {
+                    for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
+                        let values = if figure == Figure::Turning {
+                            let [forward, backward_conj] = block.turning(order, i);
+                            [forward, backward_conj.conj()]
+                        } else {
+                            block.phasors(order, i)
+                        };
+                        for (out, phasor) in phasors.iter_mut().zip(values) {
                             *out = phasor * factor;
                         }
                     }
@@ -309,7 +259,7 @@ impl Sweep {
         )
     }
 
-    /// [`Self::peaks`] into memory that is there, as long as the product of [`Self::result_shape`].
+    /// [`Self::peaks`] into a buffer as long as the product of [`Self::result_shape`].
     pub fn write_peaks(
         &self,
         quantity: Quantity,
@@ -319,29 +269,26 @@ impl Sweep {
     ) -> Result<()> {
         let orders = self.orders.len();
         match figure {
-            Figure::Amplitude => self.fill(
-                (quantity, figure, Cost::Small),
+            Figure::Amplitude | Figure::Turning => self.fill(
+                (quantity, Figure::Amplitude, false),
                 out,
                 cancel,
                 #[inline(always)]
-                |block: &mut Block, factor: f64, out: &mut [f64]| {
-                    block.peaks(factor, out);
+                |block: &Block, factor: f64, out: &mut [f64]| {
+                    block.magnitudes(quantity.components(), factor, out);
                     Ok(())
                 },
             ),
             Figure::Length => self.fill(
-                (quantity, figure, Cost::Small),
+                (quantity, figure, false),
                 out,
                 cancel,
                 #[inline(always)]
-                |block: &mut Block, factor: f64, out: &mut [f64]| {
-                    block.evaluate();
+                |block: &Block, factor: f64, out: &mut [f64]| {
                     for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                         for (order, length) in row.iter_mut().enumerate() {
-                            let bound = block.bounds[order][i];
-                            let [forward, backward] = block.turning(order, i);
-                            let both = [forward, backward].map(|part| snapped(part, bound).norm());
-                            *length = (both[0] + both[1]) * factor;
+                            let [forward, backward_conj] = block.turning(order, i);
+                            *length = (forward.norm() + backward_conj.norm()) * factor;
                         }
                     }
                     Ok(())
@@ -349,8 +296,7 @@ impl Sweep {
             ),
             Figure::Sum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill((quantity, figure, Cost::Large), out, cancel, |block, factor, out| {
-                    block.evaluate();
+                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
                     for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
                         cancel.check()?;
                         for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
@@ -362,8 +308,7 @@ impl Sweep {
             }
             Figure::LengthOfSum => {
                 let finder = PeakFinder::new(&self.orders);
-                self.fill((quantity, figure, Cost::Large), out, cancel, |block, factor, out| {
-                    block.evaluate();
+                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
                     for (i, peak) in out.iter_mut().enumerate() {
                         cancel.check()?;
                         let [x, y] = block.by_component(i);
@@ -375,12 +320,17 @@ impl Sweep {
         }
     }
 
-    /// Torque may not have been asked for.
-    fn check_asked(&self, quantity: Quantity) -> Result<()> {
-        if quantity == Quantity::Torque && !self.torque {
-            return Err(Error::value("torque", "False", "it was not asked for; give torque=True"));
+    /// Rejects torque that was not asked for or that a spectrum does not determine.
+    fn check_known(&self, quantity: Quantity) -> Result<()> {
+        if !matches!(quantity, Quantity::Torque | Quantity::CrankTorque) || self.torque {
+            return Ok(());
         }
-        Ok(())
+        let reason = if self.spectrum.is_some() {
+            "a force spectrum does not determine it; compute without `spectrum`"
+        } else {
+            "torque=False was given; leave it out"
+        };
+        Err(Error::NoTorque(reason))
     }
 
     fn allocated<T: Number>(
@@ -391,34 +341,30 @@ impl Sweep {
     ) -> Result<Values<T>> {
         self.check_size(quantity, figure, size_of::<T>())?;
         let shape = self.result_shape(quantity, figure);
-        let mut values = vec![T::default(); shape.iter().product()];
+        let mut values = limits::zeros(shape.iter().product())?;
         write(&mut values)?;
         Array::from_shape_vec(IxDyn(&shape), values)
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
     }
 
-    /// Work out every point: layout sums block by block, handed to `finish` with a factor of its
-    /// results.
+    /// Evaluates every row; `finish` writes rows from their sums and a factor.
     fn fill<T: Number>(
         &self,
-        (quantity, figure, cost): (Quantity, Figure, Cost),
+        (quantity, figure, slow): (Quantity, Figure, bool),
         out: &mut [T],
         cancel: &Cancel,
-        finish: impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync,
+        finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
     ) -> Result<()> {
-        self.check_asked(quantity)?;
+        self.check_known(quantity)?;
         let shape = self.result_shape(quantity, figure);
         if out.len() != shape.iter().product::<usize>() {
             return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
         }
         let width = shape[5..].iter().product();
-        let counts = [self.engines.len(), self.points(), width];
-        let run = Run::new(counts, self.bank_angles(), &self.squares, cost, cancel);
-        let plan = Plan::new(self, quantity, run.passes(), cancel)?;
-        run.fill(&plan, out, &finish)
+        Job { sweep: self, quantity, width, slow, cancel, finish }.run(out)
     }
 
-    /// Points of rod ratio and pin offset.
+    /// Number of points of rod ratio and pin offset.
     fn points(&self) -> usize {
         let [_, _, ratios, offsets, _] = self.shape();
         ratios * offsets
@@ -428,136 +374,23 @@ impl Sweep {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
 
-    /// Every slider-crank of the sweep can turn: where the extreme ones can, all can. Returns them.
-    fn check_geometry(&self, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
-        let (ratios, offsets) = (self.axes.rod_ratio.as_deref(), self.axes.pin_offset.as_deref());
-        let extreme_ratios = ends(ratios, cancel)?;
-        let extreme_offsets = ends(offsets, cancel)?;
-        for cylinder in self.engines.iter().flat_map(|e| e.placements()).map(|p| p.cylinder) {
-            let each = |ratio, offset| proportions(&cylinder, ratio, offset).map(drop);
-            let extremes = extreme_ratios.iter().try_for_each(|&ratio| {
-                extreme_offsets.iter().try_for_each(|&offset| each(ratio, offset))
-            });
-            let Err(error) = extremes else { continue };
-            // Who is told of a value is told of the first that is wrong.
-            let some = |values: Option<&[f64]>, k: usize| values.map(|values| values[k]);
-            for k in 0..ratios.map_or(1, <[f64]>::len) {
-                cancel.check()?;
-                extreme_offsets.iter().try_for_each(|&offset| each(some(ratios, k), offset))?;
-            }
-            for k in 0..offsets.map_or(1, <[f64]>::len) {
-                cancel.check()?;
-                each(some(ratios, 0), some(offsets, k))?;
-            }
-            return Err(error);
-        }
-        let [least, most] = extreme_offsets;
-        let farthest = least.zip(most).map(|(a, b)| if -a > b { a } else { b });
-        Ok([extreme_ratios[1], farthest])
-    }
-}
-
-/// The least and the largest value of an axis, or a value that is no number; nothing where it is not
-/// swept.
-fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
-    let Some(values) = values else { return Ok([None; 2]) };
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    for part in values.chunks(PART) {
-        cancel.check()?;
-        let mut numbers = true;
-        for &value in part {
-            numbers &= !value.is_nan();
-            (least, most) = (least.min(value), most.max(value));
-        }
-        if !numbers {
-            return Ok([Some(f64::NAN); 2]);
-        }
-    }
-    Ok([Some(least), Some(most)])
-}
-
-impl Drop for Sweep {
-    fn drop(&mut self) {
-        // What takes long to give back is given back by somebody for whom nobody waits.
-        let numbers: usize = self.shape().iter().sum();
-        if numbers > PART {
-            give_back((mem::take(&mut self.axes), mem::take(&mut self.squares)));
-        }
+    /// The orders as whole numbers; 1 for half orders, which no load has.
+    fn whole_orders(&self) -> Vec<u32> {
+        self.orders.iter().map(|order| order.as_whole().unwrap_or(1)).collect()
     }
 }
 
 impl Quantity {
     /// Axes of one value: x and y, or none for what is about z alone.
     fn shape(self) -> &'static [usize] {
-        if self == Self::Torque { &[] } else { &[2] }
+        match self {
+            Self::Force | Self::Moment => &[2],
+            Self::Torque | Self::CrankTorque => &[],
+        }
     }
 
     /// How many components one value has.
     fn components(self) -> usize {
         self.shape().iter().product()
-    }
-}
-
-fn not_empty(argument: &str, length: usize) -> Result<()> {
-    if length > 0 {
-        return Ok(());
-    }
-    Err(Error::value(argument, "[]", "give at least one value"))
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
-    use super::*;
-    use crate::{Angle, Cylinder, Placement};
-
-    #[test]
-    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
-        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |bank: f64| Placement {
-            cylinder,
-            tdc: Angle::ZERO,
-            bank: Angle::from_degrees(bank).unwrap(),
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        let engine = Arc::new(Engine::new("", "", vec![place(60.0), place(120.0)]).unwrap());
-        let engines = vec![Arc::clone(&engine), engine];
-        let some = |count| Some(vec![0.3; count]);
-        let angles = |count| Some((vec![60.0; count], Hold::Pins));
-        // Angles side by side at one point and at several, and points side by side; engines, units
-        // and blocks of each.
-        for (bank_angle, rod_ratio, steps) in [
-            (None, None, 2),
-            (angles(300), None, 2 * 3),
-            (angles(300), some(4), 2 * 3 * 4),
-            (None, some(1200), 2 * 10),
-            (angles(2), some(200), 2 * 2 * 2),
-        ] {
-            for rpm in [vec![3000.0], vec![3000.0, 1000.0]] {
-                let (bank_angle, rod_ratio) = (bank_angle.clone(), rod_ratio.clone());
-                let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
-                let sweep =
-                    Sweep::new(engines.clone(), axes, vec![2], None, None, &Cancel::new()).unwrap();
-                let what = (Quantity::Force, Figure::Length, Cost::Small);
-                let run = |last: usize| {
-                    let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
-                    let shape = sweep.result_shape(what.0, what.1);
-                    let mut out = vec![0.0; shape.iter().product()];
-                    let finish = |_: &mut Block, _: f64, _: &mut [f64]| {
-                        if done.fetch_add(1, Ordering::Relaxed) + 1 == last {
-                            cancel.raise();
-                        }
-                        Ok(())
-                    };
-                    (sweep.fill(what, &mut out, &cancel, finish), done.into_inner())
-                };
-                assert_eq!(run(0), (Ok(()), steps));
-                for last in 1..steps {
-                    assert_eq!(run(last), (Err(Error::Cancelled), last));
-                }
-            }
-        }
     }
 }

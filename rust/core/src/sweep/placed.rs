@@ -1,36 +1,68 @@
-//! Exact kinematics of an engine at one bank angle: all that does not depend on the rod is worked out
-//! once for many points.
+//! Exact kinematics of an engine at one bank angle: what does not depend on the rod is evaluated once
+//! for many points.
 
-use crate::kinematics::{Alike, BLOCK, Column, Kinematics, Units};
+use std::ops::Range;
+
+use super::Quantity;
+use crate::crank_angles::CrankAngles;
+use crate::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
+use crate::order::Order;
 use crate::rod::Swing;
 use crate::slider_crank::{Crank, Proportions};
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
-    /// Slider-cranks of its groups at a point of rod ratio and offset, and ω² of its rows.
+    /// Slider-cranks of its pistons at a point of rod ratio and offset, and ω² of its rows.
     pub points: Vec<(Vec<Proportions>, Vec<f64>)>,
 }
 
 impl Placed {
+    /// Writes the values of every row at some crank angles, at most [`BLOCK`].
+    #[inline(always)]
+    pub fn write<'o>(
+        &self,
+        quantity: Quantity,
+        angles: &CrankAngles,
+        range: Range<usize>,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        let units = Units::new(angles, range.clone(), Order::FIRST);
+        let [mut x, mut y] = [Column::ZERO, Column::ZERO];
+        for unbalances in &self.kinematics.unbalances {
+            let Ok(order) = Order::whole(unbalances.ratio.unsigned_abs()) else { continue };
+            let units = Units::new(angles, range.clone(), order);
+            let at_start = match quantity {
+                Quantity::Force => unbalances.planar[0],
+                Quantity::Moment => unbalances.planar[1],
+                Quantity::Torque => unbalances.roll,
+                Quantity::CrankTorque => continue,
+            };
+            units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
+        }
+        match quantity {
+            Quantity::Force => self.planar(0, &units, [x, y], outs),
+            Quantity::Moment => self.planar(1, &units, [x, y], outs),
+            Quantity::Torque => self.torque::<true>(&units, &y, outs),
+            Quantity::CrankTorque => self.torque::<false>(&units, &Column::ZERO, outs),
+        }
+    }
+
     /// Force (0) or moment (1).
     #[inline(always)]
-    pub fn planar<'o>(
+    fn planar<'o>(
         &self,
         which: usize,
         units: &Units,
+        unbalances: [Column; 2],
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
-        let cranks: Vec<Cranks> =
-            self.kinematics.groups.iter().map(|alike| Cranks::new(alike, units)).collect();
-        let (mut turning_x, mut turning_y) = (Column::ZERO, Column::ZERO);
-        units.add_turning(self.kinematics.rotating[which], [&mut turning_x, &mut turning_y]);
+        let pistons = &self.kinematics.pistons;
+        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
         for (proportions, squares) in &self.points {
-            let (mut x, mut y) = (turning_x.clone(), turning_y.clone());
-            for ((alike, cranks), proportions) in
-                self.kinematics.groups.iter().zip(&cranks).zip(proportions)
-            {
-                let along = alike.along[which];
+            let [mut x, mut y] = unbalances.clone();
+            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+                let along = pistons.planar[which];
                 for i in 0..BLOCK {
                     let acceleration = proportions.motion_at(&cranks.at(i)).acceleration;
                     x[i] = along.re.mul_add(acceleration, x[i]);
@@ -43,38 +75,44 @@ impl Placed {
         }
     }
 
-    /// Roll torque on the block.
+    /// Roll torque on the block, or torque on the crank.
     #[inline(always)]
-    pub fn torque<'o>(&self, units: &Units, outs: &mut impl Iterator<Item = &'o mut [f64]>) {
-        let cranks: Vec<Cranks> =
-            self.kinematics.groups.iter().map(|alike| Cranks::new(alike, units)).collect();
+    fn torque<'o, const ROLL: bool>(
+        &self,
+        units: &Units,
+        unbalances: &Column,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        let pistons = &self.kinematics.pistons;
+        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
         for (proportions, squares) in &self.points {
-            let mut roll = Column::ZERO;
-            for ((alike, cranks), proportions) in
-                self.kinematics.groups.iter().zip(&cranks).zip(proportions)
-            {
-                for (i, roll) in roll.iter_mut().enumerate() {
+            let mut sum = unbalances.clone();
+            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+                for (i, sum) in sum.iter_mut().enumerate() {
                     let motion = proportions.motion_at(&cranks.at(i));
-                    let torque = alike.torque * motion.acceleration;
-                    *roll = torque.mul_add(motion.velocity + proportions.offset, *roll);
+                    let torque = pistons.second_moment * motion.acceleration;
+                    let arm =
+                        if ROLL { motion.velocity + proportions.offset } else { -motion.velocity };
+                    *sum = torque.mul_add(arm, *sum);
                 }
-                if alike.rod_inertia != 0.0 {
-                    for (i, roll) in roll.iter_mut().enumerate() {
+                if pistons.rod_inertia != 0.0 {
+                    for (i, sum) in sum.iter_mut().enumerate() {
                         let swing = Swing::new(proportions, &cranks.at(i));
-                        *roll = alike.rod_inertia.mul_add(swing.roll(), *roll);
+                        let torque = if ROLL { swing.roll() } else { swing.crank() };
+                        *sum = pistons.rod_inertia.mul_add(torque, *sum);
                     }
                 }
             }
             for (&square, out) in squares.iter().zip(&mut *outs) {
-                for (out, roll) in out.iter_mut().zip(&roll[..]) {
-                    *out = square * roll;
+                for (out, sum) in out.iter_mut().zip(&sum[..]) {
+                    *out = square * sum;
                 }
             }
         }
     }
 }
 
-/// Where the cranks of cylinders that move alike stand.
+/// Positions of the cranks of pistons that move together.
 struct Cranks {
     sin: Column,
     cos: Column,
@@ -85,7 +123,7 @@ struct Cranks {
 
 impl Cranks {
     #[inline(always)]
-    fn new(alike: &Alike, units: &Units) -> Self {
+    fn new(pistons: &Pistons, units: &Units) -> Self {
         let mut cranks = Self {
             sin: Column::ZERO,
             cos: Column::ZERO,
@@ -94,7 +132,7 @@ impl Cranks {
             to_below: Column::ZERO,
         };
         for i in 0..BLOCK {
-            let crank = units.crank(alike.phase, i);
+            let crank = units.crank(pistons.phase, i);
             cranks.sin[i] = crank.sin;
             cranks.cos[i] = crank.cos;
             cranks.squared[i] = crank.squared;

@@ -1,11 +1,13 @@
 //! Sums of orders at many points: phasors, a row for each point, times cosines and sines of nθ.
 //!
-//! Tiles of cosines and sines stay in the cache while rows go past, each written where it stays.
+//! Tiles of cosines and sines stay in cache while the rows are processed; each row is written straight
+//! to its destination.
 
 use std::ops::Range;
 
 use crate::Complex64;
 use crate::crank_angles::{CrankAngles, parts};
+use crate::order::Order;
 use crate::simd::vectorised;
 
 /// Crank angles of a tile.
@@ -59,7 +61,7 @@ impl Term {
 
 impl Tiles {
     /// At a range of the angles, of the orders of these terms.
-    pub fn new(angles: &CrankAngles, range: &Range<usize>, orders: &[u32], terms: &[Term]) -> Self {
+    pub fn new(angles: &CrankAngles, range: &Range<usize>, orders: &[Order], terms: &[Term]) -> Self {
         let tiles = orders.iter().enumerate().map(|(place, &order)| {
             if terms.iter().all(|term| term.order != place) {
                 return Vec::new();
@@ -106,7 +108,7 @@ impl Tiles {
 }
 
 impl Tile {
-    fn new(angles: &CrankAngles, range: Range<usize>, order: u32) -> Self {
+    fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
         let mut tile = Self { cos: [0.0; TILE], sin: [0.0; TILE] };
         vectorised(
             #[inline(always)]

@@ -6,15 +6,15 @@ use rayon::prelude::*;
 
 use super::harmonics::proportions;
 use super::placed::Placed;
-use super::run::Cost;
 use super::tiles::{TILE, Term, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
-use crate::angle::Angle;
 use crate::cancel::Cancel;
 use crate::crank_angles::{CrankAngles, parts};
 use crate::error::{Error, Result};
-use crate::kinematics::{BLOCK, Kinematics, Units};
+use crate::angle::Angle;
+use crate::kinematics::{BLOCK, Kinematics};
+use crate::load::{Alike, Loads};
 use crate::limits;
 use crate::simd::vectorised;
 
@@ -25,13 +25,6 @@ const SPAN: usize = 4 * TILE;
 /// A result of fewer numbers is not worth waking another thread for (some 30 µs).
 const WORTH_A_THREAD: usize = 1 << 15;
 
-/// What cylinders that move alike and an order of a sum take, in nanoseconds for an angle of a
-/// point: slopes from 1 to 8 groups and from 1 to 16 orders, 300 points of 720 angles on one core
-/// (AMD EPYC, AVX-512).
-const COST: [f64; 2] = [1.0, 0.35];
-/// What a rod's inertia adds to the first, of force, moment and torque on average: it is in torque.
-const COST_OF_ROD: f64 = 0.3;
-
 impl Sweep {
     /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
     pub fn waveform_shape(&self, quantity: Quantity, angles: usize) -> Result<Vec<usize>> {
@@ -39,18 +32,6 @@ impl Sweep {
         let cure = "sweep one axis in parts, or split theta_deg";
         limits::result_size("sweep", &shape, size_of::<f64>(), cure)?;
         Ok(shape)
-    }
-
-    /// Whether exact kinematics take less time than the sum of the orders.
-    #[must_use]
-    pub fn kinematics_cost_less(&self) -> bool {
-        let of_rod = if self.torque { COST_OF_ROD } else { 0.0 };
-        let cost = |engine: &crate::Engine| {
-            Kinematics::new(engine.placements(), 0.0).cost(COST[0], of_rod)
-        };
-        let kinematics: f64 = self.engines.iter().map(|engine| cost(engine)).sum();
-        let orders = self.engines.len() * self.orders.len();
-        self.spectrum.is_none() && kinematics <= COST[1] * orders as f64
     }
 
     /// Values over crank angle, as a sum of orders or by exact kinematics: (…, `n_theta`, and 2 but
@@ -71,16 +52,15 @@ impl Sweep {
                 format!("give an array of shape {shape:?}"),
             ));
         }
-        self.check_asked(quantity)?;
+        self.check_known(quantity)?;
         let rows = Rows { angles, components: quantity.components(), cancel };
         if exact {
             return self.by_kinematics(quantity, &rows, out);
         }
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
-        let mut phasors = vec![Complex64::default(); phasors];
-        let cost = if out.len() < WORTH_A_THREAD { Cost::Small } else { Cost::Awake };
-        self.write_phasors_of(quantity, cost, &mut phasors, cancel)?;
+        let mut phasors = limits::zeros(phasors)?;
+        self.write_phasors(quantity, Figure::Amplitude, &mut phasors, cancel)?;
         self.by_orders(&phasors, &rows, out)
     }
 
@@ -144,9 +124,8 @@ impl Sweep {
                     if last != Some((place, point)) {
                         let ratio = list(&self.axes.rod_ratio, point / offsets);
                         let offset = list(&self.axes.pin_offset, point % offsets);
-                        let groups = here.kinematics.groups.iter();
-                        let cranks =
-                            groups.map(|alike| proportions(&alike.cylinder, ratio, offset));
+                        let pistons = here.kinematics.pistons.iter();
+                        let cranks = pistons.map(|p| proportions(&p.cylinder, ratio, offset));
                         here.points.push((cranks.collect::<Result<_>>()?, Vec::new()));
                     }
                     let Some((_, squares)) = here.points.last_mut() else { continue };
@@ -159,18 +138,12 @@ impl Sweep {
                 vectorised(
                     #[inline(always)]
                     || {
-                        let mut units = Units::START;
                         for (k, part) in parts(range, BLOCK).enumerate() {
-                            rows.angles.multiples(1, part, &mut units.cos[..], &mut units.sin[..]);
                             let size = BLOCK * rows.components;
                             let mut outs =
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
                             for here in placed {
-                                match quantity {
-                                    Quantity::Torque => here.torque(&units, &mut outs),
-                                    Quantity::Force => here.planar(0, &units, &mut outs),
-                                    Quantity::Moment => here.planar(1, &units, &mut outs),
-                                }
+                                here.write(quantity, rows.angles, part.clone(), &mut outs);
                             }
                         }
                     },
@@ -183,14 +156,14 @@ impl Sweep {
     fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
         let reference = self.references[engine];
         let engine = &self.engines[engine];
-        let kinematics = match &self.axes.bank_angle {
+        let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Kinematics::new(turned.placements(), reference)
+                Loads::new(&turned, reference, Alike::Dimensions)
             }
-            None => Kinematics::new(engine.placements(), reference),
+            None => Loads::new(engine, reference, Alike::Dimensions),
         };
-        Ok(Placed { kinematics, points: Vec::new() })
+        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }
 }
 
@@ -203,7 +176,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Prepare some rows, then work out spans of their angles; in parallel where there is enough.
+    /// Prepares some rows, then evaluates spans of their angles; in parallel where there is enough.
     ///
     /// No value depends on how the work is split.
     fn fill<P: Sync>(
@@ -246,15 +219,12 @@ impl Rows<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
-    use crate::kinematics::tests::unlike;
-    use crate::sweep::Axes;
 
     #[test]
-    fn whoever_stops_waiting_at_any_step_is_told_at_once() {
+    fn cancellation_stops_at_the_next_step() {
         // Three groups of rows of two spans each.
         let angles = CrankAngles::new(&[0.0; SPAN + 1]).unwrap();
         let mut out = vec![0.0; 3 * ROWS * angles.len()];
@@ -275,28 +245,6 @@ mod tests {
             assert_eq!(result, Err(Error::Cancelled));
             // Threads that were at work finish their step.
             assert!((last..=last + rayon::current_num_threads()).contains(&steps));
-        }
-    }
-
-    #[test]
-    fn a_group_is_worth_as_many_orders_as_it_costs() {
-        let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
-        let engine = |groups| Arc::new(unlike(groups));
-        for groups in 1..8 {
-            let worth = (f64::from(groups) * COST[0] / COST[1]).ceil() as u32;
-            for (orders, expected) in [(worth, true), (worth - 1, false)] {
-                if orders == 0 {
-                    continue;
-                }
-                // Three engines are as one.
-                for count in [1, 3] {
-                    let engines = (0..count).map(|_| engine(groups)).collect();
-                    let orders: Vec<u32> = (1..=orders).collect();
-                    let cancel = Cancel::new();
-                    let sweep = Sweep::new(engines, axes.clone(), orders, None, None, &cancel);
-                    assert_eq!(sweep.unwrap().kinematics_cost_less(), expected, "{groups}");
-                }
-            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::angle::Angle;
-use crate::engine::{Engine, Placement};
+use super::{Engine, Placement, Shaft, Unbalance, first_equal};
 use crate::error::{Error, Result, shorten};
 use crate::slider_crank::Cylinder;
 
@@ -20,10 +20,17 @@ struct EngineFile {
     name: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     source: String,
-    /// Moving parts of every placement that has none of its own.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    firing_order: String,
+    /// Running gear of every placement that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
     placements: Vec<Place>,
+    /// On the crankshaft, besides the rotating masses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    counterweights: Vec<Weight>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    shafts: Vec<BalanceShaft>,
 }
 
 #[derive(Serialize, Deserialize, Clone, Copy)]
@@ -51,8 +58,74 @@ struct Place {
     z: f64,
     #[serde(default)]
     rotating_mass: f64,
+    /// Number of the bank, where two banks have one direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bank: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Weight {
+    /// kg·m.
+    amount: f64,
+    angle_deg: Degrees,
+    z: f64,
+    /// Number of the cylinder whose crankpin the angle is measured from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pin: Option<usize>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BalanceShaft {
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    name: String,
+    ratio: i32,
+    #[serde(default)]
+    x: f64,
+    #[serde(default)]
+    y: f64,
+    unbalances: Vec<Weight>,
+}
+
+impl Weight {
+    fn of(unbalance: &Unbalance) -> Self {
+        Self {
+            amount: unbalance.amount,
+            angle_deg: Degrees::of(unbalance.angle),
+            z: unbalance.z,
+            pin: unbalance.pin.map(|index| index + 1),
+        }
+    }
+
+    fn unbalance(&self, place: &str) -> Result<Unbalance> {
+        let pin = self.pin.map(|number| {
+            let hint = "give a cylinder's number, from 1";
+            number.checked_sub(1).ok_or_else(|| Error::value(format!("{place}.pin"), 0, hint))
+        });
+        let angle = self.angle_deg.angle(&format!("{place}.angle_deg"))?;
+        Ok(Unbalance { amount: self.amount, angle, z: self.z, pin: pin.transpose()? })
+    }
+}
+
+impl BalanceShaft {
+    fn of(shaft: &Shaft) -> Self {
+        let ([x, y], name) = (shaft.axis, shaft.name.clone());
+        let unbalances = shaft.unbalances.iter().map(Weight::of).collect();
+        Self { name, ratio: shaft.ratio, x, y, unbalances }
+    }
+
+    fn shaft(&self, place: &str) -> Result<Shaft> {
+        let unbalances = unbalances(&self.unbalances, &format!("{place}.unbalances"))?;
+        Ok(Shaft { name: self.name.clone(), ratio: self.ratio, axis: [self.x, self.y], unbalances })
+    }
+}
+
+fn unbalances(weights: &[Weight], list: &str) -> Result<Vec<Unbalance>> {
+    let each = weights.iter().enumerate();
+    each.map(|(i, weight)| weight.unbalance(&format!("{list}[{i}]"))).collect()
 }
 
 /// Degrees as a number, or as a fraction in a string where no double is exact.
@@ -97,21 +170,31 @@ impl Parts {
 
 impl EngineFile {
     fn of(engine: &Engine) -> Self {
-        let first = engine.placements()[0].cylinder;
-        let shared = engine.placements().iter().all(|p| p.cylinder == first);
-        let place = |p: &Placement| Place {
+        let shared = engine.gears().len() == 1;
+        // Directions tell banks apart but for a vee at 0°.
+        let banks = engine.bank_directions();
+        let numbered = first_equal(banks.iter()).into_iter().ne(0..banks.len());
+        let number = |bank: usize| match engine.banks() {
+            Ok(banks) => usize::from(bank != banks.right) + 1,
+            Err(_) => bank + 1,
+        };
+        let place = |(i, p): (usize, &Placement)| Place {
             tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
             rotating_mass: p.rotating_mass,
+            bank: numbered.then(|| number(engine.bank_of(i))),
             cylinder: (!shared).then(|| Parts::of(&p.cylinder)),
         };
         Self {
             schema: SCHEMA,
             name: engine.name().to_owned(),
             source: engine.source().to_owned(),
-            cylinder: shared.then(|| Parts::of(&first)),
-            placements: engine.placements().iter().map(place).collect(),
+            firing_order: engine.firing_order().to_owned(),
+            cylinder: shared.then(|| Parts::of(&engine.gears()[0])),
+            placements: engine.placements().iter().enumerate().map(place).collect(),
+            counterweights: engine.counterweights().iter().map(Weight::of).collect(),
+            shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
         }
     }
 
@@ -138,9 +221,40 @@ impl EngineFile {
                 rotating_mass: place.rotating_mass,
             })
         });
-        let placements = placements.collect::<Result<_>>()?;
-        Engine::new(self.name, self.source, placements)
+        let placements: Vec<Placement> = placements.collect::<Result<_>>()?;
+        let numbered = self.placements.iter().any(|p| p.bank.is_some());
+        let numbers = self.placements.iter().enumerate().map(|(i, place)| {
+            let hint = "give each placement the number of its bank, or none";
+            place.bank.ok_or_else(|| Error::value(format!("placements[{i}].bank"), "none", hint))
+        });
+        let numbers = numbered.then(|| numbers.collect::<Result<Vec<_>>>()).transpose()?;
+        let engine = match numbers {
+            Some(numbers) => {
+                same_directions(&placements, &numbers)?;
+                Engine::in_banks(self.name, self.source, placements, &numbers)?
+            }
+            None => Engine::new(self.name, self.source, placements)?,
+        };
+        let shafts = self.shafts.iter().enumerate();
+        let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
+        engine
+            .firing_as(self.firing_order)?
+            .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
+            .with_shafts(shafts.collect::<Result<_>>()?)
     }
+}
+
+/// Rejects a bank whose cylinders point in several directions.
+fn same_directions(placements: &[Placement], numbers: &[usize]) -> Result<()> {
+    for (i, (placement, number)) in placements.iter().zip(numbers).enumerate() {
+        let mut others = placements.iter().zip(numbers);
+        let first = others.find(|(_, other)| *other == number).map_or(placement, |(p, _)| p);
+        if first.bank.reduced() != placement.bank.reduced() {
+            let hint = format!("make it {}°, the direction of bank {number}", first.bank);
+            return Err(Error::value(format!("placements[{i}].bank_deg"), placement.bank, hint));
+        }
+    }
+    Ok(())
 }
 
 /// Text as TOML.
@@ -206,13 +320,31 @@ mod tests {
             z,
             rotating_mass,
         });
-        (proptest::collection::vec(place, 1..9), ".*")
-            .prop_map(|(placements, name)| Engine::new(name, "", placements).unwrap())
+        let weight = (0.0..9.0, -720.0..720.0, -9.0..9.0, proptest::option::of(Just(0)));
+        let weight = weight.prop_map(|(amount, angle, z, pin)| Unbalance {
+            amount,
+            angle: Angle::from_degrees(angle).unwrap(),
+            z,
+            pin,
+        });
+        let weights = proptest::collection::vec(weight, 0..3);
+        let shaft = (prop_oneof![-2..0, 1..3], [-9.0..9.0, -9.0..9.0], weights.clone());
+        let shaft = shaft.prop_map(|(ratio, axis, mut unbalances)| {
+            unbalances.iter_mut().for_each(|unbalance| unbalance.pin = None);
+            Shaft { name: format!("{ratio}"), ratio, axis, unbalances }
+        });
+        let shafts = proptest::collection::vec(shaft, 0..3);
+        (proptest::collection::vec(place, 1..9), ".*", weights, shafts).prop_map(
+            |(placements, name, weights, shafts)| {
+                let engine = Engine::new(name, "", placements).unwrap().firing_as("1").unwrap();
+                engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
+            },
+        )
     }
 
     proptest! {
         #[test]
-        fn what_is_written_reads_back(engine in engines()) {
+        fn engine_files_read_back_as_equal_engines(engine in engines()) {
             prop_assert_eq!(&from_toml(&to_toml(&engine).unwrap()).unwrap(), &engine);
             prop_assert_eq!(&from_json(&to_json(&engine).unwrap()).unwrap(), &engine);
         }
@@ -225,7 +357,27 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shared_is_written_once_and_what_is_zero_not_at_all() {
+    fn vees_at_zero_keep_their_banks_in_files() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |z| Placement {
+            cylinder,
+            tdc: Angle::ZERO,
+            bank: Angle::from_degrees(90.0).unwrap(),
+            z,
+            rotating_mass: 0.0,
+        };
+        for keys in [[0, 1], [1, 0]] {
+            let engine = Engine::in_banks("", "", vec![place(0.0), place(0.1)], &keys).unwrap();
+            let text = to_toml(&engine).unwrap();
+            assert_eq!(text.matches("\nbank = ").count(), 2, "{text}");
+            assert_eq!(from_toml(&text).unwrap(), engine);
+            let error = from_toml(&text.replacen("90", "80", 1).replace("bank = 2", "bank = 1"));
+            assert!(error.unwrap_err().to_string().contains("bank_deg"));
+        }
+    }
+
+    #[test]
+    fn shared_gears_are_written_once_and_zero_inertias_not_at_all() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let other = cylinder.with_rod_inertia_excess(1e-3).unwrap();
         let place = |cylinder| Placement {

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::angle::Angle;
-use crate::engine::{self, Engine, Placement};
+use super::{Engine, Placement, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Cylinder;
@@ -107,7 +107,7 @@ impl Inline {
             let z = i as f64 * self.spacing;
             Placement { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
         });
-        Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc)
+        Ok(Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc))
     }
 }
 
@@ -144,14 +144,20 @@ impl Vee {
             let pin = self.throws[seat.throw] + split;
             seat.placement(cylinder, seat.bank - pin, 0.5 * masses[seat.throw])
         });
-        Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc)
+        self.in_banks(&seats, placements.collect())
     }
 
-    /// Where each cylinder sits, by number; the throws' angles are not asked.
+    /// The engine of these placements, each in the bank of its seat.
+    fn in_banks(&self, seats: &[Seat], placements: Vec<Placement>) -> Result<Engine> {
+        let sides: Vec<usize> = seats.iter().map(|seat| seat.side as usize).collect();
+        Ok(Engine::in_banks("", "", placements, &sides)?.with_first_tdc(self.first_tdc))
+    }
+
+    /// Where each cylinder sits, by number; `throws` is ignored.
     pub(crate) fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
         limits::finite("spacing", self.spacing)?;
         limits::finite("bank_stagger", self.bank_stagger)?;
-        engine::bank_angle_in_range(self.bank_angle.degrees())?;
+        bank_angle_in_range(self.bank_angle.degrees())?;
         let (upright, half) = (Angle::Turns(1, 4), self.bank_angle.half());
         let throws = cylinders / 2;
         let seat = |i: usize| {
@@ -288,7 +294,9 @@ impl FiringOrder {
         let placements = seats
             .iter()
             .map(|(seat, tdc)| seat.placement(cylinder, *tdc, 0.5 * masses[seat.throw]));
-        Engine::new("", "", placements.collect())?.with_first_tdc(layout.first_tdc)
+        let placements = placements.collect();
+        let seats: Vec<Seat> = seats.into_iter().map(|(seat, _)| seat).collect();
+        layout.in_banks(&seats, placements)
     }
 
     /// Where each cylinder of a vee sits, and its top dead centre.

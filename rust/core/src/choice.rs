@@ -1,0 +1,202 @@
+//! A few orders that reach a tolerance, and the bound of what they leave out.
+//!
+//! What is left out is at most the sum of the sizes of its orders, |forward| + |backward| after the
+//! layout's cancellations. Orders are evaluated up to where all above them are negligible, and that
+//! rest is bounded in closed form; so the bound is loose only where the orders left out do not peak
+//! together.
+
+use crate::amplitude::wrenches;
+use crate::cancel::Cancel;
+use crate::engine::Engine;
+use crate::error::{Error, Result};
+use crate::harmonics;
+use crate::limits;
+use crate::load::{Loads, Source};
+use crate::order::Order;
+use crate::slider_crank::{Cylinder, Proportions};
+use crate::spectrum::Spectrum;
+use crate::wrench::Wrench;
+
+/// Orders above the last one evaluated add less than this part of a sum's largest term: a tenth of
+/// the rounding error.
+const NEGLIGIBLE: f64 = 1e-17;
+
+/// Orders chosen for an engine, over ω² so that they serve any speed.
+pub(crate) struct Chosen {
+    /// Orders kept, ascending.
+    pub orders: Vec<Order>,
+    /// Their wrenches over ω².
+    pub wrenches: Vec<Wrench>,
+    /// Orders left out that are not zero.
+    pub omitted: Vec<Order>,
+    /// Bounds over ω² of what all orders left out add to force, moment and torque.
+    pub error_bound: [f64; 3],
+}
+
+/// The orders of an engine that leave out at most `rtol`.
+pub(crate) fn within(
+    rtol: f64,
+    engine: &Engine,
+    loads: &Loads,
+    spectrum: Option<&Spectrum>,
+    torque: bool,
+    cancel: &Cancel,
+) -> Result<Chosen> {
+    let rtol = limits::tolerance(rtol)?;
+    let scales = scales(engine, loads);
+    let proportions: Vec<Proportions> = loads.motions.iter().map(Cylinder::proportions).collect();
+    let candidates = match spectrum {
+        Some(spectrum) => of_spectrum(spectrum, &loads.unbalance_orders()),
+        None => {
+            let motions = proportions.iter().enumerate();
+            let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
+            let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
+            (1..=last.max(loads.unbalance_orders().last().copied().unwrap_or(1))).collect()
+        }
+    };
+    let orders = Order::all_whole(&candidates)?;
+    let all = wrenches(loads, spectrum, torque, &orders, cancel)?;
+    let sizes: Vec<[f64; 3]> = all.iter().map(sizes).collect();
+    let last = candidates.last().copied().unwrap_or(1);
+    let mut error_bound =
+        if spectrum.is_some() { [0.0; 3] } else { tail(loads, last, torque, &proportions) };
+    let kept = few(&sizes, &scales.map(|scale| rtol * scale), &mut error_bound);
+    let mut chosen = Chosen { orders: vec![], wrenches: vec![], omitted: vec![], error_bound };
+    for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
+        if kept {
+            chosen.orders.push(order);
+            chosen.wrenches.push(wrench);
+        } else if size.iter().any(|&size| size > 0.0) {
+            chosen.omitted.push(order);
+        }
+    }
+    Ok(chosen)
+}
+
+/// The orders of a spectrum, and those of unbalances.
+pub(crate) fn of_spectrum(spectrum: &Spectrum, unbalances: &[u32]) -> Vec<u32> {
+    let mut orders = [&spectrum.orders(), unbalances].concat();
+    orders.sort_unstable();
+    orders.dedup();
+    orders
+}
+
+/// Drops orders from the smallest up while every sum stays within what it may lose.
+///
+/// `lost` holds what each sum has lost already and is given what it loses. Returns which orders are
+/// kept. A size counts relative to what its sum may lose, and the largest of an order's decides.
+pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64]) -> Vec<bool> {
+    let share = |sizes: &S| {
+        let shares = sizes.as_ref().iter().zip(allowed);
+        shares.map(|(&size, &most)| if size == 0.0 { 0.0 } else { size / most }).fold(0.0, f64::max)
+    };
+    let mut rising: Vec<(f64, usize)> = sizes.iter().map(share).zip(0..).collect();
+    rising.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept = vec![true; sizes.len()];
+    for (_, k) in rising {
+        let sizes = sizes[k].as_ref();
+        let sums = || lost.iter().zip(sizes).zip(allowed);
+        if sums().all(|((lost, size), allowed)| *size == 0.0 || lost + size <= *allowed) {
+            lost.iter_mut().zip(sizes).for_each(|(lost, size)| *lost += size);
+            kept[k] = false;
+        }
+    }
+    kept
+}
+
+/// Size of a motion's rod inertia over what a tolerance of torque is relative to.
+pub(crate) fn rod_share(loads: &Loads, of_motion: usize, scales: &[f64; 3]) -> f64 {
+    let inertia = loads.list.iter().map(|load| match load.source {
+        Source::Piston { motion, rod_inertia, .. } if motion == of_motion => rod_inertia.abs(),
+        _ => 0.0,
+    });
+    let largest = inertia.fold(0.0, f64::max);
+    if largest == 0.0 { 0.0 } else { largest / scales[2] }
+}
+
+/// Highest order to evaluate for `count` loads of these proportions and shares of rod inertia.
+///
+/// Above it the remainder is at most `negligible`, or, if no order achieves that, at most `rtol`/4.
+pub(crate) fn highest(
+    rtol: f64,
+    negligible: f64,
+    count: usize,
+    motions: impl Iterator<Item = (Proportions, f64)>,
+    torque: bool,
+) -> Result<u32> {
+    let (needed, enough) = (0.25 * rtol / count as f64, negligible / count as f64);
+    let mut highest = 1;
+    for (proportions, rod_share) in motions {
+        let torque = torque.then_some(rod_share);
+        let last = match harmonics::highest_order(&proportions, enough, torque) {
+            Some(order) => order,
+            // A rest that is not negligible still is within the tolerance.
+            None if harmonics::highest_order(&proportions, needed, torque).is_some() => {
+                limits::HIGHEST_ORDER
+            }
+            None => return Err(Error::TooManyOrders { rtol, rod_ratio: 1.0 / proportions.rod }),
+        };
+        highest = highest.max(last);
+    }
+    Ok(highest)
+}
+
+/// Bounds over ω² of what orders above `highest` add to force, moment and torque, as if nothing
+/// cancelled, for these proportions of each motion.
+pub(crate) fn tail(
+    loads: &Loads,
+    highest: u32,
+    torque: bool,
+    proportions: &[Proportions],
+) -> [f64; 3] {
+    let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY);
+    let times = |weight: f64, bound: f64| if weight == 0.0 { 0.0 } else { weight * bound };
+    let mut sum = [0.0; 3];
+    for (k, motion) in proportions.iter().enumerate() {
+        let force = known(harmonics::tail_bound(motion, highest));
+        let (masses, rod) = if torque {
+            let rod = known(harmonics::rod::tail_bound(motion, highest));
+            (known(harmonics::torque::tail_bound(motion, highest)), rod)
+        } else {
+            (0.0, 0.0)
+        };
+        for load in &loads.list {
+            let Source::Piston { motion, second_moment, rod_inertia, .. } = load.source else {
+                continue;
+            };
+            if motion != k {
+                continue;
+            }
+            sum[0] += times(load.weight, force);
+            sum[1] += times(load.weight * (load.z - loads.reference).abs(), force);
+            sum[2] += times(second_moment, masses) + times(rod_inertia.abs(), rod);
+        }
+    }
+    sum
+}
+
+/// What a tolerance is relative to, over ω²: the largest m·r of a cylinder or unbalance, times the
+/// longest lever, times its crank radius. Where rod inertia makes more of order 1, what it makes:
+/// about J·r/l.
+pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
+    let mut largest = [0.0_f64; 3];
+    for gear in engine.gears() {
+        largest[0] = largest[0].max(gear.first_order());
+        let of_rod = gear.rod_inertia_excess().abs() * gear.rod_ratio();
+        largest[2] = largest[2].max(gear.second_moment()).max(of_rod);
+    }
+    for load in &loads.list {
+        if let Source::Unbalance { ratio, axis } = load.source {
+            let force = load.weight * f64::from(ratio) * f64::from(ratio);
+            largest[0] = largest[0].max(force);
+            largest[2] = largest[2].max(force * engine.largest_crank_radius().max(axis.norm()));
+        }
+    }
+    largest[1] = largest[0] * loads.longest_lever();
+    largest
+}
+
+/// Sizes of force, moment and the larger torque.
+fn sizes(wrench: &Wrench) -> [f64; 3] {
+    [wrench.force.peak(), wrench.moment.peak(), wrench.torque.peak()]
+}

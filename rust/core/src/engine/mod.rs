@@ -1,0 +1,510 @@
+//! An engine: running gears and banks, the places of the cylinders that have them, and shafts.
+//!
+//! Cylinders refer to their running gear and their bank by index, so that being alike is no matter
+//! of comparing numbers and a vee at 0° stays a vee.
+
+pub mod file;
+pub mod layout;
+mod shaft;
+
+pub use self::shaft::{Shaft, Unbalance};
+use crate::angle::Angle;
+use crate::error::{Error, Result};
+use crate::limits;
+use crate::slider_crank::Cylinder;
+
+/// One cylinder in its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// Running gear.
+    pub cylinder: Cylinder,
+    /// Crank angle at which the crankpin points along the bore.
+    pub tdc: Angle,
+    /// Direction of the bore, from +x.
+    pub bank: Angle,
+    /// Place along the crank, from the front, m.
+    pub z: f64,
+    /// Mass that turns at crank radius with the crankpin, kg.
+    pub rotating_mass: f64,
+}
+
+impl Placement {
+    /// Direction of the crankpin, from +x, at θ = 0.
+    #[must_use]
+    pub fn pin(&self) -> Angle {
+        (self.bank - self.tdc).reduced()
+    }
+}
+
+/// What a change of bank angle leaves as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hold {
+    /// The crank: crankpins keep their angles and the firing intervals change (the IJESC paper).
+    Pins,
+    /// The firing: every top dead centre stays and the pins are split as needed (Ito, Hattori).
+    Firing,
+}
+
+/// The two banks of a vee.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Banks {
+    /// Index of the bank at x > 0 where the vee stands upright.
+    pub right: usize,
+    /// Directions of the right bank and of the left, which is up to 180° ahead of it.
+    pub directions: [Angle; 2],
+}
+
+impl Banks {
+    /// Angle between the banks, up to 180°.
+    #[must_use]
+    pub fn angle(&self) -> Angle {
+        (self.directions[1] - self.directions[0]).reduced()
+    }
+
+    /// Direction half-way from the right bank to the left.
+    #[must_use]
+    pub fn bisector(&self) -> Angle {
+        (self.directions[0] + self.angle().half()).reduced()
+    }
+}
+
+/// Cylinders, in the order of their numbers, on one crankshaft, and the shafts that it drives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Engine {
+    name: String,
+    source: String,
+    firing_order: String,
+    placements: Vec<Placement>,
+    /// Running gears that differ, in the order in which cylinders have them.
+    gears: Vec<Cylinder>,
+    /// Index of each cylinder's running gear.
+    gear_of: Vec<usize>,
+    /// Index of each cylinder's bank, in the order in which cylinders have them.
+    bank_of: Vec<usize>,
+    /// The right one of two banks.
+    right: Option<usize>,
+    counterweights: Vec<Unbalance>,
+    shafts: Vec<Shaft>,
+}
+
+impl Engine {
+    /// From one placement for each cylinder; cylinders whose bores point the same way form a bank.
+    ///
+    /// Angles are reduced to one turn.
+    pub fn new(
+        name: impl Into<String>,
+        source: impl Into<String>,
+        placements: Vec<Placement>,
+    ) -> Result<Self> {
+        let banks = first_equal(placements.iter().map(|p| p.bank.reduced()));
+        Self::in_banks(name, source, placements, &banks)
+    }
+
+    /// From placements whose banks are given: cylinders with equal keys form one bank.
+    ///
+    /// Of two banks in one direction, as of a vee at 0°, the one with the smaller key is the right.
+    pub fn in_banks(
+        name: impl Into<String>,
+        source: impl Into<String>,
+        mut placements: Vec<Placement>,
+        bank_keys: &[usize],
+    ) -> Result<Self> {
+        let count = placements.len();
+        if count == 0 || count > limits::MOST_CYLINDERS {
+            let cure = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
+            return Err(Error::value("number of cylinders", count, cure));
+        }
+        let mut gears = Vec::new();
+        let mut gear_of = Vec::with_capacity(count);
+        for (i, placement) in placements.iter_mut().enumerate() {
+            limits::finite(&format!("z[{i}]"), placement.z)?;
+            limits::not_negative(&format!("rotating_mass[{i}]"), placement.rotating_mass)?;
+            (placement.tdc, placement.bank) = (placement.tdc.reduced(), placement.bank.reduced());
+            gear_of.push(index_of(&mut gears, &placement.cylinder));
+        }
+        let engine = Self {
+            name: String::new(),
+            source: String::new(),
+            firing_order: String::new(),
+            right: right_bank(&placements, bank_keys),
+            placements,
+            gears,
+            gear_of,
+            bank_of: first_equal(bank_keys.iter()),
+            counterweights: Vec::new(),
+            shafts: Vec::new(),
+        };
+        engine.named(name, source)
+    }
+
+    /// Name, may be empty.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Origin of the layout, may be empty.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Firing order such as `1-3-4-2`, empty where it is not known.
+    #[must_use]
+    pub fn firing_order(&self) -> &str {
+        &self.firing_order
+    }
+
+    /// The cylinders, by number.
+    #[must_use]
+    pub fn placements(&self) -> &[Placement] {
+        &self.placements
+    }
+
+    /// Running gears that differ; cylinders refer to them by index.
+    #[must_use]
+    pub fn gears(&self) -> &[Cylinder] {
+        &self.gears
+    }
+
+    /// Index of a cylinder's running gear.
+    #[must_use]
+    pub fn gear_of(&self, cylinder: usize) -> usize {
+        self.gear_of[cylinder]
+    }
+
+    /// Directions of the banks; cylinders refer to them by index.
+    #[must_use]
+    pub fn bank_directions(&self) -> Vec<Angle> {
+        let mut banks = Vec::new();
+        for (placement, &bank) in self.placements.iter().zip(&self.bank_of) {
+            if bank == banks.len() {
+                banks.push(placement.bank);
+            }
+        }
+        banks
+    }
+
+    /// Index of a cylinder's bank.
+    #[must_use]
+    pub fn bank_of(&self, cylinder: usize) -> usize {
+        self.bank_of[cylinder]
+    }
+
+    /// Unbalances that the crankshaft carries besides the rotating masses of the cylinders.
+    #[must_use]
+    pub fn counterweights(&self) -> &[Unbalance] {
+        &self.counterweights
+    }
+
+    /// Balance shafts.
+    #[must_use]
+    pub fn shafts(&self) -> &[Shaft] {
+        &self.shafts
+    }
+
+    /// All that rotates with the crankshaft: the cylinders' rotating masses at their pins, and the
+    /// counterweights.
+    pub fn crank_unbalances(&self) -> impl Iterator<Item = Unbalance> {
+        let masses = self.placements.iter().enumerate().map(|(i, place)| Unbalance {
+            amount: place.rotating_mass * place.cylinder.crank_radius(),
+            angle: Angle::ZERO,
+            z: place.z,
+            pin: Some(i),
+        });
+        masses.filter(|mass| mass.amount > 0.0).chain(self.counterweights.iter().copied())
+    }
+
+    /// z midway between the first and the last cylinder: the default reference plane.
+    #[must_use]
+    pub fn middle(&self) -> f64 {
+        let z = || self.placements.iter().map(|place| place.z);
+        let (first, last) = (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
+        f64::midpoint(first, last)
+    }
+
+    /// The reference plane given, or the default one.
+    pub fn reference(&self, z: Option<f64>) -> Result<f64> {
+        z.map_or_else(|| Ok(self.middle()), |z| limits::finite("reference_z", z))
+    }
+
+    /// Largest crank radius of any cylinder, m.
+    #[must_use]
+    pub fn largest_crank_radius(&self) -> f64 {
+        self.gears.iter().map(Cylinder::crank_radius).fold(0.0, f64::max)
+    }
+
+    /// The two banks of a vee.
+    pub fn banks(&self) -> Result<Banks> {
+        let directions = self.bank_directions();
+        let Some(right) = self.right else {
+            let listed: Vec<String> = directions.iter().map(|bank| format!("{bank}°")).collect();
+            let count = match listed.len() {
+                1 => "one bank".to_owned(),
+                count => format!("{count} banks"),
+            };
+            return Err(Error::Undefined {
+                argument: "bank_angle_deg",
+                reason: format!("it has {count} ({}); exactly two are needed", listed.join(", ")),
+            });
+        };
+        Ok(Banks { right, directions: [directions[right], directions[1 - right]] })
+    }
+
+    /// The same engine with its two banks at another angle about the same bisector.
+    pub fn with_bank_angle(&self, bank_angle: Angle, hold: Hold) -> Result<Self> {
+        bank_angle_in_range(bank_angle.degrees())?;
+        let vee = self.banks()?;
+        let (middle, half) = (vee.bisector(), bank_angle.half());
+        let mut turned = self.clone();
+        for (i, place) in turned.placements.iter_mut().enumerate() {
+            let pin = place.pin();
+            let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
+            place.bank = bore.reduced();
+            if hold == Hold::Pins {
+                place.tdc = (place.bank - pin).reduced();
+            }
+        }
+        Ok(turned)
+    }
+
+    /// The same engine with its whole crank turned so that the first cylinder is at top dead
+    /// centre at this crank angle.
+    #[must_use]
+    pub fn with_first_tdc(&self, tdc: Angle) -> Self {
+        let turn = tdc - self.placements[0].tdc;
+        let mut turned = self.clone();
+        for place in &mut turned.placements {
+            place.tdc = (place.tdc + turn).reduced();
+        }
+        // What is fixed to a shaft starts from where it was so much earlier.
+        for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
+            weight.angle = (weight.angle - turn).reduced();
+        }
+        for shaft in &mut turned.shafts {
+            for unbalance in &mut shaft.unbalances {
+                let turned = (0..shaft.ratio.abs()).fold(Angle::ZERO, |sum, _| sum + turn);
+                let turned = if shaft.ratio > 0 { turned } else { -turned };
+                unbalance.angle = (unbalance.angle - turned).reduced();
+            }
+        }
+        turned
+    }
+
+    /// The same engine with these counterweights on the crankshaft instead of those it has.
+    pub fn with_counterweights(&self, counterweights: Vec<Unbalance>) -> Result<Self> {
+        shaft::check_count("counterweights", counterweights.len())?;
+        let checked = counterweights.into_iter().enumerate();
+        let checked =
+            checked.map(|(i, u)| u.checked(&format!("counterweights[{i}]"), self.placements.len()));
+        Ok(Self { counterweights: checked.collect::<Result<_>>()?, ..self.clone() })
+    }
+
+    /// The same engine with these balance shafts instead of those it has.
+    pub fn with_shafts(&self, shafts: Vec<Shaft>) -> Result<Self> {
+        shaft::check_count("shafts", shafts.len())?;
+        let checked = shafts.into_iter().enumerate();
+        let checked = checked.map(|(i, shaft)| shaft.checked(&format!("shafts[{i}]")));
+        Ok(Self { shafts: checked.collect::<Result<_>>()?, ..self.clone() })
+    }
+
+    /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
+    pub fn firing_as(&self, firing_order: impl Into<String>) -> Result<Self> {
+        let firing_order = text("firing_order", firing_order.into())?;
+        Ok(Self { firing_order, ..self.clone() })
+    }
+
+    /// The same engine under another name.
+    pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Result<Self> {
+        let (name, source) = (text("name", name.into())?, text("source", source.into())?);
+        Ok(Self { name, source, ..self.clone() })
+    }
+}
+
+/// The right one of two banks: the other is up to 180° ahead of it.
+fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
+    let second = keys.iter().position(|key| *key != keys[0])?;
+    if keys.iter().any(|key| *key != keys[0] && *key != keys[second]) {
+        return None;
+    }
+    let (first, other) = (placements[0].bank, placements[second].bank);
+    Some(match (other - first).reduced().degrees() {
+        0.0 => usize::from(keys[second] < keys[0]),
+        // 0° and 180° in either order: the flat engine's right bank points along +x.
+        180.0 => usize::from(other.degrees() < first.degrees()),
+        ahead => usize::from(ahead > 180.0),
+    })
+}
+
+/// A text of moderate length.
+fn text(argument: &str, text: String) -> Result<String> {
+    if text.len() <= limits::LONGEST_NAME {
+        return Ok(text);
+    }
+    let cure = format!("give {} bytes at most", limits::LONGEST_NAME);
+    Err(Error::value(argument, text, cure))
+}
+
+/// Index of the first value equal to each.
+pub(crate) fn first_equal<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
+    let mut known: Vec<T> = Vec::new();
+    let index = |value| {
+        known.iter().position(|other| *other == value).unwrap_or_else(|| {
+            known.push(value);
+            known.len() - 1
+        })
+    };
+    values.map(index).collect()
+}
+
+/// Index of a value in a list, to which it is added where it is new.
+fn index_of<T: PartialEq + Copy>(list: &mut Vec<T>, value: &T) -> usize {
+    list.iter().position(|other| other == value).unwrap_or_else(|| {
+        list.push(*value);
+        list.len() - 1
+    })
+}
+
+/// A bank angle from 0° to 180°.
+pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
+    if (0.0..=180.0).contains(&degrees) {
+        return Ok(degrees);
+    }
+    Err(Error::figure("bank_angle_deg", degrees, "give degrees between 0 and 180"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn degrees(degrees: f64) -> Angle {
+        Angle::from_degrees(degrees).unwrap()
+    }
+
+    fn vee(right: f64, left: f64) -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |bank: f64, tdc: f64, z| Placement {
+            cylinder,
+            tdc: degrees(tdc),
+            bank: degrees(bank),
+            z,
+            rotating_mass: 0.0,
+        };
+        Engine::new("", "", vec![place(left, 30.0, 0.0), place(right, 0.0, 0.1)]).unwrap()
+    }
+
+    #[test]
+    fn banks_are_distinguished_in_any_order() {
+        let directions = |right, left| vee(right, left).banks().unwrap().directions;
+        assert_eq!(directions(60.0, 120.0), [degrees(60.0), degrees(120.0)]);
+        assert_eq!(vee(60.0, 120.0).banks().unwrap().bisector(), degrees(90.0));
+        assert_eq!(directions(0.0, 180.0)[0], degrees(0.0));
+        assert_eq!(directions(180.0, 0.0)[0], degrees(0.0));
+        assert_eq!(vee(350.0, 10.0).banks().unwrap().bisector(), degrees(0.0));
+        // Opposite bores, whichever comes first; and two that only add up to half a turn more.
+        for (a, b) in [(90.0, 270.0), (270.0, 90.0)] {
+            assert_eq!(directions(a, b), [degrees(90.0), degrees(270.0)]);
+        }
+        assert_eq!(directions(200.0, 340.0), [degrees(200.0), degrees(340.0)]);
+        let error = vee(90.0, 90.0).banks().unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "bank_angle_deg is undefined for this engine: it has one bank (90°); exactly two are needed"
+        );
+    }
+
+    #[test]
+    fn bank_angle_of_zero_keeps_both_banks() {
+        let engine = vee(60.0, 120.0);
+        for hold in [Hold::Pins, Hold::Firing] {
+            let closed = engine.with_bank_angle(Angle::ZERO, hold).unwrap();
+            assert_eq!(closed.bank_directions(), [degrees(90.0); 2]);
+            assert_eq!(closed.banks().unwrap().angle(), Angle::ZERO);
+            assert_eq!(closed.with_bank_angle(degrees(60.0), hold).unwrap(), engine);
+        }
+    }
+
+    #[test]
+    fn bank_angle_changes_keep_pins_or_firing() {
+        let engine = vee(60.0, 120.0);
+        let by_pins = engine.with_bank_angle(degrees(90.0), Hold::Pins).unwrap();
+        let by_firing = engine.with_bank_angle(degrees(90.0), Hold::Firing).unwrap();
+        for (before, after) in engine.placements().iter().zip(by_pins.placements()) {
+            assert_eq!(before.pin(), after.pin());
+        }
+        for (before, after) in engine.placements().iter().zip(by_firing.placements()) {
+            assert_eq!(before.tdc, after.tdc);
+        }
+        assert_eq!(by_pins.banks().unwrap().angle(), degrees(90.0));
+        // Each cylinder stays on its side.
+        let bores: Vec<f64> = by_pins.placements().iter().map(|p| p.bank.degrees()).collect();
+        assert_eq!(bores, [135.0, 45.0]);
+    }
+
+    #[test]
+    fn engine_reports_what_it_was_made_of() {
+        let engine = vee(60.0, 120.0).named("V2", "a drawing").unwrap();
+        assert_eq!((engine.name(), engine.source()), ("V2", "a drawing"));
+        assert_eq!((engine.middle(), engine.largest_crank_radius()), (0.05, 0.05));
+        assert_eq!((engine.placements().len(), engine.gears().len()), (2, 1));
+        assert_eq!([0, 1].map(|i| engine.bank_of(i)), [0, 1]);
+        assert_eq!(engine.firing_as("1-2").unwrap().firing_order(), "1-2");
+        for angle in [0.0, 45.0, 180.0] {
+            assert_eq!(bank_angle_in_range(angle), Ok(angle));
+        }
+        for angle in [-1e-9, 180.1, f64::NAN] {
+            assert!(bank_angle_in_range(angle).is_err());
+        }
+    }
+
+    fn weight(angle: f64, pin: Option<usize>) -> Unbalance {
+        Unbalance { amount: 0.01, angle: degrees(angle), z: 0.2, pin }
+    }
+
+    #[test]
+    fn turning_the_crank_back_restores_the_engine() {
+        let unbalances = vec![weight(10.0, None)];
+        let shaft = Shaft { name: "left".into(), ratio: -2, axis: [0.1, 0.2], unbalances };
+        let engine = vee(60.0, 120.0)
+            .with_counterweights(vec![weight(180.0, Some(1)), weight(30.0, None)])
+            .and_then(|engine| engine.with_shafts(vec![shaft]))
+            .unwrap();
+        let turned = engine.with_first_tdc(degrees(17.5));
+        assert_eq!(turned.placements()[0].tdc, degrees(17.5));
+        assert_eq!(turned.placements()[1].tdc, degrees(17.5 - 30.0).reduced());
+        // Turned back by 12.5°, the shaft twice as far the other way; a weight at a pin follows it.
+        let angles = [0, 1].map(|k| turned.counterweights()[k].angle.degrees());
+        assert_eq!(angles, [180.0, 42.5]);
+        assert_eq!(turned.shafts()[0].unbalances[0].angle.degrees(), 345.0);
+        assert_eq!(turned.with_first_tdc(degrees(30.0)), engine);
+    }
+
+    #[test]
+    fn rotating_masses_are_unbalances_at_their_pins() {
+        let mut placements: Vec<Placement> = vee(60.0, 120.0).placements().to_vec();
+        placements[1].rotating_mass = 0.4;
+        let engine = Engine::new("", "", placements).unwrap();
+        let engine = engine.with_counterweights(vec![weight(30.0, None)]).unwrap();
+        let found: Vec<Unbalance> = engine.crank_unbalances().collect();
+        let mass = Unbalance { amount: 0.4 * 0.05, angle: Angle::ZERO, z: 0.1, pin: Some(1) };
+        assert_eq!(found, [mass, weight(30.0, None)]);
+    }
+
+    #[test]
+    fn impossible_shafts_are_rejected_by_name() {
+        let engine = vee(60.0, 120.0);
+        let error = |shaft: Shaft| engine.with_shafts(vec![shaft]).unwrap_err().to_string();
+        let shaft = Shaft { name: String::new(), ratio: 0, axis: [0.0; 2], unbalances: Vec::new() };
+        assert!(error(shaft.clone()).contains("shafts[0].ratio = 0"));
+        assert!(error(Shaft { ratio: 21, ..shaft.clone() }).contains("ratio = 21"));
+        let axis = [0.0, f64::NAN];
+        assert!(error(Shaft { ratio: 1, axis, ..shaft.clone() }).contains("shafts[0].y = NaN"));
+        let unbalances = vec![weight(0.0, Some(0))];
+        let pinned = Shaft { ratio: 1, unbalances, ..shaft };
+        assert!(error(pinned).contains("shafts[0].unbalances[0].pin"));
+        let error = engine.with_counterweights(vec![weight(0.0, Some(2))]).unwrap_err().to_string();
+        assert!(error.contains("counterweights[0].pin = 3"), "{error}");
+        let negative = Unbalance { amount: -1.0, ..weight(0.0, None) };
+        assert!(engine.with_counterweights(vec![negative]).is_err());
+    }
+}

@@ -1,0 +1,90 @@
+//! What rotates: shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
+
+use crate::angle::Angle;
+use crate::error::{Error, Result};
+use crate::limits;
+
+/// Mass times eccentricity on a shaft (unbalance, ISO 21940).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unbalance {
+    /// Mass × distance from the axis, kg·m.
+    pub amount: f64,
+    /// Direction at θ = 0: from +x, or with `pin` from the direction of that crankpin, in the
+    /// direction in which the crank turns.
+    pub angle: Angle,
+    /// Place along the crank, from the front, m.
+    pub z: f64,
+    /// Index of the cylinder whose crankpin it follows where pins move (a bob weight on a pin).
+    pub pin: Option<usize>,
+}
+
+/// A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaft {
+    /// Name, may be empty.
+    pub name: String,
+    /// Speed over crank speed; negative where it turns against the crank.
+    pub ratio: i32,
+    /// Place of its axis in the cross-section, x and y from the crank axis, m.
+    pub axis: [f64; 2],
+    /// What it carries; angles from +x, none at a pin.
+    pub unbalances: Vec<Unbalance>,
+}
+
+/// Highest speed of a shaft over crank speed.
+const FASTEST: i32 = 20;
+
+impl Unbalance {
+    /// Checked, its angle reduced to one turn; `place` is its name in errors.
+    pub(super) fn checked(mut self, place: &str, cylinders: usize) -> Result<Self> {
+        limits::not_negative(&format!("{place}.amount"), self.amount)?;
+        limits::finite(&format!("{place}.z"), self.z)?;
+        if let Some(pin) = self.pin
+            && pin >= cylinders
+        {
+            let hint = format!("give a cylinder's number, 1 to {cylinders}");
+            return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
+        }
+        self.angle = self.angle.reduced();
+        Ok(self)
+    }
+}
+
+impl Shaft {
+    /// Checked; `place` is its name in errors.
+    pub(super) fn checked(mut self, place: &str) -> Result<Self> {
+        if self.ratio == 0 || self.ratio.abs() > FASTEST {
+            let hint = format!(
+                "give a whole number from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \
+                 -2 against it at twice its speed"
+            );
+            return Err(Error::value(format!("{place}.ratio"), self.ratio, hint));
+        }
+        if self.name.len() > limits::LONGEST_NAME {
+            let hint = format!("give {} bytes at most", limits::LONGEST_NAME);
+            return Err(Error::value(format!("{place}.name"), &self.name, hint));
+        }
+        for (axis, name) in self.axis.iter().zip(["x", "y"]) {
+            limits::finite(&format!("{place}.{name}"), *axis)?;
+        }
+        check_count(&format!("{place}.unbalances"), self.unbalances.len())?;
+        for (i, unbalance) in self.unbalances.iter_mut().enumerate() {
+            let place = format!("{place}.unbalances[{i}]");
+            if unbalance.pin.is_some() {
+                let hint = "leave it out: only the crankshaft has crankpins";
+                return Err(Error::value(format!("{place}.pin"), "given", hint));
+            }
+            *unbalance = unbalance.checked(&place, 0)?;
+        }
+        Ok(self)
+    }
+}
+
+/// Rejects lists longer than any engine has.
+pub(super) fn check_count(argument: &str, count: usize) -> Result<()> {
+    if count <= limits::MOST_UNBALANCES {
+        return Ok(());
+    }
+    let hint = format!("give at most {}", limits::MOST_UNBALANCES);
+    Err(Error::value(argument, format!("{count} entries"), hint))
+}

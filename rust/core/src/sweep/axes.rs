@@ -1,0 +1,129 @@
+//! What a sweep varies, and the checks of its values.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::harmonics::proportions;
+use crate::balance::angular_speed;
+use crate::engine::{Engine, Hold, bank_angle_in_range};
+use crate::error::{Error, Result};
+use crate::limits;
+
+/// What is swept; `None` keeps the values of each engine.
+#[derive(Debug, Clone, Default)]
+pub struct Axes {
+    /// Degrees between the banks, and what is held as they change.
+    pub bank_angle: Option<(Vec<f64>, Hold)>,
+    /// λ; the crank radius stays and the rod changes.
+    pub rod_ratio: Option<Vec<f64>>,
+    /// Pin offset of every cylinder, m.
+    pub pin_offset: Option<Vec<f64>>,
+    /// Speeds.
+    pub rpm: Vec<f64>,
+}
+
+impl Axes {
+    /// ω² of each speed.
+    pub(super) fn squares(&self) -> Result<Vec<f64>> {
+        length("rpm", self.rpm.len())?;
+        let square = |&rpm: &f64| angular_speed(rpm).map(|omega| omega * omega);
+        self.rpm.iter().map(square).collect()
+    }
+
+    /// Rejects values out of range, and axes that engines or a spectrum do not allow.
+    pub(super) fn check(&self, engines: &[Arc<Engine>], by_spectrum: bool) -> Result<()> {
+        if let Some((angles, _)) = &self.bank_angle {
+            length("bank_angle_deg", angles.len())?;
+            angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
+        }
+        for (name, values) in [("rod_ratio", &self.rod_ratio), ("pin_offset", &self.pin_offset)] {
+            let Some(values) = values else { continue };
+            length(name, values.len())?;
+            if by_spectrum {
+                let cure = "a spectrum replaces the slider-crank: leave out one of the two";
+                return Err(Error::value(name, "swept together with a spectrum", cure));
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that every slider-crank can turn, which all can if the extreme ones can; returns the
+    /// largest rod ratio and the offset of largest magnitude, where they are swept.
+    pub(super) fn check_geometry(&self, engines: &[Arc<Engine>]) -> Result<[Option<f64>; 2]> {
+        let (ratios, offsets) = (self.rod_ratio.as_deref(), self.pin_offset.as_deref());
+        if ratios.is_none() && offsets.is_none() {
+            return Ok([None; 2]);
+        }
+        let (extreme_ratios, extreme_offsets) = (ends(ratios), ends(offsets));
+        for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
+            let each = |ratio, offset| proportions(cylinder, ratio, offset).map(drop);
+            let extremes = extreme_ratios.iter().try_for_each(|&ratio| {
+                extreme_offsets.iter().try_for_each(|&offset| each(ratio, offset))
+            });
+            let Err(error) = extremes else { continue };
+            // Report the first offending value.
+            let some = |values: Option<&[f64]>, k: usize| values.map(|values| values[k]);
+            for k in 0..ratios.map_or(1, <[f64]>::len) {
+                extreme_offsets.iter().try_for_each(|&offset| each(some(ratios, k), offset))?;
+            }
+            for k in 0..offsets.map_or(1, <[f64]>::len) {
+                each(some(ratios, 0), some(offsets, k))?;
+            }
+            return Err(error);
+        }
+        let [least, most] = extreme_offsets;
+        let farthest = least.zip(most).map(|(a, b)| if -a > b { a } else { b });
+        Ok([extreme_ratios[1], farthest])
+    }
+}
+
+impl Axes {
+    /// The same axes in two parts, the longest but for speed divided, if their points are too many.
+    pub(super) fn halves(&self, most: usize) -> Option<(Self, Self)> {
+        let angles = self.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len());
+        let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
+        let lengths = [angles, length(&self.rod_ratio), length(&self.pin_offset)];
+        let longest = lengths.into_iter().max().unwrap_or(1);
+        let divided = lengths.iter().position(|&length| length == longest);
+        if longest < 2 || lengths.iter().fold(1, |size: usize, &n| size.saturating_mul(n)) <= most {
+            return None;
+        }
+        let part = |range: Range<usize>| {
+            let cut = |values: &[f64], axis: usize| {
+                if divided == Some(axis) { values[range.clone()].to_vec() } else { values.to_vec() }
+            };
+            Self {
+                bank_angle: self.bank_angle.as_ref().map(|(angles, hold)| (cut(angles, 0), *hold)),
+                rod_ratio: self.rod_ratio.as_ref().map(|ratios| cut(ratios, 1)),
+                pin_offset: self.pin_offset.as_ref().map(|offsets| cut(offsets, 2)),
+                rpm: Vec::new(),
+            }
+        };
+        Some((part(0..longest / 2), part(longest / 2..longest)))
+    }
+}
+
+/// The least and the largest value of an axis, or twice a value that is no number; nothing where it
+/// is not swept.
+fn ends(values: Option<&[f64]>) -> [Option<f64>; 2] {
+    let Some(values) = values else { return [None; 2] };
+    if values.iter().any(|value| value.is_nan()) {
+        return [Some(f64::NAN); 2];
+    }
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    [Some(least), Some(values.iter().copied().fold(f64::NEG_INFINITY, f64::max))]
+}
+
+/// Rejects an empty axis and one of too many values.
+fn length(argument: &'static str, count: usize) -> Result<()> {
+    not_empty(argument, count)?;
+    limits::axis_length(argument, count)
+}
+
+pub(super) fn not_empty(argument: &str, count: usize) -> Result<()> {
+    if count > 0 {
+        return Ok(());
+    }
+    Err(Error::value(argument, "[]", "give at least one value"))
+}

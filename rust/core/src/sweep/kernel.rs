@@ -1,0 +1,370 @@
+//! The superposition of an engine's loads at every point of a sweep.
+//!
+//! With the two banks at `bisector ∓ γ`, γ half the bank angle, a sum of one order is
+//! A·cos mγ + B·sin mγ + K: A and B from the loads of the right and the left bank, turned to the
+//! bisector, K from loads that belong to none. [`Turning`] holds the functions of γ, [`Constants`]
+//! the sums times harmonics at points of rod ratio and pin offset; a row of the result is a
+//! combination of the two. Every number is evaluated by itself, whatever else is swept.
+
+use std::ops::{Mul, Range};
+
+use rayon::prelude::*;
+
+use super::harmonics::Amplitudes;
+use super::layout::Layout;
+use super::{Quantity, Sweep};
+use crate::Complex64;
+use crate::cancel::Cancel;
+use crate::error::Result;
+use crate::simd::{sin_cos_degrees, vectorised};
+use crate::wrench::snapped;
+
+/// Rows evaluated side by side.
+pub(super) const BLOCK: usize = 128;
+/// Rows that one instruction works on, at most.
+const LANES: usize = 8;
+/// Numbers of functions and of constants held at a time.
+const SLAB: usize = 1 << 19;
+/// Most rows of a task.
+const PIECE: usize = 1024;
+/// A result of fewer numbers is not worth waking another thread for (some 30 µs).
+const WORTH_A_THREAD: usize = 1 << 16;
+
+/// One value for each row of a block.
+type Column = [f64; BLOCK];
+
+/// Functions of γ: cosine and sine for the forward part (or torque) and for the backward part.
+const FUNCTIONS: usize = 4;
+/// Real and imaginary parts of A, B and K, forward and backward, and the bound of rounding errors.
+const CONSTANTS: usize = 13;
+
+/// What a result holds.
+pub(super) trait Number: Copy + Default + Send + Sync + Mul<f64, Output = Self> {}
+impl Number for f64 {}
+impl Number for Complex64 {}
+
+/// What is evaluated, and how a row becomes numbers of the result.
+pub(super) struct Job<'a, F> {
+    pub sweep: &'a Sweep,
+    pub quantity: Quantity,
+    /// Numbers to a row and speed.
+    pub width: usize,
+    /// Whether a row takes some hundred times as long as its sums: a search for an extremum.
+    pub slow: bool,
+    pub cancel: &'a Cancel,
+    /// Writes the rows of a block, times a factor.
+    pub finish: F,
+}
+
+impl<F> Job<'_, F> {
+    /// Evaluates every row, and writes it at every speed.
+    pub fn run<T: Number>(&self, out: &mut [T]) -> Result<()>
+    where
+        F: Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
+    {
+        let speeds = &self.sweep.squares;
+        if let [square] = speeds[..] {
+            return self.rows(out, square);
+        }
+        let mut rows = crate::limits::zeros(out.len() / speeds.len())?;
+        self.cancel.expect(out.len().div_ceil(PIECE * self.width));
+        self.rows(&mut rows, 1.0)?;
+        let write = |(piece, out): (usize, &mut [T])| {
+            scale(&rows, speeds, self.width, piece * PIECE, out);
+            self.cancel.step()
+        };
+        let pieces = PIECE * self.width;
+        if out.len() >= WORTH_A_THREAD {
+            return out.par_chunks_mut(pieces).enumerate().try_for_each(write);
+        }
+        out.chunks_mut(pieces).enumerate().try_for_each(write)
+    }
+
+    /// Evaluates every row, times a factor.
+    fn rows<T: Number>(&self, out: &mut [T], factor: f64) -> Result<()>
+    where
+        F: Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
+    {
+        let (sweep, width) = (self.sweep, self.width);
+        let (angles, points) = (sweep.bank_angles().len(), sweep.points());
+        let piece = if self.slow { 8 } else { PIECE };
+        let slab = (SLAB / sweep.orders.len()).clamp(BLOCK, 1 << 14);
+        let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
+        let large = out.len() * if self.slow { 256 } else { 1 } >= WORTH_A_THREAD;
+        let layout = |k: usize| Layout::new(sweep, k, self.quantity);
+        let layouts: Vec<Layout> =
+            (0..sweep.engines.len()).into_par_iter().map(layout).collect::<Result<_>>()?;
+        self.cancel.expect(sweep.engines.len() * angles * points);
+        for angle_slab in slabs(angles) {
+            let turning = Turning::new(sweep, self.quantity, angle_slab.clone());
+            for point_slab in slabs(points) {
+                let constants = |layout| Constants::new(self, layout, point_slab.clone());
+                let constants: Vec<Constants> =
+                    layouts.par_iter().map(constants).collect::<Result<_>>()?;
+                let mut tasks = Vec::new();
+                for (out, constants) in out.chunks_mut(angles * points * width).zip(&constants) {
+                    let span = angle_slab.start * points..angle_slab.end * points;
+                    let out = &mut out[span.start * width..span.end * width];
+                    // Rows are contiguous over several bank angles where the slab has all points.
+                    let (per_run, part) = match point_slab.len() == points {
+                        true => (out.len(), 0..out.len()),
+                        false => (points * width, point_slab.start * width..point_slab.end * width),
+                    };
+                    for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
+                        let rows = out[part.clone()].chunks_mut(piece * width).enumerate();
+                        let first = |k| run * point_slab.len() + k * piece;
+                        tasks.extend(rows.map(|(k, rows)| (constants, first(k), rows)));
+                    }
+                }
+                let work = |block: &mut Block, (constants, first, out): (&Constants, usize, &mut [T])| {
+                    for (k, out) in out.chunks_mut(BLOCK * width).enumerate() {
+                        self.cancel.check()?;
+                        let first = first + k * BLOCK;
+                        vectorised(
+                            #[inline(always)]
+                            || {
+                                block.evaluate(&turning, constants, first..first + out.len() / width);
+                                (self.finish)(block, factor, out)
+                            },
+                        )?;
+                    }
+                    self.cancel.advance(out.len() / width);
+                    Ok(())
+                };
+                let block = || Block::new(sweep.orders.len());
+                if large {
+                    tasks.into_par_iter().try_for_each_init(block, work)?;
+                } else {
+                    let mut block = block();
+                    tasks.into_iter().try_for_each(|task| work(&mut block, task))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Functions of half the bank angle, by order, at some bank angles.
+struct Turning(Vec<[Vec<f64>; FUNCTIONS]>);
+
+impl Turning {
+    fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Self {
+        let count = angles.len();
+        let Some((bank_angles, hold)) = &sweep.axes.bank_angle else {
+            // No bank turns: cosines of zero.
+            let functions = || [1.0, 0.0, 1.0, 0.0].map(|value| vec![value; count]);
+            return Self(sweep.orders.iter().map(|_| functions()).collect());
+        };
+        let of_order = |&order: &crate::Order| {
+            let multiples = quantity.turn(order, *hold);
+            let mut functions = [(); FUNCTIONS].map(|()| vec![0.0; count]);
+            for (multiple, pair) in multiples.into_iter().zip(functions.chunks_exact_mut(2)) {
+                let [cos, sin] = pair else { continue };
+                let half = 0.5 * multiple as f64;
+                let degrees: Vec<f64> =
+                    bank_angles[angles.clone()].iter().map(|angle| half * angle).collect();
+                vectorised(
+                    #[inline(always)]
+                    || sin_cos_degrees(&degrees, sin, cos),
+                );
+            }
+            functions
+        };
+        Self(sweep.orders.iter().map(of_order).collect())
+    }
+}
+
+/// A, B, K and the bound of rounding errors, by order, of one engine at some points.
+struct Constants {
+    by_order: Vec<[Vec<f64>; CONSTANTS]>,
+    points: usize,
+}
+
+impl Constants {
+    fn new<F>(job: &Job<F>, layout: &Layout, points: Range<usize>) -> Result<Self> {
+        let count = points.len();
+        let amplitudes = Amplitudes::new(job.sweep, layout, job.quantity, points, job.cancel)?;
+        let mut by_order = Vec::with_capacity(layout.by_order.len());
+        for (k, sums) in layout.by_order.iter().enumerate() {
+            let mut columns = [(); CONSTANTS].map(|()| vec![0.0; count]);
+            for sum in sums {
+                let [re, im] = amplitudes.of(sum.channel, k, count);
+                let (constants, bounds) = columns.split_at_mut(CONSTANTS - 1);
+                for (constant, pair) in sum.constants.iter().zip(constants.chunks_exact_mut(2)) {
+                    let [out_re, out_im] = pair else { continue };
+                    if *constant == Complex64::default() {
+                        continue;
+                    }
+                    for i in 0..count {
+                        out_re[i] += constant.re * re[i] - constant.im * im[i];
+                        out_im[i] += constant.re * im[i] + constant.im * re[i];
+                    }
+                }
+                for ((bound, re), im) in bounds[0].iter_mut().zip(re.iter()).zip(im.iter()) {
+                    let length = if *im == 0.0 { re.abs() } else { re.hypot(*im) };
+                    *bound += sum.bound * length;
+                }
+            }
+            by_order.push(columns);
+        }
+        Ok(Self { by_order, points: count })
+    }
+}
+
+/// Sums of every order at up to [`BLOCK`] rows.
+pub(super) struct Block {
+    functions: [Column; FUNCTIONS],
+    constants: [Column; CONSTANTS],
+    orders: Vec<Sums>,
+}
+
+/// Forward part and conjugate of the backward part (or torque and nothing) of one order.
+#[derive(Clone)]
+struct Sums {
+    forward: [Column; 2],
+    backward_conj: [Column; 2],
+    bound: Column,
+}
+
+impl Block {
+    fn new(orders: usize) -> Self {
+        let (none, pair) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
+        let sums = Sums { forward: pair, backward_conj: pair, bound: none };
+        Self {
+            functions: [none; FUNCTIONS],
+            constants: [none; CONSTANTS],
+            orders: vec![sums; orders],
+        }
+    }
+
+    /// Sums at some rows, bank angle by bank angle and point by point.
+    #[inline(always)]
+    fn evaluate(&mut self, turning: &Turning, constants: &Constants, rows: Range<usize>) {
+        let Self { functions: f, constants: c, orders } = self;
+        let lanes = rows.len().next_multiple_of(LANES).min(BLOCK);
+        let columns = turning.0.iter().zip(&constants.by_order);
+        for (sums, (functions, values)) in orders.iter_mut().zip(columns) {
+            if constants.points == 1 {
+                for (column, function) in f.iter_mut().zip(functions) {
+                    column[..rows.len()].copy_from_slice(&function[rows.clone()]);
+                }
+                for (column, value) in c.iter_mut().zip(values) {
+                    column[..lanes].fill(value[0]);
+                }
+            } else {
+                let mut row = rows.start;
+                while row < rows.end {
+                    let (angle, point) = (row / constants.points, row % constants.points);
+                    let run = (constants.points - point).min(rows.end - row);
+                    let here = row - rows.start..row - rows.start + run;
+                    for (column, function) in f.iter_mut().zip(functions) {
+                        column[here.clone()].fill(function[angle]);
+                    }
+                    for (column, value) in c.iter_mut().zip(values) {
+                        column[here.clone()].copy_from_slice(&value[point..point + run]);
+                    }
+                    row += run;
+                }
+            }
+            let [a, b, k] = [0, 4, 8];
+            for part in 0..2 {
+                for i in 0..lanes {
+                    let sum = |cos: f64, sin: f64, of: usize| {
+                        let of = of + part;
+                        cos.mul_add(c[a + of][i], sin.mul_add(c[b + of][i], c[k + of][i]))
+                    };
+                    sums.forward[part][i] = sum(f[0][i], f[1][i], 0);
+                    sums.backward_conj[part][i] = sum(f[2][i], f[3][i], 2);
+                }
+            }
+            sums.bound[..lanes].copy_from_slice(&c[CONSTANTS - 1][..lanes]);
+        }
+    }
+
+    /// Number of orders.
+    pub fn orders(&self) -> usize {
+        self.orders.len()
+    }
+
+    /// Forward part and conjugate of the backward part, zero where rounding is all there is.
+    #[inline(always)]
+    pub fn turning(&self, order: usize, i: usize) -> [Complex64; 2] {
+        let sums = &self.orders[order];
+        let phasor = |column: &[Column; 2]| Complex64::new(column[0][i], column[1][i]);
+        [&sums.forward, &sums.backward_conj].map(|column| snapped(phasor(column), sums.bound[i]))
+    }
+
+    /// Phasors along (about) x and y; of torque the first is it.
+    #[inline(always)]
+    pub fn phasors(&self, order: usize, i: usize) -> [Complex64; 2] {
+        let Sums { forward, backward_conj, bound } = &self.orders[order];
+        let forward = Complex64::new(forward[0][i], forward[1][i]);
+        let backward_conj = Complex64::new(backward_conj[0][i], backward_conj[1][i]);
+        let (sum, difference) = (forward + backward_conj, forward - backward_conj);
+        // −i times the difference.
+        let components = [sum, Complex64::new(difference.im, -difference.re)];
+        components.map(|phasor| snapped(phasor, bound[i]))
+    }
+
+    /// Phasors of all orders of one row, component by component.
+    pub fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
+        let phasors: Vec<_> = (0..self.orders.len()).map(|order| self.phasors(order, i)).collect();
+        [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
+    }
+
+    /// Magnitudes of the phasors of every row and order times a factor, x and y side by side.
+    #[inline(always)]
+    pub fn magnitudes(&self, components: usize, factor: f64, out: &mut [f64]) {
+        let width = self.orders.len() * components;
+        let (mut along, mut across) = ([0.0; BLOCK], [0.0; BLOCK]);
+        let lanes = (out.len() / width).next_multiple_of(LANES).min(BLOCK);
+        for (order, Sums { forward, backward_conj, bound }) in self.orders.iter().enumerate() {
+            for i in 0..lanes {
+                let ([f, g], [u, v]) = (
+                    [forward[0][i], forward[1][i]],
+                    [backward_conj[0][i], backward_conj[1][i]],
+                );
+                let square = bound[i] * bound[i];
+                along[i] = factor * magnitude(f + u, g + v, square);
+                across[i] = factor * magnitude(f - u, g - v, square);
+            }
+            let rows = out.chunks_exact_mut(width).zip(along.iter().zip(&across));
+            if components == 2 {
+                for (row, (x, y)) in rows {
+                    row[2 * order..2 * order + 2].copy_from_slice(&[*x, *y]);
+                }
+            } else {
+                rows.for_each(|(row, (x, _))| row[order] = *x);
+            }
+        }
+    }
+}
+
+/// Length of a phasor, 0 where its square is within a bound's.
+#[inline(always)]
+fn magnitude(re: f64, im: f64, bound: f64) -> f64 {
+    let square = re.mul_add(re, im * im);
+    if square > bound { square.sqrt() } else { 0.0 }
+}
+
+/// Rows times ω² of each speed, from the row and speed with this index on.
+fn scale<T: Number>(rows: &[T], speeds: &[f64], width: usize, first: usize, mut out: &mut [T]) {
+    let mut at = first;
+    while !out.is_empty() {
+        let (row, speed) = (at / speeds.len(), at % speeds.len());
+        let here = (speeds.len() - speed).min(out.len() / width);
+        let (values, after) = out.split_at_mut(here * width);
+        let row = &rows[row * width..(row + 1) * width];
+        vectorised(
+            #[inline(always)]
+            || {
+                for (&square, out) in speeds[speed..].iter().zip(values.chunks_exact_mut(width)) {
+                    for (out, &value) in out.iter_mut().zip(row) {
+                        *out = value * square;
+                    }
+                }
+            },
+        );
+        (at, out) = (at + here, after);
+    }
+}
