@@ -5,8 +5,8 @@ use crankpin_core::closed_form::{ClosedForm, Part, Phasor};
 use crankpin_core::rational::Ratio;
 use pyo3::prelude::*;
 
-use crate::convert::OrRaise;
 use crate::engine::Engine;
+use crate::interrupt;
 
 type Fraction = (i128, i128);
 /// Weight, lever, rotating weight, bank and top dead centre (parts of a turn).
@@ -26,10 +26,11 @@ pub fn closed_form(
     reference_z: Option<f64>,
 ) -> PyResult<Form> {
     let engine = engine.get().0.clone();
-    let found = py.detach(|| core::closed_form::closed_form(&engine, order, moment, reference_z));
-    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } =
-        found.or_raise()?;
-    let ratio = |r: Ratio| (r.numerator, r.denominator);
+    let found = interrupt::run(py, usize::MAX, |cancel| {
+        core::closed_form::closed_form(&engine, order, moment, reference_z, cancel)
+    })?;
+    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;
+    let ratio = |r: Ratio| r.into_raw();
     let turns = |(numerator, denominator): (i64, i64)| (numerator.into(), denominator.into());
     let cylinder =
         |p: Part| (ratio(p.weight), ratio(p.lever), ratio(p.rotating), turns(p.bank), turns(p.tdc));

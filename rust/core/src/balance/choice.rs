@@ -150,7 +150,7 @@ mod tests {
     use crate::engine::Placement;
 
     fn placement(cylinder: Cylinder, z: f64, rotating_mass: f64) -> Placement {
-        Placement { cylinder, tdc: Angle::ZERO, bank: Angle::Turns(1, 4), z, rotating_mass }
+        Placement { cylinder, tdc: Angle::ZERO, bank: Angle::QUARTER_TURN, z, rotating_mass }
     }
 
     fn engine(cylinders: &[Cylinder]) -> Engine {

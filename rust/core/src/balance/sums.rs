@@ -5,7 +5,6 @@ use ndarray::{Array1, Array2};
 
 use super::{Balance, Shake, Torque, choice};
 use crate::Complex64;
-use crate::angle::Angle;
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Placement};
 use crate::error::Result;
@@ -318,9 +317,7 @@ impl<'a> Sums<'a> {
     fn period(&self, group: &Group, longest: u32) -> Option<u32> {
         let mut period = 1;
         for &i in &group.members {
-            let Angle::Turns(_, parts) = self.engine.placements()[i].tdc else {
-                return None;
-            };
+            let (_, parts) = self.engine.placements()[i].tdc.turns()?;
             period = common_multiple(period, i128::from(parts))?;
         }
         u32::try_from(period).ok().filter(|&period| period <= longest)
@@ -359,7 +356,7 @@ mod tests {
     }
 
     fn engine(cylinder: Cylinder, places: &[(f64, f64, f64)]) -> Engine {
-        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let angle = |degrees| crate::Angle::from_degrees(degrees).unwrap();
         let place = |&(tdc, bank, z): &(f64, f64, f64)| Placement {
             cylinder,
             tdc: angle(tdc),
