@@ -110,9 +110,9 @@ fn primes(mut n: u64) -> Vec<u64> {
     let mut found = Vec::new();
     let mut p = 2;
     while p * p <= n {
-        if n % p == 0 {
+        if n.is_multiple_of(p) {
             found.push(p);
-            while n % p == 0 {
+            while n.is_multiple_of(p) {
                 n /= p;
             }
         }

@@ -5,7 +5,7 @@
 //! turn and the weights rational multiples of each other, [`crate::ring`] tells in integers
 //! whether it is zero.
 //!
-//! What is no rational multiple of anything stands for itself: a bank angle such as 49.54°, a top
+//! What is no rational multiple of anything stands for itself: a bank angle of ten decimals, a top
 //! dead centre (others a rational part of a turn away from it stand with it), a mass
 //! or a place that is no simple part of another, the harmonic of a slider-crank of other
 //! proportions. The sum is then one over these symbols, each times a sum of roots of unity. It
@@ -158,27 +158,25 @@ struct Direct {
 /// `in_steps`, a rational part of a turn apart.
 fn directions(angles: impl Iterator<Item = Angle>, in_steps: bool) -> Vec<Direct> {
     let mut others: Vec<f64> = Vec::new();
-    let direct = |angle: Angle| match angle.turns() {
-        Some((numerator, denominator)) => {
-            Direct { turns: (numerator.into(), denominator.into()), symbol: 0 }
+    let direct = |angle: Angle| {
+        if let Some((numerator, denominator)) = angle.turns() {
+            return Direct { turns: (numerator.into(), denominator.into()), symbol: 0 };
         }
-        None => {
-            let degrees = angle.degrees();
-            let step_from = |other: f64| {
-                if other == degrees {
-                    return Some((0, 1));
-                }
-                // Both are right within a few units in the last place of a turn.
-                let step = recognise((degrees - other) / 360.0, WITHIN_ULP * f64::EPSILON)?;
-                in_steps.then_some(step.into_raw())
-            };
-            let known = others.iter().enumerate().find_map(|(k, &o)| Some((k, step_from(o)?)));
-            let (index, turns) = known.unwrap_or_else(|| {
-                others.push(degrees);
-                (others.len() - 1, (0, 1))
-            });
-            Direct { turns, symbol: index + 1 }
-        }
+        let degrees = angle.degrees();
+        let step_from = |other: f64| {
+            if other == degrees {
+                return Some((0, 1));
+            }
+            // Both are right within a few units in the last place of a turn.
+            let step = recognise((degrees - other) / 360.0, WITHIN_ULP * f64::EPSILON)?;
+            in_steps.then_some(step.into_raw())
+        };
+        let known = others.iter().enumerate().find_map(|(k, &o)| Some((k, step_from(o)?)));
+        let (index, turns) = known.unwrap_or_else(|| {
+            others.push(degrees);
+            (others.len() - 1, (0, 1))
+        });
+        Direct { turns, symbol: index + 1 }
     };
     angles.map(direct).collect()
 }

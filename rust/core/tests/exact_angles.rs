@@ -71,7 +71,7 @@ fn a_v6_with_six_decimals_is_decided_in_milliseconds() {
     assert!(least < Duration::from_millis(50), "{least:?}");
 }
 
-/// N = 37 380 = 4·3·5·7·89: Φ_N has thousands of coefficients other than 0.
+/// N = 37 380 = 4·3·5·7·89: `Φ_N` has thousands of coefficients other than 0.
 fn many_parts() -> Engine {
     let parts = [4, 3, 5, 7, 89];
     let place = |(i, &n): (usize, &i64)| Placement {

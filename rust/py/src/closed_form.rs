@@ -26,6 +26,7 @@ pub fn closed_form(
     reference_z: Option<f64>,
 ) -> PyResult<Form> {
     let engine = engine.get().0.clone();
+    // How long it takes depends on the common denominator of the angles, not known here.
     let found = interrupt::run(py, usize::MAX, |cancel| {
         core::closed_form::closed_form(&engine, order, moment, reference_z, cancel)
     })?;
