@@ -13,9 +13,7 @@ from crankpin import _inputs
 from hypothesis import given
 from hypothesis import strategies as st
 
-CYLINDER = cp.Cylinder(
-    crank_radius=0.045, rod_length=0.15, reciprocating_mass=0.5, pin_offset=0.0
-)
+CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.15, reciprocating_mass=0.5, pin_offset=0.0)
 
 
 def text(value: object) -> str:

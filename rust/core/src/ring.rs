@@ -4,7 +4,7 @@
 //! only if the cyclotomic polynomial `Φ_N`, the smallest of which ζ is a root, divides P. Nothing
 //! here is a floating-point number.
 //!
-//! A [`RootSum`] lists its terms, for few terms of any N up to a million million. A [`Ring`] holds
+//! A [`RootSum`] lists its terms, for few terms of any N up to 10¹¹. A [`Ring`] holds
 //! the powers of ζ modulo `Φ_N` and compares many sums of one small N, given by all their N weights.
 
 mod sum;
@@ -13,8 +13,9 @@ pub use sum::RootSum;
 
 use crate::error::{Error, Result};
 
-/// Largest N for which a sum is tested for zero: its primes are found by trial.
-pub const LARGEST_PERIOD: i128 = 1_000_000_000_000;
+/// Largest N for which a sum is tested for zero: its primes are found by trial, in
+/// half a millisecond at worst.
+pub const LARGEST_PERIOD: i128 = 100_000_000_000;
 /// Largest N for which `Φ_N` is written out.
 pub const LARGEST_REDUCED: i128 = 40_000;
 
@@ -116,7 +117,7 @@ fn primes(mut n: u64) -> Vec<u64> {
                 n /= p;
             }
         }
-        p += 1;
+        p += if p == 2 { 1 } else { 2 };
     }
     if n > 1 {
         found.push(n);

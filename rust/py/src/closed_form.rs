@@ -2,7 +2,7 @@
 
 use crankpin_core as core;
 use crankpin_core::closed_form::{ClosedForm, Part, Phasor};
-use crankpin_core::rational::Ratio;
+use crankpin_core::rational::{Ratio, common_multiple};
 use pyo3::prelude::*;
 
 use crate::engine::Engine;
@@ -26,8 +26,13 @@ pub fn closed_form(
     reference_z: Option<f64>,
 ) -> PyResult<Form> {
     let engine = engine.get().0.clone();
-    // How long it takes depends on the common denominator of the angles, not known here.
-    let found = interrupt::run(py, usize::MAX, |cancel| {
+    // Sums of N-th roots take at most some N² steps to reduce.
+    let angles = engine.placements().iter().flat_map(|p| [p.tdc, p.bank]);
+    let period = angles
+        .filter_map(core::Angle::turns)
+        .try_fold(4, |period, (_, parts)| common_multiple(period, parts.into()));
+    let steps = period.and_then(|n| usize::try_from(n.checked_mul(n)?).ok());
+    let found = interrupt::run(py, steps.unwrap_or(usize::MAX), |cancel| {
         core::closed_form::closed_form(&engine, order, moment, reference_z, cancel)
     })?;
     let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;

@@ -108,21 +108,16 @@ impl RootSum {
             if factor == 0 {
                 continue;
             }
-            let mut subtract = |place: i64, product: i128| -> Result<()> {
-                // Below 0 stand the conjugates. `top` itself is not read again.
-                if let Ok(k) = usize::try_from(place) {
-                    cosines[k] = checked(cosines[k].checked_sub(product))?;
-                }
-                Ok(())
-            };
-            // ζ^{j ± s}; for s = 0 the two are one.
             let shift = (top - half) as i64;
-            for &(place, coefficient) in &nonzero {
+            // ζ^{j ± s}, without their conjugates below 0; for s = 0 the two are one. `top` itself is
+            // not read again.
+            let from = |least: i64| &nonzero[nonzero.partition_point(|&(j, _)| j < least)..];
+            let ahead = from(-shift).iter().map(|&(j, b)| (j + shift, b));
+            let behind = from(shift).iter().map(|&(j, b)| (j - shift, b));
+            for (k, coefficient) in ahead.chain(behind.filter(|_| shift > 0)) {
                 let product = checked(coefficient.checked_mul(factor))?;
-                subtract(place + shift, product)?;
-                if shift > 0 {
-                    subtract(place - shift, product)?;
-                }
+                let value = &mut cosines[k as usize];
+                *value = checked(value.checked_sub(product))?;
             }
         }
         cosines.truncate(half);

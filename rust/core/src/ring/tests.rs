@@ -89,7 +89,9 @@ fn both_ways_to_zero_agree_and_with_floating_point() {
         let vanishes = sum.vanishes().unwrap();
         if n <= 360 {
             let mut weights = vec![0; n as usize];
-            terms.iter().for_each(|&(e, w)| weights[e as usize] += w as i64);
+            for &(e, w) in &terms {
+                weights[e as usize] += w as i64;
+            }
             let ring = Ring::new(n as u32).unwrap();
             assert_eq!(vanishes, ring.vanishes(&weights, &mut Vec::new()), "{n}");
         }
