@@ -1,4 +1,4 @@
-"""Angles are exact as typed: strings, decimals, fractions and floats that mean one angle are one."""
+"""Angles are exact as typed: text, decimals, fractions and floats that mean one angle are one."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_one_angle_however_typed(value: object) -> None:
         (Fraction(360, 7), "360/7"),
         (Decimal(360) / 7, "360/7"),
         (0.1 + 0.2, "0.3"),
-        (Decimal(0.3), "0.3"),
+        (Decimal.from_float(0.3), "0.3"),
         (Fraction(0.3), "0.3"),
         (Fraction(1, 10**40), "1e-40"),
         (np.int64(90), "90"),

@@ -201,12 +201,11 @@ def angle(name: str, value: object) -> str:
 
     Strings, fractions and decimals are exact as written, a float stands for its shortest decimal.
     """
-    if isinstance(value, Fraction) and max(abs(value), value.denominator) < MOST_EXACT:
-        value = f"{value.numerator}/{value.denominator}"
-    elif isinstance(value, Decimal) or (
-        # The shortest decimal of NumPy's other floats is that of their own precision.
-        isinstance(value, np.floating) and not isinstance(value, float)
-    ):
+    if isinstance(value, Fraction):
+        if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT:
+            value = f"{value.numerator}/{value.denominator}"
+    elif isinstance(value, (Decimal, np.float16, np.float32, np.longdouble)):
+        # The shortest decimal of a NumPy float is that of its own precision.
         value = str(value)
     return _core.exact_angle(name, value if isinstance(value, str) else number(name, value))
 
