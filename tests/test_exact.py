@@ -443,8 +443,8 @@ def test_latex_shows_the_sum_and_what_it_comes_to() -> None:
 
 def refusals() -> Sequence[tuple[dict[str, Any], str]]:
     return [
-        ({"bank_deg": [90, 49.54]}, "bank_deg = 49.54"),
-        ({"tdc_deg": [0, 51.4]}, "tdc_deg = 51.4"),
+        ({"bank_deg": [90, 49.541234567]}, "bank_deg = 49.541234567"),
+        ({"tdc_deg": [0, 51.4123]}, "denominator of the angles = 3600000"),
         ({"cylinder": [CYLINDER, CYLINDER.replace(rod_length=0.2)]}, "proportions"),
         ({"cylinder": [CYLINDER, CYLINDER.replace(reciprocating_mass=math.pi)]}, "m·r"),
         ({"cylinder": CYLINDER.replace(reciprocating_mass=0.0)}, "reciprocating_mass"),

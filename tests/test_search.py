@@ -383,7 +383,7 @@ def test_objects() -> None:
         (lambda: cp.search_arrangements(30), ["cylinders", "bytes", "fewer"]),
         (lambda: cp.search_arrangements("V6"), ["cylinders", "V6"]),  # type: ignore[arg-type]
         (lambda: cp.search_arrangements(6, phases_deg=[0, 120]), ["phases_deg", "2", "3"]),
-        (lambda: cp.search_arrangements(6, phases_deg=[0, 1.2345, 9]), ["phases_deg", "rational"]),
+        (lambda: cp.search_arrangements(6, phases_deg=[0, np.pi, 9]), ["phases_deg", "rational"]),
         (lambda: cp.search_arrangements(6, phases_deg=[0, 1, "360/7"]), ["phases_deg", "part"]),
         (
             lambda: cp.search_arrangements(6, alternating=True, phases_deg=[0, 120, 240]),

@@ -8,6 +8,7 @@ import operator
 import reprlib
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -19,8 +20,8 @@ from crankpin._core import InputError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-Angle: TypeAlias = float | Fraction | str
-"""Degrees: a number, a ``Fraction``, or a string such as ``"360/7"``."""
+Angle: TypeAlias = float | Decimal | Fraction | str
+"""Degrees: a number, a ``Decimal``, a ``Fraction``, or a string such as ``"360/7"``."""
 
 Angles: TypeAlias = "Sequence[Angle] | NDArray[np.float64]"
 Orders: TypeAlias = "int | Iterable[int] | Literal['auto']"
@@ -35,6 +36,9 @@ MOST_NUMBERS = 2**27
 
 PIECE = 2**18
 """Numbers converted or copied between two looks at Ctrl-C."""
+
+MOST_EXACT = 10**18
+"""Fractions are exact up to this value and this denominator; others become floats."""
 
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
@@ -193,9 +197,16 @@ def items(name: str, values: object, cure: str) -> list[Any]:
 
 
 def angle(name: str, value: object) -> str:
-    """Return text that reads back as exactly this angle."""
+    """Return text that reads back as exactly this angle.
+
+    Strings, fractions and decimals are exact as written, a float stands for its shortest decimal.
+    """
     if isinstance(value, Fraction):
-        value = f"{value.numerator}/{value.denominator}"
+        if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT:
+            value = f"{value.numerator}/{value.denominator}"
+    elif isinstance(value, (Decimal, np.float16, np.float32, np.longdouble)):
+        # The shortest decimal of a NumPy float is that of its own precision.
+        value = str(value)
     return _core.exact_angle(name, value if isinstance(value, str) else number(name, value))
 
 

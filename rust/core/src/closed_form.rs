@@ -3,14 +3,17 @@
 //! In units of one cylinder's force m·r·ω²·aₙ (and of the spacing a) a phasor is a sum of roots of
 //! unity with rational weights. Its real and imaginary part and the square of its size are sums
 //! c₀ + Σ cₖ·2cos(2πk/N) with whole cₖ, unique if k stays below half the degree of `Φ_N`: see
-//! [`crate::cyclotomic`]. What radicals these make is left to a computer algebra system.
+//! [`crate::ring`]. What radicals these make is left to a computer algebra system.
+
+use num_traits::{CheckedDiv, CheckedMul, CheckedSub};
 
 use crate::angle::Angle;
-use crate::cyclotomic::RootSum;
+use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::limits;
-use crate::rational::{Multiples, Ratio};
+use crate::rational::{Multiples, Ratio, common_measure, nearest};
+use crate::ring::RootSum;
 use crate::vanishing::{Places, too_long, whole};
 
 /// Coefficients of 1, 2cos(2π/N), 2cos(4π/N) …, to be divided by the form's denominator.
@@ -64,12 +67,9 @@ fn refused(argument: &str, value: impl std::fmt::Display, cure: &str) -> Error {
 }
 
 fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
-    match angle {
-        Angle::Turns(numerator, denominator) => Ok((numerator, denominator)),
-        Angle::Degrees(degrees) => {
-            Err(refused(argument, degrees, "rational parts of a turn, such as 60 or \"360/7\""))
-        }
-    }
+    angle.turns().ok_or_else(|| {
+        refused(argument, angle.degrees(), "rational parts of a turn, such as 60 or \"360/7\"")
+    })
 }
 
 /// Levers in units of the spacing, and the spacing.
@@ -80,15 +80,15 @@ fn levers(engine: &Engine, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> 
         return Err(refused("z", value, "distances that are rational multiples of each other"));
     }
     let unit = multiples.units.first().copied().unwrap_or(0.0).abs();
-    let sign = Ratio::new(multiples.units.first().map_or(1, |u| u.signum() as i128), 1);
+    let sign = Ratio::from_integer(multiples.units.first().map_or(1, |u| u.signum() as i128));
     let places: Vec<Ratio> = multiples.of.iter().map(|&(_, ratio)| ratio).collect();
     let Some((&plane, places)) = places.split_last() else {
         return Ok((Vec::new(), 0.0));
     };
     let from = |origin: Ratio| -> Option<Vec<Ratio>> {
-        places.iter().map(|place| place.minus(origin)?.times(sign?)).collect()
+        places.iter().map(|place| place.checked_sub(&origin)?.checked_mul(&sign)).collect()
     };
-    let measure = |of: &[Ratio]| of.iter().try_fold(Ratio::ZERO, |m, &d| m.common_measure(d));
+    let measure = |of: &[Ratio]| of.iter().try_fold(Ratio::ZERO, |m, &d| common_measure(m, d));
     let levers = from(plane).ok_or_else(too_long)?;
     let mut step = measure(&from(places[0]).ok_or_else(too_long)?).ok_or_else(too_long)?;
     if step == Ratio::ZERO {
@@ -97,8 +97,9 @@ fn levers(engine: &Engine, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> 
     if step == Ratio::ZERO {
         return Ok((levers, 0.0));
     }
-    let levers: Option<Vec<Ratio>> = levers.into_iter().map(|lever| lever.over(step)).collect();
-    Ok((levers.ok_or_else(too_long)?, unit * step.value()))
+    let levers: Option<Vec<Ratio>> =
+        levers.into_iter().map(|lever| lever.checked_div(&step)).collect();
+    Ok((levers.ok_or_else(too_long)?, unit * nearest(*step.numer(), *step.denom())))
 }
 
 /// m·r of what moves with the piston and what turns with the pin, in units of the first that moves.
@@ -118,7 +119,7 @@ fn weights(engine: &Engine, order: u32) -> Result<(usize, Vec<(Ratio, Ratio)>)> 
         return Err(refused("cylinders and rotating_mass", value, cure));
     }
     let one = multiples.of[unit].1;
-    let ratio = |i: usize| multiples.of[i].1.over(one).ok_or_else(too_long);
+    let ratio = |i: usize| multiples.of[i].1.checked_div(&one).ok_or_else(too_long);
     let pairs = (0..count).map(|i| Ok((ratio(i)?, ratio(count + i)?)));
     Ok((unit, pairs.collect::<Result<_>>()?))
 }
@@ -129,6 +130,7 @@ pub fn closed_form(
     order: u32,
     moment: bool,
     reference_z: Option<f64>,
+    cancel: &Cancel,
 ) -> Result<ClosedForm> {
     limits::order(order)?;
     let reference = reference_z.map(|z| engine.reference(Some(z))).transpose()?;
@@ -162,7 +164,12 @@ pub fn closed_form(
     let x = forward.plus(&backward_conj, 1)?;
     let y = forward.plus(&backward_conj, -1)?.turned(-1, 4);
     let backward = backward_conj.conjugate();
-    let phasors = [phasor(&x)?, phasor(&y)?, phasor(&forward)?, phasor(&backward)?];
+    let phasors = [
+        phasor(&x, cancel)?,
+        phasor(&y, cancel)?,
+        phasor(&forward, cancel)?,
+        phasor(&backward, cancel)?,
+    ];
     // Real parts come doubled, and forward and backward are halves: a quarter.
     let denominator = denominator.checked_mul(4).ok_or_else(too_long)?;
     let period = forward.period();
@@ -173,21 +180,20 @@ pub fn closed_form(
 fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
     let mut products = Vec::with_capacity(2 * parts.len());
     for part in parts {
-        products.push(part.weight.times(part.lever).ok_or_else(too_long)?);
-        products.push(part.rotating.times(part.lever).ok_or_else(too_long)?);
+        products.push(part.weight.checked_mul(&part.lever).ok_or_else(too_long)?);
+        products.push(part.rotating.checked_mul(&part.lever).ok_or_else(too_long)?);
     }
     let (weights, denominator) = whole(&products)?;
     let (mut forward, mut backward) = (Vec::new(), Vec::new());
     for (part, weights) in parts.iter().zip(weights.chunks(2)) {
         let (bank, tdc) = (part.bank, part.tdc);
         let common = i128::from(bank.1).checked_mul(tdc.1.into()).ok_or_else(too_long)?;
-        let direction = i128::from(bank.0) * i128::from(tdc.1);
-        let phase = i128::from(order) * i128::from(tdc.0) * i128::from(bank.1);
-        let turns = |numerator: i128| -> Result<(i128, i128)> {
-            let ratio = Ratio::new(numerator, common).ok_or_else(too_long)?;
-            Ok((ratio.numerator, ratio.denominator))
-        };
-        let (ahead, against) = (turns(direction - phase)?, turns(-direction - phase)?);
+        // Without whole turns, so that no product overflows.
+        let rest = |(k, n): (i64, i64)| i128::from(k.rem_euclid(n));
+        let direction = rest(bank) * i128::from(tdc.1);
+        let phase = i128::from(order) * rest(tdc) * i128::from(bank.1);
+        let turns = |numerator: i128| Ratio::new(numerator, common).into_raw();
+        let (ahead, against) = (turns(direction - phase), turns(-direction - phase));
         let twice = weights[1].checked_mul(2).ok_or_else(too_long)?;
         forward.push((ahead.0, ahead.1, weights[0]));
         forward.push((ahead.0, ahead.1, twice));
@@ -200,13 +206,13 @@ fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
     Ok((denominator, [forward, backward]))
 }
 
-fn phasor(sum: &RootSum) -> Result<Phasor> {
-    let square = sum.squared_size()?.twice_real()?;
-    let doubled = |c: &i128| c.checked_mul(2).ok_or_else(too_long);
+fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
+    let square = sum.squared_size()?.twice_real(cancel)?;
+    let doubled = |&c: &i128| c.checked_mul(2).ok_or_else(too_long);
     Ok(Phasor {
-        real: sum.twice_real()?,
+        real: sum.twice_real(cancel)?,
         // Im z = Re(−iz).
-        imaginary: sum.turned(-1, 4).twice_real()?,
+        imaginary: sum.turned(-1, 4).twice_real(cancel)?,
         // Twice |z|², over the square of a denominator that has a 2 for the real parts.
         square: square.iter().map(doubled).collect::<Result<_>>()?,
     })
@@ -215,7 +221,6 @@ fn phasor(sum: &RootSum) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cancel::Cancel;
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
 
@@ -235,9 +240,9 @@ mod tests {
 
     #[test]
     fn the_couple_of_the_cross_plane_eight_is_root_ten() {
-        let form = closed_form(&crossplane(), 1, true, None).unwrap();
+        let form = closed_form(&crossplane(), 1, true, None, &Cancel::new()).unwrap();
         assert!((form.spacing - 0.13).abs() < 1e-15);
-        assert_eq!(form.parts[0].lever, Ratio::new(-3, 2).unwrap());
+        assert_eq!(form.parts[0].lever, Ratio::new(-3, 2));
         let square = &form.phasors[2].square;
         let (value, rest) = square.split_first().unwrap();
         assert_eq!(*value, 10 * form.denominator * form.denominator);
@@ -270,7 +275,8 @@ mod tests {
         for engine in [turning(&v8), turning(&two), v8, two, single] {
             for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
                 for moment in [false, true] {
-                    let form = closed_form(&engine, order, moment, reference).unwrap();
+                    let form =
+                        closed_form(&engine, order, moment, reference, &Cancel::new()).unwrap();
                     let rpm = 60.0 / std::f64::consts::TAU;
                     let orders = crate::Orders::Given(vec![order]);
                     let found =
@@ -302,7 +308,9 @@ mod tests {
                     assert!(!form.no_harmonic);
                 }
             }
-            let none = |order| closed_form(&engine, order, false, None).unwrap().no_harmonic;
+            let none = |order| {
+                closed_form(&engine, order, false, None, &Cancel::new()).unwrap().no_harmonic
+            };
             assert!(none(3) && none(5) && !none(1) && !none(6));
         }
     }
@@ -312,15 +320,20 @@ mod tests {
         let mut places = crossplane().placements().to_vec();
         places[3].z = 0.123_456_789_123;
         let engine = Engine::new("", "", places.clone()).unwrap();
-        assert!(closed_form(&engine, 1, true, None).unwrap_err().to_string().contains('z'));
-        assert!(closed_form(&engine, 1, false, None).is_ok());
-        places[3].bank = Angle::Degrees(49.54);
+        assert!(
+            closed_form(&engine, 1, true, None, &Cancel::new())
+                .unwrap_err()
+                .to_string()
+                .contains('z')
+        );
+        assert!(closed_form(&engine, 1, false, None, &Cancel::new()).is_ok());
+        places[3].bank = Angle::from_degrees(49.541_234_567_89).unwrap();
         let error = |places: &[Placement], order| {
             let engine = Engine::new("", "", places.to_vec()).unwrap();
-            closed_form(&engine, order, false, None).unwrap_err().to_string()
+            closed_form(&engine, order, false, None, &Cancel::new()).unwrap_err().to_string()
         };
         let text = error(&places, 1);
-        assert!(text.contains("bank_deg = 49.54"), "{text}");
+        assert!(text.contains("bank_deg = 49.54123456789"), "{text}");
         let mut places = crossplane().placements().to_vec();
         places[2].cylinder = Cylinder::new(0.05, 0.15, 0.5 * 2.0_f64.sqrt(), 0.0).unwrap();
         assert!(error(&places, 2).contains("rational multiples"));
@@ -331,7 +344,7 @@ mod tests {
         places[2].rotating_mass = 0.25;
         assert!(error(&places, 1).contains("pin_offset = 0.01"));
         let engine = Engine::new("", "", places).unwrap();
-        assert!(closed_form(&engine, 2, false, None).is_ok());
+        assert!(closed_form(&engine, 2, false, None, &Cancel::new()).is_ok());
     }
 
     #[test]
@@ -340,7 +353,7 @@ mod tests {
         let massless = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
         places[0].cylinder = massless;
         let engine = Engine::new("", "", places.clone()).unwrap();
-        let form = closed_form(&engine, 1, false, None).unwrap();
+        let form = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap();
         assert_eq!(form.unit, 1);
         let weights: Vec<Ratio> = form.parts.iter().map(|part| part.weight).collect();
         assert_eq!(weights, [Ratio::ZERO, Ratio::ONE, Ratio::ONE]);
@@ -348,7 +361,7 @@ mod tests {
             place.cylinder = massless;
         }
         let engine = Engine::new("", "", places).unwrap();
-        let error = closed_form(&engine, 1, false, None).unwrap_err().to_string();
+        let error = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap_err().to_string();
         assert!(error.contains("reciprocating_mass"), "{error}");
     }
 }

@@ -100,7 +100,6 @@ pub(crate) fn parts(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Angle;
     use crate::simd::vectorised;
     use proptest::prelude::*;
 
@@ -122,7 +121,7 @@ mod tests {
             order in 1_u32..10_000,
         ) {
             let (cos, sin) = multiples(&[degrees; 65], 2 * order);
-            let exact = Angle::Degrees(degrees).cis(i64::from(order));
+            let exact = crate::angle::cis_multiple(degrees, i64::from(order));
             // two units in the last place of numbers below 1: one of each way
             prop_assert!((cos[64] - exact.re).abs() <= 4.5e-16, "{} {}", cos[64], exact.re);
             prop_assert!((sin[64] - exact.im).abs() <= 4.5e-16, "{} {}", sin[64], exact.im);

@@ -309,12 +309,12 @@ impl Firing {
     }
 
     fn assemble(engine: &Arc<Engine>, tops: &Tops, strokes: Strokes, later: &[bool]) -> Self {
-        let turn = |later| if later { Angle::Turns(1, 1) } else { Angle::ZERO };
+        let turn = |later| if later { Angle::TURN } else { Angle::ZERO };
         let times: Vec<Angle> =
             tops.0.iter().zip(later).map(|(&top, &later)| top + turn(later)).collect();
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
-        let cycle = Angle::Turns(strokes.turns(), 1);
+        let cycle = Angle::whole_turns(strokes.turns() as i32);
         let intervals = order
             .iter()
             .enumerate()
@@ -353,7 +353,7 @@ impl Firing {
     /// Which cylinders fire in the second turn after the first cylinder's firing.
     #[must_use]
     pub fn later(&self) -> Vec<bool> {
-        self.times.iter().map(|&time| time >= Angle::Turns(1, 1)).collect()
+        self.times.iter().map(|&time| time >= Angle::TURN).collect()
     }
 
     /// Crank angles at which the cylinders fire, by number, within a cycle.
@@ -448,11 +448,11 @@ impl Firing {
         };
         let period = |k: usize, (firing, placement): (Angle, &Placement)| {
             let downwards = top_to_bottom(placement);
-            let turns = Angle::Turns((k / 2) as i64, 1);
+            let turns = Angle::whole_turns((k / 2) as i32);
             let (from, length) = if k.is_multiple_of(2) {
                 (turns, downwards)
             } else {
-                (turns + downwards, Angle::Turns(1, 1) - downwards)
+                (turns + downwards, Angle::TURN - downwards)
             };
             self.period(firing + from, length)
         };
@@ -475,7 +475,7 @@ impl Firing {
         }
         let mut valves = Valves { intake: Vec::new(), exhaust: Vec::new() };
         for (firing, placement) in self.angles().into_iter().zip(self.engine.placements()) {
-            let (turn, downwards) = (Angle::Turns(1, 1), top_to_bottom(placement));
+            let (turn, downwards) = (Angle::TURN, top_to_bottom(placement));
             let [opens, closes] = timing.intake;
             valves.intake.push(self.period(firing + (turn - opens), opens + downwards + closes));
             let [opens, closes] = timing.exhaust;
@@ -534,7 +534,7 @@ impl Firing {
     }
 
     fn cycle(&self) -> Angle {
-        Angle::Turns(self.strokes.turns(), 1)
+        Angle::whole_turns(self.strokes.turns() as i32)
     }
 
     /// The interval of even firing.
@@ -591,7 +591,7 @@ impl Tops {
                     (top + degrees(past)).nearby_part(MOST_ROUNDING)
                 };
                 let top = top.reduced();
-                if same(top, Angle::Turns(1, 1)) { Angle::ZERO } else { top }
+                if same(top, Angle::TURN) { Angle::ZERO } else { top }
             })
             .collect();
         // What only rounding parts is one angle.
@@ -616,7 +616,7 @@ fn highest_after_tdc(placement: &Placement) -> f64 {
 fn top_to_bottom(placement: &Placement) -> Angle {
     let part = placement.cylinder;
     let lowest = (part.pin_offset() / (part.rod_length() - part.crank_radius())).asin();
-    Angle::Turns(1, 2) + degrees(lowest.to_degrees() - highest_after_tdc(placement))
+    Angle::HALF_TURN + degrees(lowest.to_degrees() - highest_after_tdc(placement))
 }
 
 /// Of an arc sine, hence in range.
@@ -627,7 +627,7 @@ fn degrees(degrees: f64) -> Angle {
 /// Fractions of a turn are the same when they are equal.
 fn same(a: Angle, b: Angle) -> bool {
     a == b
-        || (!matches!((a, b), (Angle::Turns(..), Angle::Turns(..)))
+        || ((a.turns().is_none() || b.turns().is_none())
             && (a.degrees() - b.degrees()).abs() <= MOST_ROUNDING)
 }
 
@@ -662,7 +662,7 @@ pub fn vee_throws(order: &FiringOrder, rule: &FiringRule, layout: &Vee) -> Resul
         sides[usize::from(seat.side == Side::Left)][seat.throw] = pin;
     }
     let [right, left] = sides;
-    let half = Angle::Turns(1, 2);
+    let half = Angle::HALF_TURN;
     let splits = left.iter().zip(&right).map(|(&left, &right)| {
         // Half a turn less what is in [0°, 360°) is above −180° and up to 180°.
         half - (half - (left - right)).reduced()
@@ -936,7 +936,7 @@ mod tests {
             let of = |o: &Overlap| (o.before, o.after, o.gap.degrees(), o.overlap.degrees());
             all[0].iter().map(of).collect()
         };
-        assert_eq!(whole, Angle::Turns(1, 360));
+        assert_eq!(whole.turns(), Some((1, 360)));
         let three = [0, 1, 2];
         assert_eq!(found([100.0; 4], &three), []);
         assert_eq!(found([120.0; 4], &three), []);
@@ -969,7 +969,7 @@ mod tests {
         let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
         let firing = Firing::all(&engine, Strokes::Two).unwrap().remove(0);
         assert_eq!(intervals(&firing), [120.0, 240.0]);
-        assert_eq!(firing.intervals()[0], Angle::Turns(1, 3));
+        assert_eq!(firing.intervals()[0].turns(), Some((1, 3)));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! A file is one idea, and imports run one way:
 //! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`crank_angles`], [`rational`],
-//! [`cyclotomic`] → [`slider_crank`], [`rod`], [`harmonics`] (one cylinder) → [`engine`] (where the
+//! [`ring`] → [`slider_crank`], [`rod`], [`harmonics`] (one cylinder) → [`engine`] (where the
 //! cylinders sit), [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON) → [`firing`], and
 //! [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of orders
 //! for these three; [`search`] goes through every arrangement; [`vanishing`] proves which orders are
@@ -21,7 +21,6 @@ pub mod cancel;
 mod choice;
 pub mod closed_form;
 pub mod crank_angles;
-pub mod cyclotomic;
 pub mod double;
 pub mod engine;
 pub mod error;
@@ -33,6 +32,7 @@ pub mod limits;
 mod load;
 pub mod order;
 pub mod rational;
+pub mod ring;
 pub mod rod;
 pub mod search;
 mod simd;
@@ -56,5 +56,5 @@ pub use spectrum::Spectrum;
 pub use sweep::Sweep;
 pub use waveform::Waveform;
 
-/// Complex numbers as nalgebra, ndarray and `NumPy` share them.
-pub type Complex64 = nalgebra::Complex<f64>;
+/// Complex numbers as ndarray and `NumPy` have them too.
+pub use num_complex::Complex64;

@@ -13,78 +13,37 @@ const COARSEST: f64 = 1e-12;
 /// A figure is taken to be right within so many units in the last place.
 pub const WITHIN_ULP: f64 = 4.0;
 
-/// A rational number in lowest terms, denominator > 0. Arithmetic gives None where it overflows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ratio {
-    /// Above the line.
-    pub numerator: i128,
-    /// Below it.
-    pub denominator: i128,
+/// A rational number in lowest terms, denominator > 0. Its checked arithmetic gives None where it
+/// overflows.
+pub type Ratio = num_rational::Ratio<i128>;
+
+/// The nearest double to a quotient, its denominator not 0 (beyond 72 bits one beside it).
+#[must_use]
+pub fn nearest(numerator: i128, denominator: i128) -> f64 {
+    let (above, below) = (numerator.unsigned_abs(), denominator.unsigned_abs());
+    let exact = |whole: u128| whole <= 1 << 53;
+    if numerator == 0 || exact(above) && exact(below) || below >= 1 << 72 {
+        return numerator as f64 / denominator as f64;
+    }
+    // At least 55 bits of the quotient, the last of them 1 if anything is left: rounded once.
+    let shift = above.leading_zeros();
+    let shifted = above << shift;
+    let quotient = (shifted / below) | u128::from(!shifted.is_multiple_of(below));
+    let size = quotient as f64 * 0.5_f64.powi(shift as i32);
+    if (numerator < 0) == (denominator < 0) { size } else { -size }
 }
 
-impl Ratio {
-    /// 0.
-    pub const ZERO: Self = Self { numerator: 0, denominator: 1 };
-    /// 1.
-    pub const ONE: Self = Self { numerator: 1, denominator: 1 };
-
-    /// In lowest terms; None for a denominator of 0.
-    #[must_use]
-    pub fn new(numerator: i128, denominator: i128) -> Option<Self> {
-        let divisor = common_divisor(numerator, denominator);
-        if denominator == 0 {
-            return None;
-        }
-        let sign = denominator.signum();
-        Some(Self {
-            numerator: numerator.checked_div(divisor)?.checked_mul(sign)?,
-            denominator: denominator.checked_div(divisor)?.checked_mul(sign)?,
-        })
+/// The largest number of which both are whole multiples, of either sign; 0 if both are 0. None where
+/// it overflows.
+#[must_use]
+pub fn common_measure(a: Ratio, b: Ratio) -> Option<Ratio> {
+    let left = a.numer().checked_mul(*b.denom())?;
+    let right = b.numer().checked_mul(*a.denom())?;
+    let common = a.denom().checked_mul(*b.denom())?;
+    if left == 0 && right == 0 {
+        return Some(Ratio::ZERO);
     }
-
-    /// Product.
-    #[must_use]
-    pub fn times(self, other: Self) -> Option<Self> {
-        Self::new(
-            self.numerator.checked_mul(other.numerator)?,
-            self.denominator.checked_mul(other.denominator)?,
-        )
-    }
-
-    /// Quotient.
-    #[must_use]
-    pub fn over(self, other: Self) -> Option<Self> {
-        Self::new(
-            self.numerator.checked_mul(other.denominator)?,
-            self.denominator.checked_mul(other.numerator)?,
-        )
-    }
-
-    /// Difference.
-    #[must_use]
-    pub fn minus(self, other: Self) -> Option<Self> {
-        let left = self.numerator.checked_mul(other.denominator)?;
-        let right = other.numerator.checked_mul(self.denominator)?;
-        Self::new(left.checked_sub(right)?, self.denominator.checked_mul(other.denominator)?)
-    }
-
-    /// The largest number of which both are whole multiples, of either sign; 0 if both are 0.
-    #[must_use]
-    pub fn common_measure(self, other: Self) -> Option<Self> {
-        let left = self.numerator.checked_mul(other.denominator)?;
-        let right = other.numerator.checked_mul(self.denominator)?;
-        let common = self.denominator.checked_mul(other.denominator)?;
-        if left == 0 && right == 0 {
-            return Some(Self::ZERO);
-        }
-        Self::new(common_divisor(left, right), common)
-    }
-
-    /// The nearest double, or one beside it.
-    #[must_use]
-    pub fn value(self) -> f64 {
-        self.numerator as f64 / self.denominator as f64
-    }
+    Some(Ratio::new(common_divisor(left, right), common))
 }
 
 /// Greatest common divisor, > 0; 1 where both are 0.
@@ -118,8 +77,8 @@ pub(crate) fn recognise(x: f64, tolerance: f64) -> Option<Ratio> {
         return None;
     }
     for (p, q) in convergents(x, MOST_PARTS) {
-        let candidate = Ratio::new(p, q)?;
-        if (candidate.value() - x).abs() <= tolerance {
+        let candidate = Ratio::new(p, q);
+        if (nearest(p, q) - x).abs() <= tolerance {
             return Some(candidate);
         }
     }
@@ -168,7 +127,7 @@ impl Multiples {
             let known = units.iter().enumerate().find_map(|(k, &(unit, of_unit))| {
                 let ratio = figure / unit;
                 if ratio.abs() == 1.0 {
-                    return Some((k, Ratio { numerator: ratio as i128, denominator: 1 }));
+                    return Some((k, Ratio::from_integer(ratio as i128)));
                 }
                 recognise(ratio, (error + ratio.abs() * of_unit) / unit.abs()).map(|r| (k, r))
             });
@@ -192,26 +151,50 @@ impl Multiples {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_traits::{CheckedDiv, CheckedMul, CheckedSub};
     use proptest::prelude::*;
 
+    /// Against a division in 128 bits whose remainder decides between neighbouring doubles.
+    #[test]
+    fn quotients_are_rounded_once() {
+        assert_eq!(nearest(0, 7), 0.0);
+        assert_eq!(nearest(-1, 3), -1.0 / 3.0);
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            i128::from(state >> 1)
+        };
+        for _ in 0..10_000 {
+            let (above, below) = (random() * 360, (random() >> 13) + 1);
+            let found = nearest(-above, below);
+            assert_eq!(found, -nearest(above, below));
+            // |q·2¹⁰ − p·2¹⁰/below| for q and its neighbours, in whole multiples of 1/below.
+            let error = |q: f64| ((q * 1024.0) as i128 * below - above * 1024).abs();
+            let found = -found;
+            if found > 8192.0 && found < 1e15 {
+                assert!(error(found) <= error(found.next_up()).min(error(found.next_down())));
+            }
+        }
+    }
+
     fn ratio(numerator: i128, denominator: i128) -> Ratio {
-        Ratio::new(numerator, denominator).unwrap()
+        Ratio::new(numerator, denominator)
     }
 
     #[test]
     fn only_what_is_known_well_enough_is_taken_for_a_fraction() {
-        assert_eq!(recognise(0.1, COARSEST), Ratio::new(1, 10));
+        assert_eq!(recognise(0.1, COARSEST), Some(ratio(1, 10)));
         assert_eq!(recognise(0.1, COARSEST.next_up()), None);
-        assert_eq!(recognise(1e12, 1e-16), Ratio::new(1_000_000_000_000, 1));
+        assert_eq!(recognise(1e12, 1e-16), Some(ratio(1_000_000_000_000, 1)));
         assert_eq!(recognise(1e12_f64.next_up(), 1e-15), None);
-        assert_eq!(recognise(1.0 / 10_000.0, 1e-19), Ratio::new(1, 10_000));
+        assert_eq!(recognise(1.0 / 10_000.0, 1e-19), Some(ratio(1, 10_000)));
         assert_eq!(recognise(1.0 / 10_001.0, 1e-19), None);
-        assert_eq!(recognise(-9_999.0 / 10_000.0, 1e-15), Ratio::new(-9_999, 10_000));
+        assert_eq!(recognise(-9_999.0 / 10_000.0, 1e-15), Some(ratio(-9_999, 10_000)));
         assert_eq!(recognise(0.0, 0.0), None);
-        let half = Ratio { numerator: 1, denominator: 2 };
-        assert_eq!(Ratio::ZERO.common_measure(Ratio::ZERO), Some(Ratio::ZERO));
-        assert_eq!(Ratio::ZERO.common_measure(half), Some(half));
-        assert_eq!(half.common_measure(Ratio::ZERO), Some(half));
+        let half = ratio(1, 2);
+        assert_eq!(common_measure(Ratio::ZERO, Ratio::ZERO), Some(Ratio::ZERO));
+        assert_eq!(common_measure(Ratio::ZERO, half), Some(half));
+        assert_eq!(common_measure(half, Ratio::ZERO), Some(half));
     }
 
     #[test]
@@ -242,7 +225,10 @@ mod tests {
         for figures in [[1e30, 1e-30], [5e-324, 1e30], [0.0, -0.0], [1e-300, 3e-300]] {
             let found = Multiples::of_figures(&figures);
             for (&figure, &(unit, ratio)) in figures.iter().zip(&found.of) {
-                let back = found.units.get(unit).map_or(0.0, |u| u * ratio.value());
+                let back = found
+                    .units
+                    .get(unit)
+                    .map_or(0.0, |u| u * nearest(*ratio.numer(), *ratio.denom()));
                 assert!((back - figure).abs() <= figure.abs() * 1e-15);
             }
         }
@@ -251,11 +237,11 @@ mod tests {
     #[test]
     fn arithmetic_does_not_wrap() {
         let huge = ratio(i128::MAX, 1);
-        assert_eq!(huge.times(huge), None);
-        assert_eq!(huge.minus(ratio(-1, 1)), None);
-        assert_eq!(ratio(1, 2).over(Ratio::ZERO), None);
-        assert_eq!(ratio(3, -6), ratio(-1, 2));
-        assert_eq!(ratio(1, 2).common_measure(ratio(1, 3)), Some(ratio(1, 6)));
+        assert_eq!(huge.checked_mul(&huge), None);
+        assert_eq!(huge.checked_sub(&ratio(-1, 1)), None);
+        assert_eq!(ratio(1, 2).checked_div(&Ratio::ZERO), None);
+        assert_eq!(common_measure(huge, ratio(1, 2)), None);
+        assert_eq!(common_measure(ratio(1, 2), ratio(1, 3)), Some(ratio(1, 6)));
         assert_eq!(common_multiple(i128::MAX, i128::MAX - 1), None);
     }
 
@@ -266,7 +252,7 @@ mod tests {
             let found = Multiples::of_figures(&[unit, figure]);
             prop_assert!(found.units.len() == 1);
             if p != 0 {
-                let quotient = found.of[1].1.over(found.of[0].1).unwrap();
+                let quotient = found.of[1].1.checked_div(&found.of[0].1).unwrap();
                 prop_assert_eq!(quotient, ratio(p.into(), q.into()));
             }
         }

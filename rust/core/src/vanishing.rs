@@ -2,10 +2,10 @@
 //!
 //! Of each order and direction there is a sum over the cylinders, Σ w ζᵏ, where w is mass × radius
 //! (× lever) and ζᵏ the direction of the bore turned by n·tdc. Where angles are rational parts of a
-//! turn and the weights rational multiples of each other, [`crate::cyclotomic`] tells in integers
+//! turn and the weights rational multiples of each other, [`crate::ring`] tells in integers
 //! whether it is zero.
 //!
-//! What is no rational multiple of anything stands for itself: a bank angle such as 49.54°, a top
+//! What is no rational multiple of anything stands for itself: a bank angle of ten decimals, a top
 //! dead centre (others a rational part of a turn away from it stand with it), a mass
 //! or a place that is no simple part of another, the harmonic of a slider-crank of other
 //! proportions. The sum is then one over these symbols, each times a sum of roots of unity. It
@@ -14,13 +14,15 @@
 
 use std::collections::BTreeMap;
 
+use num_traits::CheckedMul;
+
 use crate::angle::Angle;
 use crate::balance::{self, Orders};
-use crate::cyclotomic::RootSum;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::rational::{Multiples, Ratio, WITHIN_ULP, common_multiple, recognise};
+use crate::ring::RootSum;
 use crate::slider_crank::{Cylinder, Proportions};
 
 /// What is known of a sum.
@@ -156,26 +158,25 @@ struct Direct {
 /// `in_steps`, a rational part of a turn apart.
 fn directions(angles: impl Iterator<Item = Angle>, in_steps: bool) -> Vec<Direct> {
     let mut others: Vec<f64> = Vec::new();
-    let direct = |angle| match angle {
-        Angle::Turns(numerator, denominator) => {
-            Direct { turns: (numerator.into(), denominator.into()), symbol: 0 }
+    let direct = |angle: Angle| {
+        if let Some((numerator, denominator)) = angle.turns() {
+            return Direct { turns: (numerator.into(), denominator.into()), symbol: 0 };
         }
-        Angle::Degrees(degrees) => {
-            let step_from = |other: f64| {
-                if other == degrees {
-                    return Some((0, 1));
-                }
-                // Both are right within a few units in the last place of a turn.
-                let step = recognise((degrees - other) / 360.0, WITHIN_ULP * f64::EPSILON)?;
-                in_steps.then_some((step.numerator, step.denominator))
-            };
-            let known = others.iter().enumerate().find_map(|(k, &o)| Some((k, step_from(o)?)));
-            let (index, turns) = known.unwrap_or_else(|| {
-                others.push(degrees);
-                (others.len() - 1, (0, 1))
-            });
-            Direct { turns, symbol: index + 1 }
-        }
+        let degrees = angle.degrees();
+        let step_from = |other: f64| {
+            if other == degrees {
+                return Some((0, 1));
+            }
+            // Both are right within a few units in the last place of a turn.
+            let step = recognise((degrees - other) / 360.0, WITHIN_ULP * f64::EPSILON)?;
+            in_steps.then_some(step.into_raw())
+        };
+        let known = others.iter().enumerate().find_map(|(k, &o)| Some((k, step_from(o)?)));
+        let (index, turns) = known.unwrap_or_else(|| {
+            others.push(degrees);
+            (others.len() - 1, (0, 1))
+        });
+        Direct { turns, symbol: index + 1 }
     };
     angles.map(direct).collect()
 }
@@ -201,8 +202,7 @@ impl Places {
     /// The lever of a cylinder: place and plane, perhaps multiples of different units.
     fn lever(&self, cylinder: usize) -> Vec<(usize, Ratio)> {
         let (of_plane, plane) = self.multiples.of[self.multiples.of.len() - 1];
-        let back = Ratio { numerator: -plane.numerator, ..plane };
-        vec![self.multiples.of[cylinder], (of_plane, back)]
+        vec![self.multiples.of[cylinder], (of_plane, -plane)]
     }
 }
 
@@ -340,7 +340,7 @@ impl<'a> Layout<'a> {
         (lever, factor): (usize, Ratio),
         sign: i128,
     ) -> Result<()> {
-        let weight = weight.times(factor).ok_or_else(too_long)?;
+        let weight = weight.checked_mul(&factor).ok_or_else(too_long)?;
         if weight == Ratio::ZERO {
             return Ok(());
         }
@@ -348,7 +348,7 @@ impl<'a> Layout<'a> {
         let phase = multiple(tdc.turns, -i128::from(order));
         let mut push = |bank_symbol, turns, sign| {
             let symbol = Symbol { mass, lever, tdc: tdc.symbol, bank: bank_symbol, ..symbol };
-            let weight = Ratio { numerator: weight.numerator * sign, ..weight };
+            let weight = if sign < 0 { -weight } else { weight };
             terms.push(Term { symbol, turns, weight });
         };
         let whole = (bank.symbol, false);
@@ -383,8 +383,7 @@ impl<'a> Layout<'a> {
         // Of harmonic a₁ = 1.
         let symbol = Symbol::default();
         let (unit, weight) = self.forces.of[count + i];
-        let twice = Ratio { numerator: 2, denominator: 1 };
-        let weight = weight.times(twice).ok_or_else(too_long)?;
+        let weight = weight.checked_mul(&Ratio::from_integer(2)).ok_or_else(too_long)?;
         debug_assert!(direction.is_some());
         let forward = Some(Direction::Forward);
         self.add(terms, i, 1, forward, symbol, (unit, weight), lever, 1)
@@ -436,7 +435,8 @@ impl<'a> Layout<'a> {
 }
 
 fn multiple(turns: (i128, i128), times: i128) -> (i128, i128) {
-    (times * turns.0, turns.1)
+    // Without whole turns, sums with other angles do not overflow.
+    ((times * turns.0).rem_euclid(turns.1), turns.1)
 }
 
 /// One angle more, times a sign.
@@ -450,9 +450,9 @@ fn turned(a: (i128, i128), b: (i128, i128), sign: i128) -> Result<(i128, i128)> 
 pub(crate) fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, i128)> {
     let common = weights
         .iter()
-        .try_fold(1, |common, weight| common_multiple(common, weight.denominator))
+        .try_fold(1, |common, weight| common_multiple(common, *weight.denom()))
         .ok_or_else(too_long)?;
-    let whole = weights.iter().map(|w| w.numerator.checked_mul(common / w.denominator));
+    let whole = weights.iter().map(|w| (*w.numer()).checked_mul(common / w.denom()));
     Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, common))
 }
 
@@ -588,12 +588,12 @@ mod tests {
     fn irrational_banks_cancel_bank_by_bank_or_not_at_all() {
         // Each bank by itself is an inline-3 in one plane: no force whatever the angle.
         let banks = |b: f64| [0.0, 1.0, 2.0].map(|k| (120.0 * k, b, 0.1 * k, 0.45, 0.0));
-        let v6 = engine(&[banks(61.234_567), banks(118.765_433)].concat());
+        let v6 = engine(&[banks(61.234_567_891_2), banks(118.765_432_108_8)].concat());
         assert_eq!(verdicts(&v6, 1)[..4], [V; 4]);
         assert_eq!(verdicts(&v6, 1)[4..8], [U; 4]);
         assert_eq!(verdicts(&v6, 1)[8], V);
         // One bank alone: the direction is a factor, and not zero.
-        assert_eq!(verdicts(&engine(&banks(61.234_567)), 1)[4..8], [R; 4]);
+        assert_eq!(verdicts(&engine(&banks(61.234_567_891_2)), 1)[4..8], [R; 4]);
     }
 
     #[test]
@@ -602,7 +602,7 @@ mod tests {
         let row = |tdc: f64, bank: f64, z: f64| {
             [0.0, 1.0, 2.0].map(|k| (120.0 * k + tdc, bank, z, 0.45, 0.0))
         };
-        let vr6 = engine(&[row(0.0, 82.5, 0.0), row(22.123_456, 97.5, 0.0)].concat());
+        let vr6 = engine(&[row(0.0, 82.5, 0.0), row(22.123_456_789_1, 97.5, 0.0)].concat());
         assert_eq!(verdicts(&vr6, 2), [V; 9]);
         assert_eq!(verdicts(&vr6, 6)[..4], [U; 4]);
         assert_eq!(verdicts(&vr6, 6)[8], U);
@@ -645,14 +645,15 @@ mod tests {
             vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().obstacles
         };
         let place = (0.0, 90.0, 0.0, 0.45, 0.0);
-        let (tdc, bank) = ((17.123_456, 90.0, 0.0, 0.45, 0.0), (0.0, 61.234_567, 0.0, 0.45, 0.0));
+        let (tdc, bank) =
+            ((17.123_456_789_1, 90.0, 0.0, 0.45, 0.0), (0.0, 61.234_567_891_2, 0.0, 0.45, 0.0));
         let (rod, mass) =
             ((90.0, 90.0, 0.0, 0.45, 0.002), (180.0, 90.0, 0.0, 0.45 * 2_f64.sqrt(), 0.0));
         // At an order that is decided nothing is in the way.
         assert_eq!(obstacles(&engine(&[place, place]), 2), [""; 0]);
         assert_eq!(obstacles(&engine(&[bank, bank]), 2), [""; 0]);
         // Neither are places along the crank that are multiples of one length.
-        let further = (17.123_456, 90.0, 0.1, 0.45, 0.0);
+        let further = (17.123_456_789_1, 90.0, 0.1, 0.45, 0.0);
         assert_eq!(obstacles(&engine(&[place, further]), 2).len(), 1);
         assert_eq!(
             obstacles(&engine(&[place, tdc]), 2),
@@ -687,8 +688,8 @@ mod tests {
             let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
             cylinder.with_rod_inertia_excess(inertia).unwrap()
         });
-        let tdc = select(vec![0.0, 90.0, 120.0, 180.0, 240.0, 17.123_456, 107.123_456]);
-        let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567]);
+        let tdc = select(vec![0.0, 90.0, 120.0, 180.0, 240.0, 17.123_456_789_1, 107.123_456_789_1]);
+        let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567_891_2]);
         let z = select(vec![0.0, 0.1, 0.2, 0.1 * root]);
         let place = (cylinder, tdc, bank, z, select(vec![0.0, 200.0])).prop_map(
             |(cylinder, tdc, bank, z, rotating_mass)| Placement {
@@ -699,7 +700,7 @@ mod tests {
                 rotating_mass,
             },
         );
-        let half = Angle::Turns(1, 2);
+        let half = Angle::HALF_TURN;
         // With each a second one that differs in few things.
         let pair = (place, any::<[bool; 4]>()).prop_map(move |(p, [tdc, bank, offset, rod])| {
             let c = p.cylinder;

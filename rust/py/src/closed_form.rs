@@ -2,11 +2,11 @@
 
 use crankpin_core as core;
 use crankpin_core::closed_form::{ClosedForm, Part, Phasor};
-use crankpin_core::rational::Ratio;
+use crankpin_core::rational::{Ratio, common_multiple};
 use pyo3::prelude::*;
 
-use crate::convert::OrRaise;
 use crate::engine::Engine;
+use crate::interrupt;
 
 type Fraction = (i128, i128);
 /// Weight, lever, rotating weight, bank and top dead centre (parts of a turn).
@@ -26,10 +26,17 @@ pub fn closed_form(
     reference_z: Option<f64>,
 ) -> PyResult<Form> {
     let engine = engine.get().0.clone();
-    let found = py.detach(|| core::closed_form::closed_form(&engine, order, moment, reference_z));
-    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } =
-        found.or_raise()?;
-    let ratio = |r: Ratio| (r.numerator, r.denominator);
+    // Sums of N-th roots take at most some N² steps to reduce.
+    let angles = engine.placements().iter().flat_map(|p| [p.tdc, p.bank]);
+    let period = angles
+        .filter_map(core::Angle::turns)
+        .try_fold(4, |period, (_, parts)| common_multiple(period, parts.into()));
+    let steps = period.and_then(|n| usize::try_from(n.checked_mul(n)?).ok());
+    let found = interrupt::run(py, steps.unwrap_or(usize::MAX), |cancel| {
+        core::closed_form::closed_form(&engine, order, moment, reference_z, cancel)
+    })?;
+    let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;
+    let ratio = |r: Ratio| r.into_raw();
     let turns = |(numerator, denominator): (i64, i64)| (numerator.into(), denominator.into());
     let cylinder =
         |p: Part| (ratio(p.weight), ratio(p.lever), ratio(p.rotating), turns(p.bank), turns(p.tdc));

@@ -92,11 +92,12 @@ impl BankAngles {
 
     fn solution(&self, k: usize) -> PyResult<Solution> {
         let found = self.found(k)?;
-        let degrees = |phases: &[u32]| -> Vec<f64> {
-            let turns = |&p: &u32| core::Angle::Turns(i64::from(p), i64::from(found.parts));
-            phases.iter().map(|phase| turns(phase).degrees()).collect()
+        let degrees = |phases: &[u32]| -> core::Result<Vec<f64>> {
+            let angle = |&p: &u32| core::Angle::from_turns(p.into(), found.parts.into());
+            phases.iter().map(|phase| angle(phase).map(core::Angle::degrees)).collect()
         };
-        let [first, second] = [&found.banks[0], &found.banks[1]].map(|phases| degrees(phases));
+        let first = degrees(&found.banks[0]).or_raise()?;
+        let second = degrees(&found.banks[1]).or_raise()?;
         let [about_x, about_y] = found.second_order;
         Ok((found.bank_angle, first, second, found.counterweight, (about_x, about_y)))
     }

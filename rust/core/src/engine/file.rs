@@ -138,8 +138,12 @@ enum Degrees {
 
 impl Degrees {
     fn of(angle: Angle) -> Self {
-        let text = angle.to_string();
-        text.parse().map_or(Self::Text(text), Self::Number)
+        let degrees = angle.degrees();
+        if Angle::from_degrees(degrees) == Ok(angle) {
+            Self::Number(degrees)
+        } else {
+            Self::Text(angle.to_string())
+        }
     }
 
     fn angle(&self, argument: &str) -> Result<Angle> {
@@ -383,7 +387,7 @@ mod tests {
         let place = |cylinder| Placement {
             cylinder,
             tdc: Angle::ZERO,
-            bank: Angle::Turns(1, 4),
+            bank: Angle::QUARTER_TURN,
             z: 0.0,
             rotating_mass: 0.0,
         };
@@ -407,7 +411,7 @@ mod tests {
     #[test]
     fn texts_have_a_longest() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let (tdc, bank) = (Angle::ZERO, Angle::Turns(1, 4));
+        let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
         let place = Placement { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place]).unwrap();
         let padded = |text: String, length| format!("{text}{}", "\n".repeat(length - text.len()));

@@ -101,7 +101,7 @@ impl Inline {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         limits::finite("spacing", self.spacing)?;
-        let upright = Angle::Turns(1, 4);
+        let upright = Angle::QUARTER_TURN;
         let masses = per_throw(&self.rotating_mass, self.throws.len())?;
         let placements = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
             let z = i as f64 * self.spacing;
@@ -158,7 +158,7 @@ impl Vee {
         limits::finite("spacing", self.spacing)?;
         limits::finite("bank_stagger", self.bank_stagger)?;
         bank_angle_in_range(self.bank_angle.degrees())?;
-        let (upright, half) = (Angle::Turns(1, 4), self.bank_angle.half());
+        let (upright, half) = (Angle::QUARTER_TURN, self.bank_angle.half());
         let throws = cylinders / 2;
         let seat = |i: usize| {
             let (throw, on_first) = match self.numbering {
@@ -250,7 +250,8 @@ impl FiringOrder {
             }
             times.push(times[k] + interval);
         }
-        let (sum, cycle) = (times.pop().unwrap_or(Angle::ZERO), Angle::Turns(strokes.turns(), 1));
+        let (sum, cycle) =
+            (times.pop().unwrap_or(Angle::ZERO), Angle::whole_turns(strokes.turns() as i32));
         // Intervals that are no parts of a turn may have been rounded, once each.
         if (sum - cycle).degrees().abs() > MOST_ROUNDING {
             let cure = format!(
@@ -502,7 +503,7 @@ mod tests {
     fn a_vee_by_its_firing_order_has_half_a_throws_mass_on_each_pin() {
         let layout = Vee {
             rotating_mass: vec![1.0, 2.0],
-            first_tdc: Angle::Turns(1, 12),
+            first_tdc: Angle::from_turns(1, 12).unwrap(),
             ..vee(90.0, Numbering::Alternating, Side::Right)
         };
         let order: FiringOrder = "1-3-4-2".parse().unwrap();

@@ -436,7 +436,8 @@ mod tests {
     /// |Z| nearly vanishes in some classes.
     fn small_banks() -> Vec<Bank> {
         let of = |parts: i64, phases: &[i64]| {
-            let phases: Vec<Angle> = phases.iter().map(|&k| Angle::Turns(k, parts)).collect();
+            let phases: Vec<Angle> =
+                phases.iter().map(|&k| Angle::from_turns(k, parts).unwrap()).collect();
             Bank::with_phases(&phases).unwrap()
         };
         vec![

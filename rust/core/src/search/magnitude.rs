@@ -5,9 +5,9 @@
 //! is a sum over pairs too.
 
 use super::packing::Packing;
-use super::ring::Ring;
 use super::throws::Bank;
 use crate::error::{Error, Result};
+use crate::ring::Ring;
 
 /// An odd factor keeps equal keys equal and different ones different, and spreads them evenly.
 const SPREAD: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -13,7 +13,6 @@ mod images;
 mod magnitude;
 mod moments;
 mod packing;
-mod ring;
 mod same;
 mod throws;
 mod vee;
@@ -141,10 +140,11 @@ impl Search {
     pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
         let origin = angles.get(k)?;
         let parts = self.bank().parts;
+        let part = Angle::from_turns(1, parts.into()).ok()?;
         let mut banks = self.banks(origin);
         let weights = self.bank().weights();
         let moment = |phases: &[u32], order: i64| -> Complex64 {
-            let unit = |p: u32| Angle::Turns(i64::from(p), i64::from(parts)).cis(order);
+            let unit = |p: u32| part.cis(i64::from(p) * order);
             phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
         };
         let mut orders = [1, 2].map(|order| banks.each_ref().map(|phases| moment(phases, order)));
@@ -210,9 +210,9 @@ impl Search {
 impl Solution {
     /// The vee: cylinders numbered along the crank, odd ones in the right bank.
     pub fn engine(&self, cylinder: Cylinder, spacing: f64) -> Result<Engine> {
-        let phase = |&p: &u32| Angle::Turns(i64::from(p), i64::from(self.parts));
-        let banks = self.banks.each_ref().map(|phases| phases.iter().map(phase).collect());
-        vee(self.hold, self.bank_angle, &banks, cylinder, spacing)
+        let phase = |&p: &u32| Angle::from_turns(p.into(), self.parts.into());
+        let bank = |k: usize| self.banks[k].iter().map(phase).collect::<Result<Vec<_>>>();
+        vee(self.hold, self.bank_angle, &[bank(0)?, bank(1)?], cylinder, spacing)
     }
 }
 

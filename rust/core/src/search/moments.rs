@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use super::images::{Image, Images, Packed, index};
 use super::magnitude::too_rich;
 use super::packing::Packing;
-use super::ring::Ring;
 use super::throws::Bank;
 use crate::Complex64;
 use crate::angle::Angle;
 use crate::error::Result;
+use crate::ring::Ring;
 
 /// How near the arguments of two arrangements may be by rounding alone, times |2Z|: that is a sum of
 /// 15 terms of at most 14, good to 1e-13.
@@ -42,7 +42,8 @@ impl Moments {
         let ring = Ring::new(bank.parts)?;
         let images = Images::new(&bank);
         let parts = i64::from(bank.parts);
-        let units = images.distinct.iter().map(|&k| Angle::Turns(1, parts).cis(k.into())).collect();
+        let part = Angle::from_turns(1, parts)?;
+        let units = images.distinct.iter().map(|&k| part.cis(k.into())).collect();
         let remainder = |&phase: &u32| {
             let mut combination = vec![0; bank.parts as usize];
             combination[phase as usize] = 1;
@@ -172,7 +173,7 @@ mod tests {
 
     #[test]
     fn a_combination_is_what_an_image_sees() {
-        let phases = [0, 2, 7, 9, 12, 13].map(|k| Angle::Turns(k, 16));
+        let phases = [0, 2, 7, 9, 12, 13].map(|k| Angle::from_turns(k, 16).unwrap());
         for bank in [Bank::with_phases(&phases), Bank::even_firing(7, false)] {
             let moments = Moments::new(bank.unwrap()).unwrap();
             let throws = moments.bank.throws();

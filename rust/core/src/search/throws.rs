@@ -39,7 +39,7 @@ impl Bank {
         check_count(phases.len())?;
         let mut parts: i64 = 1;
         for phase in phases {
-            let Angle::Turns(_, denominator) = phase.reduced() else {
+            let Some((_, denominator)) = phase.reduced().turns() else {
                 let cure = "give rational parts of a turn, such as 90 or \"360/7\"";
                 return Err(Error::value("phases_deg", phase, cure));
             };
@@ -51,10 +51,8 @@ impl Bank {
         }
         let mut multiples: Vec<u32> = phases
             .iter()
-            .map(|phase| match phase.reduced() {
-                Angle::Turns(numerator, denominator) => (numerator * (parts / denominator)) as u32,
-                Angle::Degrees(_) => 0,
-            })
+            .filter_map(|phase| phase.reduced().turns())
+            .map(|(numerator, denominator)| (numerator * (parts / denominator)) as u32)
             .collect();
         multiples.sort_unstable();
         Ok(Self::of(multiples, parts as u32, false))

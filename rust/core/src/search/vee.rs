@@ -27,8 +27,8 @@ pub fn vee(
             item: "throw",
         });
     }
-    let half = Angle::from_degrees(0.5 * bank_angle)?;
-    let upright = Angle::Turns(1, 4);
+    let half = Angle::from_degrees(bank_angle)?.half();
+    let upright = Angle::QUARTER_TURN;
     let placements = (0..2 * throws).map(|i| {
         let (throw, bank) = (i / 2, i % 2);
         let phase = banks[bank][throw];

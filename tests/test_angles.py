@@ -1,0 +1,101 @@
+"""Angles are exact as typed: text, decimals, fractions and floats that mean one angle are one."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import _inputs
+from hypothesis import given
+from hypothesis import strategies as st
+
+CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.15, reciprocating_mass=0.5, pin_offset=0.0)
+
+
+def text(value: object) -> str:
+    """The text of this angle that the core reads."""
+    return _inputs.angle("angle", value)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        49.54,
+        np.float64(49.54),
+        np.float32(49.54),
+        np.longdouble("49.54"),
+        np.array(49.54),
+        "49.54",
+        " 49.540 ",
+        "4.954e1",
+        "2477/50",
+        "-2477/-50",
+        Decimal("49.54"),
+        Decimal("4.954E+1"),
+        Fraction(2477, 50),
+        Fraction("49.54"),
+    ],
+    ids=repr,
+)
+def test_one_angle_however_typed(value: object) -> None:
+    assert text(value) == "49.54"
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (360 / 7, "360/7"),
+        (Fraction(360, 7), "360/7"),
+        (Decimal(360) / 7, "360/7"),
+        (0.1 + 0.2, "0.3"),
+        (Decimal.from_float(0.3), "0.3"),
+        (Fraction(0.3), "0.3"),
+        (Fraction(1, 10**40), "1e-40"),
+        (np.int64(90), "90"),
+        (Decimal("49.1234567"), "491234567/10000000"),
+    ],
+    ids=repr,
+)
+def test_an_angle_is_what_it_stands_for(value: object, expected: str) -> None:
+    assert text(value) == text(expected)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [Decimal("NaN"), Decimal("Infinity"), Decimal("1e1000000000"), Fraction(10**400), "1/0", "x"],
+    ids=str,
+)
+def test_a_value_that_is_no_angle_is_refused(value: object) -> None:
+    with pytest.raises(ValueError, match="angle = "):
+        text(value)
+
+
+@given(st.integers(-(10**12), 10**12))
+def test_six_decimals_are_one_angle_in_every_form(millionths: int) -> None:
+    exact = Fraction(millionths, 10**6)
+    decimal = Decimal(millionths).scaleb(-6)
+    forms: list[Any] = [exact, decimal, str(decimal), float(exact), np.float64(float(exact))]
+    assert len({text(form) for form in forms}) == 1
+
+
+@given(st.floats(-1e12, 1e12))
+def test_text_of_a_float_reads_back(degrees: float) -> None:
+    assert text(text(degrees)) == text(degrees)
+
+
+def test_a_vee_has_the_banks_that_are_typed() -> None:
+    """Each bank angle of whole hundredths, computed by the builder and typed in a list."""
+    different = []
+    for k in range(1, 18_000):
+        vee = cp.Engine.vee(CYLINDER, bank_angle_deg=k / 100, throws_deg=[0], spacing=0.1)
+        right, left = (float(Decimal(90) - side * Decimal(k) / 200) for side in (1, -1))
+        typed = cp.Engine.from_lists(
+            CYLINDER, tdc_deg=[0, k / 100], bank_deg=[right, left], z=[0, 0]
+        )
+        if vee != typed.replace(name=vee.name):
+            different.append(k)
+    assert not different, f"{len(different)} differ, such as {different[:5]}"
