@@ -44,8 +44,6 @@ pub(crate) struct Kinematics {
 
 /// Pistons of one motion and top dead centre.
 pub(crate) struct Pistons {
-    /// Index into [`Loads::motions`].
-    pub motion: usize,
     pub cylinder: Cylinder,
     /// `e^{−i·tdc}`.
     pub phase: Complex64,
@@ -82,7 +80,6 @@ impl Kinematics {
                     let k = found.iter().position(same).unwrap_or_else(|| {
                         found.push(load);
                         pistons.push(Pistons {
-                            motion,
                             cylinder: loads.motions[motion],
                             phase: load.phase.cis(-1),
                             planar: Default::default(),

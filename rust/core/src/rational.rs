@@ -7,6 +7,8 @@
 
 /// Largest denominator: millimetres of an engine of ten metres.
 const MOST_PARTS: i128 = 10_000;
+/// Most digits before or behind the point of a decimal that is taken exactly.
+const MOST_DIGITS: i32 = 18;
 /// Ratios that are known less well than this are not looked for: with tolerance t, a figure at
 /// random is taken for a ratio with a chance of t times the square of [`MOST_PARTS`].
 const COARSEST: f64 = 1e-12;
@@ -44,6 +46,28 @@ pub fn common_measure(a: Ratio, b: Ratio) -> Option<Ratio> {
         return Some(Ratio::ZERO);
     }
     Some(Ratio::new(common_divisor(left, right), common))
+}
+
+/// The decimal that a double was typed as: its shortest one of up to 15 digits, or one of up to 12
+/// within a few units in the last place (3·0.1 is 0.3).
+pub(crate) fn decimal(x: f64) -> Option<Ratio> {
+    let parse = |text: String, most: usize| -> Option<Ratio> {
+        let (mantissa, exponent) = text.split_once('e')?;
+        let (whole, rest) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let rest = rest.trim_end_matches('0');
+        let digits = format!("{whole}{rest}");
+        let scale = exponent.parse::<i32>().ok()? - i32::try_from(rest.len()).ok()?;
+        if digits.trim_start_matches('-').len() > most || scale.abs() > MOST_DIGITS {
+            return None;
+        }
+        let (power, number) = (10_i128.pow(scale.unsigned_abs()), digits.parse::<i128>().ok()?);
+        Some(if scale < 0 { Ratio::new(number, power) } else { Ratio::from(number * power) })
+    };
+    parse(format!("{x:e}"), 15).or_else(|| {
+        let near = parse(format!("{x:.11e}"), 12)?;
+        let off = (nearest(*near.numer(), *near.denom()) - x).abs();
+        (off <= WITHIN_ULP * f64::EPSILON * x.abs()).then_some(near)
+    })
 }
 
 /// Greatest common divisor, > 0; 1 where both are 0.
@@ -114,7 +138,27 @@ impl Multiples {
     /// Of figures that are right within the errors given, one for each.
     #[must_use]
     pub fn new(figures: &[f64], errors: &[f64]) -> Self {
-        let mut units: Vec<(f64, f64)> = Vec::new();
+        Self::among(Vec::new(), figures, errors)
+    }
+
+    /// Of lengths: decimals are exact multiples of 1 m, the first unit; others are right within
+    /// [`WITHIN_ULP`] of their own last place.
+    #[must_use]
+    pub fn of_lengths(lengths: &[f64]) -> Self {
+        let exact: Vec<Option<Ratio>> = lengths.iter().map(|&length| decimal(length)).collect();
+        let others = lengths.iter().zip(&exact).filter(|(_, exact)| exact.is_none());
+        let others: Vec<f64> = others.map(|(&length, _)| length).collect();
+        let errors: Vec<f64> =
+            others.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
+        let Self { units, of } = Self::among(vec![(1.0, 0.0)], &others, &errors);
+        let mut of = of.into_iter();
+        let each = exact.into_iter().map(|exact| {
+            exact.map(|ratio| (0, ratio)).or_else(|| of.next()).unwrap_or((0, Ratio::ZERO))
+        });
+        Self { units, of: each.collect() }
+    }
+
+    fn among(mut units: Vec<(f64, f64)>, figures: &[f64], errors: &[f64]) -> Self {
         let mut of = vec![(0, Ratio::ZERO); figures.len()];
         // From the largest down, so that ratios and their errors are small.
         let mut falling: Vec<usize> = (0..figures.len()).collect();
@@ -151,6 +195,27 @@ impl Multiples {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn decimals_are_exact_and_sums_of_them_too() {
+        let is = |x: f64, numerator, denominator| {
+            assert_eq!(decimal(x), Some(Ratio::new(numerator, denominator)), "{x}");
+        };
+        is(0.31, 31, 100);
+        is(-1e14, -100_000_000_000_000, 1);
+        is(3.0 * 0.1, 3, 10);
+        is(0.1 + 0.2, 3, 10);
+        is(0.0, 0, 1);
+        is(123_456.789_012_345, 123_456_789_012_345, 1_000_000_000);
+        for none in [1.0 / 3.0, 2.0_f64.sqrt(), 1e30, 1e-30] {
+            assert_eq!(decimal(none), None, "{none}");
+        }
+        let lengths = Multiples::of_lengths(&[0.1, 1.0 / 3.0, 2.0_f64.sqrt(), 1e14]);
+        assert_eq!(lengths.units, [1.0, 2.0_f64.sqrt()]);
+        let expected = [(0, Ratio::new(1, 10)), (0, Ratio::new(1, 3)), (1, Ratio::from(1))];
+        assert_eq!(lengths.of[..3], expected);
+        assert_eq!(lengths.of[3], (0, Ratio::from(100_000_000_000_000)));
+    }
     use num_traits::{CheckedDiv, CheckedMul, CheckedSub};
     use proptest::prelude::*;
 

@@ -242,6 +242,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::{Request, Vector, balance};
 
     fn search(cylinders: usize, alternating: bool, phases: Option<&[f64]>) -> Search {
         let phases: Option<Vec<Angle>> =
@@ -274,9 +275,10 @@ mod tests {
             let solution = search.solution(&angles, k).unwrap();
             assert!((solution.bank_angle - degrees).abs() < 1e-12);
             let engine = solution.engine(cylinder, 0.1).unwrap();
-            let orders = crate::Orders::Given(vec![1, 2]);
-            let balance = crate::balance::balance(&engine, 3000.0, &orders, None, None).unwrap();
-            assert_eq!(balance.moment.backward[0], Complex64::default());
+            let request = Request { rpm: 3000.0, reference_z: None, spectrum: None, torque: false };
+            let orders = crate::Orders::whole(&[1, 2]).unwrap();
+            let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
+            assert_eq!(found.planar(Vector::Moment, 0).backward(), Complex64::default());
         }
     }
 }

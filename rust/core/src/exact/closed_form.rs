@@ -5,16 +5,17 @@
 //! c₀ + Σ cₖ·2cos(2πk/N) with whole cₖ, unique if k stays below half the degree of `Φ_N`: see
 //! [`crate::ring`]. What radicals these make is left to a computer algebra system.
 
-use num_traits::{CheckedDiv, CheckedMul, CheckedSub};
+use num_traits::{CheckedDiv, CheckedMul};
 
+use super::{Levers, too_long, whole};
 use crate::angle::Angle;
 use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
-use crate::limits;
+use crate::load::{Alike, Load, Loads, Source};
+use crate::order::Order;
 use crate::rational::{Multiples, Ratio, common_measure, nearest};
 use crate::ring::RootSum;
-use crate::vanishing::{Places, too_long, whole};
 
 /// Coefficients of 1, 2cos(2π/N), 2cos(4π/N) …, to be divided by the form's denominator.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,19 +28,30 @@ pub struct Phasor {
     pub square: Vec<i128>,
 }
 
-/// One cylinder's part.
+/// How the force of a load moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Along its direction.
+    Along,
+    /// Turning with the crank.
+    Forward,
+    /// Turning against the crank.
+    Backward,
+}
+
+/// One load's part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// m·r in units of the unit cylinder's.
+    /// m·r, or the unbalance times the square of its speed, in units of the unit cylinder's m·r.
     pub weight: Ratio,
     /// z − z₀ in units of the spacing.
     pub lever: Ratio,
-    /// m·r of what turns with its pin; zero above order 1.
-    pub rotating: Ratio,
-    /// Direction of its bore, as part of a turn.
-    pub bank: (i64, i64),
-    /// Crank angle of its top dead centre, as part of a turn.
-    pub tdc: (i64, i64),
+    /// How its force moves.
+    pub motion: Motion,
+    /// Direction, as part of a turn.
+    pub direction: (i64, i64),
+    /// Crank angle at which the force points there, as part of a turn.
+    pub phase: (i64, i64),
 }
 
 /// Force or moment of one order.
@@ -52,7 +64,7 @@ pub struct ClosedForm {
     pub spacing: f64,
     /// Whether the harmonic aₙ is zero, and all with it.
     pub no_harmonic: bool,
-    /// Cylinder by cylinder.
+    /// Load by load: the cylinders, then what rotates at this order.
     pub parts: Vec<Part>,
     /// N.
     pub period: i128,
@@ -73,55 +85,51 @@ fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
 }
 
 /// Levers in units of the spacing, and the spacing.
-fn levers(engine: &Engine, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> {
-    let multiples = Places::new(engine, reference).multiples;
-    if multiples.units.len() > 1 {
-        let value = format!("{:?}", engine.placements().iter().map(|p| p.z).collect::<Vec<_>>());
+fn levers(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> {
+    let Levers { units, of } = Levers::new(engine, loads, reference)?;
+    let unit = of.iter().flatten().find(|(_, ratio)| *ratio != Ratio::ZERO).map_or(0, |u| u.0);
+    let single = |lever: &Vec<(usize, Ratio)>| {
+        let others = lever.iter().any(|&(other, ratio)| other != unit && ratio != Ratio::ZERO);
+        let own = lever.iter().find(|(other, _)| *other == unit);
+        (!others).then(|| own.map_or(Ratio::ZERO, |&(_, ratio)| ratio))
+    };
+    let Some(levers) = of.iter().map(single).collect::<Option<Vec<Ratio>>>() else {
+        let value = format!("{:?}", loads.list.iter().map(|load| load.z).collect::<Vec<_>>());
         return Err(refused("z", value, "distances that are rational multiples of each other"));
-    }
-    let unit = multiples.units.first().copied().unwrap_or(0.0).abs();
-    let sign = Ratio::from_integer(multiples.units.first().map_or(1, |u| u.signum() as i128));
-    let places: Vec<Ratio> = multiples.of.iter().map(|&(_, ratio)| ratio).collect();
-    let Some((&plane, places)) = places.split_last() else {
-        return Ok((Vec::new(), 0.0));
     };
-    let from = |origin: Ratio| -> Option<Vec<Ratio>> {
-        places.iter().map(|place| place.checked_sub(&origin)?.checked_mul(&sign)).collect()
+    let measure = |levers: &[Ratio], from: Ratio| {
+        let mut distances = levers.iter().map(|lever| lever - from);
+        distances.try_fold(Ratio::ZERO, common_measure).ok_or_else(too_long)
     };
-    let measure = |of: &[Ratio]| of.iter().try_fold(Ratio::ZERO, |m, &d| common_measure(m, d));
-    let levers = from(plane).ok_or_else(too_long)?;
-    let mut step = measure(&from(places[0]).ok_or_else(too_long)?).ok_or_else(too_long)?;
+    let mut step = measure(&levers[..engine.placements().len()], levers[0])?;
     if step == Ratio::ZERO {
-        step = measure(&levers).ok_or_else(too_long)?;
+        step = measure(&levers, Ratio::ZERO)?;
     }
     if step == Ratio::ZERO {
         return Ok((levers, 0.0));
     }
-    let levers: Option<Vec<Ratio>> =
-        levers.into_iter().map(|lever| lever.checked_div(&step)).collect();
-    Ok((levers.ok_or_else(too_long)?, unit * nearest(*step.numer(), *step.denom())))
+    let sign = Ratio::from(units[unit].signum() as i128);
+    let scaled = levers.into_iter().map(|lever| lever.checked_div(&step)?.checked_mul(&sign));
+    let scaled: Option<Vec<Ratio>> = scaled.collect();
+    Ok((scaled.ok_or_else(too_long)?, units[unit].abs() * nearest(*step.numer(), *step.denom())))
 }
 
-/// m·r of what moves with the piston and what turns with the pin, in units of the first that moves.
-fn weights(engine: &Engine, order: u32) -> Result<(usize, Vec<(Ratio, Ratio)>)> {
-    let placements = engine.placements();
-    let count = placements.len();
-    let mut figures: Vec<f64> = placements.iter().map(|p| p.cylinder.first_order()).collect();
-    let turning = |p: &crate::Placement| p.rotating_mass * p.cylinder.crank_radius();
-    figures.extend(placements.iter().map(|p| if order == 1 { turning(p) } else { 0.0 }));
-    let Some(unit) = figures[..count].iter().position(|&figure| figure > 0.0) else {
+/// Weights of the loads of an order, in units of the first cylinder that has mass.
+fn weights(loads: &[Load]) -> Result<(usize, Vec<Ratio>)> {
+    let figures: Vec<f64> = loads.iter().map(|load| load.weight).collect();
+    let is_piston = |load: &Load| matches!(load.source, Source::Piston { .. });
+    let Some(unit) = loads.iter().position(|load| is_piston(load) && load.weight > 0.0) else {
         return Err(refused("reciprocating_mass", 0, "a cylinder that has some"));
     };
     let multiples = Multiples::of_figures(&figures);
     if multiples.units.len() > 1 {
         let value = format!("m·r = {figures:?}");
         let cure = "masses times radius that are rational multiples of each other";
-        return Err(refused("cylinders and rotating_mass", value, cure));
+        return Err(refused("cylinders and unbalances", value, cure));
     }
     let one = multiples.of[unit].1;
-    let ratio = |i: usize| multiples.of[i].1.checked_div(&one).ok_or_else(too_long);
-    let pairs = (0..count).map(|i| Ok((ratio(i)?, ratio(count + i)?)));
-    Ok((unit, pairs.collect::<Result<_>>()?))
+    let ratio = |&(_, ratio): &(usize, Ratio)| ratio.checked_div(&one).ok_or_else(too_long);
+    Ok((unit, multiples.of.iter().map(ratio).collect::<Result<_>>()?))
 }
 
 /// Force, or moment about the plane z = `reference_z`, of one order.
@@ -132,26 +140,40 @@ pub fn closed_form(
     reference_z: Option<f64>,
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
-    limits::order(order)?;
-    let reference = reference_z.map(|z| engine.reference(Some(z))).transpose()?;
-    let placements = engine.placements();
-    let cylinder = placements[0].cylinder;
-    if placements.iter().any(|p| p.cylinder.proportions() != cylinder.proportions()) {
+    Order::whole(order)?;
+    let mut loads = Loads::new(engine, engine.reference(reference_z)?, Alike::Proportions);
+    if loads.motions.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
-    let offset = cylinder.pin_offset();
-    let (unit, weights) = weights(engine, order)?;
-    if offset != 0.0 && weights.iter().any(|(_, rotating)| *rotating != Ratio::ZERO) {
-        let cure = "no rotating mass at order 1, whose phase is another, or no offset";
-        return Err(refused("pin_offset", offset, cure));
+    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
+    let offset = loads.motions[0].pin_offset();
+    let (unit, weights) = weights(&loads.list)?;
+    if loads.list.len() > engine.placements().len() {
+        if order > 1 {
+            let cure = "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
+            return Err(refused("shafts", format!("of order {order}"), cure));
+        }
+        if offset != 0.0 {
+            let cure = "no rotating mass at order 1, whose phase is another, or no offset";
+            return Err(refused("pin_offset", offset, cure));
+        }
     }
-    let (levers, spacing) =
-        if moment { levers(engine, reference)? } else { (vec![Ratio::ONE; placements.len()], 0.0) };
-    let mut parts = Vec::with_capacity(placements.len());
-    for ((placement, (weight, rotating)), lever) in placements.iter().zip(weights).zip(levers) {
-        let bank = part_of_turn("bank_deg", placement.bank)?;
-        let tdc = part_of_turn("tdc_deg", placement.tdc)?;
-        parts.push(Part { weight, lever, rotating, bank, tdc });
+    let (levers, spacing) = if moment {
+        levers(engine, &loads, reference_z)?
+    } else {
+        (vec![Ratio::ONE; loads.list.len()], 0.0)
+    };
+    let mut parts = Vec::with_capacity(loads.list.len());
+    for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
+        let (motion, square) = match load.source {
+            Source::Piston { .. } => (Motion::Along, 1),
+            Source::Unbalance { ratio, .. } if ratio > 0 => (Motion::Forward, ratio * ratio),
+            Source::Unbalance { ratio, .. } => (Motion::Backward, ratio * ratio),
+        };
+        let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
+        let argument = if motion == Motion::Along { "bank_deg" } else { "angle_deg" };
+        let direction = part_of_turn(argument, load.direction)?;
+        parts.push(Part { weight, lever, motion, direction, phase: part_of_turn("tdc_deg", load.phase)? });
     }
     let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
     let (denominator, [forward, backward_conj]) = sums(&parts, order)?;
@@ -178,26 +200,27 @@ pub fn closed_form(
 
 /// Twice forward and twice the conjugate of backward force, times levers, over a denominator.
 fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
-    let mut products = Vec::with_capacity(2 * parts.len());
-    for part in parts {
-        products.push(part.weight.checked_mul(&part.lever).ok_or_else(too_long)?);
-        products.push(part.rotating.checked_mul(&part.lever).ok_or_else(too_long)?);
-    }
-    let (weights, denominator) = whole(&products)?;
+    let product = |part: &Part| part.weight.checked_mul(&part.lever).ok_or_else(too_long);
+    let (weights, denominator) = whole(&parts.iter().map(product).collect::<Result<Vec<_>>>()?)?;
     let (mut forward, mut backward) = (Vec::new(), Vec::new());
-    for (part, weights) in parts.iter().zip(weights.chunks(2)) {
-        let (bank, tdc) = (part.bank, part.tdc);
-        let common = i128::from(bank.1).checked_mul(tdc.1.into()).ok_or_else(too_long)?;
+    for (part, weight) in parts.iter().zip(weights) {
+        let (toward, at) = (part.direction, part.phase);
+        let common = i128::from(toward.1).checked_mul(at.1.into()).ok_or_else(too_long)?;
         // Without whole turns, so that no product overflows.
         let rest = |(k, n): (i64, i64)| i128::from(k.rem_euclid(n));
-        let direction = rest(bank) * i128::from(tdc.1);
-        let phase = i128::from(order) * rest(tdc) * i128::from(bank.1);
+        let direction = rest(toward) * i128::from(at.1);
+        let phase = i128::from(order) * rest(at) * i128::from(toward.1);
         let turns = |numerator: i128| Ratio::new(numerator, common).into_raw();
         let (ahead, against) = (turns(direction - phase), turns(-direction - phase));
-        let twice = weights[1].checked_mul(2).ok_or_else(too_long)?;
-        forward.push((ahead.0, ahead.1, weights[0]));
-        forward.push((ahead.0, ahead.1, twice));
-        backward.push((against.0, against.1, weights[0]));
+        let twice = weight.checked_mul(2).ok_or_else(too_long)?;
+        match part.motion {
+            Motion::Along => {
+                forward.push((ahead.0, ahead.1, weight));
+                backward.push((against.0, against.1, weight));
+            }
+            Motion::Forward => forward.push((ahead.0, ahead.1, twice)),
+            Motion::Backward => backward.push((against.0, against.1, twice)),
+        }
     }
     // A period for both, and with quarters of a turn for i; three at least, so that there is a cosine.
     let one = RootSum::new(&forward, 4)?.period();
@@ -221,6 +244,7 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::{Request, Vector, balance};
     use crate::engine::Placement;
     use crate::slider_crank::Cylinder;
 
@@ -278,10 +302,13 @@ mod tests {
                     let form =
                         closed_form(&engine, order, moment, reference, &Cancel::new()).unwrap();
                     let rpm = 60.0 / std::f64::consts::TAU;
-                    let orders = crate::Orders::Given(vec![order]);
-                    let found =
-                        crate::balance::balance(&engine, rpm, &orders, reference, None).unwrap();
-                    let shake = if moment { found.moment } else { found.force };
+                    let orders = crate::Orders::whole(&[order]).unwrap();
+                    let request =
+                        Request { rpm, reference_z: reference, spectrum: None, torque: false };
+                    let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
+                    let vector = if moment { Vector::Moment } else { Vector::Force };
+                    let planar = found.planar(vector, 0);
+                    let [x, y] = found.xy(vector, 0);
                     let cylinder = engine.placements()[form.unit].cylinder;
                     let harmonic = crate::harmonics::coefficients(
                         &cylinder.proportions(),
@@ -291,8 +318,7 @@ mod tests {
                     .unwrap()[0];
                     let length = if moment { form.spacing } else { 1.0 };
                     let unit = harmonic.re * cylinder.first_order() * length;
-                    let expected =
-                        [shake.xy[[0, 0]], shake.xy[[0, 1]], shake.forward[0], shake.backward[0]];
+                    let expected = [x, y, planar.forward, planar.backward()];
                     let denominator = form.denominator as f64;
                     for (phasor, expected) in form.phasors.iter().zip(expected) {
                         let real = value(&phasor.real, form.period) / denominator * unit;
@@ -318,7 +344,7 @@ mod tests {
     #[test]
     fn what_has_none_is_refused_with_the_reason() {
         let mut places = crossplane().placements().to_vec();
-        places[3].z = 0.123_456_789_123;
+        places[3].z = 0.13 * 2.0_f64.sqrt();
         let engine = Engine::new("", "", places.clone()).unwrap();
         assert!(
             closed_form(&engine, 1, true, None, &Cancel::new())

@@ -1,0 +1,66 @@
+//! Exact answers: which orders vanish, with proof, and what the others are in closed form.
+//!
+//! Both read the engine's loads with whole-number weights and roots of unity instead of doubles.
+
+pub mod closed_form;
+pub mod vanishing;
+
+use num_traits::{CheckedAdd, CheckedMul};
+
+use crate::engine::Engine;
+use crate::error::{Error, Result};
+use crate::load::Loads;
+use crate::rational::{Multiples, Ratio, common_multiple};
+
+fn too_long() -> Error {
+    Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
+}
+
+/// Weights as whole numbers, over their least common denominator.
+fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, i128)> {
+    let common = weights
+        .iter()
+        .try_fold(1, |common, weight| common_multiple(common, *weight.denom()))
+        .ok_or_else(too_long)?;
+    let whole = weights.iter().map(|w| i128::checked_mul(*w.numer(), common / w.denom()));
+    Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, common))
+}
+
+/// Levers of all loads, each a sum of rational multiples of few units of length.
+struct Levers {
+    /// Lengths of which none is a rational multiple of another; the first is 1 m.
+    units: Vec<f64>,
+    /// For each load, unit and multiple.
+    of: Vec<Vec<(usize, Ratio)>>,
+}
+
+impl Levers {
+    /// Levers about a reference plane, by default midway between the first and the last cylinder.
+    fn new(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<Self> {
+        let places = || engine.placements().iter().map(|place| place.z);
+        let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
+        match reference {
+            Some(plane) => lengths.push(plane),
+            None => lengths.extend([
+                places().fold(f64::INFINITY, f64::min),
+                places().fold(f64::NEG_INFINITY, f64::max),
+            ]),
+        }
+        let Multiples { units, of } = Multiples::of_lengths(&lengths);
+        let (places, planes) = of.split_at(loads.list.len());
+        let share = Ratio::new(-1, planes.len() as i128);
+        let lever = |&place: &(usize, Ratio)| {
+            let mut lever = vec![place];
+            for (unit, plane) in planes {
+                let part = plane.checked_mul(&share).ok_or_else(too_long)?;
+                match lever.iter_mut().find(|(known, _)| known == unit) {
+                    Some((_, sum)) => *sum = sum.checked_add(&part).ok_or_else(too_long)?,
+                    None => lever.push((*unit, part)),
+                }
+            }
+            Ok(lever)
+        };
+        let levers = places.iter().map(lever).collect::<Result<_>>()?;
+        Ok(Self { units, of: levers })
+    }
+}
