@@ -2,7 +2,7 @@
 //!
 //! A file is one idea, and imports run one way:
 //! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`crank_angles`], [`rational`],
-//! [`cyclotomic`] → [`slider_crank`], [`rod`], [`harmonics`] (one cylinder) → [`engine`] (where the
+//! [`cyclotomic`] → [`cylinder`] (one cylinder's parts and harmonics) → [`engine`] (where the
 //! cylinders sit), [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON) → [`firing`], and
 //! [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of orders
 //! for these three; [`search`] goes through every arrangement; [`vanishing`] proves which orders are
@@ -20,22 +20,19 @@ pub mod cancel;
 pub mod closed_form;
 pub mod crank_angles;
 pub mod cyclotomic;
+pub mod cylinder;
 pub mod double;
 pub mod engine;
 pub mod engine_file;
 pub mod error;
 pub mod extrema;
 pub mod firing;
-pub mod harmonics;
 mod kinematics;
 pub mod layout;
 pub mod limits;
 pub mod rational;
-pub mod rod;
 pub mod search;
 mod simd;
-pub mod slider_crank;
-pub mod spectrum;
 pub mod sweep;
 pub mod vanishing;
 pub mod waveform;
@@ -44,6 +41,7 @@ pub use angle::Angle;
 pub use balance::{Asked, Balance, Orders};
 pub use cancel::Cancel;
 pub use crank_angles::CrankAngles;
+pub use cylinder::{harmonics, rod, slider_crank, spectrum};
 pub use engine::{Engine, Hold, Placement};
 pub use error::{Error, Result};
 pub use firing::Firing;

@@ -31,7 +31,6 @@ use crate::cancel::{Cancel, give_back};
 use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
-use crate::harmonics::LITTLE_SLACK;
 use crate::limits;
 use crate::slider_crank::{Cylinder, slack};
 use crate::spectrum::Spectrum;
@@ -189,11 +188,8 @@ impl Sweep {
         };
         let cylinders = self.engines.iter().flat_map(|engine| engine.placements());
         let least = cylinders.map(|p| slack_of(&p.cylinder)).fold(f64::INFINITY, f64::min);
-        if least >= LITTLE_SLACK {
-            return sums;
-        }
         let points = self.engines.len().saturating_mul(self.points());
-        sums.saturating_add(crate::harmonics::steps(least, orders.saturating_mul(points)))
+        sums.saturating_add(crate::harmonics::extra_steps(least, orders.saturating_mul(points)))
     }
 
     /// Largest mean piston speed of any cylinder at any speed, m/s.
