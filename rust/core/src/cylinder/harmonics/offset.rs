@@ -15,6 +15,7 @@ pub(super) fn coefficients(
     let roots = Roots::new(sides);
     let terms = roots.terms();
     let near = near_one::each(orders, cancel, |n| near_one::force(sides, n, terms))?;
+    let length = series_length(0, terms);
     let summed = orders.iter().zip(&near).filter(|(_, near)| near.is_none());
     let highest = summed.map(|(&n, _)| n).max();
     let series = highest.map(|highest| series(&roots, series_length(highest, terms)));
@@ -25,9 +26,8 @@ pub(super) fn coefficients(
             magnitude
         } else {
             cancel.check()?;
-            let terms = series.len() - n as usize;
             // From the smallest term up.
-            let tail: f64 = (1..terms).rev().map(|j| series[j] * series[j + n as usize]).sum();
+            let tail: f64 = (1..length).rev().map(|j| series[j] * series[j + n as usize]).sum();
             f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)
         };
         values.push(turned(sides, n, magnitude));

@@ -77,6 +77,7 @@ impl Swing {
     fn velocities(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let terms = self.roots.terms();
         let near = near_one::each(orders, cancel, |n| near_one::swing(&self.sides, n, terms))?;
+        let length = series_length(0, terms);
         let summed = orders.iter().zip(&near).filter(|(_, near)| near.is_none());
         let highest = summed.map(|(&n, _)| n).max();
         let series = highest.map(|highest| self.series(series_length(highest, terms)));
@@ -88,7 +89,8 @@ impl Swing {
             } else {
                 cancel.check()?;
                 // From the smallest term up.
-                let products = series.iter().zip(&series[n as usize - 1..]);
+                let shifted = &series[n as usize - 1..][..length];
+                let products = series[..length].iter().zip(shifted);
                 let sum: f64 = products.rev().map(|((g, _), (_, step))| g * step).sum();
                 2.0 * self.roots.product.sqrt() * sum
             };
