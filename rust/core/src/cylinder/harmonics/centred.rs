@@ -61,7 +61,8 @@ impl Centred {
         let last = may_be_missing(n, rtol) * (1.0 - self.fourth.high);
         let digits = NEGLIGIBLE_LOG.min(-last.ln());
         let terms = (digits / -self.fourth.high.ln()).ceil();
-        if let Some(magnitude) = near_one::force(&self.sides, n, terms) {
+        if near_one::is_by_quadrature(n, terms) {
+            let magnitude = near_one::force(&self.sides, n);
             return if n.is_multiple_of(4) { magnitude } else { -magnitude };
         }
         let rest = near_one::long_series(self.fourth, n, terms, last)

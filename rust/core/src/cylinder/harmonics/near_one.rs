@@ -1,7 +1,7 @@
 //! Harmonics near λ = 1, next to the crank that cannot turn, where a plain series is too long.
 //!
-//! Every threshold for that is here, and nowhere else. Callers pass what they know, such as the
-//! number of terms of their series, and compute the harmonic themselves where the answer is `None`.
+//! Every threshold for that is here, and nowhere else: callers pass the number of terms that their
+//! series would take.
 //!
 //! With more than a hundred terms a series is summed in numbers of twice the digits. With thousands
 //! of terms quadrature replaces it: near the crank that cannot turn the acceleration is a spike as
@@ -14,9 +14,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 use self::panels::graded_panels;
 use super::roots::Sides;
-use crate::cancel::Cancel;
 use crate::double::Double;
-use crate::error::Result;
 
 /// Rod ratios up to here take at most 68 terms, whose roundings are a few units in the last place.
 const LARGEST_PLAIN_RATIO: f64 = 0.99;
@@ -58,43 +56,32 @@ pub fn extra_steps(slack: f64, orders: usize) -> usize {
     orders.saturating_mul(steps_per_order(slack, 0))
 }
 
-/// Evaluate `of` for each order, checking for cancellation between orders.
-pub(super) fn each(
-    orders: &[u32],
-    cancel: &Cancel,
-    of: impl Fn(u32) -> Option<f64>,
-) -> Result<Vec<Option<f64>>> {
-    orders.iter().map(|&n| cancel.check().map(|()| of(n))).collect()
+/// True if order n needs so many `terms` of a series that [`force`] and [`swing`] replace it.
+pub(super) fn is_by_quadrature(n: u32, terms: f64) -> bool {
+    terms > LONGEST_SERIES && terms > SERIES_TERMS_PER_ORDER * f64::from(n)
 }
 
-/// Order n of the force over m·r·ω², less its factor iⁿ, if its series would take too many `terms`.
+/// Order n of the force over m·r·ω², less its factor iⁿ, by quadrature.
 ///
 /// Exact relative to the area of the spike. Odd orders are what the spikes at the two ends do not
 /// cancel, of the size of n² times the offset: where that is small, both ends are in one integrand.
-pub(super) fn force(sides: &Sides, n: u32, terms: f64) -> Option<f64> {
-    if !is_by_quadrature(n, terms) {
-        return None;
-    }
+pub(super) fn force(sides: &Sides, n: u32) -> f64 {
     // The integrals are over the angle from sin θ = 1: (−i)ⁿ for iⁿ.
-    Some(if n.is_multiple_of(2) {
+    if n.is_multiple_of(2) {
         spikes(sides, n)
     } else if f64::from(n).powi(2) * sides.offset < 1.0 {
         -difference_of_spikes(sides, n)
     } else {
         -spikes(sides, n)
-    })
+    }
 }
 
-/// Order n of φ', the swing of the rod, less its factor iⁿ⁻¹, if its series would take too many
-/// `terms`.
+/// Order n of φ', the swing of the rod, less its factor iⁿ⁻¹, by quadrature.
 ///
 /// `(2/π)∫ sin ψ sin nψ/h dψ` over the angle from sin θ = 1, both ends in one integrand. For even n
 /// they differ by `1/h(ψ) − 1/h(π − ψ)` = `−4e cos ψ/(h(ψ) h(π − ψ) (h(ψ) + h(π − ψ)))`, whose sign
 /// is that of (−i)ⁿ⁻¹ to iⁿ⁻¹.
-pub(super) fn swing(sides: &Sides, n: u32, terms: f64) -> Option<f64> {
-    if !is_by_quadrature(n, terms) {
-        return None;
-    }
+pub(super) fn swing(sides: &Sides, n: u32) -> f64 {
     let degree = f64::from(n);
     let integral = graded_panels((2.0 * sides.below.high).sqrt(), degree, |ψ| {
         let (here, there) = heights(sides, ψ);
@@ -105,7 +92,7 @@ pub(super) fn swing(sides: &Sides, n: u32, terms: f64) -> Option<f64> {
         };
         ψ.sin() * (degree * ψ).sin() * inverse
     });
-    Some(FRAC_2_PI * integral)
+    FRAC_2_PI * integral
 }
 
 /// `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}` of the terms above `last`, n = 2m, in numbers of twice the
@@ -128,10 +115,6 @@ pub(super) fn long_series(fourth: Double, n: u32, terms: f64, last: f64) -> Opti
         j += 1.0;
     }
     Some(Double::sum(1.0, -sum.high).plus(-sum.low).high)
-}
-
-fn is_by_quadrature(n: u32, terms: f64) -> bool {
-    terms > LONGEST_SERIES && terms > SERIES_TERMS_PER_ORDER * f64::from(n)
 }
 
 /// `(2/π)∫₀^π −h''(φ) cos nφ dφ` with φ the crank angle from sin θ = 1, each end by itself.

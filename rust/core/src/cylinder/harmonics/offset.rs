@@ -14,18 +14,17 @@ pub(super) fn coefficients(
 ) -> Result<Vec<Complex64>> {
     let roots = Roots::new(sides);
     let terms = roots.terms();
-    let near = near_one::each(orders, cancel, |n| near_one::force(sides, n, terms))?;
     let length = series_length(0, terms);
-    let summed = orders.iter().zip(&near).filter(|(_, near)| near.is_none());
-    let highest = summed.map(|(&n, _)| n).max();
+    let summed = orders.iter().copied().filter(|&n| !near_one::is_by_quadrature(n, terms));
+    let highest = summed.max();
     let series = highest.map(|highest| series(&roots, series_length(highest, terms)));
     let series = series.unwrap_or_default();
     let mut values = Vec::with_capacity(orders.len());
-    for (&n, near) in orders.iter().zip(near) {
-        let magnitude = if let Some(magnitude) = near {
-            magnitude
+    for &n in orders {
+        cancel.check()?;
+        let magnitude = if near_one::is_by_quadrature(n, terms) {
+            near_one::force(sides, n)
         } else {
-            cancel.check()?;
             // From the smallest term up.
             let tail: f64 = (1..length).rev().map(|j| series[j] * series[j + n as usize]).sum();
             f64::from(n).powi(2) / roots.product.sqrt() * (series[n as usize] + tail)

@@ -76,18 +76,17 @@ impl Swing {
     /// Peak phasors of φ'.
     fn velocities(&self, orders: &[u32], cancel: &Cancel) -> Result<Vec<Complex64>> {
         let terms = self.roots.terms();
-        let near = near_one::each(orders, cancel, |n| near_one::swing(&self.sides, n, terms))?;
         let length = series_length(0, terms);
-        let summed = orders.iter().zip(&near).filter(|(_, near)| near.is_none());
-        let highest = summed.map(|(&n, _)| n).max();
+        let summed = orders.iter().copied().filter(|&n| !near_one::is_by_quadrature(n, terms));
+        let highest = summed.max();
         let series = highest.map(|highest| self.series(series_length(highest, terms)));
         let series = series.unwrap_or_default();
         let mut values = Vec::with_capacity(orders.len());
-        for (&n, near) in orders.iter().zip(near) {
-            let magnitude = if let Some(magnitude) = near {
-                magnitude
+        for &n in orders {
+            cancel.check()?;
+            let magnitude = if near_one::is_by_quadrature(n, terms) {
+                near_one::swing(&self.sides, n)
             } else {
-                cancel.check()?;
                 // From the smallest term up.
                 let shifted = &series[n as usize - 1..][..length];
                 let products = series[..length].iter().zip(shifted);
@@ -147,7 +146,7 @@ mod tests {
             for (&n, by_series) in
                 orders.iter().zip(swing.velocities(&orders, &Cancel::new()).unwrap())
             {
-                let by_panels = near_one::swing(&swing.sides, n, f64::INFINITY).unwrap();
+                let by_panels = near_one::swing(&swing.sides, n);
                 let by_panels = swing.turned(n, by_panels);
                 // A few units of order 1, which is 4/π.
                 let apart = (by_series - by_panels).norm();
