@@ -23,9 +23,11 @@ __all__ = [
     "centred_table",
     "check_cylinder",
     "closed_form",
+    "crank_radius_of_stroke",
     "cylinder_harmonics",
     "cylinder_torque_harmonics",
     "ellipse",
+    "estimated_rod_inertia",
     "exact_angle",
     "inline_throws",
     "motion",
@@ -225,6 +227,8 @@ _Groups: TypeAlias = Sequence[Sequence[int]] | None
 class Firing:
     @staticmethod
     def named(engine: Engine, firing_order: str, strokes: int) -> Firing: ...
+    @staticmethod
+    def most_even(engine: Engine, strokes: int) -> Firing: ...
     @staticmethod
     def all_named(engine: Engine, firing_order: str, strokes: int) -> list[Firing]: ...
     @staticmethod
