@@ -652,8 +652,8 @@ def test_refusals() -> None:
     with pytest.raises(cp.InputError) as refusal:
         i4.firing("1-2-3-4")
     assert str(refusal.value) == (
-        "firing_order = 1-2-3-4: this crank cannot fire in this order: its TDC sequence is 1+4, 2+3. "
-        "Possible orders, most even first: 1-2-4-3, 1-3-4-2, 1-2+3-4, …"
+        "firing_order = 1-2-3-4: this crank cannot fire in this order: its TDC sequence is 1+4, "
+        "2+3. Possible orders, most even first: 1-2-4-3, 1-3-4-2, 1-2+3-4, …"
     )
     for ask in (i4.firing, i4.firings):
         with pytest.raises(cp.InputError, match="1-3-2: name each of the engine's 4 cylinders"):

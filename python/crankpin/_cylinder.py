@@ -93,15 +93,14 @@ class Cylinder:
         >>> cylinder.crank_radius
         0.043
         """
-        given = {
-            "bore": bore,
-            "stroke": stroke,
-            "rod_length": rod_length,
-            "reciprocating_mass": reciprocating_mass,
-            "pin_offset": pin_offset,
-        }
-        figures = [_inputs.number(name, value) for name, value in given.items()]
-        radius = _core.crank_radius_of_stroke(tuple(figures))
+        figures = (
+            _inputs.number("bore", bore),
+            _inputs.number("stroke", stroke),
+            _inputs.number("rod_length", rod_length),
+            _inputs.number("reciprocating_mass", reciprocating_mass),
+            _inputs.number("pin_offset", pin_offset),
+        )
+        radius = _core.crank_radius_of_stroke(figures)
         return cls(radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess)
 
     @classmethod
