@@ -293,10 +293,14 @@ fn odd_torque_orders_with_an_offset_keep_their_digits() {
 fn odd_torque_orders_with_an_offset_take_no_longer_than_even_ones() {
     let proportions = Proportions::new(0.3, 0.4).unwrap();
     let time = |orders: Vec<u32>| {
-        let start = std::time::Instant::now();
-        torque::torque(&proportions, &orders, &Cancel::new()).unwrap();
-        rod::torque(&proportions, &orders, &Cancel::new()).unwrap();
-        start.elapsed().as_secs_f64()
+        let run = || {
+            let start = std::time::Instant::now();
+            torque::torque(&proportions, &orders, &Cancel::new()).unwrap();
+            rod::torque(&proportions, &orders, &Cancel::new()).unwrap();
+            start.elapsed().as_secs_f64()
+        };
+        // The least of some milliseconds each: other work on the machine takes time slices.
+        (0..10).map(|_| run()).fold(f64::INFINITY, f64::min)
     };
     let even = time((1..=5000).map(|k| 2 * k).collect());
     let odd = time((1..=5000).map(|k| 2 * k - 1).collect());
