@@ -384,6 +384,31 @@ def test_an_inertia_that_is_none_is_refused(value: object) -> None:
         cp.Cylinder(0.05, 0.15, 0.5, rod_inertia_excess=value)
 
 
+def test_an_estimated_rod_has_the_mean_inertia_of_measured_ones() -> None:
+    rod = cp.Rod.estimated(mass=0.6, length=0.15, to_crankpin=0.05)
+    assert rod == cp.Rod(0.6, rod.inertia, 0.15, 0.05)
+    assert rod.inertia * 1.0965 == pytest.approx(0.6 * 0.05 * 0.1, rel=1e-14)
+    with pytest.raises(
+        cp.InputError, match=r"^to_crankpin = 0\.2: give metres, 0 to length = 0\.15"
+    ):
+        cp.Rod.estimated(0.6, 0.15, 0.2)
+    with pytest.raises(cp.InputError, match=r"^mass = 'heavy'"):
+        cp.Rod.estimated("heavy", 0.15, 0.05)  # type: ignore[arg-type]
+
+
+def test_from_bore_stroke_halves_the_stroke_and_checks_the_bore() -> None:
+    given: dict[str, Any] = {"rod_length": 0.145, "reciprocating_mass": 0.66, "pin_offset": 0.001}
+    cylinder = cp.Cylinder.from_bore_stroke(bore=0.086, stroke=0.09, **given)
+    assert cylinder == cp.Cylinder(crank_radius=0.045, **given)
+    swinging = cp.Cylinder.from_bore_stroke(
+        bore=0.086, stroke=0.09, rod_inertia_excess=-1e-4, **given
+    )
+    assert swinging == cylinder.replace(rod_inertia_excess=-1e-4)
+    for name, value in [("bore", 0.0), ("stroke", -0.09), ("bore", float("nan")), ("stroke", "x")]:
+        with pytest.raises(cp.InputError, match=f"^{name} = "):
+            cp.Cylinder.from_bore_stroke(**{"bore": 0.086, "stroke": 0.09, **given, name: value})
+
+
 def test_from_rod_takes_a_rod_and_a_piston() -> None:
     with pytest.raises(cp.InputError, match="give a Rod"):
         cp.Cylinder.from_rod(0.15, 0.05, 0.5)  # type: ignore[arg-type]

@@ -63,6 +63,48 @@ class Cylinder:
     rod_inertia_excess: float = 0.0
 
     @classmethod
+    def from_bore_stroke(
+        cls,
+        *,
+        bore: float,
+        stroke: float,
+        rod_length: float,
+        reciprocating_mass: float,
+        pin_offset: float = 0.0,
+        rod_inertia_excess: float = 0.0,
+    ) -> Cylinder:
+        """Return a cylinder given by its bore and stroke.
+
+        Parameters
+        ----------
+        bore
+            Diameter of the cylinder, m. Inertia forces do not depend on it: it is checked and not
+            kept.
+        stroke
+            Twice the crank radius, m.
+        rod_length, reciprocating_mass, pin_offset, rod_inertia_excess
+            As in :class:`Cylinder`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder.from_bore_stroke(
+        ...     bore=0.086, stroke=0.086, rod_length=0.145, reciprocating_mass=0.66
+        ... )
+        >>> cylinder.crank_radius
+        0.043
+        """
+        figures = (
+            _inputs.number("bore", bore),
+            _inputs.number("stroke", stroke),
+            _inputs.number("rod_length", rod_length),
+            _inputs.number("reciprocating_mass", reciprocating_mass),
+            _inputs.number("pin_offset", pin_offset),
+        )
+        radius = _core.crank_radius_of_stroke(figures)
+        return cls(radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess)
+
+    @classmethod
     def from_rod(
         cls, rod: Rod, crank_radius: float, piston_mass: float, pin_offset: float = 0.0
     ) -> Cylinder:
@@ -268,6 +310,30 @@ class Rod:
     inertia: float
     length: float
     to_crankpin: float
+
+    @classmethod
+    def estimated(cls, mass: float, length: float, to_crankpin: float) -> Rod:
+        """Return a rod with an estimated moment of inertia, I = m·a·b/1.0965.
+
+        Two masses at the ends have the moment of inertia m·a·b, b = l - a. For 19 measured rods of
+        spark-ignition engines that is 9.65 % more than theirs on average, from 2.65 % less to 22 %
+        more (ASME ICEF2002, vol. 46628, p. 305).
+
+        Parameters
+        ----------
+        mass, length, to_crankpin
+            As in :class:`Rod`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> rod = cp.Rod.estimated(mass=0.6, length=0.15, to_crankpin=0.05)
+        >>> round(rod.inertia, 6)
+        0.002736
+        """
+        figures = {"mass": mass, "length": length, "to_crankpin": to_crankpin}
+        numbers = {name: _inputs.number(name, value) for name, value in figures.items()}
+        return cls(inertia=_core.estimated_rod_inertia(*numbers.values()), **numbers)
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):

@@ -6,7 +6,6 @@ use crate::choice;
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::extrema::PeakFinder;
-use crate::harmonics;
 use crate::limits;
 use crate::load::{Alike, Loads};
 use crate::order::{self, Order};
@@ -31,16 +30,6 @@ impl Orders {
     /// Whole orders from a list.
     pub fn whole(orders: &[u32]) -> Result<Self> {
         Order::all_whole(orders).map(Self::Given)
-    }
-
-    /// About how many steps of some nanoseconds they take at most.
-    #[must_use]
-    pub fn steps(&self, engine: &Engine) -> usize {
-        /// More orders than a tolerance asks of a rod that is not next to the shortest.
-        const CHOSEN: usize = 256;
-        let count = if let Self::Given(orders) = self { orders.len() } else { CHOSEN };
-        let each = engine.gears().iter().map(|gear| harmonics::steps(gear.slack(), count));
-        each.fold(0, usize::saturating_add)
     }
 }
 

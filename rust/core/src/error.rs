@@ -2,15 +2,13 @@
 
 use thiserror::Error;
 
-use crate::limits::HIGHEST_ORDER;
-
 /// The result of anything that takes a caller's figures.
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// An input that makes no engine, or a request that cannot be met.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
-    /// A figure that is not finite, of the wrong sign, or beyond the limits of [`crate::limits`].
+    /// A figure that is not finite, of the wrong sign, or out of range.
     #[error("{argument} = {value}: {cure}")]
     Value {
         /// Name of the argument as the caller typed it.
@@ -62,8 +60,8 @@ pub enum Error {
     },
     /// A tolerance that no number of orders we sum can reach.
     #[error(
-        "rtol = {rtol:?}: more than {HIGHEST_ORDER} orders would be needed at a rod ratio of \
-         {rod_ratio:?}; ask for exact kinematics or a larger rtol"
+        "rtol = {rtol:?}: too many orders would be needed at a rod ratio of {rod_ratio:?}; ask for \
+         exact kinematics or a larger rtol"
     )]
     TooManyOrders {
         /// The tolerance asked for.

@@ -34,6 +34,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::crank_radius_of_stroke, module)?)?;
+    module.add_function(wrap_pyfunction!(slider_crank::estimated_rod_inertia, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::rod_parts, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::motion, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::cylinder_harmonics, module)?)?;

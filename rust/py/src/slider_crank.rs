@@ -1,7 +1,7 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{Complex64, angle, limits, rod};
+use crankpin_core::{Complex64, Cylinder, angle, limits, rod};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -13,6 +13,22 @@ use crate::interrupt;
 #[pyfunction]
 pub fn check_cylinder(parts: Parts) -> PyResult<()> {
     cylinder(parts).map(drop)
+}
+
+/// Crank radius of a cylinder given by bore and stroke: bore, stroke, rod length, reciprocating mass,
+/// pin offset.
+#[pyfunction]
+pub fn crank_radius_of_stroke(given: Parts) -> PyResult<f64> {
+    let (bore, stroke, rod_length, mass, pin_offset) = given;
+    let cylinder = Cylinder::from_bore_stroke(bore, stroke, rod_length, mass, pin_offset);
+    cylinder.or_raise().map(|cylinder| cylinder.crank_radius())
+}
+
+/// Estimated moment of inertia of a rod: mass, length, distance of the centre of mass from the
+/// crankpin.
+#[pyfunction]
+pub fn estimated_rod_inertia(mass: f64, length: f64, to_crankpin: f64) -> PyResult<f64> {
+    rod::Rod::estimated(mass, length, to_crankpin).or_raise().map(|rod| rod.inertia())
 }
 
 /// Reciprocating mass, rotating mass and excess of inertia of a rod: mass, inertia, length, distance

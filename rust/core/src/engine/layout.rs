@@ -310,13 +310,17 @@ impl FiringOrder {
         }
         let (ranks, times) = (self.ranks(), self.times(rule)?);
         let seats = layout.seats(count)?;
+        // An order has no beginning: from cylinder 1 on.
+        let since_first = |rank: usize| (rank + count - ranks[0]) % count;
         let tdc = |seat: &Seat, rank: usize| match rule {
             FiringRule::Even(_) | FiringRule::Intervals(..) => times[rank],
             FiringRule::Ijesc => {
                 let fired_before = seats
                     .iter()
                     .zip(&ranks)
-                    .filter(|&(other, &earlier)| other.side == seat.side && earlier < rank)
+                    .filter(|&(other, &earlier)| {
+                        other.side == seat.side && since_first(earlier) < since_first(rank)
+                    })
                     .count();
                 // Top dead centre at φ ∓ γ, up to a turn of the whole crank.
                 seat.bank + part(fired_before, 360, count / 2)
@@ -412,6 +416,18 @@ mod tests {
         let engine = order.vee(cylinder(), &FiringRule::Ijesc, &layout).unwrap();
         // cylinders (1, 3, 5) lag by 0, 240, 120 and (2, 4, 6) by 120, 0, 240
         assert_eq!(pins(&engine), [0.0, 240.0, 120.0, 0.0, 240.0, 120.0]);
+    }
+
+    #[test]
+    fn the_ijesc_rule_takes_a_firing_order_from_any_cylinder_on() {
+        let layout = vee(60.0, Numbering::Alternating, Side::Right);
+        let engine = |order: &str| {
+            let order: FiringOrder = order.parse().unwrap();
+            order.vee(cylinder(), &FiringRule::Ijesc, &layout).unwrap()
+        };
+        for order in ["4-5-2-3-6-1", "5-2-3-6-1-4", "6-1-4-5-2-3"] {
+            assert_eq!(engine(order), engine("1-4-5-2-3-6"), "{order}");
+        }
     }
 
     #[test]

@@ -23,10 +23,8 @@ use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
-use crate::harmonics::LITTLE_SLACK;
 use crate::limits;
 use crate::order::{self, Order};
-use crate::slider_crank::{Cylinder, slack};
 use crate::spectrum::Spectrum;
 
 /// What is evaluated at each point.
@@ -118,32 +116,6 @@ impl Sweep {
             length(&self.axes.pin_offset),
             self.squares.len(),
         ]
-    }
-
-    /// About how many steps of some nanoseconds a result takes at most.
-    #[must_use]
-    pub fn steps(&self, figure: Figure) -> usize {
-        /// A true peak of a sum of orders, in steps for each.
-        const PEAK: usize = 100;
-        let each = match figure {
-            Figure::Amplitude | Figure::Turning | Figure::Length => 2,
-            Figure::Sum | Figure::LengthOfSum => PEAK,
-        };
-        let orders = self.orders.len();
-        let sums = self.shape().iter().fold(each * orders, |size, &n| size.saturating_mul(n));
-        let [ratio, offset] = self.extremes;
-        let slack_of = |cylinder: &Cylinder| {
-            let radius = cylinder.crank_radius();
-            let rod = ratio.map_or(cylinder.rod_length() / radius, |ratio| 1.0 / ratio);
-            slack(rod, offset.unwrap_or(cylinder.pin_offset()) / radius)
-        };
-        let gears = self.engines.iter().flat_map(|engine| engine.gears());
-        let least = gears.map(slack_of).fold(f64::INFINITY, f64::min);
-        if least >= LITTLE_SLACK {
-            return sums;
-        }
-        let points = self.engines.len().saturating_mul(self.points());
-        sums.saturating_add(crate::harmonics::steps(least, orders.saturating_mul(points)))
     }
 
     /// Largest mean piston speed of any cylinder at any speed, m/s.

@@ -1,34 +1,30 @@
 //! Harmonics of the torques that one cylinder's inertia force makes, in closed form.
 
-use super::{Offset, Roots, coefficients, rod};
+use super::fractions::Fractions;
+use super::roots::{Root, Sides};
+use super::{force, rod};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
+use crate::limits;
 use crate::slider_crank::{Cylinder, Proportions};
 
-/// Harmonics of the torques that the inertia force makes, over m·r²·ω², as peak phasors.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TorqueHarmonics {
-    /// Roll torque on the block about +z: `x''·(x' + e)` in crank radii.
-    pub roll: Vec<Complex64>,
-    /// Inertia torque on the crank: `−x''·x'`.
-    pub crank: Vec<Complex64>,
-}
+pub use super::rod::TorqueHarmonics;
 
-/// Torque harmonics of the given orders, in closed form.
+/// Harmonics of the torques of the inertia force over m·r²·ω², in closed form.
 ///
 /// `x'' x'` is half the derivative of `x'²`. With `x' = h' − sin θ`, `x'² = sin²θ − 2 sin θ h' + h'²`,
-/// where the middle term shifts the orders of h by one and `h'² = u²cos²θ/h²` is rational: its
-/// partial fractions in sin θ have the geometric series in p₁ and p₂ as Fourier series.
+/// where the middle term shifts the orders of h by one and `h'²` is rational (`fractions`).
 pub fn torque(
     proportions: &Proportions,
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
+    orders.iter().try_for_each(|&n| limits::order(n).map(drop))?;
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
-    let force = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {
-        coefficients(proportions, orders, cancel)
+    let forces = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {
+        force::unchecked(proportions, orders, cancel)
     })?;
     // Order n of h' from order n of the acceleration: h'ₙ = i n hₙ and aₙ = n² hₙ.
     let slope = |index: usize| -> Complex64 {
@@ -37,28 +33,30 @@ pub fn torque(
             return Complex64::default();
         }
         let of_crank = if n == 1 { 1.0 } else { 0.0 };
-        Complex64::i() * (force[index] - of_crank) / f64::from(n)
+        Complex64::i() * (forces[index] - of_crank) / f64::from(n)
     };
-    let rational = RationalPart::new(proportions);
+    let fractions = Fractions::new(proportions);
     let (mut roll, mut crank) = (Vec::new(), Vec::new());
     for (k, &n) in orders.iter().enumerate() {
+        cancel.check()?;
         let shifted = Complex64::i() * (slope(3 * k) - slope(3 * k + 2));
-        let of_sine = if n == 2 { -0.5 } else { 0.0 };
-        let velocity_squared = shifted + rational.harmonic(n) + of_sine;
+        // sin²θ − cos²θ = −cos 2θ
+        let of_crank = if n == 2 { -1.0 } else { 0.0 };
+        let velocity_squared = shifted + (fractions.harmonic(n) + of_crank);
         let half_derivative = Complex64::i() * velocity_squared * (0.5 * f64::from(n));
         crank.push(-half_derivative);
         // x'' = −Σ aₙ e^{inθ}
-        roll.push(half_derivative - force[3 * k + 1] * proportions.offset);
+        roll.push(half_derivative - forces[3 * k + 1] * proportions.offset);
     }
     Ok(TorqueHarmonics { roll, crank })
 }
 
-/// A function of orders that takes long for each, asked but once for those that come again.
+/// Evaluates a function of orders once for each distinct order.
 fn once_each(
     orders: &[u32],
     of: impl Fn(&[u32]) -> Result<Vec<Complex64>>,
 ) -> Result<Vec<Complex64>> {
-    /// Up to so many orders it is asked at once.
+    /// Up to this many orders a repetition costs less than finding it.
     const FEW: usize = 64;
     if orders.len() <= FEW {
         return of(orders);
@@ -70,7 +68,8 @@ fn once_each(
     Ok(orders.iter().map(|n| values[distinct.partition_point(|other| other < n)]).collect())
 }
 
-/// Both torques of a cylinder over ω², rod inertia and all, with proportions of their own.
+/// Both torques of a cylinder over ω², rod inertia included, with these proportions in place of its
+/// own.
 pub fn of_cylinder(
     cylinder: &Cylinder,
     proportions: &Proportions,
@@ -88,7 +87,7 @@ pub fn of_cylinder(
     Ok(sum)
 }
 
-/// Both torques of a cylinder over m·r²·ω², rod inertia and all.
+/// Both torques of a cylinder over m·r²·ω², rod inertia included.
 pub fn over_second_moment(
     cylinder: &Cylinder,
     orders: &[u32],
@@ -113,55 +112,12 @@ pub fn over_second_moment(
 /// |Cₙ| ≤ l p₂ⁿ⁻¹: the forces' tail, once for each neighbour, and a geometric sum.
 #[must_use]
 pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
-    let force = super::tail_bound(proportions, highest.saturating_sub(1))?;
-    let roots = RationalPart::new(proportions).roots;
-    let (p, first) = (roots.p2, f64::from(highest + 1));
+    let force = force::tail_bound(proportions, highest.saturating_sub(1))?;
+    let Root { p, .. } = Root::new(Sides::new(proportions).below);
+    let first = f64::from(highest + 1);
     let gap = 1.0 - p;
     // Σ_{n ≥ N} n pⁿ⁻¹ = p^{N−1}(N/g + p/g²)
     let rational = p.powf(first - 1.0) * (first / gap + p / (gap * gap));
     let bound = (1.5 + proportions.offset.abs()) * force + 0.5 * proportions.rod * rational;
     bound.is_finite().then_some(bound)
-}
-
-/// `h'² = u²cos²θ/h²` as a Fourier series.
-pub(super) struct RationalPart {
-    rod: f64,
-    offset: f64,
-    roots: Roots,
-    mirrored: bool,
-}
-
-impl RationalPart {
-    pub fn new(proportions: &Proportions) -> Self {
-        let Offset { size, mirrored, above, below } = Offset::new(proportions);
-        Self { rod: proportions.rod, offset: size, roots: Roots::new(size, above, below), mirrored }
-    }
-
-    /// Peak phasor of order n ≥ 1.
-    ///
-    /// h'² = −cos²θ + (l/2r)·(cos²θ/(A − sin θ) + cos²θ/(B + sin θ)), and cos²θ/(A − sin θ) =
-    /// sin θ + A − (A² − 1)/(A − sin θ), whose order n ≥ 2 is −(1 − p₁²) p₁ⁿ⁻¹ (−i)ⁿ and whose
-    /// order 1 is −i p₁²; the other fraction has p₂ and iⁿ.
-    pub fn harmonic(&self, n: u32) -> Complex64 {
-        let Roots { p1, p2, difference, .. } = self.roots;
-        let power = |p: f64, k: u32| p.powf(f64::from(k));
-        if n % 2 == 1 {
-            if self.offset == 0.0 {
-                return Complex64::default();
-            }
-            // Powers of p₂ less powers of p₁, with p₂ − p₁ taken out.
-            let spread =
-                |k: u32| -> f64 { (0..k).map(|i| power(p1, i) * power(p2, k - 1 - i)).sum() };
-            let magnitude = if n == 1 {
-                -0.5 * self.rod * difference * (p1 + p2)
-            } else {
-                0.5 * self.rod * difference * (spread(n - 1) - spread(n + 1))
-            };
-            let magnitude = if self.mirrored { -magnitude } else { magnitude };
-            return Complex64::new(0.0, if n % 4 == 1 { magnitude } else { -magnitude });
-        }
-        let sum = (1.0 - p1 * p1) * power(p1, n - 1) + (1.0 - p2 * p2) * power(p2, n - 1);
-        let fraction = 0.5 * self.rod * if n.is_multiple_of(4) { -sum } else { sum };
-        Complex64::new(if n == 2 { fraction - 0.5 } else { fraction }, 0.0)
-    }
 }

@@ -5,10 +5,10 @@ use std::ops::Range;
 use ndarray::Array2;
 use rayon::prelude::*;
 
-use super::{
-    ALL_DIGITS, Centred, LITTLE_SLACK, MOST_STEPS, NEGLIGIBLE_LOG, Root, coefficients, leading,
-    may_be_missing, next_term,
-};
+use super::centred::{ALL_DIGITS, Centred, leading, may_be_missing, next_term};
+use super::force::coefficients;
+use super::near_one;
+use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
@@ -75,12 +75,8 @@ pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usiz
         }
         None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
     };
-    let each = match offsets {
-        _ if least < LITTLE_SLACK => MOST_STEPS,
-        // Side by side.
-        None => 1,
-        Some(_) => 32,
-    };
+    // Without offsets orders are computed side by side.
+    let each = near_one::steps_per_order(least, if offsets.is_some() { 32 } else { 1 });
     orders.saturating_mul(rod_ratios.len()).saturating_mul(each)
 }
 
@@ -128,15 +124,14 @@ fn centred_rows(
         #[inline(always)]
         || {
             for (ratios, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
-                let near_one = |λ: f64| λ > Horner::LARGEST_ROD_RATIO;
                 // What a lane is given does not show in others: rows depend on their own ratio alone.
                 let mut lanes = [0.5; LANES];
                 for (lane, &λ) in lanes.iter_mut().zip(ratios) {
-                    *lane = if near_one(λ) { 0.5 } else { λ };
+                    *lane = if near_one::is_near(λ) { 0.5 } else { λ };
                 }
                 lanes_of_rows(&lanes, orders, tables, rows);
                 for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
-                    if !near_one(λ) {
+                    if !near_one::is_near(λ) {
                         continue;
                     }
                     cancel.check()?;
@@ -228,12 +223,9 @@ struct Horner {
 }
 
 impl Horner {
-    /// Rod ratios up to here take at most 68 terms, whose roundings are a few units in the last place.
-    const LARGEST_ROD_RATIO: f64 = 0.99;
-
     /// A table for each order, as long as the largest of the rod ratios needs.
     fn tables(orders: &[u32], rtol: f64, rod_ratios: &[f64]) -> Vec<Self> {
-        let within = rod_ratios.iter().filter(|&&λ| λ <= Self::LARGEST_ROD_RATIO);
+        let within = rod_ratios.iter().filter(|&&λ| !near_one::is_near(λ));
         // Others' lanes are filled with 1/2.
         let largest = within.fold(0.5_f64, |a, &b| a.max(b));
         let fourth = root(largest).powi(4);

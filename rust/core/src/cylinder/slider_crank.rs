@@ -44,6 +44,20 @@ impl Cylinder {
         Ok(cylinder)
     }
 
+    /// From bore and stroke in place of the crank radius, m. The motion does not depend on the bore,
+    /// which is checked and not kept.
+    pub fn from_bore_stroke(
+        bore: f64,
+        stroke: f64,
+        rod_length: f64,
+        reciprocating_mass: f64,
+        pin_offset: f64,
+    ) -> Result<Self> {
+        limits::length("bore", bore)?;
+        limits::length("stroke", stroke)?;
+        Self::new(0.5 * stroke, rod_length, reciprocating_mass, pin_offset)
+    }
+
     /// With a rod whose moment of inertia about its centre of mass, I, is not that of two masses at
     /// its ends: I − m·a·b in kg·m², a and b the distances of the rod's m from them. Mostly below 0.
     pub fn with_rod_inertia_excess(self, excess: f64) -> Result<Self> {
@@ -162,14 +176,21 @@ impl Proportions {
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
     }
 
-    /// A ratio of two lengths with which the crank turns.
+    /// Check that λ = r/l is in range: 0 < λ < 1.
+    // Inlined: tables check every ratio in a loop.
+    #[inline]
     pub fn check_rod_ratio(rod_ratio: f64) -> Result<()> {
         if (limits::SMALLEST..1.0).contains(&rod_ratio) {
             return Ok(());
         }
+        Err(Self::rod_ratio_out_of_range(rod_ratio))
+    }
+
+    #[cold]
+    fn rod_ratio_out_of_range(rod_ratio: f64) -> Error {
         let least = limits::SMALLEST;
         let cure = format!("give crank radius over rod length, at least {least:e} and less than 1");
-        Err(Error::figure("rod_ratio", rod_ratio, cure))
+        Error::figure("rod_ratio", rod_ratio, cure)
     }
 
     /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank
@@ -284,6 +305,15 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn from_bore_stroke_halves_the_stroke_and_checks_the_bore() {
+        let of = |bore, stroke| Cylinder::from_bore_stroke(bore, stroke, 0.15, 0.5, 0.01);
+        assert_eq!(of(0.086, 0.1), Cylinder::new(0.05, 0.15, 0.5, 0.01));
+        assert!(of(0.0, 0.1).unwrap_err().to_string().starts_with("bore = 0.0: "));
+        assert!(of(0.086, -0.1).unwrap_err().to_string().starts_with("stroke = -0.1: "));
+        assert!(of(0.086, 0.3).is_err());
     }
 
     #[test]

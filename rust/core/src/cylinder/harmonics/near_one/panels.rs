@@ -1,47 +1,7 @@
-//! Harmonics near the crank that cannot turn, where a series would take too many terms.
+//! Integrals of a function with a narrow spike, by panels that halve towards it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
-
-/// `(2/π)∫₀^π −h''(φ) cos nφ dφ` with φ the crank angle from sin θ = 1.
-///
-/// Near the crank that cannot turn, h'' is a spike as narrow as √(2·reach) at either end: panels
-/// halve towards it, so that their number grows with the logarithm of its width only. Exact
-/// relative to the spike's area; orders that have decayed below it are left to the series. Odd
-/// orders are what the spikes at the two ends do not cancel, of the size n² offset: where that is
-/// small they come from [`odd_integral`].
-pub(super) fn spike_integral(above: f64, below: f64, offset: f64, n: u32) -> f64 {
-    if n % 2 == 1 && f64::from(n).powi(2) * offset < 1.0 {
-        return odd_integral(above, below, offset, n);
-    }
-    let far_sign = if n % 2 == 1 { -1.0 } else { 1.0 };
-    let rod = 1.0 + 0.5 * (above + below);
-    let half = |near: f64, far: f64, offset: f64| {
-        graded_panels((2.0 * near).sqrt(), f64::from(n), |φ| {
-            let (sin, cos) = φ.sin_cos();
-            let (half_sin, half_cos) = (0.5 * φ).sin_cos();
-            let height_squared =
-                (near + 2.0 * half_sin * half_sin) * (far + 2.0 * half_cos * half_cos);
-            let lateral = cos - offset;
-            let curvature = rod * rod * sin * sin / height_squared - lateral * cos;
-            curvature / height_squared.sqrt() * (f64::from(n) * φ).cos()
-        })
-    };
-    (half(above, below, offset) + far_sign * half(below, above, -offset)) * 2.0 / PI
-}
-
-/// The same for odd n by parts, n² `(2/π)∫ h cos nφ`, with both ends in one integrand: h(φ) −
-/// h(π − φ) = 4 e cos φ/(h(φ) + h(π − φ)), from which the offset comes out as a factor.
-fn odd_integral(above: f64, below: f64, offset: f64, n: u32) -> f64 {
-    let degree = f64::from(n);
-    let integral = graded_panels((2.0 * below).sqrt(), degree, |φ| {
-        let (half_sin, half_cos) = (0.5 * φ).sin_cos();
-        let (rise, rest) = (2.0 * half_sin * half_sin, 2.0 * half_cos * half_cos);
-        let height = |near: f64, far: f64| ((near + rise) * (far + rest)).sqrt();
-        φ.cos() * (degree * φ).cos() / (height(above, below) + height(below, above))
-    });
-    degree * degree * offset * integral * 8.0 / PI
-}
 
 /// Integral over [0, π/2] of a function with a spike of this width at 0 and waves of order n.
 pub(super) fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {

@@ -35,6 +35,25 @@ impl Rod {
         Ok(Self { mass, inertia, to_crankpin, to_piston_pin: length - to_crankpin })
     }
 
+    /// A rod whose moment of inertia is not known, estimated as I = m·a·b/1.0965.
+    ///
+    /// Two masses at the ends have the moment of inertia m·a·b; for 19 measured rods of
+    /// spark-ignition engines that is 9.65 % more than theirs on average, −2.65 % to 22 % (ASME
+    /// ICEF2002, vol. 46628, p. 305). Mass in kg, length between the centres of the eyes and the
+    /// centre of mass's distance from the crankpin's in m.
+    pub fn estimated(mass: f64, length: f64, to_crankpin: f64) -> Result<Self> {
+        const TWO_MASSES_OVER_MEASURED: f64 = 1.0965;
+        let rod = Self::new(mass, 0.0, length, to_crankpin)?;
+        let two_masses = mass * rod.to_crankpin * rod.to_piston_pin;
+        Self::new(mass, two_masses / TWO_MASSES_OVER_MEASURED, length, to_crankpin)
+    }
+
+    /// Moment of inertia about the centre of mass, kg·m².
+    #[must_use]
+    pub fn inertia(&self) -> f64 {
+        self.inertia
+    }
+
     /// Mass that moves with the piston, kg.
     #[must_use]
     pub fn reciprocating_mass(&self) -> f64 {
@@ -143,6 +162,20 @@ mod tests {
                 assert!((excess(units) - expected).abs() <= 3.0 * f64::EPSILON * inertia);
                 assert!(excess(units) * units > 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn an_estimated_rod_has_the_mean_inertia_of_measured_ones() {
+        let rod = Rod::estimated(0.6, 0.15, 0.05).unwrap();
+        assert_eq!(rod, Rod::new(0.6, rod.inertia(), 0.15, 0.05).unwrap());
+        // Two masses have 0.6 · 0.05 · 0.1 = 0.003 kg·m², 9.65 % more.
+        assert_relative_eq!(rod.inertia() * 1.0965, 0.003, max_relative = 1e-15);
+        assert_relative_eq!(rod.inertia_excess(), rod.inertia() - 0.003, max_relative = 1e-13);
+        assert_eq!(Rod::estimated(0.6, 0.15, 0.0).unwrap().inertia(), 0.0);
+        for (mass, length, to_crankpin) in [(-0.1, 0.15, 0.05), (0.3, 0.0, 0.0), (0.3, 0.15, 0.16)]
+        {
+            assert!(Rod::estimated(mass, length, to_crankpin).is_err());
         }
     }
 

@@ -1,0 +1,302 @@
+//! The ways in which an engine can fire: all of them, those of a named order, and the most even one.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use super::firing_order::NamedOrder;
+use super::tops::Tops;
+use super::way::Firing;
+use crate::engine::Engine;
+use crate::error::{Error, Result, shorten};
+use crate::layout::Strokes;
+
+/// Most cylinders of which all orders are listed: a V16 has 2¹⁵ choices of turns.
+pub const MOST_LISTED: usize = 16;
+/// Orders that an error lists.
+const EXAMPLES: usize = 3;
+
+impl Firing {
+    /// Every choice of turns by which an engine fires in this order, the most even first.
+    pub fn all_named(
+        engine: &Arc<Engine>,
+        order: &NamedOrder,
+        strokes: Strokes,
+    ) -> Result<Vec<Self>> {
+        let tops = Tops::of(engine);
+        let count = tops.0.len();
+        if order.cylinders.len() != count {
+            let cure = format!("name each of the engine's {count} cylinders once");
+            return Err(Error::value("firing_order", order, cure));
+        }
+        // Within a turn cylinders fire as they reach the top; the order may go back to an earlier
+        // top once, where the second turn begins.
+        let mut second_turn_at = Vec::new();
+        for k in 1..count {
+            let [before, now] = [k - 1, k].map(|k| tops.0[order.cylinders[k]]);
+            if order.together[k] {
+                if before != now {
+                    return Ok(Vec::new());
+                }
+            } else if before.partial_cmp(&now) != Some(Ordering::Less) {
+                second_turn_at.push(k);
+            }
+        }
+        let splits: Vec<usize> = match (strokes, &second_turn_at[..]) {
+            (Strokes::Four, &[split]) => vec![split],
+            (Strokes::Four, []) => {
+                (1..=count).filter(|&k| order.together.get(k) != Some(&true)).collect()
+            }
+            (Strokes::Two, []) => vec![count],
+            _ => Vec::new(),
+        };
+        let mut found: Vec<Self> = splits
+            .into_iter()
+            .map(|split| {
+                let mut later = vec![false; count];
+                for &cylinder in &order.cylinders[split..] {
+                    later[cylinder] = true;
+                }
+                Self::assemble(engine, &tops, strokes, &later)
+            })
+            .collect();
+        most_even_first(&mut found);
+        Ok(found)
+    }
+
+    /// The most even way for an engine to fire in this order.
+    pub fn named(engine: &Arc<Engine>, order: &NamedOrder, strokes: Strokes) -> Result<Self> {
+        if let Some(found) = Self::all_named(engine, order, strokes)?.into_iter().next() {
+            return Ok(found);
+        }
+        let later = vec![false; engine.placements().len()];
+        let within_a_turn = Self::assemble(engine, &Tops::of(engine), Strokes::Two, &later);
+        let tops = shorten(&within_a_turn.to_string().replace('-', ", "));
+        let mut cure = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
+        if let Ok(possible) = Self::all(engine, strokes) {
+            let (listed, more) = distinct_orders(&possible);
+            let more = if more { ", …" } else { "" };
+            let listed = listed.join(", ");
+            cure = format!("{cure}. Possible orders, most even first: {listed}{more}");
+        }
+        Err(Error::value("firing_order", order, cure))
+    }
+
+    /// The most even way for an engine to fire, if no other order is as even.
+    ///
+    /// Of several ways in that order, which differ in where the second turn begins, this is the one
+    /// that [`Self::named`] gives.
+    pub fn most_even(engine: &Arc<Engine>, strokes: Strokes) -> Result<Self> {
+        let mut ways = Self::all(engine, strokes)?;
+        let as_even = ways.iter().take_while(|way| unevenness(way) == unevenness(&ways[0])).count();
+        let (listed, more) = distinct_orders(&ways[..as_even]);
+        if listed.len() == 1 {
+            return Ok(ways.swap_remove(0));
+        }
+        let more = if more { ", …" } else { "" };
+        let cure =
+            format!("name one of the orders that are equally even: {}{more}", listed.join(", "));
+        Err(Error::value("firing_order", "None", cure))
+    }
+
+    /// Every way for an engine to fire, the most even first.
+    pub fn all(engine: &Arc<Engine>, strokes: Strokes) -> Result<Vec<Self>> {
+        let tops = Tops::of(engine);
+        let count = tops.0.len();
+        let choices = match strokes {
+            Strokes::Two => 1_u32,
+            Strokes::Four if count <= MOST_LISTED => 1 << (count - 1),
+            Strokes::Four => {
+                let cure = format!(
+                    "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power \
+                     of {}; name an order in place of it",
+                    MOST_LISTED - 1
+                );
+                return Err(Error::value("number of cylinders", count, cure));
+            }
+        };
+        let mut found: Vec<Self> = (0..choices)
+            .map(|choice| {
+                let later: Vec<bool> = (0..count)
+                    .map(|i| i > 0 && choice.checked_shr(i as u32 - 1).unwrap_or(0) & 1 == 1)
+                    .collect();
+                Self::assemble(engine, &tops, strokes, &later)
+            })
+            .collect();
+        most_even_first(&mut found);
+        Ok(found)
+    }
+}
+
+fn most_even_first(firings: &mut [Firing]) {
+    firings
+        .sort_by_cached_key(|firing| (unevenness(firing), firing.order().to_vec(), firing.later()));
+}
+
+/// To a millionth of a degree, so that rounding does not order what is equally even.
+fn unevenness(firing: &Firing) -> u64 {
+    (firing.unevenness() * 1e6).round() as u64
+}
+
+/// The first few distinct orders, shortened, and true if there are more.
+fn distinct_orders(firings: &[Firing]) -> (Vec<String>, bool) {
+    let mut texts: Vec<String> = Vec::new();
+    for text in firings.iter().map(|firing| shorten(&firing.to_string())) {
+        if texts.contains(&text) {
+            continue;
+        }
+        if texts.len() == EXAMPLES {
+            return (texts, true);
+        }
+        texts.push(text);
+    }
+    (texts, false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::engines::{cylinder, engine, figures, intervals, placed, vee};
+    use super::*;
+    use crate::layout::Side;
+
+    #[test]
+    fn an_order_within_one_turn_leaves_the_start_of_the_next_open() {
+        let v6 = engine(&vee(60.0, 0.0, &[0.0, 120.0, 240.0], Side::Right));
+        let order: NamedOrder = "1-2-5-6-3-4".parse().unwrap();
+        let ways = Firing::all_named(&v6, &order, Strokes::Four).unwrap();
+        assert_eq!(ways.len(), 6);
+        for way in &ways {
+            let mut sorted = intervals(way);
+            sorted.sort_by(f64::total_cmp);
+            assert_eq!(sorted, [60.0, 60.0, 60.0, 60.0, 60.0, 420.0]);
+        }
+        let two_stroke = Firing::named(&v6, &order, Strokes::Two).unwrap();
+        assert_eq!(intervals(&two_stroke), [60.0; 6]);
+    }
+
+    #[test]
+    fn cylinders_that_fire_together_are_told_and_read_back() {
+        let boxer = engine(&vee(180.0, 180.0, &[0.0, 180.0], Side::Right));
+        let ways = Firing::all(&boxer, Strokes::Four).unwrap();
+        assert_eq!(ways.len(), 8);
+        for way in &ways {
+            let order: NamedOrder = way.to_string().parse().unwrap();
+            assert_eq!(order.to_string(), way.to_string());
+            assert!(Firing::all_named(&boxer, &order, Strokes::Four).unwrap().contains(way));
+        }
+        let together: NamedOrder = "3+4-1+2".parse().unwrap();
+        let two_stroke = Firing::named(&boxer, &together, Strokes::Two).unwrap();
+        assert_eq!(two_stroke.to_string(), "1+2-3+4");
+        assert_eq!(intervals(&two_stroke), [0.0, 180.0, 0.0, 180.0]);
+        assert!(Firing::named(&boxer, &"1-2-3-4".parse().unwrap(), Strokes::Two).is_err());
+    }
+
+    /// A firing's own figures from its definition: each cylinder at its top in its own turn.
+    #[test]
+    fn every_way_to_fire_is_listed_once_and_tells_itself() {
+        let tdcs = [40.0, 130.0, 305.5, 40.0];
+        let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        assert_eq!(ways.len(), 8);
+        let mut choices: Vec<Vec<bool>> = ways.iter().map(Firing::later).collect();
+        for way in &ways {
+            let later = way.later();
+            assert!(!later[0]);
+            assert_eq!(&Firing::with_later(&engine, Strokes::Four, &later).unwrap(), way);
+            // Times after the first firing, and the angles 40° on.
+            let after = |i: usize| {
+                let top: f64 = (tdcs[i] - tdcs[0] + 360.0) % 360.0;
+                top + if later[i] { 360.0 } else { 0.0 }
+            };
+            let angles: Vec<f64> = (0..4).map(|i| (after(i) + 40.0) % 720.0).collect();
+            assert_eq!(figures(&way.angles()), angles);
+            let mut times: Vec<f64> = way.order().iter().map(|&i| after(i)).collect();
+            assert!(times.is_sorted() && way.order()[0] == 0);
+            times.push(720.0);
+            let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            assert_eq!(intervals(way), gaps);
+            let square: f64 = gaps.iter().map(|gap| (gap - 180.0).powi(2)).sum();
+            assert!((way.unevenness() - (square / 4.0).sqrt()).abs() < 1e-12);
+            assert!(!way.even());
+        }
+        assert!(ways.is_sorted_by(|a, b| a.unevenness() <= b.unevenness() + 1e-6));
+        choices.sort();
+        choices.dedup();
+        assert_eq!(choices.len(), 8);
+        let [none, some] = [[false; 4], [false, true, false, false]];
+        assert!(Firing::with_later(&engine, Strokes::Two, &some).is_err());
+        assert!(Firing::with_later(&engine, Strokes::Two, &none).is_ok());
+        assert!(Firing::with_later(&engine, Strokes::Four, &[true, false, false, false]).is_err());
+        assert!(Firing::with_later(&engine, Strokes::Four, &[false; 3]).is_err());
+        assert_eq!(Firing::all(&engine, Strokes::Two).unwrap().len(), 1);
+        let many = placed(&vec![(cylinder(0.0), 0.0, 90.0); MOST_LISTED + 1]);
+        assert!(Firing::all(&many, Strokes::Four).is_err());
+        assert!(Firing::all(&many, Strokes::Two).is_ok());
+    }
+
+    #[test]
+    fn the_most_even_way_comes_first_however_near_the_others() {
+        // Half of the ways come within a degree of another.
+        let tdcs = [0.0, 90.3, 180.4, 270.9];
+        let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        let unevenness: Vec<f64> = ways.iter().map(Firing::unevenness).collect();
+        assert!(
+            unevenness.windows(2).any(|pair| 1e-3 < pair[1] - pair[0] && pair[1] - pair[0] < 0.5)
+        );
+        assert!(unevenness.is_sorted_by(|a, b| *a <= b + 1e-6), "{unevenness:?}");
+    }
+
+    #[test]
+    fn the_most_even_order_is_taken_if_no_other_is_as_even() {
+        let of = |tdcs: &[f64], strokes| {
+            let places: Vec<_> = tdcs.iter().map(|&tdc| (cylinder(0.0), tdc, 90.0)).collect();
+            Firing::most_even(&placed(&places), strokes)
+        };
+        let order = |tdcs: &[f64], strokes| of(tdcs, strokes).unwrap().to_string();
+        assert_eq!(order(&[0.0], Strokes::Four), "1");
+        assert_eq!(order(&[0.0, 240.0, 120.0], Strokes::Four), "1-2-3");
+        assert_eq!(order(&[0.0, 180.0, 180.0, 0.0], Strokes::Two), "1+4-2+3");
+        // Two ways in one order: 180-540 and 540-180.
+        let twin = of(&[0.0, 180.0], Strokes::Four).unwrap();
+        let named = Firing::named(twin.engine(), &"1-2".parse().unwrap(), Strokes::Four).unwrap();
+        assert_eq!(twin, named);
+        let message = |tdcs: &[f64]| of(tdcs, Strokes::Four).unwrap_err().to_string();
+        assert_eq!(
+            message(&[0.0, 180.0, 180.0, 0.0]),
+            "firing_order = None: name one of the orders that are equally even: 1-2-4-3, 1-3-4-2"
+        );
+        assert!(message(&[0.0, 120.0, 240.0, 240.0, 120.0, 0.0]).ends_with(", …"));
+        assert!(message(&[0.0; MOST_LISTED + 1]).starts_with("number of cylinders = 17: "));
+    }
+
+    #[test]
+    fn the_error_of_an_impossible_order_lists_possible_ones() {
+        let engine = placed(&[0.0, 180.0, 180.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let message = |order: &str, strokes| {
+            Firing::named(&engine, &order.parse().unwrap(), strokes).unwrap_err().to_string()
+        };
+        assert_eq!(
+            message("1-2-3-4", Strokes::Four),
+            "firing_order = 1-2-3-4: this crank cannot fire in this order: its TDC sequence is 1+4, \
+             2+3. Possible orders, most even first: 1-2-4-3, 1-3-4-2, 1-2+3-4, …"
+        );
+        assert_eq!(
+            message("1-2-3-4", Strokes::Two),
+            "firing_order = 1-2-3-4: this crank cannot fire in this order: its TDC sequence is 1+4, \
+             2+3. Possible orders, most even first: 1+4-2+3"
+        );
+    }
+
+    #[test]
+    fn the_errors_of_an_engine_of_a_thousand_cylinders_are_short() {
+        let engine = placed(&vec![(cylinder(0.0), 0.0, 90.0); 1000]);
+        let numbers: Vec<String> = (1..=1000).map(|number| number.to_string()).collect();
+        let order: NamedOrder = numbers.join("-").parse().unwrap();
+        for strokes in [Strokes::Two, Strokes::Four] {
+            let message = Firing::named(&engine, &order, strokes).unwrap_err().to_string();
+            assert!(message.len() < 1000, "{}", message.len());
+        }
+        let message = "9-".repeat(500_000).parse::<NamedOrder>().unwrap_err().to_string();
+        assert!(message.len() < 1000, "{}", message.len());
+    }
+}

@@ -1,0 +1,326 @@
+//! Strokes, and when valves and ports are open.
+
+use super::tops::{same, top_to_bottom, turns};
+use super::way::Firing;
+use crate::angle::Angle;
+use crate::engine::Placement;
+use crate::error::{Error, Result};
+use crate::layout::{MOST_ROUNDING, Strokes};
+
+/// Two cylinders whose exhaust valves, or ports, are open at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Index of the cylinder whose exhaust is open.
+    pub before: usize,
+    /// Index of the one whose exhaust opens.
+    pub after: usize,
+    /// Crank angle from one opening to the other.
+    pub gap: Angle,
+    /// Crank angle for which both are open.
+    pub overlap: Angle,
+}
+
+/// When valves open and close.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValveTiming {
+    intake: [Angle; 2],
+    exhaust: [Angle; 2],
+}
+
+impl ValveTiming {
+    /// The intake valve opens before top and closes after bottom dead centre, the exhaust valve
+    /// opens before bottom and closes after top dead centre, by these angles.
+    pub fn new(
+        intake_opens: Angle,
+        intake_closes: Angle,
+        exhaust_opens: Angle,
+        exhaust_closes: Angle,
+    ) -> Result<Self> {
+        let given = [
+            ("intake_opens_deg", intake_opens),
+            ("intake_closes_deg", intake_closes),
+            ("exhaust_opens_deg", exhaust_opens),
+            ("exhaust_closes_deg", exhaust_closes),
+        ];
+        for (argument, angle) in given {
+            let degrees = angle.degrees();
+            if !(-90.0 < degrees && degrees <= 180.0) {
+                let cure = "give degrees above -90 and up to 180";
+                return Err(Error::value(argument, angle, cure));
+            }
+        }
+        Ok(Self { intake: [intake_opens, intake_closes], exhaust: [exhaust_opens, exhaust_closes] })
+    }
+}
+
+/// When the ports of a two-stroke open and close.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PortTiming {
+    transfer: Angle,
+    exhaust: Angle,
+}
+
+impl PortTiming {
+    /// Each opens before bottom dead centre by its angle, and closes as much after it.
+    pub fn new(transfer_opens: Angle, exhaust_opens: Angle) -> Result<Self> {
+        let given = [("transfer_opens_deg", transfer_opens), ("exhaust_opens_deg", exhaust_opens)];
+        for (argument, angle) in given {
+            if !(0.0 < angle.degrees() && angle.degrees() < 180.0) {
+                let cure = "give degrees above 0 and below 180";
+                return Err(Error::value(argument, angle, cure));
+            }
+        }
+        Ok(Self { transfer: transfer_opens, exhaust: exhaust_opens })
+    }
+}
+
+/// From opening to closing, or from beginning to end of a stroke: the first within a cycle, the
+/// second after it.
+pub type Period = [Angle; 2];
+
+/// Periods of each cylinder.
+pub type Periods = Vec<Period>;
+
+/// Periods in which valves are open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Valves {
+    /// Of the intake valves.
+    pub intake: Periods,
+    /// Of the exhaust valves.
+    pub exhaust: Periods,
+}
+
+/// Periods in which ports are open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ports {
+    /// Of the transfer ports.
+    pub transfer: Periods,
+    /// Of the exhaust ports.
+    pub exhaust: Periods,
+}
+
+/// Crank angle for which a valve of cylinder i (from 0) is open: it opens by the first angle before a
+/// stroke, and closes by the second one after it.
+fn open_for(valve: &str, i: usize, [opens, closes]: [Angle; 2], stroke: Angle) -> Result<Angle> {
+    let open = opens + stroke + closes;
+    if open.degrees() > 0.0 {
+        return Ok(open);
+    }
+    let argument = format!("{valve}_opens_deg + {valve}_closes_deg");
+    let cure = format!(
+        "the valve of cylinder {} would close before it opens, as its {valve} stroke takes {:.1}°; make \
+         the sum greater than {:.1}",
+        i + 1,
+        stroke.degrees(),
+        -stroke.degrees()
+    );
+    Err(Error::value(argument, opens + closes, cure))
+}
+
+impl Firing {
+    /// From beginning to end of each stroke, in order from the firing on.
+    #[must_use]
+    pub fn stroke_periods(&self) -> Vec<(&'static str, Periods)> {
+        let names: &[_] = match self.strokes() {
+            Strokes::Four => &["power", "exhaust", "intake", "compression"],
+            Strokes::Two => &["power", "compression"],
+        };
+        let period = |k: usize, (firing, placement): (Angle, &Placement)| {
+            let downwards = top_to_bottom(placement);
+            let before = turns((k / 2) as i64);
+            let (from, length) = if k.is_multiple_of(2) {
+                (before, downwards)
+            } else {
+                (before + downwards, turns(1) - downwards)
+            };
+            self.period(firing + from, length)
+        };
+        names
+            .iter()
+            .enumerate()
+            .map(|(k, &name)| {
+                let angles = self.angles().into_iter().zip(self.engine().placements());
+                (name, angles.map(|each| period(k, each)).collect())
+            })
+            .collect()
+    }
+
+    /// When valves are open; of a four-stroke.
+    pub fn valves(&self, timing: &ValveTiming) -> Result<Valves> {
+        if self.strokes() == Strokes::Two {
+            let cure = "valves are those of a four-stroke; a two-stroke breathes through ports: \
+                        Firing.ports, PortTiming";
+            return Err(Error::value("strokes", 2, cure));
+        }
+        let mut valves = Valves { intake: Vec::new(), exhaust: Vec::new() };
+        let angles = self.angles().into_iter().zip(self.engine().placements());
+        for (i, (firing, placement)) in angles.enumerate() {
+            let (turn, downwards) = (turns(1), top_to_bottom(placement));
+            let open = open_for("intake", i, timing.intake, downwards)?;
+            valves.intake.push(self.period(firing + (turn - timing.intake[0]), open));
+            let open = open_for("exhaust", i, timing.exhaust, turn - downwards)?;
+            valves.exhaust.push(self.period(firing + downwards - timing.exhaust[0], open));
+        }
+        Ok(valves)
+    }
+
+    /// When ports are open; of a two-stroke.
+    pub fn ports(&self, timing: &PortTiming) -> Result<Ports> {
+        if self.strokes() == Strokes::Four {
+            let cure = "ports are those of a two-stroke; a four-stroke breathes through valves: \
+                        Firing.valves, ValveTiming";
+            return Err(Error::value("strokes", 4, cure));
+        }
+        let open = |half: Angle| -> Periods {
+            let tops = self.angles().into_iter().zip(self.engine().placements());
+            tops.map(|(firing, placement)| {
+                self.period(firing + top_to_bottom(placement) - half, half + half)
+            })
+            .collect()
+        };
+        Ok(Ports { transfer: open(timing.transfer), exhaust: open(timing.exhaust) })
+    }
+
+    /// Where of a group two are open at one time; a period for each cylinder of the engine.
+    #[must_use]
+    pub fn overlaps(&self, groups: &[Vec<usize>], open: &[Period]) -> Vec<Vec<Overlap>> {
+        let length = |i: usize| open[i][1] - open[i][0];
+        let mut found = Vec::new();
+        for group in groups {
+            let members = self.in_order(group);
+            let mut overlaps = Vec::new();
+            for (k, &before) in members.iter().enumerate() {
+                // The others as they follow this one.
+                for step in 1..members.len() {
+                    let place = (k + step) % members.len();
+                    let after = members[place];
+                    let gap = self.within(open[after][0] - open[before][0]);
+                    let gap = if same(gap, self.cycle()) { Angle::ZERO } else { gap };
+                    // Two that open together overlap once, not each with the other.
+                    if same(gap, Angle::ZERO) && place < k {
+                        continue;
+                    }
+                    let (rest, other) = (length(before) - gap, length(after));
+                    let overlap = if rest < other { rest } else { other };
+                    if overlap.degrees() > MOST_ROUNDING {
+                        overlaps.push(Overlap { before, after, gap, overlap });
+                    }
+                }
+            }
+            found.push(overlaps);
+        }
+        found
+    }
+
+    /// From an angle within a cycle on, of this length.
+    fn period(&self, start: Angle, length: Angle) -> Period {
+        let start = self.within(start);
+        [start, start + length]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::engines::{cylinder, placed};
+    use super::*;
+
+    /// Highest where crank and rod are in one line, asin(e/(l + r)) after TDC; lowest half a turn
+    /// and asin(e/(l − r)) after it.
+    #[test]
+    fn strokes_go_from_one_turning_point_of_the_piston_to_the_next() {
+        for e in [0.0, 0.02, -0.02] {
+            let engine = placed(&[(cylinder(e), 30.0, 90.0), (cylinder(0.0), 200.0, 90.0)]);
+            let (high, low) = ((e / 0.2).asin().to_degrees(), (e / 0.1).asin().to_degrees());
+            let down = 180.0 + low - high;
+            let near = |period: Period, start: f64, length: f64| {
+                let [from, to] = period.map(Angle::degrees);
+                assert!((from - start).abs() < 1e-9, "{from} {start}");
+                assert!((to - from - length).abs() < 1e-9, "{to} {from} {length}");
+            };
+            let four = Firing::with_later(&engine, Strokes::Four, &[false, true]).unwrap();
+            let angles = four.angles();
+            assert!((angles[0].degrees() - 30.0 - high).abs() < 1e-9);
+            assert!((angles[1].degrees() - 560.0).abs() < 1e-9);
+            let strokes = four.stroke_periods();
+            let names: Vec<&str> = strokes.iter().map(|(name, _)| *name).collect();
+            assert_eq!(names, ["power", "exhaust", "intake", "compression"]);
+            let top = 30.0 + high;
+            near(strokes[0].1[0], top, down);
+            near(strokes[1].1[0], top + down, 360.0 - down);
+            near(strokes[2].1[0], top + 360.0, down);
+            near(strokes[3].1[0], top + 360.0 + down, 360.0 - down);
+            near(strokes[2].1[1], 200.0, 180.0);
+            let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+            let timing =
+                ValveTiming { intake: [10.0, 40.0].map(angle), exhaust: [50.0, 15.0].map(angle) };
+            let valves = four.valves(&timing).unwrap();
+            near(valves.intake[0], top + 350.0, 50.0 + down);
+            near(valves.exhaust[0], top + down - 50.0, 65.0 + 360.0 - down);
+            let ports = PortTiming { transfer: angle(60.0), exhaust: angle(80.0) };
+            assert!(four.ports(&ports).is_err());
+            let two = Firing::with_later(&engine, Strokes::Two, &[false; 2]).unwrap();
+            assert!(two.valves(&timing).is_err());
+            let strokes = two.stroke_periods();
+            assert_eq!((strokes.len(), strokes[1].0), (2, "compression"));
+            near(strokes[1].1[1], 20.0, 180.0);
+            let open = two.ports(&ports).unwrap();
+            near(open.transfer[0], top + down - 60.0, 120.0);
+            near(open.exhaust[0], top + down - 80.0, 160.0);
+        }
+    }
+
+    /// A piston with an offset of nearly its limit goes down in 122° or 237° of the crank.
+    #[test]
+    fn a_valve_that_would_close_before_it_opens_is_refused() {
+        let angle = |degrees| Angle::from_degrees(degrees).unwrap();
+        let timing = |intake: f64, exhaust: f64| {
+            let [intake, exhaust] = [intake, exhaust].map(angle);
+            ValveTiming::new(intake, intake, exhaust, exhaust).unwrap()
+        };
+        for (offset, intake, exhaust) in [(-0.0999, -80.0, 0.0), (0.0999, 0.0, -80.0)] {
+            let engine = placed(&[(cylinder(0.0), 0.0, 90.0), (cylinder(offset), 0.0, 90.0)]);
+            let firing = Firing::with_later(&engine, Strokes::Four, &[false; 2]).unwrap();
+            let message = firing.valves(&timing(intake, exhaust)).unwrap_err().to_string();
+            let [name, other] =
+                if intake < 0.0 { ["intake", "exhaust"] } else { ["exhaust", "intake"] };
+            assert!(message.starts_with(&format!("{name}_opens_deg + {name}_closes_deg = -160: ")));
+            assert!(message.contains("cylinder 2"), "{message}");
+            assert!(!message.contains(other), "{message}");
+            // Later by 20° on either side they open before they close.
+            let valves = firing.valves(&timing(0.4 * intake, 0.4 * exhaust)).unwrap();
+            for [opens, closes] in valves.intake.into_iter().chain(valves.exhaust) {
+                assert!(closes.degrees() > opens.degrees());
+            }
+        }
+    }
+
+    #[test]
+    fn overlaps_are_where_two_are_open_together() {
+        let engine = placed(&[0.0, 120.0, 240.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let firing = Firing::with_later(&engine, Strokes::Two, &[false; 4]).unwrap();
+        let open = |lengths: [f64; 4]| -> Periods {
+            let periods = firing.angles().into_iter().zip(lengths);
+            periods.map(|(from, by)| [from, from + Angle::from_degrees(by).unwrap()]).collect()
+        };
+        let found = |lengths: [f64; 4], group: &[usize]| -> Vec<(usize, usize, f64, f64)> {
+            let all = firing.overlaps(&[group.to_vec()], &open(lengths));
+            let of = |o: &Overlap| (o.before, o.after, o.gap.degrees(), o.overlap.degrees());
+            all[0].iter().map(of).collect()
+        };
+        let three = [0, 1, 2];
+        assert_eq!(found([100.0; 4], &three), []);
+        assert_eq!(found([120.0; 4], &three), []);
+        let each = [(0, 1, 120.0, 30.0), (1, 2, 120.0, 30.0), (2, 0, 120.0, 30.0)];
+        assert_eq!(found([150.0; 4], &three), each);
+        // One that is short lies wholly within the other.
+        assert_eq!(found([150.0, 20.0, 100.0, 0.0], &three), [(0, 1, 120.0, 20.0)]);
+        // Two that open together overlap once.
+        assert_eq!(found([50.0; 4], &[0, 3]), [(0, 3, 0.0, 50.0)]);
+        let late = found([300.0, 0.0, 300.0, 0.0], &[0, 2]);
+        assert_eq!(late, [(0, 2, 240.0, 60.0), (2, 0, 120.0, 180.0)]);
+        // What rounding may be is none.
+        assert_eq!(found([MOST_ROUNDING; 4], &[0, 3]), []);
+        let just = MOST_ROUNDING.next_up();
+        assert_eq!(found([just; 4], &[0, 3]), [(0, 3, 0.0, just)]);
+    }
+}

@@ -1,0 +1,30 @@
+//! When the cylinders of an engine fire, and which pins a firing order needs.
+//!
+//! A cylinder fires when its piston is highest: at top dead centre, or with a pin offset e where
+//! crank and rod are in line, asin(e/(l + r)) later. A crank determines this within a turn; in a
+//! four-stroke each cylinder fires in one of two turns, which its camshaft determines. The turns are
+//! counted from the first cylinder's firing, so that they do not depend on where θ is zero.
+//!
+//! Angles that are parts of a turn are exact, and so is what is reported as even or simultaneous;
+//! others are distinguished when they differ by more than [`crate::layout::MOST_ROUNDING`].
+//!
+//! Imports run downwards: `tops`, [`firing_order`] → [`way`] → [`choices`], [`intervals`],
+//! [`gas_exchange`]; [`pins`] is independent.
+
+pub mod choices;
+pub mod firing_order;
+pub mod gas_exchange;
+pub mod intervals;
+pub mod pins;
+mod tops;
+pub mod way;
+
+#[cfg(test)]
+mod engines;
+
+pub use choices::MOST_LISTED;
+pub use firing_order::NamedOrder;
+pub use gas_exchange::{Overlap, Period, Periods, PortTiming, Ports, ValveTiming, Valves};
+pub use intervals::Gap;
+pub use pins::{Throws, inline_throws, vee_throws};
+pub use way::Firing;

@@ -1,0 +1,95 @@
+//! Turning points of pistons, and the angles that count as one.
+
+use crate::angle::Angle;
+use crate::engine::{Engine, Placement};
+use crate::layout::MOST_ROUNDING;
+
+/// Crank angles at which pistons are highest, after the first one's, within a turn.
+pub(super) struct Tops(pub Vec<Angle>);
+
+impl Tops {
+    pub fn of(engine: &Engine) -> Self {
+        let placements = engine.placements();
+        let (first, past_first) = (placements[0].tdc, highest_after_tdc(&placements[0]));
+        let mut tops: Vec<Angle> = placements
+            .iter()
+            .map(|placement| {
+                let past = highest_after_tdc(placement) - past_first;
+                let top = placement.tdc - first;
+                // Engines with offset pins are laid out so that this is a part of a turn.
+                let top = if past == 0.0 {
+                    top
+                } else {
+                    (top + degrees(past)).nearby_part(MOST_ROUNDING)
+                };
+                let top = top.reduced();
+                if same(top, turns(1)) { Angle::ZERO } else { top }
+            })
+            .collect();
+        // Merge angles that differ only by rounding.
+        let mut order: Vec<usize> = (0..tops.len()).collect();
+        order.sort_by(|&a, &b| tops[a].degrees().total_cmp(&tops[b].degrees()));
+        for pair in order.windows(2) {
+            if same(tops[pair[0]], tops[pair[1]]) {
+                tops[pair[1]] = tops[pair[0]];
+            }
+        }
+        Self(tops)
+    }
+}
+
+/// Degrees after top dead centre at which crank and rod are in line.
+pub(super) fn highest_after_tdc(placement: &Placement) -> f64 {
+    let part = placement.cylinder;
+    (part.pin_offset() / (part.rod_length() + part.crank_radius())).asin().to_degrees()
+}
+
+/// From a piston's highest to its lowest point: half a turn but for a pin offset.
+pub(super) fn top_to_bottom(placement: &Placement) -> Angle {
+    let part = placement.cylinder;
+    let lowest = (part.pin_offset() / (part.rod_length() - part.crank_radius())).asin();
+    turns(1).half() + degrees(lowest.to_degrees() - highest_after_tdc(placement))
+}
+
+/// An angle from degrees that are in range, such as those of an arc sine.
+pub(super) fn degrees(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees).unwrap_or(Angle::ZERO)
+}
+
+/// A whole number of turns, 0 to 2.
+pub(super) fn turns(count: i64) -> Angle {
+    Angle::from_degree_fraction(360 * count, 1).unwrap_or(Angle::ZERO)
+}
+
+/// True if two angles are equal: exactly as fractions of a turn, otherwise within rounding.
+pub(super) fn same(a: Angle, b: Angle) -> bool {
+    a == b
+        || (!(a.turns().is_some() && b.turns().is_some())
+            && (a.degrees() - b.degrees()).abs() <= MOST_ROUNDING)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Firing;
+    use super::super::engines::{cylinder, intervals, placed};
+    use super::*;
+    use crate::layout::Strokes;
+
+    #[test]
+    fn what_only_rounding_parts_fires_together() {
+        let apart = |by: f64| {
+            let tdcs = [0.0, 17.123_456, 17.123_456 + by];
+            let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
+            Firing::all(&engine, Strokes::Two).unwrap()[0].to_string()
+        };
+        assert_eq!(apart(0.0), "1-2+3");
+        assert_eq!(apart(0.1 * MOST_ROUNDING), "1-2+3");
+        assert_eq!(apart(10.0 * MOST_ROUNDING), "1-2-3");
+        // An offset of one and not of the other: tops asin(e/(l + r)) apart from their pins'.
+        let past = (0.02_f64 / 0.2).asin().to_degrees();
+        let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
+        let firing = Firing::all(&engine, Strokes::Two).unwrap().remove(0);
+        assert_eq!(intervals(&firing), [120.0, 240.0]);
+        assert_eq!(firing.intervals()[0], turns(1) - Angle::from_degrees(240.0).unwrap());
+    }
+}

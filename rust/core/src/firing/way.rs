@@ -1,0 +1,170 @@
+//! One way for an engine to fire: when each cylinder does, and how evenly.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use super::tops::{Tops, degrees, highest_after_tdc, same, turns};
+use crate::angle::Angle;
+use crate::engine::Engine;
+use crate::error::{Error, Result};
+use crate::layout::Strokes;
+
+/// One way for an engine to fire: cylinders by index from 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Firing {
+    engine: Arc<Engine>,
+    strokes: Strokes,
+    /// Crank angles after the first cylinder's firing, within a cycle.
+    pub(super) times: Vec<Angle>,
+    order: Vec<usize>,
+    intervals: Vec<Angle>,
+}
+
+impl Firing {
+    /// The way to fire in which the cylinders marked `later` fire in the second turn after the first
+    /// cylinder.
+    pub fn with_later(engine: &Arc<Engine>, strokes: Strokes, later: &[bool]) -> Result<Self> {
+        let count = engine.placements().len();
+        if later.len() != count || later[0] || (strokes == Strokes::Two && later.contains(&true)) {
+            let cure = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
+            return Err(Error::value("revolutions", format!("{later:?}"), cure));
+        }
+        Ok(Self::assemble(engine, &Tops::of(engine), strokes, later))
+    }
+
+    pub(super) fn assemble(
+        engine: &Arc<Engine>,
+        tops: &Tops,
+        strokes: Strokes,
+        later: &[bool],
+    ) -> Self {
+        let turn = |later: bool| turns(i64::from(later));
+        let times: Vec<Angle> =
+            tops.0.iter().zip(later).map(|(&top, &later)| top + turn(later)).collect();
+        let mut order: Vec<usize> = (0..times.len()).collect();
+        order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
+        let cycle = turns(strokes.turns());
+        let intervals = order
+            .iter()
+            .enumerate()
+            .map(|(k, &now)| match order.get(k + 1) {
+                Some(&next) => times[next] - times[now],
+                None => cycle - times[now],
+            })
+            .collect();
+        Self { engine: Arc::clone(engine), strokes, times, order, intervals }
+    }
+
+    /// The engine.
+    #[must_use]
+    pub fn engine(&self) -> &Arc<Engine> {
+        &self.engine
+    }
+
+    /// Strokes of a cycle.
+    #[must_use]
+    pub fn strokes(&self) -> Strokes {
+        self.strokes
+    }
+
+    /// Cylinders by index, from the first on; those that fire together by number.
+    #[must_use]
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// Crank angles from each firing of the order to the next, and from the last to the first.
+    #[must_use]
+    pub fn intervals(&self) -> &[Angle] {
+        &self.intervals
+    }
+
+    /// True for cylinders that fire in the second turn after the first cylinder's firing.
+    #[must_use]
+    pub fn later(&self) -> Vec<bool> {
+        self.times.iter().map(|&time| time >= turns(1)).collect()
+    }
+
+    /// Crank angles at which the cylinders fire, by number, within a cycle.
+    #[must_use]
+    pub fn angles(&self) -> Vec<Angle> {
+        let first = &self.engine.placements()[0];
+        let top = first.tdc + degrees(highest_after_tdc(first));
+        self.times.iter().map(|&time| self.within(top.reduced() + time)).collect()
+    }
+
+    /// True if all intervals are equal.
+    #[must_use]
+    pub fn even(&self) -> bool {
+        self.intervals.iter().all(|&interval| same(interval, self.mean()))
+    }
+
+    /// Root mean square difference of the intervals from equal ones, degrees; 0 for even firing.
+    #[must_use]
+    pub fn unevenness(&self) -> f64 {
+        if self.even() {
+            return 0.0;
+        }
+        let mut squares: Vec<f64> =
+            self.intervals.iter().map(|&each| (each - self.mean()).degrees().powi(2)).collect();
+        // The same intervals in another order add up to the same.
+        squares.sort_by(f64::total_cmp);
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+
+    /// Crank angle of a cycle.
+    pub(super) fn cycle(&self) -> Angle {
+        turns(self.strokes.turns())
+    }
+
+    /// Interval of even firing.
+    fn mean(&self) -> Angle {
+        Angle::from_degree_fraction(360 * self.strokes.turns(), self.times.len() as i64)
+            .unwrap_or(Angle::ZERO)
+    }
+
+    /// Reduced modulo a cycle.
+    pub(super) fn within(&self, angle: Angle) -> Angle {
+        angle.reduced_to(self.strokes.turns())
+    }
+
+    /// The members of a group in the order in which they fire.
+    pub(super) fn in_order(&self, group: &[usize]) -> Vec<usize> {
+        self.order.iter().copied().filter(|cylinder| group.contains(cylinder)).collect()
+    }
+}
+
+impl std::fmt::Display for Firing {
+    /// The order as [`super::NamedOrder`] reads it.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (k, cylinder) in self.order.iter().enumerate() {
+            let joint = match k {
+                0 => "",
+                _ if self.intervals[k - 1] == Angle::ZERO => "+",
+                _ => "-",
+            };
+            write!(f, "{joint}{}", cylinder + 1)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::engines::{engine, intervals, vee};
+    use super::super::*;
+    use crate::layout::{Side, Strokes};
+
+    #[test]
+    fn the_cross_plane_v8_fires_evenly() {
+        let v8 = engine(&vee(90.0, 0.0, &[0.0, 90.0, 270.0, 180.0], Side::Left));
+        let order: NamedOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
+        let firing = Firing::named(&v8, &order, Strokes::Four).unwrap();
+        assert!(firing.even());
+        assert_eq!(intervals(&firing), [90.0; 8]);
+        assert_eq!(Firing::all_named(&v8, &order, Strokes::Four).unwrap().len(), 1);
+        let gaps = firing.gaps(&firing.banks());
+        let left: Vec<f64> = gaps[0].iter().map(|gap| gap.gap.degrees()).collect();
+        assert_eq!(left, [270.0, 180.0, 90.0, 180.0]); // 1-3-5-7
+    }
+}
