@@ -74,6 +74,12 @@ pub enum Error {
         /// How to ask for it in parts.
         cure: &'static str,
     },
+    /// Memory that the system does not give.
+    #[error("out of memory: {bytes} bytes more are needed; ask for the result in parts")]
+    OutOfMemory {
+        /// Size of the allocation that failed.
+        bytes: usize,
+    },
     /// An engine file that cannot be read.
     #[error("engine file ({format}): {reason}")]
     File {

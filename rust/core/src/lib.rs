@@ -1,7 +1,7 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`crank_angles`], [`rational`],
+//! [`error`], [`limits`], [`cancel`], [`memory`], [`pool`], [`double`], [`angle`], [`crank_angles`], [`rational`],
 //! [`cyclotomic`] → [`slider_crank`], [`rod`], [`harmonics`] (one cylinder) → [`engine`] (where the
 //! cylinders sit), [`layout`] (engines from a few figures), [`engine_file`] (TOML and JSON) → [`firing`], and
 //! [`balance`] (phasor sums), [`waveform`], [`sweep`]; [`extrema`] finds the peak of a sum of orders
@@ -30,6 +30,8 @@ pub mod harmonics;
 mod kinematics;
 pub mod layout;
 pub mod limits;
+pub mod memory;
+pub mod pool;
 pub mod rational;
 pub mod rod;
 pub mod search;

@@ -5,12 +5,14 @@ use rayon::prelude::*;
 
 use crate::Complex64;
 use crate::balance::{self, Asked, Balance, Orders, angular_speed};
-use crate::cancel::{Cancel, give_back};
+use crate::cancel::Cancel;
 use crate::crank_angles::{CrankAngles, check};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::kinematics::{Alike, BLOCK, Column, Kinematics, Units};
 use crate::limits;
+use crate::memory;
+use crate::pool;
 use crate::rod::Swing;
 use crate::simd::vectorised;
 
@@ -209,8 +211,8 @@ fn in_blocks(
     check(theta_deg, cancel)?;
     let (angles, torques) = (theta_deg.len(), if torque { theta_deg.len() } else { 0 });
     let mut memory = Memory {
-        pairs: [vec![0.0; 2 * angles], vec![0.0; 2 * angles]],
-        torques: [vec![0.0; torques], vec![0.0; torques]],
+        pairs: [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?],
+        torques: [memory::zeros(torques)?, memory::zeros(torques)?],
     };
     let mut pairs = memory.pairs.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
     let mut torques = memory.torques.each_mut().map(|values| values.chunks_mut(BLOCK));
@@ -219,7 +221,9 @@ fn in_blocks(
         let torques = torques.each_mut().map(|chunks| chunks.next().unwrap_or_default());
         (thetas, pairs, torques)
     });
-    let tasks: Vec<_> = tasks.collect();
+    let mut listed = memory::room(tasks.len())?;
+    listed.extend(tasks);
+    let tasks = listed;
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 2])| {
         cancel.check()?;
         let mut rows = Rows { columns: [const { Column::ZERO }; 6] };
@@ -238,10 +242,10 @@ fn in_blocks(
     let done = if tasks.len() <= 4 {
         tasks.into_iter().try_for_each(block)
     } else {
-        tasks.into_par_iter().try_for_each(block)
+        pool::run(cancel, || tasks.into_par_iter().try_for_each(block))
     };
     if let Err(cancelled) = done {
-        give_back(memory);
+        memory::free_later(memory);
         return Err(cancelled);
     }
     Ok(memory)

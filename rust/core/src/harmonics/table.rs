@@ -11,8 +11,10 @@ use super::{
 };
 use crate::Complex64;
 use crate::cancel::Cancel;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::limits;
+use crate::memory;
+use crate::pool;
 use crate::simd::vectorised;
 use crate::slider_crank::{Proportions, slack};
 
@@ -22,9 +24,11 @@ const LARGEST_PLAIN_ORDER: u32 = 16;
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
     check_size::<f64>(rod_ratios.len(), orders)?;
-    let mut table = Array2::default((rod_ratios.len(), orders.len()));
-    write_centred(rod_ratios, orders, None, table.as_slice_mut().unwrap_or_default(), cancel)?;
-    Ok(table)
+    let mut values = memory::zeros(rod_ratios.len() * orders.len())?;
+    write_centred(rod_ratios, orders, None, &mut values, cancel)?;
+    let shape = (rod_ratios.len(), orders.len());
+    Array2::from_shape_vec(shape, values)
+        .map_err(|error| Error::value("rod_ratio", format!("{shape:?}"), error.to_string()))
 }
 
 /// [`centred_table`] into memory that is there, row by row; with `rtol` each is within that of itself,
@@ -103,9 +107,12 @@ fn fill<T: Send>(
         return write(0..rows, out);
     }
     cancel.expect(rows.div_ceil(CHUNK));
-    out.par_chunks_mut(CHUNK * width).enumerate().try_for_each(|(chunk, out)| {
-        cancel.step()?;
-        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+    let chunks = out.par_chunks_mut(CHUNK * width).enumerate();
+    pool::run(cancel, || {
+        chunks.try_for_each(|(chunk, out)| {
+            cancel.step()?;
+            write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+        })
     })
 }
 

@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
 use super::throws::{Bank, MOST_THROWS, Pool};
-use crate::cancel::{Cancel, give_back};
+use crate::cancel::Cancel;
 use crate::error::{Error, Result};
+use crate::memory::{free_later, zeros};
 
 /// Most memory that the arrangements of a search may take, bytes.
 pub const LARGEST_SEARCH: u128 = 8 << 30;
@@ -87,11 +88,11 @@ impl Entries {
             let size: usize = counts.iter().map(|counts| counts[range]).sum();
             starts.push(starts[range] + size);
         }
-        let mut all = vec![0; starts[ranges]];
+        let mut all = zeros(starts[ranges])?;
         let found = fill(&mut all, &walk, &tasks, &counts, range, cancel)
             .and_then(|()| sort(&mut all, &starts, cancel));
         if let Err(error) = found {
-            give_back(all);
+            free_later(all);
             return Err(error);
         }
         Ok(Self { all, starts })

@@ -13,6 +13,7 @@ use crate::balance::{highest, most_left_out, rod_share, rod_tail, scales, tail, 
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
 use crate::error::Result;
+use crate::memory;
 use crate::slider_crank::Proportions;
 use crate::spectrum::Spectrum;
 
@@ -144,9 +145,12 @@ impl Sweep {
                 self.engines[engine].placements().iter().all(|p| p.cylinder.pin_offset() == 0.0)
             }
         };
+        let copied = |values: Option<&[f64]>| -> Result<Option<Vec<f64>>> {
+            values.map(|values| memory::copied(values, cancel)).transpose()
+        };
         let ratios = match self.extremes[0] {
             Some(largest) if centred && quantity != Quantity::Torque => Some(vec![largest]),
-            _ => self.axes.rod_ratio.clone(),
+            _ => copied(self.axes.rod_ratio.as_deref())?,
         };
         // As many points at a time as fit.
         let points = (MOST_SIZES / candidates.len().max(1)).max(1);
@@ -162,9 +166,9 @@ impl Sweep {
                     let part = Self {
                         engines: vec![Arc::clone(&self.engines[engine])],
                         axes: Axes {
-                            bank_angle: angles.map(|angles| (angles.to_vec(), hold)),
-                            rod_ratio: ratios.map(<[f64]>::to_vec),
-                            pin_offset: offsets.map(<[f64]>::to_vec),
+                            bank_angle: copied(*angles)?.zip(Some(hold)),
+                            rod_ratio: copied(*ratios)?,
+                            pin_offset: copied(*offsets)?,
                             rpm: Vec::new(),
                         },
                         orders: candidates.to_vec(),

@@ -11,6 +11,8 @@ use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::harmonics::{self, table, torque};
+use crate::memory;
+use crate::pool;
 use crate::slider_crank::{Cylinder, Proportions};
 
 /// Points whose harmonics are worked out in one piece.
@@ -70,17 +72,18 @@ impl Harmonics {
         if passes == 1 || points * orders * size_of::<Complex64>() > LARGEST_TABLE {
             return Ok(Self::Later(cylinder, quantity));
         }
-        let mut table = Array2::default((points, orders));
+        let mut table: Array2<Complex64> = table_of_zeros(points, orders)?;
         cancel.expect(points.div_ceil(CHUNK));
-        table.axis_chunks_iter_mut(Axis(0), CHUNK).into_par_iter().enumerate().try_for_each(
-            |(chunk, mut rows)| {
+        let chunks = table.axis_chunks_iter_mut(Axis(0), CHUNK).into_par_iter().enumerate();
+        pool::run(cancel, || {
+            chunks.try_for_each(|(chunk, mut rows)| {
                 cancel.step()?;
                 let first = chunk * CHUNK;
                 let points = first..first + rows.nrows();
                 rows.assign(&sweep.harmonics(&cylinder, quantity, &points, cancel)?);
                 Result::Ok(())
-            },
-        )?;
+            })
+        })?;
         Ok(Self::Table(table))
     }
 
@@ -94,6 +97,12 @@ impl Harmonics {
             }
         })
     }
+}
+
+fn table_of_zeros(rows: usize, columns: usize) -> Result<Array2<Complex64>> {
+    let values = memory::zeros(rows * columns)?;
+    Array2::from_shape_vec((rows, columns), values)
+        .map_err(|error| Error::value("orders", columns, error.to_string()))
 }
 
 impl Sweep {
@@ -118,11 +127,13 @@ impl Sweep {
             (&self.axes.rod_ratio, centred, quantity != Quantity::Torque)
         {
             let table = table::centred_table(&ratios[points.clone()], &self.orders, cancel)?;
-            return Ok(table.mapv(Complex64::from));
+            let mut complex: Array2<Complex64> = table_of_zeros(points.len(), self.orders.len())?;
+            complex.zip_mut_with(&table, |value, &real| value.re = real);
+            return Ok(complex);
         }
         let offsets = self.axes.pin_offset.as_deref();
         let in_a_row = offsets.map_or(1, <[f64]>::len);
-        let mut table = Array2::default((points.len(), self.orders.len()));
+        let mut table = table_of_zeros(points.len(), self.orders.len())?;
         for (mut row, point) in table.rows_mut().into_iter().zip(points.clone()) {
             let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
             let offset = offsets.map(|offsets| offsets[point % in_a_row]);

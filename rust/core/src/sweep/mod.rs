@@ -27,12 +27,13 @@ use self::plan::Plan;
 use self::run::{Cost, Number, Run};
 use crate::Complex64;
 use crate::balance::{angular_speed, snapped};
-use crate::cancel::{Cancel, give_back};
+use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
 use crate::harmonics::LITTLE_SLACK;
 use crate::limits;
+use crate::memory;
 use crate::slider_crank::{Cylinder, slack};
 use crate::spectrum::Spectrum;
 
@@ -110,7 +111,7 @@ impl Sweep {
         limits::orders(&orders)?;
         not_empty("engines", engines.len())?;
         not_empty("rpm", axes.rpm.len())?;
-        let mut squares = Vec::with_capacity(axes.rpm.len());
+        let mut squares = memory::room(axes.rpm.len())?;
         for part in axes.rpm.chunks(PART) {
             cancel.check()?;
             for &rpm in part {
@@ -391,7 +392,7 @@ impl Sweep {
     ) -> Result<Values<T>> {
         self.check_size(quantity, figure, size_of::<T>())?;
         let shape = self.result_shape(quantity, figure);
-        let mut values = vec![T::default(); shape.iter().product()];
+        let mut values = memory::zeros(shape.iter().product())?;
         write(&mut values)?;
         Array::from_shape_vec(IxDyn(&shape), values)
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
@@ -481,7 +482,7 @@ impl Drop for Sweep {
         // What takes long to give back is given back by somebody for whom nobody waits.
         let numbers: usize = self.shape().iter().sum();
         if numbers > PART {
-            give_back((mem::take(&mut self.axes), mem::take(&mut self.squares)));
+            memory::free_later((mem::take(&mut self.axes), mem::take(&mut self.squares)));
         }
     }
 }

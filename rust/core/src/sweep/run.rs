@@ -7,6 +7,7 @@
 
 use std::ops::{Mul, Range};
 
+use bytemuck::Zeroable;
 use rayon::prelude::*;
 
 use super::block::{BLOCK, Block, Functions};
@@ -14,6 +15,8 @@ use super::plan::Plan;
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
+use crate::memory;
+use crate::pool;
 use crate::simd::vectorised;
 
 /// Most points of rod ratio and offset in a unit.
@@ -28,7 +31,7 @@ const PIECE: usize = 1 << 16;
 const MOST_SHARED: usize = 1 << 24;
 
 /// What a result holds.
-pub(super) trait Number: Copy + Default + Send + Sync + Mul<f64, Output = Self> {}
+pub(super) trait Number: Copy + Default + Zeroable + Send + Sync + Mul<f64, Output = Self> {}
 impl Number for f64 {}
 impl Number for Complex64 {}
 
@@ -203,7 +206,7 @@ impl<'a> Run<'a> {
         finish: &(impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync),
     ) -> Result<()> {
         let large = self.is_large(out.len());
-        let mut tasks = Vec::with_capacity(units.len());
+        let mut tasks = memory::room(units.len())?;
         for unit in units {
             let (rows, after) = out.split_at_mut(unit.rows() * self.width);
             tasks.push((unit, rows));
@@ -214,7 +217,8 @@ impl<'a> Run<'a> {
             self.unit_rows(plan, shared, block, &unit, out, finish)
         };
         if large {
-            return tasks.into_par_iter().try_for_each_init(|| Block::new(plan), work);
+            let tasks = tasks.into_par_iter();
+            return pool::run(self.cancel, || tasks.try_for_each_init(|| Block::new(plan), work));
         }
         // Engines at the same bank angles follow each other, for their functions are the same.
         tasks.sort_by_key(|(unit, _)| unit.angles.start);
@@ -270,7 +274,7 @@ impl<'a> Run<'a> {
                     return finish(block, factor, out);
                 }
                 let harmonics = harmonics(&unit.points)?;
-                let mut at_point = vec![T::default(); angles.len() * width];
+                let mut at_point: Vec<T> = memory::zeros(angles.len() * width)?;
                 for point in unit.points.clone() {
                     self.cancel.check()?;
                     block.set_point(engine.at(&harmonics, point));
@@ -307,7 +311,8 @@ impl<'a> Run<'a> {
             Ok(())
         };
         if out.len() >= WORTH_A_THREAD {
-            return out.par_chunks_mut(piece * width).enumerate().try_for_each(write);
+            let pieces = out.par_chunks_mut(piece * width).enumerate();
+            return pool::run(self.cancel, || pieces.try_for_each(write));
         }
         out.chunks_mut(piece * width).enumerate().try_for_each(write)
     }

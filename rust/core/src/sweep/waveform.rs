@@ -16,6 +16,8 @@ use crate::crank_angles::{CrankAngles, parts};
 use crate::error::{Error, Result};
 use crate::kinematics::{BLOCK, Kinematics, Units};
 use crate::limits;
+use crate::memory;
+use crate::pool;
 use crate::simd::vectorised;
 
 /// Points, each at a speed, that share a tile of cosines and sines.
@@ -78,7 +80,7 @@ impl Sweep {
         }
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
-        let mut phasors = vec![Complex64::default(); phasors];
+        let mut phasors: Vec<Complex64> = memory::zeros(phasors)?;
         let cost = if out.len() < WORTH_A_THREAD { Cost::Small } else { Cost::Awake };
         self.write_phasors_of(quantity, cost, &mut phasors, cancel)?;
         self.by_orders(&phasors, &rows, out)
@@ -238,7 +240,8 @@ impl Rows<'_> {
             by_part.into_iter().enumerate().try_for_each(|(k, outs)| part(&prepared, k, outs))
         };
         if large {
-            return out.par_chunks_mut(ROWS * row).enumerate().try_for_each(group);
+            let groups = out.par_chunks_mut(ROWS * row).enumerate();
+            return pool::run(self.cancel, || groups.try_for_each(group));
         }
         out.chunks_mut(ROWS * row).enumerate().try_for_each(group)
     }
