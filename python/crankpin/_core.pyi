@@ -39,6 +39,7 @@ __all__ = [
 ]
 
 __version__: str
+LONGEST_AXIS: int
 SCHEMA: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]

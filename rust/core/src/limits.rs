@@ -15,6 +15,8 @@ pub const MOST_CYLINDERS: usize = 1000;
 pub const LONGEST_NAME: usize = 10_000;
 /// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.
 pub const HIGHEST_ORDER: u32 = 10_000;
+/// Maximum length of an axis: a gibibyte of numbers.
+pub const LONGEST_AXIS: usize = 1 << 27;
 /// Largest result, in bytes, that one call returns.
 pub const LARGEST_RESULT: u128 = 1 << 32;
 

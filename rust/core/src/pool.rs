@@ -11,9 +11,11 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 
+use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::cancel::{Cancel, PERIOD};
+use crate::error::Result;
 
 /// Pools of a process.
 struct Pools {
@@ -60,6 +62,19 @@ pub fn run<T: Send>(cancel: &Cancel, work: impl FnOnce() -> T + Send) -> T {
     });
     drop(lease);
     result.unwrap_or_else(|| unreachable!("the scope passes a panic of the work on"))
+}
+
+/// Apply a function to each item, in parallel if there are several; results are in the order of the
+/// items.
+pub fn map<I: Send, T: Send>(
+    cancel: &Cancel,
+    items: Vec<I>,
+    function: impl Fn(I) -> Result<T> + Send + Sync,
+) -> Result<Vec<T>> {
+    if items.len() <= 1 {
+        return items.into_iter().map(function).collect();
+    }
+    run(cancel, || items.into_par_iter().map(function).collect())
 }
 
 /// Make the calling thread the only worker of a pool, so that rayon starts no threads for it.
@@ -144,8 +159,6 @@ fn lock() -> Option<MutexGuard<'static, Pools>> {
 #[cfg(test)]
 mod tests {
     use std::sync::Barrier;
-
-    use rayon::prelude::*;
 
     use super::*;
     use crate::error::Error;

@@ -3,8 +3,6 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::family::{Families, Family};
 use crate::cancel::Cancel;
 use crate::engine::Hold;
@@ -116,15 +114,13 @@ impl Angles {
     pub fn degrees(&self, cancel: &Cancel) -> Result<Vec<f64>> {
         const CHUNK: usize = 1 << 14;
         let mut degrees = memory::zeros(self.count())?;
-        let chunks = degrees.par_chunks_mut(CHUNK).enumerate();
-        pool::run(cancel, || {
-            chunks.try_for_each(|(chunk, out)| {
-                cancel.check()?;
-                for (k, value) in out.iter_mut().enumerate() {
-                    *value = self.at(self.within.start + chunk * CHUNK + k);
-                }
-                Result::Ok(())
-            })
+        let chunks = degrees.chunks_mut(CHUNK).enumerate().collect();
+        pool::map(cancel, chunks, |(chunk, out): (usize, &mut [f64])| {
+            cancel.check()?;
+            for (k, value) in out.iter_mut().enumerate() {
+                *value = self.at(self.within.start + chunk * CHUNK + k);
+            }
+            Ok(())
         })?;
         Ok(degrees)
     }

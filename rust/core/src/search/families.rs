@@ -7,8 +7,6 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use super::enumerate::{Entry, LARGEST_SEARCH, classes, packed};
 use super::family::{Families, Family};
 use super::images::Image;
@@ -18,6 +16,7 @@ use super::window::Wanted;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::memory;
+use crate::pool;
 
 /// |2Z| below which rounding asks for more than [`CLOSE`].
 const SMALL: f64 = 0.1;
@@ -57,7 +56,7 @@ impl Families<'_> {
     ) -> Result<Vec<Family>> {
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
-        let found = self.entries.ranges().map(|(start, range)| -> Result<Sorted> {
+        let mut found = pool::map(cancel, self.entries.ranges(), |(start, range)| {
             let mut families = Vec::new();
             let mut stored = Ok(());
             let mut members = Vec::new();
@@ -76,11 +75,10 @@ impl Families<'_> {
             refuse_too_many(count.load(Ordering::Relaxed), self.entries.all.len())?;
             cancel.step()?;
             Sorted::new(&families, ranges, per_radian)
-        });
-        let mut found = found.collect::<Result<Vec<_>>>()?;
+        })?;
         let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
         found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian)?);
-        let parts = (0..ranges).into_par_iter().map(|range| -> Result<[Vec<Family>; 2]> {
+        let parts = pool::map(cancel, (0..ranges).collect(), |range| {
             let mut families = memory::room(found.iter().map(|f| f.range(range).len()).sum())?;
             found.iter().for_each(|sorted| families.extend_from_slice(sorted.range(range)));
             families.sort_unstable();
@@ -89,8 +87,7 @@ impl Families<'_> {
             let mut distinct = memory::room(families.len())?;
             join(&mut distinct, families.iter().filter(|f| !f.is_small()), &mut Same::new(self));
             Ok([distinct, small])
-        });
-        let parts = parts.collect::<Result<Vec<_>>>()?;
+        })?;
         let mut all: Vec<Family> = memory::room(parts.iter().map(|part| part[0].len()).sum())?;
         let mut small = Vec::new();
         let mut same = Same::new(self);

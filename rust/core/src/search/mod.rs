@@ -22,8 +22,6 @@ mod window;
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
 pub use self::angles::Angles;
 use self::angles::Origin;
 pub use self::enumerate::LARGEST_SEARCH;
@@ -73,10 +71,6 @@ pub struct Solution {
 impl Search {
     /// Group all arrangements of a bank.
     pub fn new(bank: Bank, hold: Hold, cancel: &Cancel) -> Result<Self> {
-        pool::run(cancel, || Self::in_pool(bank, hold, cancel))
-    }
-
-    fn in_pool(bank: Bank, hold: Hold, cancel: &Cancel) -> Result<Self> {
         let moments = Moments::new(bank)?;
         let magnitude = Magnitude::new(&moments.bank, &moments.ring)?;
         let entries = Entries::new(&moments.bank, &magnitude, &moments.images, cancel)?;
@@ -86,7 +80,9 @@ impl Search {
             (u128::from(images) * turns).pow(2)
         };
         let qualifying =
-            entries.ranges().map(|(_, range)| classes(range).map(pairs).sum::<u128>()).sum();
+            pool::map(cancel, entries.ranges(), |(_, range)| Ok(classes(range).map(pairs).sum::<u128>()))?
+                .into_iter()
+                .sum::<u128>();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         let first = classes(&entries.all).next();
         let zero = first.filter(|class| moments.vanishes(packed(class[0])));
@@ -131,7 +127,7 @@ impl Search {
     /// Every |α| within a window of [0°, 180°] at which some pair has no backward moment, ascending.
     pub fn angles(&self, window: [f64; 2], cancel: &Cancel) -> Result<Angles> {
         let wanted = Wanted::new(window, self.hold, self.moments.turn);
-        let families = pool::run(cancel, || self.families().all(&wanted, cancel))?;
+        let families = self.families().all(&wanted, cancel)?;
         Angles::new(self.families(), families, self.hold, window)
     }
 

@@ -80,3 +80,17 @@ fn eliminate(mut row: Vec<i128>, pivot: usize, other: &[i128]) -> Option<Vec<i12
     }
     Some(row)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_independent_whatever_the_size_of_their_difference() {
+        let large = 1_000_000_000_000;
+        assert_eq!(independent_rows(&[vec![large, large + 1, 2 * large], vec![1, 1, 2]]), [0, 1]);
+        assert_eq!(independent_rows(&[vec![0, 2, 3], vec![0, 4, 6]]), [1]);
+        // What overflows counts as independent.
+        assert_eq!(independent_rows(&[vec![i64::MAX, 3, 5], vec![1, i64::MAX, 7]]).len(), 2);
+    }
+}
