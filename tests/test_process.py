@@ -145,7 +145,7 @@ def test_memory_that_is_not_there_raises_memory_error(
 @pytest.mark.parametrize("length", [10**9, 10**30])
 def test_length_of_a_range_is_checked_before_it_is_converted(length: int) -> None:
     v6 = cp.Engine.preset("v6-60")
-    with pytest.raises(cp.InputError, match="theta_deg has .* numbers, more than the limit"):
+    with pytest.raises(cp.InputError, match=r"theta_deg has .* numbers, more than the limit"):
         v6.waveform(3000, range(length))
 
 

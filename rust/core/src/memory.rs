@@ -64,7 +64,10 @@ mod tests {
         let expected = Err(Error::OutOfMemory { bytes: 8 * count });
         assert_eq!(room::<f64>(count).map(drop), expected);
         assert_eq!(zeros::<f64>(count).map(drop), expected);
-        assert_eq!(zeros::<f64>(usize::MAX).map(drop), Err(Error::OutOfMemory { bytes: usize::MAX }));
+        assert_eq!(
+            zeros::<f64>(usize::MAX).map(drop),
+            Err(Error::OutOfMemory { bytes: usize::MAX })
+        );
         assert_eq!(zeros::<f64>(3), Ok(vec![0.0; 3]));
     }
 

@@ -108,7 +108,8 @@ impl Lease {
                 // Their threads exist in the parent alone: dropping them would wait for these.
                 mem::forget(old);
             }
-            let largest = (0..pools.idle.len()).max_by_key(|&k| pools.idle[k].current_num_threads());
+            let largest =
+                (0..pools.idle.len()).max_by_key(|&k| pools.idle[k].current_num_threads());
             if let Some(k) = largest {
                 return Some(Self { process, pool: Some(pools.idle.swap_remove(k)) });
             }
@@ -149,7 +150,9 @@ fn lock() -> Option<MutexGuard<'static, Pools>> {
     for _ in 0..TRIALS {
         match POOLS.try_lock() {
             Ok(pools) => return Some(pools),
-            Err(TryLockError::Poisoned(poisoned)) => return Some(PoisonError::into_inner(poisoned)),
+            Err(TryLockError::Poisoned(poisoned)) => {
+                return Some(PoisonError::into_inner(poisoned));
+            }
             Err(TryLockError::WouldBlock) => thread::yield_now(),
         }
     }
@@ -173,7 +176,10 @@ mod tests {
         assert_eq!(sum(&cancel), 332_833_500);
         let inside = run(&cancel, || {
             let thread = thread::current().id();
-            (rayon::current_thread_index().is_some(), run(&cancel, || thread::current().id()) == thread)
+            (
+                rayon::current_thread_index().is_some(),
+                run(&cancel, || thread::current().id()) == thread,
+            )
         });
         assert_eq!((inside, rayon::current_thread_index()), ((true, true), None));
     }

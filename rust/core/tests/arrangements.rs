@@ -167,7 +167,11 @@ fn a_window_has_the_angles_within_it() {
     for bank in banks() {
         for hold in [Hold::Firing, Hold::Pins] {
             let search = search(&bank, hold);
-            let all = search.angles([0.0, 180.0], &Cancel::new()).unwrap().degrees(&Cancel::new()).unwrap();
+            let all = search
+                .angles([0.0, 180.0], &Cancel::new())
+                .unwrap()
+                .degrees(&Cancel::new())
+                .unwrap();
             let Some(&middle) = all.get(all.len() / 2) else { continue };
             for window in [
                 [0.0, 50.0],

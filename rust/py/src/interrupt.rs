@@ -13,10 +13,7 @@ use crate::convert::OrRaise;
 ///
 /// The work runs in the calling thread, and its parallel parts in a pool that the calling thread waits
 /// for; [`Cancel::check`] calls the signal handlers from there.
-pub fn run<T: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&Cancel) -> Result<T> + Send,
-) -> PyResult<T> {
+pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> Result<T> + Send) -> PyResult<T> {
     watched(py, None, work)
 }
 

@@ -75,9 +75,8 @@ impl BankAngles {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let core = &search.get().0;
-        let angles = interrupt::watched(py, progress.as_ref(), |cancel| {
-            core.angles(window, cancel)
-        })?;
+        let angles =
+            interrupt::watched(py, progress.as_ref(), |cancel| core.angles(window, cancel))?;
         Ok(Self { search, angles })
     }
 

@@ -67,8 +67,7 @@ impl Sweep {
     ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
         self.sweep.check_size(quantity, figure, size_of::<T>()).or_raise()?;
         let kept = self.dimensions(&self.sweep.result_shape(quantity, figure));
-        let values: Bound<'py, PyArrayDyn<T>> =
-            interrupt::written(py, kept, progress, write)?;
+        let values: Bound<'py, PyArrayDyn<T>> = interrupt::written(py, kept, progress, write)?;
         values.readwrite().make_nonwriteable();
         Ok(values)
     }
@@ -112,7 +111,8 @@ impl Sweep {
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
         let sweep = interrupt::run(py, |cancel| {
-            let list = |values: Option<&[f64]>| values.map(|v| memory::copied(v, cancel)).transpose();
+            let list =
+                |values: Option<&[f64]>| values.map(|v| memory::copied(v, cancel)).transpose();
             let axes = Axes {
                 bank_angle: list(bank_angle)?.zip(held),
                 rod_ratio: list(rod_ratio)?,

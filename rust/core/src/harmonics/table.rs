@@ -67,26 +67,6 @@ pub fn write_offset(
     })
 }
 
-/// About how many steps of some nanoseconds tables of so many orders take at most, with offsets over r
-/// or none.
-#[must_use]
-pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usize {
-    let least = match offsets {
-        Some(offsets) => {
-            let pairs = rod_ratios.iter().zip(offsets);
-            pairs.map(|(λ, &offset)| slack(1.0 / λ, offset)).fold(f64::INFINITY, f64::min)
-        }
-        None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
-    };
-    let each = match offsets {
-        _ if least < LITTLE_SLACK => MOST_STEPS,
-        // Side by side.
-        None => 1,
-        Some(_) => 32,
-    };
-    orders.saturating_mul(rod_ratios.len()).saturating_mul(each)
-}
-
 /// A table of numbers of type `T` is not too large.
 pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
     limits::orders(orders)?;

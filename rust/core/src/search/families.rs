@@ -80,7 +80,9 @@ impl Families<'_> {
         found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian)?);
         let parts = pool::map(cancel, (0..ranges).collect(), |range| {
             let mut families = memory::room(found.iter().map(|f| f.range(range).len()).sum())?;
-            found.iter().for_each(|sorted| families.extend_from_slice(sorted.range(range)));
+            for sorted in &found {
+                families.extend_from_slice(sorted.range(range));
+            }
             families.sort_unstable();
             cancel.step()?;
             let small = families.iter().copied().filter(|family| family.is_small()).collect();

@@ -66,10 +66,7 @@ impl Magnitude {
             by_distance[distance] = spread(column);
             by_distance[(parts - distance) % parts] = spread(column);
         }
-        Ok(Self {
-            by_distance,
-            by_itself: spread(packing.pack(&half)),
-        })
+        Ok(Self { by_distance, by_itself: spread(packing.pack(&half)) })
     }
 
     /// What a throw adds to the key by itself.
@@ -110,9 +107,8 @@ mod tests {
     fn banks_of_a_few_throws_have_keys_that_fit_whatever_the_parts_of_a_turn() {
         for parts in 2..=360 {
             for throws in 2..=4 {
-                let phases: Vec<Angle> = (0..throws)
-                    .map(|k| Angle::Turns(k * k * k % parts, parts).reduced())
-                    .collect();
+                let phases: Vec<Angle> =
+                    (0..throws).map(|k| Angle::Turns(k * k * k % parts, parts).reduced()).collect();
                 let moments = Moments::new(Bank::with_phases(&phases).unwrap()).unwrap();
                 let found = Magnitude::new(&moments.bank, &moments.ring);
                 assert!(found.is_ok(), "{throws} throws, {parts} parts");

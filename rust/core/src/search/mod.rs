@@ -79,10 +79,11 @@ impl Search {
             let images: u64 = class.iter().map(|&entry| image_count(entry)).sum();
             (u128::from(images) * turns).pow(2)
         };
-        let qualifying =
-            pool::map(cancel, entries.ranges(), |(_, range)| Ok(classes(range).map(pairs).sum::<u128>()))?
-                .into_iter()
-                .sum::<u128>();
+        let qualifying = pool::map(cancel, entries.ranges(), |(_, range)| {
+            Ok(classes(range).map(pairs).sum::<u128>())
+        })?
+        .into_iter()
+        .sum::<u128>();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         let first = classes(&entries.all).next();
         let zero = first.filter(|class| moments.vanishes(packed(class[0])));

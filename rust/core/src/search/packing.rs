@@ -48,14 +48,13 @@ fn independent_rows(columns: &[Vec<i64>]) -> Vec<usize> {
     let mut rows = Vec::new();
     for row in 0..columns.first().map_or(0, Vec::len) {
         let entries = columns.iter().map(|column| i128::from(column[row])).collect();
-        match basis.iter().try_fold(entries, |rest, (pivot, vector)| eliminate(rest, *pivot, vector)) {
-            Some(rest) => {
-                // Small pivots keep what follows small.
-                let least = (0..rest.len()).filter(|&k| rest[k] != 0).min_by_key(|&k| rest[k].abs());
-                let Some(pivot) = least else { continue };
-                basis.push((pivot, rest));
-            }
-            None => {}
+        let eliminated =
+            basis.iter().try_fold(entries, |rest, (pivot, vector)| eliminate(rest, *pivot, vector));
+        if let Some(rest) = eliminated {
+            // Small pivots keep what follows small.
+            let least = (0..rest.len()).filter(|&k| rest[k] != 0).min_by_key(|&k| rest[k].abs());
+            let Some(pivot) = least else { continue };
+            basis.push((pivot, rest));
         }
         rows.push(row);
     }
@@ -76,7 +75,9 @@ fn eliminate(mut row: Vec<i128>, pivot: usize, other: &[i128]) -> Option<Vec<i12
         content = if *entry == 0 { content } else { common_divisor(content, *entry) };
     }
     if content > 1 {
-        row.iter_mut().for_each(|entry| *entry /= content);
+        for entry in &mut row {
+            *entry /= content;
+        }
     }
     Some(row)
 }

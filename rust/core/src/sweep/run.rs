@@ -31,7 +31,10 @@ const PIECE: usize = 1 << 16;
 const MOST_SHARED: usize = 1 << 24;
 
 /// What a result holds.
-pub(super) trait Number: Copy + Default + Zeroable + Send + Sync + Mul<f64, Output = Self> {}
+pub(super) trait Number:
+    Copy + Default + Zeroable + Send + Sync + Mul<f64, Output = Self>
+{
+}
 impl Number for f64 {}
 impl Number for Complex64 {}
 
