@@ -79,9 +79,10 @@ import signal
 import numpy as np
 import crankpin as cp
 signal.signal(signal.SIGALRM, signal.default_int_handler)
-signal.setitimer(signal.ITIMER_REAL, 0.5)
+ratios, offsets = np.full(10_000_000, 0.9999), np.full(10_000_000, 1e-7)
+signal.setitimer(signal.ITIMER_REAL, 1)
 try:
-    cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)
+    cp.slider_crank_harmonics(ratios, range(1, 5), offsets)
 except KeyboardInterrupt:
     print("stopped")
 """

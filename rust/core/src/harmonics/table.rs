@@ -6,8 +6,7 @@ use ndarray::Array2;
 use rayon::prelude::*;
 
 use super::{
-    ALL_DIGITS, Centred, LITTLE_SLACK, MOST_STEPS, NEGLIGIBLE_LOG, Root, coefficients, leading,
-    may_be_missing, next_term,
+    ALL_DIGITS, Centred, NEGLIGIBLE_LOG, Root, coefficients, leading, may_be_missing, next_term,
 };
 use crate::Complex64;
 use crate::cancel::Cancel;
@@ -16,7 +15,7 @@ use crate::limits;
 use crate::memory;
 use crate::pool;
 use crate::simd::vectorised;
-use crate::slider_crank::{Proportions, slack};
+use crate::slider_crank::Proportions;
 
 /// Up to this order repeated multiplication to the power below it is within 2e-15.
 const LARGEST_PLAIN_ORDER: u32 = 16;

@@ -42,6 +42,7 @@ pub fn torque(
     let rational = RationalPart::new(proportions);
     let (mut roll, mut crank) = (Vec::new(), Vec::new());
     for (k, &n) in orders.iter().enumerate() {
+        cancel.check()?;
         let shifted = Complex64::i() * (slope(3 * k) - slope(3 * k + 2));
         let of_sine = if n == 2 { -0.5 } else { 0.0 };
         let velocity_squared = shifted + rational.harmonic(n) + of_sine;
