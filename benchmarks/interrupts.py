@@ -53,7 +53,8 @@ MOMENTS = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0)
 """Seconds after the start of a call."""
 
 PROGRAM = """
-import sys, time
+import signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
 import numpy as np
 import crankpin as cp
 v6 = cp.Engine.preset("v6-60")

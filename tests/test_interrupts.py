@@ -1,6 +1,7 @@
 """Does Ctrl-C stop a long call, and do other threads go on while it runs?
 
-No test here depends on how fast the machine is: a call that could not be stopped would take hours.
+A call that could not be stopped would take minutes to hours; benchmarks/interrupts.py measures how
+long stopping takes.
 """
 
 from __future__ import annotations
@@ -59,7 +60,11 @@ LONG_CALLS = {
     ),
 }
 
+STOPPED_WITHIN = 2.0
+"""Seconds from Ctrl-C to the exception, on a busy machine."""
+
 PROGRAM = """
+import signal
 import numpy as np
 import crankpin as cp
 v6 = cp.Engine.preset("v6-60")
@@ -69,6 +74,8 @@ def near(rod_ratio, offset):
     cylinders = [cp.Cylinder(0.05, rod, 1, pin_offset=offset) for rod in rods]
     tdcs, places = [7.3 * k for k in range(40)], [0.1 * k for k in range(40)]
     return cp.Engine.from_lists(cylinders, tdc_deg=tdcs, bank_deg=[0] * 40, z=places)
+# Whoever started the tests may ignore SIGINT, as nohup and shells do for background jobs.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("ready", flush=True)
 try:
     {call}
@@ -90,10 +97,10 @@ def test_ctrl_c_stops_a_long_call(name: str) -> None:
             process.wait(1.0)
         process.send_signal(signal.SIGINT)
         try:
-            assert process.stdout.readline() == "stopped\n"
-            assert process.wait(60) == 0
+            told, _ = process.communicate(timeout=STOPPED_WITHIN)
         finally:
             process.kill()
+        assert (told, process.returncode) == ("stopped\n", 0)
 
 
 def test_other_threads_go_on() -> None:

@@ -7,6 +7,7 @@ import csv
 import itertools
 import pickle
 from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Literal
 
@@ -392,9 +393,51 @@ def test_objects() -> None:
         (lambda: cp.search_arrangements(6).best("beauty"), ["by", "beauty", "counterweight"]),
         (lambda: cp.search_arrangements(6).best(within=(1,)), ["within", "two"]),  # type: ignore[arg-type]
         (lambda: cp.search_arrangements(6).best(count=-1), ["count", "-1"]),
+        (lambda: cp.search_arrangements(6).best(count=1.9), ["count", "1.9", "whole"]),
+        (lambda: cp.search_arrangements(6).best(count=np.inf), ["count", "inf", "whole"]),
+        (lambda: cp.search_arrangements(6).within(np.nan, 10), ["low", "nan"]),
+        (lambda: cp.search_arrangements(6).within(10, np.nan), ["high", "nan"]),
+        (lambda: cp.search_arrangements(6).best(within=(np.nan, 10)), ["within", "nan"]),
     ],
 )
 def test_what_is_refused(call: object, words: list[str]) -> None:
     with pytest.raises(cp.InputError) as caught:
         call()  # type: ignore[operator]
     assert all(word in str(caught.value) for word in words), caught.value
+
+
+def test_within_includes_both_ends() -> None:
+    search = cp.search_arrangements(6)
+    assert search.within(60, 120).bank_angles_deg.tolist() == [60, 120]
+    assert search.within(180, 180).bank_angles_deg.tolist() == [180]
+    assert search.within(0, 0).bank_angles_deg.tolist() == [0]
+    for angle in cp.search_arrangements(14).bank_angles_deg[::100].tolist():
+        assert cp.search_arrangements(14).within(angle, angle).bank_angles_deg.tolist() == [angle]
+    best = search.best(within=(60, 120), count=9)
+    assert sorted(found.bank_angle_deg for found in best) == [60, 120]
+
+
+@pytest.mark.parametrize("hold", ["firing", "pins"])
+@pytest.mark.parametrize("cylinders", [8, 12, 14])
+def test_bank_angle_of_an_arrangement_is_the_one_listed(
+    cylinders: int, hold: Literal["firing", "pins"]
+) -> None:
+    search = cp.search_arrangements(cylinders, hold=hold)
+    assert [found.bank_angle_deg for found in search] == search.bank_angles_deg.tolist()
+
+
+@pytest.mark.parametrize("hold", ["firing", "pins"])
+@pytest.mark.parametrize("throws", [3, 4, 5, 6, 7, 9])
+def test_bank_angles_that_are_rational_parts_of_a_turn_are_correctly_rounded(
+    throws: int, hold: Literal["firing", "pins"]
+) -> None:
+    parts = (4 if hold == "firing" else 8) * throws
+    exact = {float(Fraction(360 * k, parts)) for k in range(parts + 1)}
+    angles = cp.search_arrangements(2 * throws, hold=hold).bank_angles_deg
+    rational = [angle for angle in angles.tolist() if min(abs(angle - e) for e in exact) < 1e-9]
+    assert len(rational) >= 2
+    assert set(rational) <= exact
+
+
+def test_phases_of_any_part_of_a_turn_are_searched() -> None:
+    assert cp.search_arrangements(6, phases_deg=[0, 120, 235]).bank_angles_deg.tolist() == [0, 180]

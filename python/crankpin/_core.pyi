@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "LONGEST_AXIS",
     "SCHEMA",
     "Balance",
     "BankAngles",
@@ -41,6 +42,7 @@ __all__ = [
 ]
 
 __version__: str
+LONGEST_AXIS: int
 SCHEMA: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]

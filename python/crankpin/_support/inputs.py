@@ -6,6 +6,7 @@ import itertools
 import math
 import operator
 import reprlib
+import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
@@ -31,8 +32,8 @@ Spectrum: TypeAlias = Mapping[int, complex]
 FASTEST_PISTON = 60.0
 """Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
 
-MOST_NUMBERS = 2**27
-"""Numbers in an array that is taken: a gibibyte."""
+MOST_NUMBERS = _core.LONGEST_AXIS
+"""Maximum length of an array: a gibibyte."""
 
 PIECE = 2**18
 """Numbers converted or copied between two looks at Ctrl-C."""
@@ -54,8 +55,9 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """
     if type(values) is np.ndarray and values.dtype == np.float64 and values.size <= MOST_NUMBERS:
         return values
-    if isinstance(values, (list, tuple)) and len(values) > MOST_NUMBERS:
-        raise _too_many(name, len(values))
+    if isinstance(values, Sequence) and _length(values) > MOST_NUMBERS:
+        # Before NumPy allocates memory for it.
+        raise _too_many(name, _length(values))
     try:
         if isinstance(values, np.ma.MaskedArray):
             raise TypeError("masked values are no numbers: fill them first")
@@ -88,10 +90,18 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
-    if not isinstance(values, (list, tuple)) or len(values) <= PIECE:
+    if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE:
         return np.asarray(values)
     pieces = [np.asarray(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
     return np.concatenate(pieces)
+
+
+def _length(values: Sequence[Any]) -> int:
+    try:
+        return len(values)
+    except OverflowError:
+        # Of a range longer than a list can be.
+        return sys.maxsize
 
 
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:

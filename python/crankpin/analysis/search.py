@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import heapq
+import math
 import operator
 from collections.abc import Callable, Iterator
 from functools import cached_property
@@ -253,7 +254,7 @@ class ArrangementSearch(Frozen):
         >>> cp.search_arrangements(cylinders=14).within(60, 60.2).bank_angles_deg.round(2)
         array([60.09, 60.13])
         """
-        ends = (inputs.number("low", low), inputs.number("high", high))
+        ends = (_bank_angle("low", low), _bank_angle("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
         rest = (self.cylinders, self.alternating, self._phases, self.hold, window)
         return ArrangementSearch(self._search, *rest, progress=self._progress)
@@ -306,10 +307,14 @@ class ArrangementSearch(Frozen):
         9.13
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
-        wanted = inputs.number("count", count)
-        if not wanted >= 0:
-            raise _core.InputError(f"count = {inputs.shorten(count)}: give 0 or more")
-        return tuple(heapq.nsmallest(int(wanted), self._from(*_window(within)), key=measure))
+        cure = "give a whole number, 0 or more"
+        try:
+            wanted = operator.index(count)
+        except TypeError:
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}") from None
+        if wanted < 0:
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}")
+        return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
     def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
         """Return the vee of an index: :meth:`Arrangement.engine` of it."""
@@ -388,8 +393,15 @@ def _window(within: object) -> tuple[float, float]:
     ends = inputs.items("within", within, cure)
     if len(ends) != 2:
         raise _core.InputError(f"within = {inputs.shorten(within)}: {cure}")
-    low, high = (inputs.number("within", end) for end in ends)
+    low, high = (_bank_angle("within", end) for end in ends)
     return low, high
+
+
+def _bank_angle(name: str, value: object) -> float:
+    angle = _inputs.number(name, value)
+    if math.isnan(angle):
+        raise _core.InputError(f"{name} = nan: give a bank angle in degrees")
+    return angle
 
 
 _MEASURES: dict[str, Callable[[Arrangement], float]] = {

@@ -1,27 +1,63 @@
-//! What passes between a long computation and who waits for it: the wish to stop, looked at between
-//! chunks of work, and how far the work has come.
+//! Cancellation flag and progress counter shared by a computation and its caller.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::thread::{self, ThreadId};
+use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 
-/// Shared by the thread that waits and all that work.
+/// How often the caller's function is called while a computation runs.
+pub const PERIOD: Duration = Duration::from_millis(20);
+
+/// Shared by the calling thread and all threads that compute for it.
 #[derive(Debug, Default)]
 pub struct Cancel {
     raised: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
+    poll: Option<Poll>,
+}
+
+/// A function of the calling thread, called about every [`PERIOD`], and when it was called last.
+struct Poll {
+    /// Takes the progress; true asks the computation to stop.
+    stop: Box<dyn Fn((usize, usize)) -> bool + Send + Sync>,
+    caller: ThreadId,
+    started: Instant,
+    /// Nanoseconds from `started`.
+    last: AtomicU64,
+}
+
+impl fmt::Debug for Poll {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Poll").field("last", &self.last).finish_non_exhaustive()
+    }
 }
 
 impl Cancel {
-    /// Nobody wishes to stop, nothing is done.
+    /// Not cancelled; no steps done.
     #[must_use]
     pub const fn new() -> Self {
         Self {
             raised: AtomicBool::new(false),
             done: AtomicUsize::new(0),
             total: AtomicUsize::new(0),
+            poll: None,
         }
+    }
+
+    /// Like [`Cancel::new`], but calls `stop` in the calling thread about every [`PERIOD`], whichever
+    /// thread computes, with the progress so far; the computation is cancelled once it returns true.
+    #[must_use]
+    pub fn polling(stop: impl Fn((usize, usize)) -> bool + Send + Sync + 'static) -> Self {
+        let poll = Poll {
+            stop: Box::new(stop),
+            caller: thread::current().id(),
+            started: Instant::now(),
+            last: AtomicU64::new(0),
+        };
+        Self { poll: Some(poll), ..Self::new() }
     }
 
     /// Ask the computation to stop.
@@ -29,38 +65,47 @@ impl Cancel {
         self.raised.store(true, Ordering::Relaxed);
     }
 
-    /// Go on, or stop with [`Error::Cancelled`].
+    /// Return [`Error::Cancelled`] once the computation is to stop. Call it at least every few
+    /// milliseconds: in the calling thread it also calls the caller's function when that is due.
     pub fn check(&self) -> Result<()> {
+        if let Some(poll) = &self.poll
+            && thread::current().id() == poll.caller
+        {
+            let elapsed = poll.started.elapsed().as_nanos() as u64;
+            if elapsed - poll.last.load(Ordering::Relaxed) >= PERIOD.as_nanos() as u64
+                && !self.raised.load(Ordering::Relaxed)
+            {
+                if (poll.stop)(self.progress()) {
+                    self.raise();
+                }
+                let elapsed = poll.started.elapsed().as_nanos() as u64;
+                poll.last.store(elapsed, Ordering::Relaxed);
+            }
+        }
         if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
     }
 
-    /// There are so many more steps to do.
+    /// Add `steps` to the number of steps to do.
     pub fn expect(&self, steps: usize) {
         self.total.fetch_add(steps, Ordering::Relaxed);
     }
 
-    /// One more step is done: [`Cancel::check`].
+    /// Count one more step as done, then [`Cancel::check`].
     pub fn step(&self) -> Result<()> {
         self.done.fetch_add(1, Ordering::Relaxed);
         self.check()
     }
 
-    /// So many more steps are done.
+    /// Count so many more steps as done.
     pub fn advance(&self, steps: usize) {
         self.done.fetch_add(steps, Ordering::Relaxed);
     }
 
-    /// Steps done, and how many are known of.
+    /// Steps done, and steps known of.
     #[must_use]
     pub fn progress(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
-}
-
-/// Drop what may be gigabytes, which takes most of a second, in a thread of its own.
-pub fn give_back<T: Send + 'static>(value: T) {
-    // Where no thread is to be had it is dropped here.
-    drop(std::thread::Builder::new().spawn(move || drop(value)));
 }
 
 #[cfg(test)]
@@ -77,5 +122,23 @@ mod tests {
         cancel.raise();
         assert_eq!((cancel.check(), cancel.step()), (Err(Error::Cancelled), Err(Error::Cancelled)));
         assert_eq!(cancel.progress(), (3, 7));
+    }
+
+    #[test]
+    fn the_callers_function_is_called_in_the_calling_thread_alone_and_not_more_often_than_asked() {
+        let caller = thread::current().id();
+        let cancel = Cancel::polling(move |(done, _)| {
+            assert_eq!(thread::current().id(), caller);
+            done >= 1
+        });
+        assert_eq!(cancel.check(), Ok(()));
+        thread::sleep(PERIOD);
+        thread::scope(|scope| {
+            scope.spawn(|| assert_eq!(cancel.step(), Ok(())));
+        });
+        assert_eq!(cancel.check(), Err(Error::Cancelled));
+        thread::scope(|scope| {
+            scope.spawn(|| assert_eq!(cancel.check(), Err(Error::Cancelled)));
+        });
     }
 }

@@ -83,11 +83,11 @@ pub enum Error {
         /// How to ask for it in parts.
         cure: &'static str,
     },
-    /// Memory that cannot be had.
-    #[error("no memory for {bytes} bytes")]
+    /// Memory that the system does not give.
+    #[error("out of memory: {bytes} bytes more are needed; ask for the result in parts")]
     OutOfMemory {
-        /// Size of what was to be allocated.
-        bytes: u128,
+        /// Size of the allocation that failed.
+        bytes: usize,
     },
     /// An engine file that cannot be read.
     #[error("engine file ({format}): {reason}")]

@@ -1,7 +1,8 @@
 //! How a reciprocating engine shakes, and which engine does not.
 //!
 //! A file is one idea, and imports run one way:
-//! - numbers: [`error`], [`limits`], [`cancel`], [`double`], [`angle`], [`order`], [`crank_angles`],
+//! - numbers: [`error`], [`limits`], [`cancel`], [`memory`],
+//!   [`pool`], [`double`], [`angle`], [`order`], [`crank_angles`],
 //!   [`rational`], [`ring`] (sums of roots of unity);
 //! - [`cylinder`]: one cylinder's running gear and its harmonics;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
@@ -32,7 +33,9 @@ pub mod firing;
 mod kinematics;
 pub mod limits;
 mod load;
+pub mod memory;
 pub mod order;
+pub mod pool;
 pub mod rational;
 pub mod ring;
 pub mod search;

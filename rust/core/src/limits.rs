@@ -17,6 +17,8 @@ pub const MOST_UNBALANCES: usize = 1000;
 pub const LONGEST_NAME: usize = 10_000;
 /// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.
 pub const HIGHEST_ORDER: u32 = 10_000;
+/// Maximum length of an axis: a gibibyte of numbers.
+pub const LONGEST_AXIS: usize = 1 << 27;
 /// Largest result, in bytes, that one call returns.
 pub const LARGEST_RESULT: u128 = 1 << 32;
 
@@ -86,9 +88,6 @@ pub fn result_size(
     Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
 }
 
-/// Most values of one swept axis.
-pub const LONGEST_AXIS: usize = 1 << 26;
-
 /// An axis of at most [`LONGEST_AXIS`] values.
 pub fn axis_length(argument: &'static str, length: usize) -> Result<()> {
     if length <= LONGEST_AXIS {
@@ -96,16 +95,6 @@ pub fn axis_length(argument: &'static str, length: usize) -> Result<()> {
     }
     let hint = format!("give at most {LONGEST_AXIS}; sweep it in parts");
     Err(Error::value(argument, format!("{length} values"), hint))
-}
-
-/// Zeros for a result or a table of it, or an error where there is no memory.
-pub(crate) fn zeros<T: Clone + Default>(length: usize) -> Result<Vec<T>> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(length).map_err(|_| Error::OutOfMemory {
-        bytes: length as u128 * size_of::<T>() as u128,
-    })?;
-    values.resize(length, T::default());
-    Ok(values)
 }
 
 #[cfg(test)]

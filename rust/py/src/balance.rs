@@ -38,9 +38,7 @@ pub fn balance(
     let spectrum = self::spectrum(spectrum)?;
     let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
     let engine = &engine.get().0;
-    let balance = interrupt::run(py, orders.steps(engine), |cancel| {
-        core::balance::of(engine, &asked, &orders, cancel)
-    });
+    let balance = interrupt::run(py, |cancel| core::balance::of(engine, &asked, &orders, cancel));
     balance.map(Balance)
 }
 

@@ -4,7 +4,7 @@ use crankpin_core as core;
 use crankpin_core::Complex64;
 use ndarray::Dimension;
 use numpy::{Element, PyArray, PyArrayMethods};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 pyo3::create_exception!(
@@ -19,6 +19,7 @@ pyo3::create_exception!(
 pub fn python_error(error: core::Error) -> PyErr {
     match error {
         core::Error::Cancelled => PyKeyboardInterrupt::new_err(()),
+        error @ core::Error::OutOfMemory { .. } => PyMemoryError::new_err(error.to_string()),
         other => InputError::new_err(other.to_string()),
     }
 }

@@ -1,7 +1,6 @@
-//! Long calls: the interpreter is released, Ctrl-C answered, and progress told.
+//! Long calls: the interpreter is released, Ctrl-C answered, and progress reported.
 
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crankpin_core::{Cancel, Result};
 use ndarray::Dimension;
@@ -10,75 +9,48 @@ use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
 
-/// Work of fewer steps (some nanoseconds each) is done in the calling thread.
-const SHORT: usize = 1 << 20;
-/// How often Python is asked whether somebody pressed Ctrl-C.
-const PATIENCE: Duration = Duration::from_millis(20);
-
-/// Do `work` of about so many steps without the interpreter; stop it when a signal comes.
-pub fn run<T: Send>(
-    py: Python<'_>,
-    steps: usize,
-    work: impl FnOnce(&Cancel) -> Result<T> + Send,
-) -> PyResult<T> {
-    watched(py, steps, None, work)
+/// Do `work` without the interpreter; stop it when a signal handler raises.
+///
+/// The work runs in the calling thread, and its parallel parts in a pool that the calling thread waits
+/// for; [`Cancel::check`] calls the signal handlers from there.
+pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> Result<T> + Send) -> PyResult<T> {
+    watched(py, None, work)
 }
 
-/// [`run`], with a Python function that is told how many steps of how many are done.
+/// [`run`], with a Python function that is called with the steps done and the steps in all.
 pub fn watched<T: Send>(
     py: Python<'_>,
-    steps: usize,
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&Cancel) -> Result<T> + Send,
 ) -> PyResult<T> {
-    let cancel = Cancel::new();
-    let tell = || match progress {
-        Some(function) => Python::attach(|py| function.call1(py, cancel.progress()).map(drop)),
-        None => Ok(()),
-    };
-    if steps < SHORT {
-        let result = py.detach(|| work(&cancel)).or_raise()?;
-        tell()?;
-        return Ok(result);
+    let raised = Arc::new(Mutex::new(None));
+    let error = Arc::clone(&raised);
+    let function = progress.map(|function| function.clone_ref(py));
+    let cancel = Cancel::polling(move |progress| {
+        let result = Python::attach(|py| {
+            py.check_signals()?;
+            function.as_ref().map_or(Ok(()), |function| function.call1(py, progress).map(drop))
+        });
+        let stop = result.is_err();
+        *error.lock().unwrap_or_else(PoisonError::into_inner) = result.err();
+        stop
+    });
+    let result = py.detach(|| work(&cancel));
+    if let Some(error) = raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        return Err(error);
     }
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (sender, receiver) = channel();
-            let flag = &cancel;
-            scope.spawn(move || sender.send(work(flag)));
-            let mut raised = None;
-            loop {
-                match receiver.recv_timeout(PATIENCE) {
-                    Ok(result) => {
-                        return match raised {
-                            Some(raised) => Err(raised),
-                            None => result.or_raise().and_then(|result| tell().map(|()| result)),
-                        };
-                    }
-                    Err(RecvTimeoutError::Timeout) if raised.is_none() => {
-                        if let Err(error) = signals().and_then(|()| tell()) {
-                            cancel.raise();
-                            raised = Some(error);
-                        }
-                    }
-                    Err(RecvTimeoutError::Timeout) => {}
-                    Err(RecvTimeoutError::Disconnected) => {
-                        return Err(pyo3::exceptions::PyRuntimeError::new_err(
-                            "worker thread died",
-                        ));
-                    }
-                }
-            }
-        })
-    })
+    let result = result.or_raise()?;
+    if let Some(function) = progress {
+        function.call1(py, cancel.progress())?;
+    }
+    Ok(result)
 }
 
 /// [`watched`] work that writes every number of a new array, in `NumPy`'s own memory: it asks for
-/// large pages, which are several times faster to come by and to give back.
+/// large pages, which are several times faster to allocate and to free.
 pub fn written<'py, T: Element + Send, D: Dimension>(
     py: Python<'py>,
     shape: impl IntoPyObject<'py>,
-    steps: usize,
     progress: Option<&Py<PyAny>>,
     write: impl FnOnce(&mut [T], &Cancel) -> Result<()> + Send,
 ) -> PyResult<Bound<'py, PyArray<T, D>>> {
@@ -87,13 +59,7 @@ pub fn written<'py, T: Element + Send, D: Dimension>(
     let array = array.cast_into::<PyArray<T, D>>()?;
     let mut writable = array.readwrite();
     let out = writable.as_slice_mut()?;
-    watched(py, steps, progress, |cancel| write(out, cancel))?;
+    watched(py, progress, |cancel| write(out, cancel))?;
     drop(writable);
     Ok(array)
-}
-
-/// What Python's signal handlers raise, if anything.
-#[expect(clippy::redundant_closure_for_method_calls, reason = "the method has one lifetime only")]
-fn signals() -> PyResult<()> {
-    Python::attach(|py| py.check_signals())
 }

@@ -22,6 +22,7 @@ mod waveform;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
     module.add("SCHEMA", crankpin_core::engine_file::SCHEMA)?;
     module.add("InputError", module.py().get_type::<convert::InputError>())?;
     module.add_class::<engine::Engine>()?;

@@ -27,8 +27,7 @@ impl Search {
     ) -> PyResult<Self> {
         let (phases, hold) = (phases.map(angles), hold(held)?);
         let bank = search::bank(cylinders, alternating, phases.as_deref()).or_raise()?;
-        let steps = usize::try_from(bank.count()).unwrap_or(usize::MAX);
-        let search = interrupt::watched(py, steps, progress.as_ref(), |cancel| {
+        let search = interrupt::watched(py, progress.as_ref(), |cancel| {
             search::Search::new(bank, hold, cancel)
         })?;
         Ok(Self(search))
@@ -76,9 +75,8 @@ impl BankAngles {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let core = &search.get().0;
-        let angles = interrupt::watched(py, core.steps(), progress.as_ref(), |cancel| {
-            core.angles(window, cancel)
-        })?;
+        let angles =
+            interrupt::watched(py, progress.as_ref(), |cancel| core.angles(window, cancel))?;
         Ok(Self { search, angles })
     }
 
@@ -86,8 +84,8 @@ impl BankAngles {
         self.angles.count()
     }
 
-    fn degrees<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        frozen(py, self.angles.degrees().into())
+    fn degrees<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(frozen(py, interrupt::run(py, |cancel| self.angles.degrees(cancel))?.into()))
     }
 
     fn solution(&self, k: usize) -> PyResult<Solution> {

@@ -1,7 +1,7 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{Complex64, Cylinder, angle, limits, rod};
+use crankpin_core::{Complex64, Cylinder, Error, angle, limits, memory, rod};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -48,24 +48,25 @@ pub fn motion<'py>(
     theta_deg: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let cylinder = cylinder(parts)?;
-    let thetas = theta_deg.as_slice()?.to_vec();
+    let thetas = theta_deg.as_slice()?;
     let cure = "split theta_deg into parts";
     limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), cure).or_raise()?;
-    let rows = interrupt::run(py, thetas.len() * 32, |cancel| {
+    let rows = interrupt::run(py, |cancel| {
         let (proportions, radius) = (cylinder.proportions(), cylinder.crank_radius());
-        let mut rows = Array2::zeros((thetas.len(), 3));
-        for (i, &theta) in thetas.iter().enumerate() {
+        let mut rows: Vec<f64> = memory::zeros(3 * thetas.len())?;
+        for (i, (&theta, row)) in thetas.iter().zip(rows.chunks_exact_mut(3)).enumerate() {
             if i % 4096 == 0 {
                 cancel.check()?;
             }
             limits::finite("theta_deg", theta)?;
             let unit = angle::cis_degrees(theta);
             let motion = proportions.motion(unit.im, unit.re);
-            rows[[i, 0]] = motion.position * radius;
-            rows[[i, 1]] = motion.velocity * radius;
-            rows[[i, 2]] = motion.acceleration * radius;
+            row[0] = motion.position * radius;
+            row[1] = motion.velocity * radius;
+            row[2] = motion.acceleration * radius;
         }
-        Ok(rows)
+        Array2::from_shape_vec((thetas.len(), 3), rows)
+            .map_err(|error| Error::value("theta_deg", thetas.len(), error.to_string()))
     })?;
     Ok(PyArray2::from_owned_array(py, rows))
 }
@@ -79,8 +80,7 @@ pub fn cylinder_harmonics(
 ) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
     limits::orders(&orders).or_raise()?;
     let cylinder = cylinder(parts)?;
-    let steps = harmonics::steps(cylinder.slack(), orders.len());
-    let values = interrupt::run(py, steps, |cancel| {
+    let values = interrupt::run(py, |cancel| {
         harmonics::coefficients(&cylinder.proportions(), &orders, cancel)
     })?;
     Ok(PyArray1::from_vec(py, values))
@@ -96,9 +96,8 @@ pub fn cylinder_torque_harmonics(
 ) -> PyResult<(Bound<'_, PyArray1<Complex64>>, Bound<'_, PyArray1<Complex64>>)> {
     limits::orders(&orders).or_raise()?;
     let cylinder = cylinder(parts)?;
-    let steps = harmonics::steps(cylinder.slack(), 4 * orders.len());
     let torque =
-        interrupt::run(py, steps, |cancel| torque::over_second_moment(&cylinder, &orders, cancel))?;
+        interrupt::run(py, |cancel| torque::over_second_moment(&cylinder, &orders, cancel))?;
     Ok((PyArray1::from_vec(py, torque.roll), PyArray1::from_vec(py, torque.crank)))
 }
 
@@ -114,8 +113,7 @@ pub fn centred_table<'py>(
     let ratios = rod_ratios.as_slice()?;
     table::check_size::<f64>(ratios.len(), &orders).or_raise()?;
     let shape = [ratios.len(), orders.len()];
-    let steps = table::steps(ratios, None, orders.len());
-    interrupt::written(py, shape, steps, None, |out, cancel| {
+    interrupt::written(py, shape, None, |out, cancel| {
         table::write_centred(ratios, &orders, rtol, out, cancel)
     })
 }
@@ -134,8 +132,7 @@ pub fn offset_table<'py>(
     let (ratios, offsets) = (rod_ratios.as_slice()?, offsets.as_slice()?);
     table::check_size::<Complex64>(ratios.len(), &orders).or_raise()?;
     let shape = [ratios.len(), orders.len()];
-    let steps = table::steps(ratios, Some(offsets), orders.len());
-    interrupt::written(py, shape, steps, None, |out, cancel| {
+    interrupt::written(py, shape, None, |out, cancel| {
         table::write_offset(ratios, offsets, &orders, out, cancel)
     })
 }

@@ -1,9 +1,8 @@
 //! Sweeps.
 
 use crankpin_core as core;
-use crankpin_core::cancel::give_back;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
-use crankpin_core::{Cancel, Complex64, Error};
+use crankpin_core::{Cancel, Complex64, Error, memory};
 use ndarray::Array1;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
@@ -46,25 +45,9 @@ fn figure(name: &str) -> PyResult<Figure> {
     }
 }
 
-/// Numbers copied between two looks at cancellation.
-const PIECE: usize = 1 << 16;
-
 /// An array's numbers, if there is one.
 fn slice<'a>(values: Option<&'a PyReadonlyArray1<'_, f64>>) -> PyResult<Option<&'a [f64]>> {
     Ok(values.map(|values| values.as_slice()).transpose()?)
-}
-
-/// A copy that can be stopped.
-fn copied(values: &[f64], cancel: &Cancel) -> core::Result<Vec<f64>> {
-    let mut copy = Vec::with_capacity(values.len());
-    for piece in values.chunks(PIECE) {
-        if let Err(cancelled) = cancel.check() {
-            give_back(copy);
-            return Err(cancelled);
-        }
-        copy.extend_from_slice(piece);
-    }
-    Ok(copy)
 }
 
 impl Sweep {
@@ -84,8 +67,7 @@ impl Sweep {
     ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
         self.sweep.check_size(quantity, figure, size_of::<T>()).or_raise()?;
         let kept = self.dimensions(&self.sweep.result_shape(quantity, figure));
-        let values: Bound<'py, PyArrayDyn<T>> =
-            interrupt::written(py, kept, self.sweep.steps(figure), progress, write)?;
+        let values: Bound<'py, PyArrayDyn<T>> = interrupt::written(py, kept, progress, write)?;
         values.readwrite().make_nonwriteable();
         Ok(values)
     }
@@ -128,17 +110,14 @@ impl Sweep {
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
-        let given = [bank_angle, rod_ratio, pin_offset, Some(rpm)];
-        let numbers: usize = given.into_iter().flatten().map(<[f64]>::len).sum();
-        // How much there is to do for a choice shows only as the orders are worked out.
-        let steps = if orders.is_some() { numbers.saturating_mul(8) } else { usize::MAX };
-        let sweep = interrupt::run(py, steps, |cancel| {
-            let list = |values: Option<&[f64]>| values.map(|v| copied(v, cancel)).transpose();
+        let sweep = interrupt::run(py, |cancel| {
+            let list =
+                |values: Option<&[f64]>| values.map(|v| memory::copied(v, cancel)).transpose();
             let axes = Axes {
                 bank_angle: list(bank_angle)?.zip(held),
                 rod_ratio: list(rod_ratio)?,
                 pin_offset: list(pin_offset)?,
-                rpm: copied(rpm, cancel)?,
+                rpm: memory::copied(rpm, cancel)?,
             };
             if let Some(orders) = orders {
                 return core::Sweep::new(engines, axes, orders, reference_z, spectrum, cancel);
@@ -188,7 +167,7 @@ impl Sweep {
         let values = values.ok_or_else(|| {
             python_error(Error::value("axis", name, "give a quantity that is swept"))
         })?;
-        let copy = interrupt::run(py, values.len(), |cancel| copied(values, cancel))?;
+        let copy = interrupt::run(py, |cancel| memory::copied(values, cancel))?;
         Ok(frozen(py, Array1::from(copy)))
     }
 
@@ -242,10 +221,7 @@ impl Sweep {
         let quantity = quantity(name)?;
         let angles = &angles.get().0;
         let out = out.as_slice_mut()?;
-        let each = if exact { 8 } else { self.sweep.orders().len() };
-        let steps =
-            out.len().saturating_mul(each).saturating_add(self.sweep.steps(Figure::Amplitude));
-        interrupt::watched(py, steps, progress.as_ref(), |cancel| {
+        interrupt::watched(py, progress.as_ref(), |cancel| {
             self.sweep.waveforms(quantity, angles, exact, out, cancel)
         })
     }

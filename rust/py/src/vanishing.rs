@@ -21,13 +21,9 @@ pub fn vanishing<'py>(
 ) -> PyResult<(Table<'py>, Table<'py>, Table<'py>, Vec<String>)> {
     let py = engine.py();
     let engine = engine.get().0.clone();
-    // A term of a sum takes some hundred steps.
-    let terms = orders.len().saturating_mul(engine.placements().len());
-    let steps = terms.saturating_mul(100 * QUANTITIES.len());
-    let Vanishing { verdicts, within_rounding, obstacles, .. } =
-        interrupt::run(py, steps, |cancel| {
-            core::vanishing::vanishing(&engine, &orders, reference_z, cancel)
-        })?;
+    let Vanishing { verdicts, within_rounding, obstacles, .. } = interrupt::run(py, |cancel| {
+        core::vanishing::vanishing(&engine, &orders, reference_z, cancel)
+    })?;
     let table = |value: &dyn Fn(usize, usize) -> bool| {
         let shape = (verdicts.len(), QUANTITIES.len());
         frozen(py, Array2::from_shape_fn(shape, |(k, quantity)| value(k, quantity)))

@@ -50,9 +50,7 @@ pub fn waveform<'py>(
     let thetas = theta_deg.as_slice()?;
     let spectrum = self::spectrum(spectrum)?;
     let orders = balance::orders(orders, rtol);
-    let by_angle = thetas.len().saturating_mul(engine.placements().len()).saturating_mul(8);
-    let steps = by_angle.saturating_add(orders.steps(engine));
-    let waveform = interrupt::run(py, steps, |cancel| {
+    let waveform = interrupt::run(py, |cancel| {
         let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
         if !summed {
             return core::waveform::exact(engine, &asked, thetas, cancel);

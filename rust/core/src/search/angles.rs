@@ -1,13 +1,16 @@
 //! The list of bank angles: families unfolded.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
-use rayon::prelude::*;
-
-use super::families::Family;
+use super::family::{Families, Family};
+use crate::cancel::Cancel;
 use crate::engine::Hold;
 use crate::error::Result;
-use crate::limits;
+use crate::{limits, memory, pool};
+
+/// Rounding moves no folded angle by more, radians.
+const SLACK: f64 = 1e-6;
 
 /// Bank angles in ascending order, each with a pair of arrangements that has it.
 ///
@@ -16,8 +19,12 @@ use crate::limits;
 #[derive(Debug)]
 pub struct Angles {
     families: Vec<Family>,
+    /// Least turns in a whole one, and parts of it.
     turns: u32,
-    turn: f64,
+    parts: u32,
+    /// Families whose angle is a rational part of a turn: index, and angle in steps of a turn over
+    /// `4·parts`.
+    rational: Vec<(usize, i64)>,
     /// Families at 0 (the first or none) and at half a turn (the last or none): they stand once where
     /// others stand twice.
     at_zero: usize,
@@ -31,6 +38,8 @@ pub struct Angles {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Origin {
     pub family: Family,
+    /// Index of the family.
+    index: usize,
     /// |arg(−Z₂/Z₁)| = middle·turn ± folded.
     pub middle: i64,
     pub sign: i64,
@@ -41,17 +50,24 @@ pub(super) struct Origin {
 impl Angles {
     /// Of families that have at least the angles in the window, degrees.
     pub(super) fn new(
+        context: Families<'_>,
         families: Vec<Family>,
-        turns: u32,
-        turn: f64,
         hold: Hold,
         window: [f64; 2],
     ) -> Result<Self> {
-        let near = 1e-9 * turn;
-        let at_zero = usize::from(families.first().is_some_and(|first| first.folded() < near));
-        let at_half = families.last().is_some_and(|last| last.folded() > 0.5 * turn - near);
-        let at_half = usize::from(at_half);
-        let mut angles = Self { families, turns, turn, at_zero, at_half, hold, within: 0..0 };
+        let bank = &context.moments.bank;
+        let (turns, parts) = (bank.turns(), bank.parts);
+        let mut angles = Self {
+            families,
+            turns,
+            parts,
+            rational: Vec::new(),
+            at_zero: 0,
+            at_half: 0,
+            hold,
+            within: 0..0,
+        };
+        angles.find_rational(context);
         let beginning = |wanted: &dyn Fn(f64) -> bool| {
             let (mut low, mut high) = (0, angles.all());
             while low < high {
@@ -67,16 +83,51 @@ impl Angles {
         Ok(angles)
     }
 
-    /// How many.
+    /// Find the families at rational parts of a turn, and put those at 0 and at half a least turn where
+    /// they belong.
+    fn find_rational(&mut self, context: Families<'_>) {
+        let half = 2 * i64::from(self.parts / self.turns);
+        for steps in 0..=half {
+            let at = TAU * steps as f64 / f64::from(4 * self.parts);
+            let start = self.families.partition_point(|family| family.folded() < at - SLACK);
+            let close = self.families[start..].iter().take_while(|f| f.folded() <= at + SLACK);
+            let found = close.clone().position(|&family| context.steps(family) == Some(steps));
+            let Some(mut index) = found.map(|k| start + k) else { continue };
+            if steps == 0 {
+                self.families[..=index].rotate_right(1);
+                (self.at_zero, index) = (1, 0);
+            } else if steps == half {
+                self.families[index..].rotate_left(1);
+                (self.at_half, index) = (1, self.families.len() - 1);
+            }
+            self.rational.push((index, steps));
+        }
+    }
+
+    /// Number of angles.
     #[must_use]
     pub fn count(&self) -> usize {
         self.within.len()
     }
 
     /// Degrees, ascending.
-    #[must_use]
-    pub fn degrees(&self) -> Vec<f64> {
-        self.within.clone().into_par_iter().with_min_len(4096).map(|k| self.at(k)).collect()
+    pub fn degrees(&self, cancel: &Cancel) -> Result<Vec<f64>> {
+        const CHUNK: usize = 1 << 14;
+        let mut degrees = memory::zeros(self.count())?;
+        let chunks = degrees.chunks_mut(CHUNK).enumerate().collect();
+        pool::map(cancel, chunks, |(chunk, out): (usize, &mut [f64])| {
+            cancel.check()?;
+            for (k, value) in out.iter_mut().enumerate() {
+                *value = self.at(self.within.start + chunk * CHUNK + k);
+            }
+            Ok(())
+        })?;
+        Ok(degrees)
+    }
+
+    /// Degrees of the k-th angle.
+    pub(super) fn degrees_at(&self, k: usize) -> f64 {
+        self.at(self.within.start + k)
     }
 
     /// Where the k-th angle comes from.
@@ -110,11 +161,22 @@ impl Angles {
         self.families.len() - self.at_zero - self.at_half
     }
 
-    /// The k-th of all angles, degrees.
+    /// The k-th of all angles, degrees; correctly rounded if it is a rational part of a turn.
     fn at(&self, k: usize) -> f64 {
-        let Origin { family, middle, sign, beyond } = self.origin(k);
-        let angle = middle as f64 * self.turn + sign as f64 * family.folded();
-        let condition = angle.to_degrees().min(180.0);
+        let Origin { family, index, middle, sign, beyond } = self.origin(k);
+        if let Ok(found) = self.rational.binary_search_by_key(&index, |&(index, _)| index) {
+            let whole = 4 * i64::from(self.parts);
+            let steps = middle * (whole / i64::from(self.turns)) + sign * self.rational[found].1;
+            let degrees = |steps: i64, of: i64| (360 * steps) as f64 / of as f64;
+            return match self.hold {
+                Hold::Firing => degrees(steps, whole),
+                Hold::Pins if beyond => degrees(whole - steps, 2 * whole),
+                Hold::Pins => degrees(steps, 2 * whole),
+            };
+        }
+        let turn = 360.0 / f64::from(self.turns);
+        let condition = middle as f64 * turn + sign as f64 * family.folded().to_degrees();
+        let condition = condition.min(180.0);
         match self.hold {
             Hold::Firing => condition,
             Hold::Pins if beyond => 180.0 - 0.5 * condition,
@@ -128,10 +190,11 @@ impl Angles {
         let couple = self.families.len() + self.between();
         let (couples, rest) = ((k / couple) as i64, k % couple);
         if let Some(&family) = self.families.get(rest) {
-            return Origin { family, middle: couples, sign: 1, beyond };
+            return Origin { family, index: rest, middle: couples, sign: 1, beyond };
         }
         let from_end = rest - self.families.len() + self.at_half + 1;
-        let family = self.families[self.families.len() - from_end];
-        Origin { family, middle: couples + 1, sign: -1, beyond }
+        let index = self.families.len() - from_end;
+        let family = self.families[index];
+        Origin { family, index, middle: couples + 1, sign: -1, beyond }
     }
 }

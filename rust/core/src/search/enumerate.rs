@@ -6,13 +6,13 @@
 
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
-
 use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
 use super::throws::{Bank, MOST_THROWS, Pool};
-use crate::cancel::{Cancel, give_back};
+use crate::cancel::Cancel;
 use crate::error::{Error, Result};
+use crate::memory::{free_later, zeros};
+use crate::pool;
 
 /// Most memory that the arrangements of a search may take, bytes.
 pub const LARGEST_SEARCH: u128 = 8 << 30;
@@ -75,31 +75,30 @@ impl Entries {
         let ranges = (arrangements / RANGE).clamp(1, MOST_RANGES).next_power_of_two() as usize;
         cancel.expect(2 * tasks.len() + ranges);
         let range = |key: u64| ((u128::from(key) * ranges as u128) >> 64) as usize;
-        let counts = tasks.par_iter().map(|task| -> Result<Vec<usize>> {
+        let counts = pool::map(cancel, tasks.iter().collect(), |task| {
             cancel.step()?;
             let mut counts = vec![0; ranges];
             walk.descend(task, cancel, &mut |key, _| counts[range(key)] += 1)?;
             Ok(counts)
-        });
-        let counts = counts.collect::<Result<Vec<_>>>()?;
+        })?;
         let mut starts = vec![0];
         for range in 0..ranges {
             let size: usize = counts.iter().map(|counts| counts[range]).sum();
             starts.push(starts[range] + size);
         }
-        let mut all = vec![0; starts[ranges]];
+        let mut all = zeros(starts[ranges])?;
         let found = fill(&mut all, &walk, &tasks, &counts, range, cancel)
             .and_then(|()| sort(&mut all, &starts, cancel));
         if let Err(error) = found {
-            give_back(all);
+            free_later(all);
             return Err(error);
         }
         Ok(Self { all, starts })
     }
 
     /// Ranges of entries that share no class.
-    pub(super) fn ranges(&self) -> impl IndexedParallelIterator<Item = (usize, &[Entry])> {
-        self.starts.par_windows(2).map(|ends| (ends[0], &self.all[ends[0]..ends[1]]))
+    pub(super) fn ranges(&self) -> Vec<(usize, &[Entry])> {
+        self.starts.windows(2).map(|ends| (ends[0], &self.all[ends[0]..ends[1]])).collect()
     }
 }
 
@@ -123,7 +122,8 @@ fn fill(
             rest = after;
         }
     }
-    tasks.par_iter().zip(places).try_for_each(|(task, mut places)| {
+    let tasks = tasks.iter().zip(places).collect();
+    pool::map(cancel, tasks, |(task, mut places): (&Node, Vec<std::slice::IterMut<'_, Entry>>)| {
         cancel.step()?;
         walk.descend(task, cancel, &mut |key, packed| {
             if let Some(place) = places[range(key)].next() {
@@ -131,6 +131,7 @@ fn fill(
             }
         })
     })
+    .map(drop)
 }
 
 fn sort(all: &mut [Entry], starts: &[usize], cancel: &Cancel) -> Result<()> {
@@ -141,10 +142,11 @@ fn sort(all: &mut [Entry], starts: &[usize], cancel: &Cancel) -> Result<()> {
         parts.push(part);
         rest = after;
     }
-    parts.into_par_iter().try_for_each(|part| {
+    pool::map(cancel, parts, |part| {
         part.sort_unstable();
         cancel.step()
     })
+    .map(drop)
 }
 
 /// Arrangements of equal |Z|.

@@ -1,4 +1,4 @@
-//! Bank angles at which only forward first-order moment is left, told apart exactly.
+//! Bank angles at which only forward first-order moment is left, compared exactly.
 //!
 //! With every top dead centre held the angle is arg(−Z₂/Z₁). Turning one bank's crank turns it by a
 //! part of a turn; so within a class of equal |Z| it is enough to look at one arrangement for each
@@ -7,15 +7,16 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
-use super::enumerate::{Entries, Entry, LARGEST_SEARCH, classes, packed};
+use super::enumerate::{Entry, LARGEST_SEARCH, classes, packed};
+use super::family::{Families, Family};
 use super::images::Image;
-use super::moments::{Moments, NEAR, fold, near};
+use super::moments::{NEAR, fold, near};
 use super::same::Same;
 use super::window::Wanted;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
+use crate::memory;
+use crate::pool;
 
 /// |2Z| below which rounding asks for more than [`CLOSE`].
 const SMALL: f64 = 0.1;
@@ -25,39 +26,6 @@ const CLOSE: f64 = NEAR / SMALL;
 const RANGE: usize = 4096;
 const MOST_RANGES: usize = 512;
 
-/// A folded angle (its bits: it is not negative), and the two arrangements that have it: the place of
-/// the first, and of the second with its image and whether |Z| is small in the lowest bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Family(u128);
-
-impl Family {
-    fn new(folded: f64, first: usize, second: usize, image: Image, small: bool) -> Self {
-        let second = (second as u32) << 3 | image.bits() << 1 | u32::from(small);
-        Self(u128::from(folded.to_bits()) << 64 | (first as u128) << 32 | u128::from(second))
-    }
-
-    /// In [0, half of the least turn], radians.
-    #[inline]
-    pub(super) fn folded(self) -> f64 {
-        f64::from_bits((self.0 >> 64) as u64)
-    }
-
-    /// Place of the first bank's arrangement.
-    pub(super) fn first(self) -> usize {
-        (self.0 >> 32) as u32 as usize
-    }
-
-    /// Place of the second bank's arrangement, and its image.
-    pub(super) fn second(self) -> (usize, Image) {
-        let second = self.0 as u32;
-        ((second >> 3) as usize, Image::of_bits(second >> 1 & 3))
-    }
-
-    fn is_small(self) -> bool {
-        self.0 & 1 == 1
-    }
-}
-
 /// An arrangement of a class.
 #[derive(Clone, Copy)]
 struct Member {
@@ -66,13 +34,6 @@ struct Member {
     argument: f64,
     /// What turns and images leave of it.
     folded: f64,
-}
-
-/// All arrangements and what their angles are worked out from.
-#[derive(Clone, Copy)]
-pub(super) struct Families<'a> {
-    pub moments: &'a Moments,
-    pub entries: &'a Entries,
 }
 
 impl Families<'_> {
@@ -95,41 +56,44 @@ impl Families<'_> {
     ) -> Result<Vec<Family>> {
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
-        let found = self.entries.ranges().map(|(start, range)| -> Result<Sorted> {
+        let mut found = pool::map(cancel, self.entries.ranges(), |(start, range)| {
             let mut families = Vec::new();
+            let mut stored = Ok(());
             let mut members = Vec::new();
             let mut place = start;
             for class in classes(range) {
                 self.members(place, class, &mut members);
                 self.class(&members, |family| {
-                    if wanted.has(family.folded()) {
-                        families.push(family);
+                    if wanted.has(family.folded()) && stored.is_ok() {
+                        stored = memory::push(&mut families, family);
                     }
                 });
                 place += class.len();
             }
+            stored?;
             count.fetch_add(families.len(), Ordering::Relaxed);
             refuse_too_many(count.load(Ordering::Relaxed), self.entries.all.len())?;
             cancel.step()?;
-            Ok(Sorted::new(&families, ranges, per_radian))
-        });
-        let mut found = found.collect::<Result<Vec<_>>>()?;
+            Sorted::new(&families, ranges, per_radian)
+        })?;
         let common = self.common().into_iter().filter(|family| wanted.has(family.folded()));
-        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian));
-        let parts = (0..ranges).into_par_iter().map(|range| -> Result<[Vec<Family>; 2]> {
-            let mut families: Vec<Family> =
-                found.iter().flat_map(|sorted| sorted.range(range)).copied().collect();
+        found.push(Sorted::new(&common.collect::<Vec<_>>(), ranges, per_radian)?);
+        let parts = pool::map(cancel, (0..ranges).collect(), |range| {
+            let mut families = memory::room(found.iter().map(|f| f.range(range).len()).sum())?;
+            for sorted in &found {
+                families.extend_from_slice(sorted.range(range));
+            }
             families.sort_unstable();
             cancel.step()?;
             let small = families.iter().copied().filter(|family| family.is_small()).collect();
-            let mut distinct = Vec::with_capacity(families.len());
+            let mut distinct = memory::room(families.len())?;
             join(&mut distinct, families.iter().filter(|f| !f.is_small()), &mut Same::new(self));
             Ok([distinct, small])
-        });
-        let mut all: Vec<Family> = Vec::new();
+        })?;
+        let mut all: Vec<Family> = memory::room(parts.iter().map(|part| part[0].len()).sum())?;
         let mut small = Vec::new();
         let mut same = Same::new(self);
-        for [distinct, of_small] in parts.collect::<Result<Vec<_>>>()? {
+        for [distinct, of_small] in parts {
             // Only what is close to the joint can be there already.
             let close = |family: &Family| {
                 all.last().is_some_and(|last| family.folded() - last.folded() <= CLOSE)
@@ -230,13 +194,6 @@ impl Families<'_> {
             vec![family(place, PI, Image::ITSELF), family(place, 0.0, Image::OTHERS[0])]
         })
     }
-
-    /// arg(−Z₂/Z₁) of a family, before it is folded.
-    pub(super) fn angle(self, family: Family) -> f64 {
-        let argument = |place: usize| self.moments.twice(packed(self.entries.all[place])).arg();
-        let (second, image) = family.second();
-        PI + self.moments.seen(argument(second), image) - argument(family.first())
-    }
 }
 
 /// Append ascending families that are not there yet.
@@ -261,7 +218,7 @@ struct Sorted {
 }
 
 impl Sorted {
-    fn new(families: &[Family], ranges: usize, per_radian: f64) -> Self {
+    fn new(families: &[Family], ranges: usize, per_radian: f64) -> Result<Self> {
         let range = |family: &Family| ((family.folded() * per_radian) as usize).min(ranges - 1);
         let mut starts = vec![0; ranges + 1];
         for family in families {
@@ -271,13 +228,14 @@ impl Sorted {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut sorted = vec![Family(0); families.len()];
+        let mut sorted = memory::room(families.len())?;
+        sorted.extend_from_slice(families);
         for family in families {
             let place = &mut next[range(family)];
             sorted[*place] = *family;
             *place += 1;
         }
-        Self { families: sorted, starts }
+        Ok(Self { families: sorted, starts })
     }
 
     fn range(&self, range: usize) -> &[Family] {
@@ -307,7 +265,9 @@ fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::enumerate::Entries;
     use super::super::magnitude::Magnitude;
+    use super::super::moments::Moments;
     use super::super::throws::Bank;
     use std::f64::consts::TAU;
 

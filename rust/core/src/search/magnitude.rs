@@ -25,37 +25,48 @@ impl Magnitude {
     pub(super) fn new(bank: &Bank, ring: &Ring) -> Result<Self> {
         let parts = bank.parts as usize;
         // What a unit of weight at each distance adds, as a remainder.
-        let columns: Vec<Vec<i64>> = (0..parts)
-            .map(|distance| {
-                let mut combination = vec![0; parts];
-                combination[distance] += 1;
-                combination[(parts - distance) % parts] += 1;
-                ring.remainder(&combination)
-            })
+        let column = |distance: usize| {
+            let mut combination = vec![0; parts];
+            combination[distance] += 1;
+            combination[(parts - distance) % parts] += 1;
+            ring.remainder(&combination)
+        };
+        // Distances that occur between two throws, either way round.
+        let shorter = |distance: usize| distance.min(parts - distance);
+        let pairs = bank.phases.iter().enumerate();
+        let mut distances: Vec<usize> = pairs
+            .flat_map(|(k, phase)| bank.phases[k + 1..].iter().map(move |p| (p - phase) as usize))
+            .map(shorter)
             .collect();
+        distances.sort_unstable();
+        distances.dedup();
         // The weights sum to nothing, hence so does the autocorrelation; and where no phase comes
         // twice, what stands at distance 0 is the same for all. Only differences tell.
-        let distinct = bank.phases.windows(2).all(|pair| pair[0] != pair[1]);
-        let first = usize::from(distinct && parts > 1);
-        let differences: Vec<Vec<i64>> = columns[first..]
-            .iter()
-            .map(|column| column.iter().zip(&columns[first]).map(|(a, b)| a - b).collect())
-            .collect();
-        // |c_d| is at most c_0 (Cauchy, Schwarz); each column stands for d and −d.
-        let largest: i64 = bank.weights().iter().map(|w| w * w).sum();
+        let same = column(distances.first().copied().unwrap_or(0));
+        let less_same = |column: &Vec<i64>| column.iter().zip(&same).map(|(a, b)| a - b).collect();
+        let mut columns: Vec<Vec<i64>> = distances.iter().map(|&d| column(d)).collect();
+        let differences: Vec<Vec<i64>> = columns.iter().map(less_same).collect();
+        columns.push(column(0));
+        // A throw has at most two partners at a distance for each throw of one phase, and |v·w| is at
+        // most (v² + w²)/2.
+        let of_one_phase = bank.phases.chunk_by(|a, b| a == b).map(<[u32]>::len).max().unwrap_or(1);
+        let squares: i64 = bank.weights().iter().map(|w| w * w).sum();
+        let largest = of_one_phase as i64 * squares;
         let packing = Packing::new(&columns, &differences, |row| {
-            largest * columns.iter().map(|column| column[row].abs()).sum::<i64>() / 2
+            largest * columns.iter().map(|column| column[row].abs()).sum::<i64>()
         });
         if packing.bits > 64 {
             return Err(too_rich(bank));
         }
         let spread = |packed: u128| (packed as u64).wrapping_mul(SPREAD);
         // The column of distance 0 counts a throw twice.
-        let half: Vec<i64> = columns[0].iter().map(|entry| entry / 2).collect();
-        Ok(Self {
-            by_distance: packing.columns.iter().map(|&column| spread(column)).collect(),
-            by_itself: spread(packing.pack(&half)),
-        })
+        let half: Vec<i64> = column(0).iter().map(|entry| entry / 2).collect();
+        let mut by_distance = vec![0; parts];
+        for (&distance, &column) in distances.iter().zip(&packing.columns) {
+            by_distance[distance] = spread(column);
+            by_distance[(parts - distance) % parts] = spread(column);
+        }
+        Ok(Self { by_distance, by_itself: spread(packing.pack(&half)) })
     }
 
     /// What a throw adds to the key by itself.
@@ -71,6 +82,47 @@ impl Magnitude {
 
 /// Keys that do not fit.
 pub(super) fn too_rich(bank: &Bank) -> Error {
-    let cure = "fewer throws, or phases with fewer parts of a turn, are searched exactly";
-    Error::value("cylinders", 2 * bank.throws(), cure)
+    let phases: Vec<String> = bank.phases.iter().map(|p| format!("{p}/{}", bank.parts)).collect();
+    let cure = "sums over these parts of a turn do not fit the integers of the search; give fewer \
+                throws, or phases that are multiples of a larger part of a turn";
+    Error::value("phases_deg", format!("turn × ({})", phases.join(", ")), cure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::moments::Moments;
+    use super::super::throws::MOST_THROWS;
+    use super::*;
+    use crate::angle::Angle;
+
+    #[test]
+    fn every_even_firing_bank_has_keys_that_fit() {
+        for throws in 2..=MOST_THROWS {
+            let moments = Moments::new(Bank::even_firing(throws, false).unwrap()).unwrap();
+            assert!(Magnitude::new(&moments.bank, &moments.ring).is_ok(), "{throws}");
+        }
+    }
+
+    #[test]
+    fn banks_of_a_few_throws_have_keys_that_fit_whatever_the_parts_of_a_turn() {
+        for parts in 2..=360 {
+            for throws in 2..=4 {
+                let phases: Vec<Angle> =
+                    (0..throws).map(|k| Angle::Turns(k * k * k % parts, parts).reduced()).collect();
+                let moments = Moments::new(Bank::with_phases(&phases).unwrap()).unwrap();
+                let found = Magnitude::new(&moments.bank, &moments.ring);
+                assert!(found.is_ok(), "{throws} throws, {parts} parts");
+            }
+        }
+    }
+
+    #[test]
+    fn phases_whose_keys_do_not_fit_are_named() {
+        let phases: Vec<Angle> = (0..15).map(|k| Angle::Turns(k * k, 359)).collect();
+        let moments = Moments::new(Bank::with_phases(&phases).unwrap());
+        let error = moments
+            .and_then(|moments| Magnitude::new(&moments.bank, &moments.ring).map(drop))
+            .unwrap_err();
+        assert!(error.to_string().starts_with("phases_deg = turn × (0/359, 1/359"), "{error}");
+    }
 }

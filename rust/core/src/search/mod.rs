@@ -9,6 +9,7 @@
 mod angles;
 mod enumerate;
 mod families;
+mod family;
 mod images;
 mod magnitude;
 mod moments;
@@ -20,13 +21,11 @@ mod window;
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
 pub use self::angles::Angles;
 use self::angles::Origin;
 pub use self::enumerate::LARGEST_SEARCH;
 use self::enumerate::{Entries, Entry, classes, image_count, packed};
-use self::families::Families;
+use self::family::Families;
 use self::images::Image;
 use self::magnitude::Magnitude;
 use self::moments::Moments;
@@ -38,6 +37,7 @@ use crate::angle::Angle;
 use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
 use crate::error::{Error, Result};
+use crate::pool;
 use crate::slider_crank::Cylinder;
 
 /// All arrangements of one bank, grouped by |Z|.
@@ -78,8 +78,11 @@ impl Search {
             let images: u64 = class.iter().map(|&entry| image_count(entry)).sum();
             (u128::from(images) * turns).pow(2)
         };
-        let qualifying =
-            entries.ranges().map(|(_, range)| classes(range).map(pairs).sum::<u128>()).sum();
+        let qualifying = pool::map(cancel, entries.ranges(), |(_, range)| {
+            Ok(classes(range).map(pairs).sum::<u128>())
+        })?
+        .into_iter()
+        .sum::<u128>();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         let first = classes(&entries.all).next();
         let zero = first.filter(|class| moments.vanishes(packed(class[0])));
@@ -97,12 +100,6 @@ impl Search {
     #[must_use]
     pub fn distinct(&self) -> usize {
         self.entries.all.len()
-    }
-
-    /// About how many steps it takes to work out the angles.
-    #[must_use]
-    pub fn steps(&self) -> usize {
-        self.entries.all.len() * 64
     }
 
     /// Pairs of arrangements.
@@ -129,10 +126,9 @@ impl Search {
 
     /// Every |α| within a window of [0°, 180°] at which some pair has no backward moment, ascending.
     pub fn angles(&self, window: [f64; 2], cancel: &Cancel) -> Result<Angles> {
-        let (turns, turn) = (self.bank().turns(), self.moments.turn);
-        let wanted = Wanted::new(window, self.hold, turn);
+        let wanted = Wanted::new(window, self.hold, self.moments.turn);
         let families = self.families().all(&wanted, cancel)?;
-        Angles::new(families, turns, turn, self.hold, window)
+        Angles::new(self.families(), families, self.hold, window)
     }
 
     /// What the k-th angle is of.
@@ -162,8 +158,8 @@ impl Search {
                 of_banks.swap(0, 1);
             }
         }
-        let angle = angle.abs();
-        let half = 0.5 * angle;
+        let bank_angle = angles.degrees_at(k);
+        let half = 0.5 * bank_angle.to_radians();
         // Bores at 90° ∓ α/2. With the pins held a cylinder's phase turns with its bore.
         let [[first, second], [z1, z2]] =
             [(1.0, orders[0]), (2.0, orders[1])].map(|(n, [a, b])| {
@@ -176,7 +172,7 @@ impl Search {
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
         Some(Solution {
             hold: self.hold,
-            bank_angle: angle.to_degrees(),
+            bank_angle,
             banks,
             parts,
             counterweight: forward,
@@ -252,7 +248,7 @@ mod tests {
     }
 
     fn counts(search: &Search) -> (u128, usize) {
-        (search.qualifying(), search.angles([0.0, 180.0], &Cancel::new()).unwrap().degrees().len())
+        (search.qualifying(), search.angles([0.0, 180.0], &Cancel::new()).unwrap().count())
     }
 
     #[test]
@@ -271,9 +267,9 @@ mod tests {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let search = search(14, true, None);
         let angles = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
-        for (k, degrees) in angles.degrees().into_iter().enumerate() {
+        for (k, degrees) in angles.degrees(&Cancel::new()).unwrap().into_iter().enumerate() {
             let solution = search.solution(&angles, k).unwrap();
-            assert!((solution.bank_angle - degrees).abs() < 1e-12);
+            assert_eq!(solution.bank_angle, degrees);
             let engine = solution.engine(cylinder, 0.1).unwrap();
             let request = Request { rpm: 3000.0, reference_z: None, spectrum: None, torque: false };
             let orders = crate::Orders::whole(&[1, 2]).unwrap();

@@ -1,7 +1,7 @@
 //! Whether two families have the same folded angle, exactly.
 
 use super::enumerate::{key, packed};
-use super::families::{Families, Family};
+use super::family::{Families, Family};
 use super::images::Image;
 
 /// Combinations of roots of unity that are multiplied out, in memory that is used again.

@@ -8,6 +8,7 @@
 
 use std::ops::{Mul, Range};
 
+use bytemuck::Zeroable;
 use rayon::prelude::*;
 
 use super::harmonics::Amplitudes;
@@ -16,6 +17,8 @@ use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
+use crate::memory;
+use crate::pool;
 use crate::simd::{sin_cos_degrees, vectorised};
 use crate::wrench::snapped;
 
@@ -39,7 +42,10 @@ const FUNCTIONS: usize = 4;
 const CONSTANTS: usize = 13;
 
 /// What a result holds.
-pub(super) trait Number: Copy + Default + Send + Sync + Mul<f64, Output = Self> {}
+pub(super) trait Number:
+    Copy + Default + Zeroable + Send + Sync + Mul<f64, Output = Self>
+{
+}
 impl Number for f64 {}
 impl Number for Complex64 {}
 
@@ -56,7 +62,7 @@ pub(super) struct Job<'a, F> {
     pub finish: F,
 }
 
-impl<F> Job<'_, F> {
+impl<F: Sync> Job<'_, F> {
     /// Evaluates every row, and writes it at every speed.
     pub fn run<T: Number>(&self, out: &mut [T]) -> Result<()>
     where
@@ -66,7 +72,7 @@ impl<F> Job<'_, F> {
         if let [square] = speeds[..] {
             return self.rows(out, square);
         }
-        let mut rows = crate::limits::zeros(out.len() / speeds.len())?;
+        let mut rows = memory::zeros(out.len() / speeds.len())?;
         self.cancel.expect(out.len().div_ceil(PIECE * self.width));
         self.rows(&mut rows, 1.0)?;
         let write = |(piece, out): (usize, &mut [T])| {
@@ -75,7 +81,8 @@ impl<F> Job<'_, F> {
         };
         let pieces = PIECE * self.width;
         if out.len() >= WORTH_A_THREAD {
-            return out.par_chunks_mut(pieces).enumerate().try_for_each(write);
+            let pieces = out.par_chunks_mut(pieces).enumerate();
+            return pool::run(self.cancel, || pieces.try_for_each(write));
         }
         out.chunks_mut(pieces).enumerate().try_for_each(write)
     }
@@ -92,15 +99,13 @@ impl<F> Job<'_, F> {
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let large = out.len() * if self.slow { 256 } else { 1 } >= WORTH_A_THREAD;
         let layout = |k: usize| Layout::new(sweep, k, self.quantity);
-        let layouts: Vec<Layout> =
-            (0..sweep.engines.len()).into_par_iter().map(layout).collect::<Result<_>>()?;
+        let layouts: Vec<Layout> = self.each((0..sweep.engines.len()).collect(), large, layout)?;
         self.cancel.expect(sweep.engines.len() * angles * points);
         for angle_slab in slabs(angles) {
             let turning = Turning::new(sweep, self.quantity, angle_slab.clone());
             for point_slab in slabs(points) {
                 let constants = |layout| Constants::new(self, layout, point_slab.clone());
-                let constants: Vec<Constants> =
-                    layouts.par_iter().map(constants).collect::<Result<_>>()?;
+                let constants = self.each(layouts.iter().collect(), large, constants)?;
                 let mut tasks = Vec::new();
                 for (out, constants) in out.chunks_mut(angles * points * width).zip(&constants) {
                     let span = angle_slab.start * points..angle_slab.end * points;
@@ -133,7 +138,8 @@ impl<F> Job<'_, F> {
                 };
                 let block = || Block::new(sweep.orders.len());
                 if large {
-                    tasks.into_par_iter().try_for_each_init(block, work)?;
+                    let tasks = tasks.into_par_iter();
+                    pool::run(self.cancel, || tasks.try_for_each_init(block, work))?;
                 } else {
                     let mut block = block();
                     tasks.into_iter().try_for_each(|task| work(&mut block, task))?;
@@ -141,6 +147,21 @@ impl<F> Job<'_, F> {
             }
         }
         Ok(())
+    }
+}
+
+impl<F> Job<'_, F> {
+    /// A function of each item, in parallel if the job is large.
+    fn each<I: Send, T: Send>(
+        &self,
+        items: Vec<I>,
+        large: bool,
+        function: impl Fn(I) -> Result<T> + Send + Sync,
+    ) -> Result<Vec<T>> {
+        if large {
+            return pool::map(self.cancel, items, function);
+        }
+        items.into_iter().map(function).collect()
     }
 }
 

@@ -24,6 +24,7 @@ use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
 use crate::limits;
+use crate::memory;
 use crate::order::{self, Order};
 use crate::spectrum::Spectrum;
 
@@ -313,7 +314,7 @@ impl Sweep {
     ) -> Result<Values<T>> {
         self.check_size(quantity, figure, size_of::<T>())?;
         let shape = self.result_shape(quantity, figure);
-        let mut values = limits::zeros(shape.iter().product())?;
+        let mut values: Vec<T> = memory::zeros(shape.iter().product())?;
         write(&mut values)?;
         Array::from_shape_vec(IxDyn(&shape), values)
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))

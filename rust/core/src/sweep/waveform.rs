@@ -16,6 +16,8 @@ use crate::angle::Angle;
 use crate::kinematics::{BLOCK, Kinematics};
 use crate::load::{Alike, Loads};
 use crate::limits;
+use crate::memory;
+use crate::pool;
 use crate::simd::vectorised;
 
 /// Points, each at a speed, that share a tile of cosines and sines.
@@ -59,7 +61,7 @@ impl Sweep {
         }
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
-        let mut phasors = limits::zeros(phasors)?;
+        let mut phasors: Vec<Complex64> = memory::zeros(phasors)?;
         self.write_phasors(quantity, Figure::Amplitude, &mut phasors, cancel)?;
         self.by_orders(&phasors, &rows, out)
     }
@@ -211,7 +213,8 @@ impl Rows<'_> {
             by_part.into_iter().enumerate().try_for_each(|(k, outs)| part(&prepared, k, outs))
         };
         if large {
-            return out.par_chunks_mut(ROWS * row).enumerate().try_for_each(group);
+            let groups = out.par_chunks_mut(ROWS * row).enumerate();
+            return pool::run(self.cancel, || groups.try_for_each(group));
         }
         out.chunks_mut(ROWS * row).enumerate().try_for_each(group)
     }

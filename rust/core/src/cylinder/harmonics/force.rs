@@ -6,7 +6,7 @@ use super::roots::{Roots, Sides};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
-use crate::limits;
+use crate::order::Order;
 use crate::slider_crank::Proportions;
 
 /// `aₙ` of the given orders: force along the bore over m·r·ω², as peak phasors.
@@ -15,7 +15,7 @@ pub fn coefficients(
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<Vec<Complex64>> {
-    orders.iter().try_for_each(|&n| limits::order(n).map(drop))?;
+    orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
     unchecked(proportions, orders, cancel)
 }
 

@@ -26,4 +26,3 @@ pub mod torque;
 
 pub use cutoff::highest_order;
 pub use force::{coefficients, tail_bound};
-pub use near_one::{extra_steps, steps};

@@ -25,35 +25,11 @@ const LONGEST_SERIES: f64 = 2000.0;
 /// Fewer terms than this times the order are summed all the same: the coefficient has decayed below
 /// the rounding of the spike, which limits the quadrature.
 const SERIES_TERMS_PER_ORDER: f64 = 4.0;
-/// With less slack of the rod, in crank radii, an order may take hundreds of terms or a quadrature.
-const LITTLE_SLACK: f64 = 0.01;
-/// Steps of an order with little slack, at most.
-const MOST_STEPS: usize = 1 << 15;
-/// Steps of an order of a single slider-crank elsewhere.
-const USUAL_STEPS: usize = 64;
 
 /// True if a table must compute this rod ratio by itself, not side by side with others.
 #[inline(always)]
 pub(super) fn is_near(rod_ratio: f64) -> bool {
     rod_ratio > LARGEST_PLAIN_RATIO
-}
-
-/// Estimated number of steps, of some nanoseconds each, that `orders` orders of a cylinder take at
-/// most; `slack` is that of its rod ([`crate::slider_crank::slack`]).
-#[must_use]
-pub fn steps(slack: f64, orders: usize) -> usize {
-    orders.saturating_mul(steps_per_order(slack, USUAL_STEPS))
-}
-
-/// [`steps`] of an order, where it takes `elsewhere` away from λ = 1.
-pub(super) fn steps_per_order(slack: f64, elsewhere: usize) -> usize {
-    if slack < LITTLE_SLACK { MOST_STEPS } else { elsewhere }
-}
-
-/// Estimated number of steps that `orders` orders take in addition near λ = 1; zero elsewhere.
-#[must_use]
-pub fn extra_steps(slack: f64, orders: usize) -> usize {
-    orders.saturating_mul(steps_per_order(slack, 0))
 }
 
 /// True if order n needs so many `terms` of a series that [`force`] and [`swing`] replace it.

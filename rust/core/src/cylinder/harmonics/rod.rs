@@ -11,7 +11,7 @@ use super::roots::{Root, Roots, Sides, series_length};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::Result;
-use crate::limits;
+use crate::order::Order;
 use crate::slider_crank::Proportions;
 
 /// Harmonics of the torques of one cylinder, as peak phasors; over what, the maker says.
@@ -30,7 +30,7 @@ pub fn torque(
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
-    orders.iter().try_for_each(|&n| limits::order(n).map(drop))?;
+    orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
     let swing = Swing::new(proportions);
     let velocities = swing.velocities(orders, cancel)?;
     let fractions = Fractions::new(proportions);

@@ -11,11 +11,13 @@ use super::near_one;
 use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
 use crate::cancel::Cancel;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::limits;
+use crate::memory;
+use crate::pool;
 use crate::order::{self, Order};
 use crate::simd::vectorised;
-use crate::slider_crank::{Proportions, slack};
+use crate::slider_crank::Proportions;
 
 /// Up to this order repeated multiplication to the power below it is within 2e-15.
 const LARGEST_PLAIN_ORDER: u32 = 16;
@@ -23,9 +25,11 @@ const LARGEST_PLAIN_ORDER: u32 = 16;
 /// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
 pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
     check_size::<f64>(rod_ratios.len(), orders)?;
-    let mut table = Array2::default((rod_ratios.len(), orders.len()));
-    write_centred(rod_ratios, orders, None, table.as_slice_mut().unwrap_or_default(), cancel)?;
-    Ok(table)
+    let mut values = memory::zeros(rod_ratios.len() * orders.len())?;
+    write_centred(rod_ratios, orders, None, &mut values, cancel)?;
+    let shape = (rod_ratios.len(), orders.len());
+    Array2::from_shape_vec(shape, values)
+        .map_err(|error| Error::value("rod_ratio", format!("{shape:?}"), error.to_string()))
 }
 
 /// [`centred_table`] into memory that is there, row by row; with `rtol` each is within that of itself,
@@ -64,22 +68,6 @@ pub fn write_offset(
     })
 }
 
-/// About how many steps of some nanoseconds tables of so many orders take at most, with offsets over r
-/// or none.
-#[must_use]
-pub fn steps(rod_ratios: &[f64], offsets: Option<&[f64]>, orders: usize) -> usize {
-    let least = match offsets {
-        Some(offsets) => {
-            let pairs = rod_ratios.iter().zip(offsets);
-            pairs.map(|(λ, &offset)| slack(1.0 / λ, offset)).fold(f64::INFINITY, f64::min)
-        }
-        None => slack(1.0 / rod_ratios.iter().copied().fold(0.0, f64::max), 0.0),
-    };
-    // Without offsets orders are computed side by side.
-    let each = near_one::steps_per_order(least, if offsets.is_some() { 32 } else { 1 });
-    orders.saturating_mul(rod_ratios.len()).saturating_mul(each)
-}
-
 /// A table of numbers of type `T` is not too large.
 pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
     order::check_list(&Order::all_whole(orders)?)?;
@@ -100,9 +88,12 @@ fn fill<T: Send>(
         return write(0..rows, out);
     }
     cancel.expect(rows.div_ceil(CHUNK));
-    out.par_chunks_mut(CHUNK * width).enumerate().try_for_each(|(chunk, out)| {
-        cancel.step()?;
-        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+    let chunks = out.par_chunks_mut(CHUNK * width).enumerate();
+    pool::run(cancel, || {
+        chunks.try_for_each(|(chunk, out)| {
+            cancel.step()?;
+            write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+        })
     })
 }
 

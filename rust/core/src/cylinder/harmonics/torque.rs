@@ -6,7 +6,7 @@ use super::{force, rod};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::error::{Error, Result};
-use crate::limits;
+use crate::order::Order;
 use crate::slider_crank::{Cylinder, Proportions};
 
 pub use super::rod::TorqueHarmonics;
@@ -20,7 +20,7 @@ pub fn torque(
     orders: &[u32],
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
-    orders.iter().try_for_each(|&n| limits::order(n).map(drop))?;
+    orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
     // Orders n − 1, n and n + 1 of the force, side by side.
     let around: Vec<u32> = orders.iter().flat_map(|&n| [n - 1, n, n + 1]).collect();
     let forces = once_each(&around.iter().map(|&n| n.max(1)).collect::<Vec<_>>(), |orders| {

@@ -1,0 +1,90 @@
+//! A family of bank angles: one folded angle, and a pair of arrangements that has it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::enumerate::{Entries, Entry, LARGEST_SEARCH, packed};
+use super::images::Image;
+use super::moments::Moments;
+
+/// A folded angle (its bits: it is not negative), and the two arrangements that have it: the place of
+/// the first, and of the second with its image and whether |Z| is small in the lowest bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Family(u128);
+
+/// Places are packed into 29 bits.
+const _: () = assert!(LARGEST_SEARCH / size_of::<Entry>() as u128 <= 1 << 29);
+
+impl Family {
+    pub(super) fn new(folded: f64, first: usize, second: usize, image: Image, small: bool) -> Self {
+        let second = (second as u32) << 3 | image.bits() << 1 | u32::from(small);
+        Self(u128::from(folded.to_bits()) << 64 | (first as u128) << 32 | u128::from(second))
+    }
+
+    /// In [0, half of the least turn], radians.
+    #[inline]
+    pub(super) fn folded(self) -> f64 {
+        f64::from_bits((self.0 >> 64) as u64)
+    }
+
+    /// Place of the first bank's arrangement.
+    pub(super) fn first(self) -> usize {
+        (self.0 >> 32) as u32 as usize
+    }
+
+    /// Place of the second bank's arrangement, and its image.
+    pub(super) fn second(self) -> (usize, Image) {
+        let second = self.0 as u32;
+        ((second >> 3) as usize, Image::of_bits(second >> 1 & 3))
+    }
+
+    pub(super) fn is_small(self) -> bool {
+        self.0 & 1 == 1
+    }
+}
+
+/// All arrangements and what their angles are worked out from.
+#[derive(Clone, Copy)]
+pub(super) struct Families<'a> {
+    pub moments: &'a Moments,
+    pub entries: &'a Entries,
+}
+
+impl Families<'_> {
+    /// arg(−Z₂/Z₁) of a family, before it is folded.
+    pub(super) fn angle(self, family: Family) -> f64 {
+        let argument = |place: usize| self.moments.twice(packed(self.entries.all[place])).arg();
+        let (second, image) = family.second();
+        PI + self.moments.seen(argument(second), image) - argument(family.first())
+    }
+
+    /// The folded angle of a family in steps of a turn over `4·parts`, if it is a whole number of
+    /// them; no other angle is a rational part of a turn.
+    ///
+    /// The angle of w = −Z₂Z̄₁ is one where w/w̄ is a root of unity, which lies in the field of the
+    /// `parts`-th roots and is thus one of them or minus one.
+    pub(super) fn steps(self, family: Family) -> Option<i64> {
+        let Families { moments, entries } = self;
+        let parts = i64::from(moments.bank.parts);
+        let angle = self.angle(family);
+        let steps = (angle * (4 * parts) as f64 / TAU).round() as i64;
+        // w/w̄ is a turn times steps/(2·parts).
+        let (sign, power) = match (steps % 2 == 0, parts % 2 == 0) {
+            (true, _) => (1, steps / 2),
+            (false, false) => (-1, (steps - parts) / 2),
+            (false, true) => return None,
+        };
+        let (second, image) = family.second();
+        let [mut first, mut other, mut product] = [const { Vec::new() }; 3];
+        moments.combination(packed(entries.all[family.first()]), Image::ITSELF, &mut first);
+        moments.combination(packed(entries.all[second]), image, &mut other);
+        moments.ring.times_conjugate(&other, &first, &mut product);
+        let mut difference = product.clone();
+        for (k, term) in product.iter().enumerate() {
+            difference[(power - k as i64).rem_euclid(parts) as usize] -= sign * term;
+        }
+        let exact = moments.ring.vanishes(&difference, &mut Vec::new());
+        let in_a_turn = 4 * parts / i64::from(moments.bank.turns());
+        let rest = steps.rem_euclid(in_a_turn);
+        exact.then(|| rest.min(in_a_turn - rest))
+    }
+}

@@ -1,0 +1,165 @@
+"""How calls behave in their process: forked children, no threads, little memory."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import crankpin as cp
+import long_calls
+import numpy as np
+import pytest
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="fork and limits as on Linux")
+
+
+def ends_within(seconds: int, child: Callable[[], object]) -> bool:
+    """Run a function in a forked child; return whether it ends well in time."""
+    process = os.fork()
+    if process == 0:
+        signal.alarm(seconds)  # ends a child that hangs
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        code = 1
+        try:
+            child()
+            code = 0
+        finally:
+            os._exit(code)
+    return os.waitpid(process, 0)[1] == 0
+
+
+@linux
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+@pytest.mark.parametrize("name", long_calls.CALLS)
+def test_fork_after_a_parallel_call_leaves_a_child_that_computes(name: str) -> None:
+    call = long_calls.CALLS[name]
+    expected = long_calls.digest(call())
+    results: list[str] = []
+
+    def child() -> None:
+        results.append(long_calls.digest(call()))
+        assert results == [expected]
+
+    assert ends_within(60, child)
+
+
+@linux
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_fork_in_a_forked_child_leaves_a_child_that_computes() -> None:
+    def child() -> None:
+        over_ratios()
+        assert ends_within(30, over_ratios)
+
+    over_ratios()
+    assert ends_within(60, child)
+
+
+def over_ratios() -> np.ndarray:
+    return cp.slider_crank_harmonics(np.linspace(0.1, 0.9, 100_000), [2])
+
+
+# A stack larger than the address space: no thread can be started, by root neither.
+NO_THREADS = {"RUST_MIN_STACK": str(2**60)}
+
+
+@linux
+def test_calls_compute_in_the_calling_thread_where_no_thread_can_be_started() -> None:
+    program = Path(long_calls.__file__).read_text()
+    assert python(program, NO_THREADS) == python(program)
+
+
+@linux
+def test_ctrl_c_stops_a_call_where_no_thread_can_be_started() -> None:
+    program = """
+import signal
+import numpy as np
+import crankpin as cp
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+ratios, offsets = np.full(10_000_000, 0.9999), np.full(10_000_000, 1e-7)
+signal.setitimer(signal.ITIMER_REAL, 1)
+try:
+    cp.slider_crank_harmonics(ratios, range(1, 5), offsets)
+except KeyboardInterrupt:
+    print("stopped")
+"""
+    assert python(program, NO_THREADS) == "stopped\n"
+
+
+LITTLE_MEMORY = """
+import resource
+import numpy as np
+import crankpin as cp
+v6 = cp.Engine.preset("v6-60")
+def limited(megabytes):
+    "Allow so much address space more than is in use."
+    with open("/proc/self/statm") as file:
+        used = int(file.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + megabytes * 10**6, -1))
+{before}
+limited({megabytes})
+try:
+    {call}
+except MemoryError as error:
+    print("MemoryError")
+"""
+
+
+@linux
+@pytest.mark.parametrize(
+    ("megabytes", "before", "call"),
+    [
+        (1000, "", "cp.search_arrangements(26)"),
+        (250, "angles = np.linspace(0, 720, 20_000_000)", "v6.waveform(3000, angles)"),
+        (
+            250,
+            "angles = np.linspace(0, 720, 20_000_000)",
+            "v6.waveform(3000, angles, orders=[1, 2])",
+        ),
+        (
+            60,
+            "ratios = np.linspace(0.1, 0.5, 10_000_000)",
+            "cp.sweep(v6, rpm=3000, rod_ratio=ratios, orders='auto')",
+        ),
+        (
+            110,
+            "ratios = np.linspace(0.1, 0.5, 10_000_000)",
+            "cp.sweep(v6, rpm=3000, rod_ratio=ratios, orders='auto')",
+        ),
+        (
+            110,
+            "speeds = np.linspace(100, 5000, 10_000_000)",
+            "cp.sweep(v6, rpm=speeds, orders='auto').force",
+        ),
+    ],
+)
+def test_memory_that_is_not_there_raises_memory_error(
+    megabytes: int, before: str, call: str
+) -> None:
+    program = LITTLE_MEMORY.format(megabytes=megabytes, before=before, call=call)
+    assert python(program) == "MemoryError\n"
+
+
+@pytest.mark.parametrize("length", [10**9, 10**30])
+def test_length_of_a_range_is_checked_before_it_is_converted(length: int) -> None:
+    v6 = cp.Engine.preset("v6-60")
+    with pytest.raises(cp.InputError, match=r"theta_deg has .* numbers, more than the limit"):
+        v6.waveform(3000, range(length))
+
+
+def python(program: str, environment: dict[str, str] | None = None) -> str:
+    """Return what a program prints."""
+    done = subprocess.run(  # noqa: S603 - this interpreter
+        [sys.executable, "-c", program],
+        env=os.environ | {"RAYON_NUM_THREADS": "2"} | (environment or {}),
+        cwd=Path(__file__).parent,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
