@@ -1,5 +1,6 @@
 //! How an engine shakes, order by order: force, moment and torque as peak phasors.
 
+use crate::Complex64;
 use crate::amplitude::wrenches;
 use crate::cancel::Cancel;
 use crate::choice;
@@ -11,7 +12,6 @@ use crate::load::{Alike, Loads};
 use crate::order::{self, Order};
 use crate::spectrum::Spectrum;
 use crate::wrench::{Planar, Wrench, rounding};
-use crate::Complex64;
 
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]

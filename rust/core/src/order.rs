@@ -15,9 +15,10 @@ impl Order {
 
     /// A whole order, 1 to [`HIGHEST_ORDER`].
     pub fn whole(order: u32) -> Result<Self> {
-        order.checked_mul(2).ok_or_else(|| out_of_range(order)).and_then(|halves| {
-            Self::from_halves(halves).map_err(|_| out_of_range(order))
-        })
+        order
+            .checked_mul(2)
+            .ok_or_else(|| out_of_range(order))
+            .and_then(|halves| Self::from_halves(halves).map_err(|_| out_of_range(order)))
     }
 
     /// Twice the order, 1 to 2·[`HIGHEST_ORDER`].
@@ -83,7 +84,10 @@ mod tests {
     #[test]
     fn orders_are_counted_in_halves() {
         let order = Order::from_halves(3).unwrap();
-        assert_eq!((order.number(), order.as_whole(), order.to_string()), (1.5, None, "1.5".into()));
+        assert_eq!(
+            (order.number(), order.as_whole(), order.to_string()),
+            (1.5, None, "1.5".into())
+        );
         assert_eq!(Order::whole(4).unwrap().as_whole(), Some(4));
         assert_eq!(Order::whole(1), Ok(Order::FIRST));
         assert_eq!(Order::whole(HIGHEST_ORDER).unwrap().halves(), 2 * HIGHEST_ORDER);

@@ -148,8 +148,7 @@ impl Multiples {
         let exact: Vec<Option<Ratio>> = lengths.iter().map(|&length| decimal(length)).collect();
         let others = lengths.iter().zip(&exact).filter(|(_, exact)| exact.is_none());
         let others: Vec<f64> = others.map(|(&length, _)| length).collect();
-        let errors: Vec<f64> =
-            others.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
+        let errors: Vec<f64> = others.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
         let Self { units, of } = Self::among(vec![(1.0, 0.0)], &others, &errors);
         let mut of = of.into_iter();
         let each = exact.into_iter().map(|exact| {

@@ -117,7 +117,8 @@ impl Rows {
     fn add<const TORQUE: bool>(&mut self, pistons: &Pistons, square: f64, units: &Units) {
         let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
-        let (proportions, torque) = (pistons.cylinder.proportions(), pistons.second_moment * square);
+        let (proportions, torque) =
+            (pistons.cylinder.proportions(), pistons.second_moment * square);
         for i in 0..BLOCK {
             let motion = proportions.motion_at(&units.crank(pistons.phase, i));
             force_x[i] += force.re * motion.acceleration;

@@ -1,9 +1,10 @@
 //! Phasors per order.
 
 use crankpin_core as core;
-use crankpin_core::balance::{Ellipse, Orders, Shake};
-use crankpin_core::extrema::PeakFinder;
-use crankpin_core::{Asked, Complex64, Error};
+use crankpin_core::balance::{Orders, Request, Vector};
+use crankpin_core::wrench::Ellipse;
+use crankpin_core::{Complex64, Error, Order};
+use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -12,15 +13,20 @@ use crate::engine::Engine;
 use crate::interrupt;
 
 /// Which orders: a list, or a tolerance to choose them by.
-pub fn orders(orders: Option<Vec<u32>>, rtol: f64) -> Orders {
-    orders.map_or(Orders::Auto { rtol }, Orders::Given)
+pub fn orders(orders: Option<Vec<u32>>, rtol: f64) -> PyResult<Orders> {
+    orders.map_or(Ok(Orders::Auto { rtol }), |orders| Orders::whole(&orders)).or_raise()
+}
+
+/// Orders as whole numbers: no load has others.
+pub fn numbers(orders: &[Order]) -> Vec<u32> {
+    orders.iter().filter_map(|order| order.as_whole()).collect()
 }
 
 /// How an engine shakes at one speed.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Balance(pub core::Balance);
 
-/// Work out the balance.
+/// The balance of an engine.
 #[pyfunction]
 #[pyo3(name = "balance")]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
@@ -34,12 +40,12 @@ pub fn balance(
     spectrum: Option<Vec<(u32, Complex64)>>,
     torque: bool,
 ) -> PyResult<Balance> {
-    let orders = self::orders(orders, rtol);
+    let orders = self::orders(orders, rtol)?;
     let spectrum = self::spectrum(spectrum)?;
-    let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
+    let request = Request { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
     let engine = &engine.get().0;
-    let balance = interrupt::run(py, |cancel| core::balance::of(engine, &asked, &orders, cancel));
-    balance.map(Balance)
+    interrupt::run(py, |cancel| core::balance::balance(engine, &request, &orders, cancel))
+        .map(Balance)
 }
 
 /// ω in rad/s.
@@ -55,27 +61,24 @@ pub fn ellipse(parts: Vec<(Complex64, Complex64)>) -> Vec<(f64, f64, f64)> {
     axes.map(|e| (e.major, e.minor, e.tilt)).collect()
 }
 
-impl Balance {
-    fn shake(&self, quantity: &str) -> PyResult<&Shake> {
-        match quantity {
-            "force" => Ok(&self.0.force),
-            "moment" => Ok(&self.0.moment),
-            other => {
-                let cure = "give \"force\" or \"moment\"";
-                Err(python_error(Error::value("quantity", other, cure)))
-            }
+fn vector(quantity: &str) -> PyResult<Vector> {
+    match quantity {
+        "force" => Ok(Vector::Force),
+        "moment" => Ok(Vector::Moment),
+        other => {
+            let cure = "give \"force\" or \"moment\"";
+            Err(python_error(Error::value("quantity", other, cure)))
         }
     }
+}
 
-    fn finder(&self) -> PeakFinder {
-        PeakFinder::new(&self.0.orders)
-    }
-
-    fn torque(&self) -> PyResult<&core::balance::Torque> {
-        self.0.torque.as_ref().ok_or_else(|| {
-            // The wrapper in Python says why.
-            python_error(Error::value("torque", "not known", "ask for force and moment"))
-        })
+impl Balance {
+    fn each<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(usize) -> T,
+    ) -> Bound<'py, PyArray1<T>> {
+        frozen(py, (0..self.0.orders.len()).map(of).collect::<Array1<T>>())
     }
 }
 
@@ -83,12 +86,12 @@ impl Balance {
 impl Balance {
     #[getter]
     fn orders(&self) -> Vec<u32> {
-        self.0.orders.clone()
+        numbers(&self.0.orders)
     }
 
     #[getter]
     fn omitted(&self) -> Vec<u32> {
-        self.0.omitted.clone()
+        numbers(&self.0.omitted)
     }
 
     fn xy<'py>(
@@ -96,7 +99,9 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
-        Ok(frozen(py, self.shake(quantity)?.xy.clone()))
+        let vector = vector(quantity)?;
+        let phasors: Vec<_> = (0..self.0.orders.len()).map(|k| self.0.xy(vector, k)).collect();
+        Ok(frozen(py, Array2::from(phasors)))
     }
 
     fn forward<'py>(
@@ -104,7 +109,8 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        Ok(frozen(py, self.shake(quantity)?.forward.clone()))
+        let vector = vector(quantity)?;
+        Ok(self.each(py, |k| self.0.planar(vector, k).forward))
     }
 
     fn backward<'py>(
@@ -112,7 +118,8 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        Ok(frozen(py, self.shake(quantity)?.backward.clone()))
+        let vector = vector(quantity)?;
+        Ok(self.each(py, |k| self.0.planar(vector, k).backward()))
     }
 
     fn zero_bound<'py>(
@@ -121,16 +128,18 @@ impl Balance {
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         if quantity == "torque" {
-            return Ok(frozen(py, self.torque()?.zero_bound.clone()));
+            return Ok(self.each(py, |k| self.0.torque_zero_bound(k)));
         }
-        Ok(frozen(py, self.shake(quantity)?.zero_bound.clone()))
+        let vector = vector(quantity)?;
+        Ok(self.each(py, |k| self.0.zero_bound(vector, k)))
     }
 
     fn error_bound(&self, quantity: &str) -> PyResult<f64> {
+        let [force, moment, torque] = self.0.error_bound;
         if quantity == "torque" {
-            return Ok(self.torque()?.error_bound);
+            return Ok(torque);
         }
-        Ok(self.shake(quantity)?.error_bound)
+        Ok(if vector(quantity)? == Vector::Force { force } else { moment })
     }
 
     fn sum_peak_xy<'py>(
@@ -138,23 +147,23 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let peaks = self.shake(quantity)?.peak_xy(&self.finder());
-        Ok(frozen(py, peaks.to_vec().into()))
+        Ok(frozen(py, self.0.peak_xy(vector(quantity)?).to_vec().into()))
     }
 
     fn sum_peak_vector(&self, quantity: &str) -> PyResult<f64> {
-        Ok(self.shake(quantity)?.peak_vector(&self.finder()))
+        Ok(self.0.peak(vector(quantity)?))
     }
 
-    fn roll_torque<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        Ok(frozen(py, self.torque()?.roll.clone()))
+    fn roll_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
+        self.each(py, |k| self.0.wrenches[k].torque.roll)
     }
 
-    fn crank_torque<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        Ok(frozen(py, self.torque()?.crank.clone()))
+    fn crank_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
+        self.each(py, |k| self.0.wrenches[k].torque.crank)
     }
 
-    fn torque_sum_peak(&self) -> PyResult<f64> {
-        Ok(self.finder().along_axis(self.torque()?.roll.as_slice().unwrap_or_default()))
+    /// Largest torque of all orders together, on the block or on the crank.
+    fn torque_sum_peak(&self, on_crank: bool) -> f64 {
+        self.0.torque_peaks()[usize::from(on_crank)]
     }
 }

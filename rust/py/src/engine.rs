@@ -4,9 +4,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::engine::{Hold, Placement};
+use crankpin_core::Error;
+use crankpin_core::engine::{Hold, Placement, Shaft, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
-use crankpin_core::{Error, engine_file};
 use ndarray::Array1;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -36,6 +36,19 @@ where
     let names: Vec<String> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
     let cure = format!("give {}", names.join(" or "));
     Err(python_error(Error::value(argument, format!("\"{value}\""), cure)))
+}
+
+/// Amount in kg·m, degrees as text that reads back exactly, z in m, index of the pin's cylinder.
+type Weight = (f64, String, f64, Option<usize>);
+/// The same, its angle read.
+type GivenWeight = (f64, Angle, f64, Option<usize>);
+
+fn weight(unbalance: &Unbalance) -> Weight {
+    (unbalance.amount, unbalance.angle.to_string(), unbalance.z, unbalance.pin)
+}
+
+fn unbalance((amount, angle, z, pin): GivenWeight) -> Unbalance {
+    Unbalance { amount, angle: angle.0, z, pin }
 }
 
 /// What a change of bank angle holds.
@@ -192,6 +205,7 @@ impl Engine {
         tdc_deg: Option<Vec<Angle>>,
         pin_deg: Option<Vec<Angle>>,
         bank_deg: Vec<Angle>,
+        bank: Option<Vec<usize>>,
         z: Vec<f64>,
         rotating_mass: Vec<f64>,
         name: String,
@@ -227,7 +241,14 @@ impl Engine {
                 rotating_mass: rotating_mass[i],
             });
         }
-        core::Engine::new(name, source, placements).or_raise().map(Self::from)
+        let engine = match bank {
+            Some(bank) => {
+                same_length("bank", bank.len(), count)?;
+                core::Engine::in_banks(name, source, placements, &bank)
+            }
+            None => core::Engine::new(name, source, placements),
+        };
+        engine.or_raise().map(Self::from)
     }
 
     #[staticmethod]
@@ -270,20 +291,20 @@ impl Engine {
 
     #[staticmethod]
     fn from_toml(text: &str) -> PyResult<Self> {
-        engine_file::from_toml(text).or_raise().map(Self::from)
+        file::from_toml(text).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
-        engine_file::from_json(text).or_raise().map(Self::from)
+        file::from_json(text).or_raise().map(Self::from)
     }
 
     fn to_toml(&self) -> PyResult<String> {
-        engine_file::to_toml(&self.0).or_raise()
+        file::to_toml(&self.0).or_raise()
     }
 
     fn to_json(&self) -> PyResult<String> {
-        engine_file::to_json(&self.0).or_raise()
+        file::to_json(&self.0).or_raise()
     }
 
     #[getter]
@@ -358,8 +379,55 @@ impl Engine {
         self.0.with_bank_angle(bank_angle.0, hold(held)?).or_raise().map(Self::from)
     }
 
-    fn with_first_tdc(&self, tdc: Angle) -> PyResult<Self> {
-        self.0.with_first_tdc(tdc.0).or_raise().map(Self::from)
+    fn with_first_tdc(&self, tdc: Angle) -> Self {
+        self.0.with_first_tdc(tdc.0).into()
+    }
+
+    /// Index of each cylinder's bank; of two banks 0 is the right one.
+    #[getter]
+    fn bank(&self) -> Vec<usize> {
+        let right = self.0.banks().map_or(0, |banks| banks.right);
+        let count = self.0.placements().len();
+        (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
+    }
+
+    #[getter]
+    fn firing_order(&self) -> &str {
+        self.0.firing_order()
+    }
+
+    fn firing_as(&self, firing_order: String) -> PyResult<Self> {
+        self.0.firing_as(firing_order).or_raise().map(Self::from)
+    }
+
+    #[getter]
+    fn counterweights(&self) -> Vec<Weight> {
+        self.0.counterweights().iter().map(weight).collect()
+    }
+
+    fn with_counterweights(&self, counterweights: Vec<GivenWeight>) -> PyResult<Self> {
+        let counterweights = counterweights.into_iter().map(unbalance).collect();
+        self.0.with_counterweights(counterweights).or_raise().map(Self::from)
+    }
+
+    #[getter]
+    fn shafts(&self) -> Vec<(String, i32, f64, f64, Vec<Weight>)> {
+        let shaft = |shaft: &Shaft| {
+            let [x, y] = shaft.axis;
+            (shaft.name.clone(), shaft.ratio, x, y, shaft.unbalances.iter().map(weight).collect())
+        };
+        self.0.shafts().iter().map(shaft).collect()
+    }
+
+    fn with_shafts(
+        &self,
+        shafts: Vec<(String, i32, f64, f64, Vec<GivenWeight>)>,
+    ) -> PyResult<Self> {
+        let shaft = |(name, ratio, x, y, weights): (String, i32, f64, f64, Vec<GivenWeight>)| {
+            let unbalances = weights.into_iter().map(unbalance).collect();
+            Shaft { name, ratio, axis: [x, y], unbalances }
+        };
+        self.0.with_shafts(shafts.into_iter().map(shaft).collect()).or_raise().map(Self::from)
     }
 
     fn named(&self, name: String, source: String) -> PyResult<Self> {

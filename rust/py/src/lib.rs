@@ -23,7 +23,7 @@ mod waveform;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
-    module.add("SCHEMA", crankpin_core::engine_file::SCHEMA)?;
+    module.add("SCHEMA", crankpin_core::engine::file::SCHEMA)?;
     module.add("InputError", module.py().get_type::<convert::InputError>())?;
     module.add_class::<engine::Engine>()?;
     module.add_class::<balance::Balance>()?;

@@ -1,13 +1,17 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{Complex64, Cylinder, Error, angle, limits, memory, rod};
+use crankpin_core::{Complex64, Cylinder, Error, Order, angle, limits, memory, order, rod};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, Parts, cylinder};
 use crate::interrupt;
+
+fn check_orders(orders: &[u32]) -> PyResult<()> {
+    Order::all_whole(orders).and_then(|orders| order::check_list(&orders)).or_raise()
+}
 
 /// Refuse a cylinder that makes no engine.
 #[pyfunction]
@@ -78,7 +82,7 @@ pub fn cylinder_harmonics(
     parts: Parts,
     orders: Vec<u32>,
 ) -> PyResult<Bound<'_, PyArray1<Complex64>>> {
-    limits::orders(&orders).or_raise()?;
+    check_orders(&orders)?;
     let cylinder = cylinder(parts)?;
     let values = interrupt::run(py, |cancel| {
         harmonics::coefficients(&cylinder.proportions(), &orders, cancel)
@@ -94,7 +98,7 @@ pub fn cylinder_torque_harmonics(
     parts: Parts,
     orders: Vec<u32>,
 ) -> PyResult<(Bound<'_, PyArray1<Complex64>>, Bound<'_, PyArray1<Complex64>>)> {
-    limits::orders(&orders).or_raise()?;
+    check_orders(&orders)?;
     let cylinder = cylinder(parts)?;
     let torque =
         interrupt::run(py, |cancel| torque::over_second_moment(&cylinder, &orders, cancel))?;

@@ -2,11 +2,12 @@
 
 use crankpin_core as core;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
-use crankpin_core::{Cancel, Complex64, Error, memory};
+use crankpin_core::{Cancel, Complex64, Error, Order, memory};
 use ndarray::Array1;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
+use crate::balance::numbers;
 use crate::convert::{OrRaise, frozen, python_error, spectrum};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
@@ -25,8 +26,9 @@ fn quantity(name: &str) -> PyResult<Quantity> {
         "force" => Ok(Quantity::Force),
         "moment" => Ok(Quantity::Moment),
         "torque" => Ok(Quantity::Torque),
+        "crank_torque" => Ok(Quantity::CrankTorque),
         other => {
-            let cure = "give \"force\", \"moment\" or \"torque\"";
+            let cure = "give \"force\", \"moment\", \"torque\" or \"crank_torque\"";
             Err(python_error(Error::value("quantity", other, cure)))
         }
     }
@@ -107,6 +109,7 @@ impl Sweep {
         };
         let engines: Vec<_> = engines.into_iter().map(|engine| engine.0).collect();
         let spectrum = self::spectrum(spectrum)?;
+        let orders = orders.map(|orders| Order::all_whole(&orders)).transpose().or_raise()?;
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
@@ -120,7 +123,7 @@ impl Sweep {
                 rpm: memory::copied(rpm, cancel)?,
             };
             if let Some(orders) = orders {
-                return core::Sweep::new(engines, axes, orders, reference_z, spectrum, cancel);
+                return core::Sweep::new(engines, axes, orders, reference_z, spectrum);
             }
             core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
         })?;
@@ -135,12 +138,12 @@ impl Sweep {
 
     #[getter]
     fn orders(&self) -> Vec<u32> {
-        self.sweep.orders().to_vec()
+        numbers(self.sweep.orders())
     }
 
     #[getter]
     fn omitted(&self) -> Vec<u32> {
-        self.sweep.omitted().to_vec()
+        numbers(self.sweep.omitted())
     }
 
     /// Of force, moment and torque.
@@ -179,7 +182,33 @@ impl Sweep {
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
         let quantity = quantity(name)?;
         self.values(py, (quantity, Figure::Amplitude), progress.as_ref(), |out, cancel| {
-            self.sweep.write_phasors(quantity, out, cancel)
+            self.sweep.write_phasors(quantity, Figure::Amplitude, out, cancel)
+        })
+    }
+
+    /// Forward and backward parts of force or moment: (…, `n_orders`, 2).
+    fn turning<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, (quantity, Figure::Turning), progress.as_ref(), |out, cancel| {
+            self.sweep.write_phasors(quantity, Figure::Turning, out, cancel)
+        })
+    }
+
+    /// Bound of the rounding error of each order: (…, `n_orders`).
+    fn zero_bound<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, (quantity, Figure::ZeroBound), progress.as_ref(), |out, cancel| {
+            self.sweep.write_peaks(quantity, Figure::ZeroBound, out, cancel)
         })
     }
 
@@ -194,12 +223,6 @@ impl Sweep {
         self.values(py, (quantity, figure), progress.as_ref(), |out, cancel| {
             self.sweep.write_peaks(quantity, figure, out, cancel)
         })
-    }
-
-    /// Whether exact kinematics take less time than the orders.
-    #[getter]
-    fn kinematics_cost_less(&self) -> bool {
-        self.sweep.kinematics_cost_less()
     }
 
     /// Shape of [`Self::waveform`] at so many angles, if there is room for it.

@@ -1,7 +1,7 @@
 //! Which orders vanish.
 
 use crankpin_core as core;
-use crankpin_core::vanishing::{QUANTITIES, Vanishing, Verdict};
+use crankpin_core::exact::vanishing::{QUANTITIES, Vanishing, Verdict};
 use ndarray::Array2;
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -22,7 +22,7 @@ pub fn vanishing<'py>(
     let py = engine.py();
     let engine = engine.get().0.clone();
     let Vanishing { verdicts, within_rounding, obstacles, .. } = interrupt::run(py, |cancel| {
-        core::vanishing::vanishing(&engine, &orders, reference_z, cancel)
+        core::exact::vanishing::vanishing(&engine, &orders, reference_z, cancel)
     })?;
     let table = |value: &dyn Fn(usize, usize) -> bool| {
         let shape = (verdicts.len(), QUANTITIES.len());

@@ -1,7 +1,7 @@
 //! Waveforms at given crank angles.
 
 use crankpin_core as core;
-use crankpin_core::{Asked, Complex64};
+use crankpin_core::{Complex64, Request};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -31,7 +31,7 @@ type Parts<'py> = (
     Option<Balance>,
 );
 
-/// From exact kinematics, or (`summed`) as a sum of orders, unless chosen ones cost more.
+/// From exact kinematics, or (`summed`) as a sum of orders.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
 pub fn waveform<'py>(
@@ -49,13 +49,13 @@ pub fn waveform<'py>(
     let engine = &engine.get().0;
     let thetas = theta_deg.as_slice()?;
     let spectrum = self::spectrum(spectrum)?;
-    let orders = balance::orders(orders, rtol);
+    let orders = balance::orders(orders, rtol)?;
     let waveform = interrupt::run(py, |cancel| {
-        let asked = Asked { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
+        let request = Request { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
         if !summed {
-            return core::waveform::exact(engine, &asked, thetas, cancel);
+            return core::waveform::exact(engine, &request, thetas, cancel);
         }
-        core::waveform::from_orders(engine, &asked, thetas, &orders, cancel)
+        core::waveform::from_orders(engine, &request, thetas, &orders, cancel)
     })?;
     Ok((
         frozen(py, waveform.force),

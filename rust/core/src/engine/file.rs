@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::angle::Angle;
 use super::{Engine, Placement, Shaft, Unbalance, first_equal};
+use crate::angle::Angle;
 use crate::error::{Error, Result, shorten};
 use crate::slider_crank::Cylinder;
 

@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use crate::angle::Angle;
 use super::{Engine, Placement, bank_angle_in_range};
+use crate::angle::Angle;
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::slider_crank::Cylinder;

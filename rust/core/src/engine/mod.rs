@@ -219,7 +219,8 @@ impl Engine {
     #[must_use]
     pub fn middle(&self) -> f64 {
         let z = || self.placements.iter().map(|place| place.z);
-        let (first, last) = (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
+        let (first, last) =
+            (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
         f64::midpoint(first, last)
     }
 

@@ -150,7 +150,8 @@ pub fn closed_form(
     let (unit, weights) = weights(&loads.list)?;
     if loads.list.len() > engine.placements().len() {
         if order > 1 {
-            let cure = "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
+            let cure =
+                "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
             return Err(refused("shafts", format!("of order {order}"), cure));
         }
         if offset != 0.0 {
@@ -173,7 +174,13 @@ pub fn closed_form(
         let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
         let argument = if motion == Motion::Along { "bank_deg" } else { "angle_deg" };
         let direction = part_of_turn(argument, load.direction)?;
-        parts.push(Part { weight, lever, motion, direction, phase: part_of_turn("tdc_deg", load.phase)? });
+        parts.push(Part {
+            weight,
+            lever,
+            motion,
+            direction,
+            phase: part_of_turn("tdc_deg", load.phase)?,
+        });
     }
     let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
     let (denominator, [forward, backward_conj]) = sums(&parts, order)?;

@@ -36,8 +36,8 @@ use crate::engine::{Engine, first_equal};
 use crate::error::{Error, Result};
 use crate::harmonics;
 use crate::load::{Alike, Load, Loads, Source};
-use crate::rational::{Multiples, Ratio, WITHIN_ULP, common_multiple, recognise};
 use crate::order::{Order, check_list};
+use crate::rational::{Multiples, Ratio, WITHIN_ULP, common_multiple, recognise};
 use crate::ring::RootSum;
 use crate::slider_crank::Cylinder;
 
@@ -447,11 +447,7 @@ impl Proof {
     }
 
     /// Direction of an unbalance at θ = 0, conjugate where it turns against the crank.
-    fn root_of_unbalance(
-        &self,
-        i: usize,
-        forward: bool,
-    ) -> Result<((usize, Entry), (i128, i128))> {
+    fn root_of_unbalance(&self, i: usize, forward: bool) -> Result<((usize, Entry), (i128, i128))> {
         let stepped = self.directions[1][i];
         let phase = multiple(self.phases[i].turns, -1);
         let entry = match (stepped.symbol, forward) {
@@ -628,10 +624,12 @@ impl Proof {
         if self.loads.list.len() > cylinders {
             let above = self.loads.unbalance_orders().iter().any(|&order| order > 1);
             if above {
-                found.push("unbalances of orders above 1, no rational multiples of pistons'".into());
+                found
+                    .push("unbalances of orders above 1, no rational multiples of pistons'".into());
             }
         }
-        let mut units: Vec<usize> = self.levers.of.iter().flatten().map(|&(unit, _)| unit).collect();
+        let mut units: Vec<usize> =
+            self.levers.of.iter().flatten().map(|&(unit, _)| unit).collect();
         units.sort_unstable();
         units.dedup();
         if units.len() > 1 {
@@ -639,7 +637,9 @@ impl Proof {
         }
         let has_offset = |motion: &Cylinder| motion.pin_offset() != 0.0;
         if found.is_empty() && self.loads.motions.iter().any(has_offset) {
-            found.push("pin offsets: harmonics with no rational relation to what rotates".to_owned());
+            found.push(
+                "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
+            );
         }
         if found.is_empty() && self.gears.iter().any(Cylinder::has_rod_inertia) {
             found.push("rod inertia: its torque nearly cancels that of the masses".to_owned());

@@ -107,8 +107,9 @@ mod tests {
     fn banks_of_a_few_throws_have_keys_that_fit_whatever_the_parts_of_a_turn() {
         for parts in 2..=360 {
             for throws in 2..=4 {
-                let phases: Vec<Angle> =
-                    (0..throws).map(|k| Angle::Turns(k * k * k % parts, parts).reduced()).collect();
+                let phases: Vec<Angle> = (0..throws)
+                    .map(|k| Angle::from_turns(k * k * k % parts, parts).unwrap().reduced())
+                    .collect();
                 let moments = Moments::new(Bank::with_phases(&phases).unwrap()).unwrap();
                 let found = Magnitude::new(&moments.bank, &moments.ring);
                 assert!(found.is_ok(), "{throws} throws, {parts} parts");
@@ -118,7 +119,7 @@ mod tests {
 
     #[test]
     fn phases_whose_keys_do_not_fit_are_named() {
-        let phases: Vec<Angle> = (0..15).map(|k| Angle::Turns(k * k, 359)).collect();
+        let phases: Vec<Angle> = (0..15).map(|k| Angle::from_turns(k * k, 359).unwrap()).collect();
         let moments = Moments::new(Bank::with_phases(&phases).unwrap());
         let error = moments
             .and_then(|moments| Magnitude::new(&moments.bank, &moments.ring).map(drop))

@@ -54,7 +54,8 @@ impl Sweep {
             let rest = sweep.rest(loads, last)?;
             for &quantity in &quantities {
                 let sum = quantity.bound();
-                let worst = sweep.worst(index, quantity, &candidates, sweep.axes.clone(), cancel)?;
+                let worst =
+                    sweep.worst(index, quantity, &candidates, sweep.axes.clone(), cancel)?;
                 sizes.iter_mut().zip(worst).for_each(|(sizes, size)| sizes.push(size));
                 lost.push(rest[sum]);
                 allowed.push(scales[sum]);

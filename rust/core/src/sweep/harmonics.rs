@@ -51,7 +51,12 @@ impl Amplitudes {
     }
 
     /// Those of a channel and order, at so many points.
-    pub fn of(&self, channel: Channel, order: usize, points: usize) -> [std::borrow::Cow<'_, [f64]>; 2] {
+    pub fn of(
+        &self,
+        channel: Channel,
+        order: usize,
+        points: usize,
+    ) -> [std::borrow::Cow<'_, [f64]>; 2] {
         let found = self.channels.iter().find(|(known, _)| *known == channel);
         found.map_or_else(
             || [vec![1.0; points].into(), vec![0.0; points].into()],

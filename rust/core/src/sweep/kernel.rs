@@ -121,21 +121,26 @@ impl<F: Sync> Job<'_, F> {
                         tasks.extend(rows.map(|(k, rows)| (constants, first(k), rows)));
                     }
                 }
-                let work = |block: &mut Block, (constants, first, out): (&Constants, usize, &mut [T])| {
-                    for (k, out) in out.chunks_mut(BLOCK * width).enumerate() {
-                        self.cancel.check()?;
-                        let first = first + k * BLOCK;
-                        vectorised(
-                            #[inline(always)]
-                            || {
-                                block.evaluate(&turning, constants, first..first + out.len() / width);
-                                (self.finish)(block, factor, out)
-                            },
-                        )?;
-                    }
-                    self.cancel.advance(out.len() / width);
-                    Ok(())
-                };
+                let work =
+                    |block: &mut Block, (constants, first, out): (&Constants, usize, &mut [T])| {
+                        for (k, out) in out.chunks_mut(BLOCK * width).enumerate() {
+                            self.cancel.check()?;
+                            let first = first + k * BLOCK;
+                            vectorised(
+                                #[inline(always)]
+                                || {
+                                    block.evaluate(
+                                        &turning,
+                                        constants,
+                                        first..first + out.len() / width,
+                                    );
+                                    (self.finish)(block, factor, out)
+                                },
+                            )?;
+                        }
+                        self.cancel.advance(out.len() / width);
+                        Ok(())
+                    };
                 let block = || Block::new(sweep.orders.len());
                 if large {
                     let tasks = tasks.into_par_iter();
@@ -307,6 +312,11 @@ impl Block {
         self.orders.len()
     }
 
+    /// Bound of the rounding error.
+    pub fn bound(&self, order: usize, i: usize) -> f64 {
+        self.orders[order].bound[i]
+    }
+
     /// Forward part and conjugate of the backward part, zero where rounding is all there is.
     #[inline(always)]
     pub fn turning(&self, order: usize, i: usize) -> [Complex64; 2] {
@@ -341,10 +351,8 @@ impl Block {
         let lanes = (out.len() / width).next_multiple_of(LANES).min(BLOCK);
         for (order, Sums { forward, backward_conj, bound }) in self.orders.iter().enumerate() {
             for i in 0..lanes {
-                let ([f, g], [u, v]) = (
-                    [forward[0][i], forward[1][i]],
-                    [backward_conj[0][i], backward_conj[1][i]],
-                );
+                let ([f, g], [u, v]) =
+                    ([forward[0][i], forward[1][i]], [backward_conj[0][i], backward_conj[1][i]]);
                 let square = bound[i] * bound[i];
                 along[i] = factor * magnitude(f + u, g + v, square);
                 across[i] = factor * magnitude(f - u, g - v, square);

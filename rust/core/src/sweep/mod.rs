@@ -50,6 +50,8 @@ pub enum Figure {
     Turning,
     /// The longest vector of each order: (…, `n_orders`).
     Length,
+    /// Bound of the rounding error of each order: (…, `n_orders`).
+    ZeroBound,
     /// Of all orders together along (about) each axis: (…, and 2 except for torque).
     Sum,
     /// The longest vector of all orders together: (…).
@@ -166,7 +168,7 @@ impl Sweep {
         let tail: [&[usize]; 2] = match figure {
             Figure::Amplitude => [orders, quantity.shape()],
             Figure::Turning => [orders, &[2]],
-            Figure::Length => [orders, &[]],
+            Figure::Length | Figure::ZeroBound => [orders, &[]],
             Figure::Sum => [&[], quantity.shape()],
             Figure::LengthOfSum => [&[], &[]],
         };
@@ -267,6 +269,20 @@ impl Sweep {
                     Ok(())
                 },
             ),
+            Figure::ZeroBound => self.fill(
+                (quantity, figure, false),
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &Block, factor: f64, out: &mut [f64]| {
+                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                        for (order, bound) in row.iter_mut().enumerate() {
+                            *bound = block.bound(order, i) * factor;
+                        }
+                    }
+                    Ok(())
+                },
+            ),
             Figure::Sum => {
                 let finder = PeakFinder::new(&self.orders);
                 self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
@@ -332,6 +348,10 @@ impl Sweep {
         let shape = self.result_shape(quantity, figure);
         if out.len() != shape.iter().product::<usize>() {
             return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
+        }
+        if self.orders.is_empty() {
+            out.fill(T::default());
+            return Ok(());
         }
         let width = shape[5..].iter().product();
         Job { sweep: self, quantity, width, slow, cancel, finish }.run(out)

@@ -61,7 +61,12 @@ impl Term {
 
 impl Tiles {
     /// At a range of the angles, of the orders of these terms.
-    pub fn new(angles: &CrankAngles, range: &Range<usize>, orders: &[Order], terms: &[Term]) -> Self {
+    pub fn new(
+        angles: &CrankAngles,
+        range: &Range<usize>,
+        orders: &[Order],
+        terms: &[Term],
+    ) -> Self {
         let tiles = orders.iter().enumerate().map(|(place, &order)| {
             if terms.iter().all(|term| term.order != place) {
                 return Vec::new();

@@ -9,13 +9,13 @@ use super::placed::Placed;
 use super::tiles::{TILE, Term, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
+use crate::angle::Angle;
 use crate::cancel::Cancel;
 use crate::crank_angles::{CrankAngles, parts};
 use crate::error::{Error, Result};
-use crate::angle::Angle;
 use crate::kinematics::{BLOCK, Kinematics};
-use crate::load::{Alike, Loads};
 use crate::limits;
+use crate::load::{Alike, Loads};
 use crate::memory;
 use crate::pool;
 use crate::simd::vectorised;
@@ -58,6 +58,10 @@ impl Sweep {
         let rows = Rows { angles, components: quantity.components(), cancel };
         if exact {
             return self.by_kinematics(quantity, &rows, out);
+        }
+        if self.orders.is_empty() {
+            out.fill(0.0);
+            return Ok(());
         }
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();

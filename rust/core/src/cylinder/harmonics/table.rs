@@ -14,8 +14,8 @@ use crate::cancel::Cancel;
 use crate::error::{Error, Result};
 use crate::limits;
 use crate::memory;
-use crate::pool;
 use crate::order::{self, Order};
+use crate::pool;
 use crate::simd::vectorised;
 use crate::slider_crank::Proportions;
 
