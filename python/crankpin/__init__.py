@@ -18,15 +18,14 @@ from crankpin.analysis.firing import (
     Overlap,
     Ports,
     PortTiming,
-    Throws,
     Valves,
     ValveTiming,
-    throws,
 )
 from crankpin.analysis.rank import Choice, Ranking, rank
 from crankpin.analysis.search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin.analysis.sweep import Sweep, sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
+from crankpin.analysis.throws import Throws, throws
 from crankpin.analysis.waveform import Waveform
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine

@@ -433,3 +433,26 @@ def _ellipse(forward: NDArray[np.complex128], backward: NDArray[np.complex128]) 
 def _read_only(values: NDArray[Any]) -> NDArray[Any]:
     values.setflags(write=False)
     return values
+
+
+def balance(
+    engine: Engine,
+    rpm: float,
+    orders: Orders = "auto",
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    *,
+    torque: bool = True,
+) -> Balance:
+    """Return force, moment and torque order by order; see :meth:`Engine.balance`."""
+    rpm = inputs.number("rpm", rpm)
+    wanted = inputs.orders(orders)
+    tolerance = inputs.tolerance(rtol, wanted, 1e-9)
+    plane = inputs.optional_number("reference_z", reference_z)
+    pairs = inputs.spectrum(spectrum)
+    torque = inputs.flag("torque", torque)
+    core = _core.balance(engine.core, rpm, wanted, tolerance, plane, pairs, torque)
+    inputs.warn_of_units(4.0 * engine.core.largest_crank_radius * rpm / 60.0)
+    how: dict[str, Any] = ({"rtol": tolerance} if wanted is None else {}) | {"torque": torque}
+    return Balance(core, engine, rpm, plane, None if pairs is None else dict(pairs), how)

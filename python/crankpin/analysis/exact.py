@@ -43,7 +43,7 @@ AXES = ("x", "y", "forward", "backward")
 
 
 def _engine_core(engine: object) -> _core.Engine:
-    core = getattr(engine, "_core", None)
+    core = getattr(engine, "core", None)
     if not isinstance(core, _core.Engine):
         raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
     return core

@@ -15,7 +15,8 @@ from crankpin import _core
 from crankpin._support import inputs, tables
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
-from crankpin.model.engine import Engine, parts
+from crankpin.model.builders import parts
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd

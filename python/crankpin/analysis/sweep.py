@@ -158,7 +158,7 @@ def sweep(
     wanted, rtol = inputs.orders(orders), inputs.number("rtol", rtol)
     torque = inputs.flag("torque", torque)
     core = _core.Sweep(
-        [engine._core for engine in listed],
+        [engine.core for engine in listed],
         axes.get("bank_angle_deg"),
         None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"'),
         axes.get("rod_ratio"),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, tables
 from crankpin._support.frozen import Frozen
@@ -15,9 +16,9 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
-    from crankpin import _core
+    from crankpin._support.inputs import Orders, Spectrum
     from crankpin.model.engine import Engine
 
 
@@ -168,3 +169,36 @@ def _again(state: dict[str, Any]) -> Waveform:
             value.setflags(write=False)
     waveform._set(**state)
     return waveform
+
+
+def waveform(
+    engine: Engine,
+    rpm: float,
+    theta_deg: ArrayLike | None = None,
+    orders: Orders | None = None,
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    *,
+    torque: bool = True,
+) -> Waveform:
+    """Return force, moment and torque over crank angle; see :meth:`Engine.waveform`."""
+    rpm = inputs.number("rpm", rpm)
+    theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+    if spectrum is not None and orders is None:
+        cure = 'give orders, or orders="auto", with a spectrum'
+        raise InputError(f"orders = None: exact kinematics needs the slider-crank; {cure}")
+    wanted = [] if orders is None else inputs.orders(orders)
+    core = _core.waveform(
+        engine.core,
+        rpm,
+        theta,
+        orders is not None,
+        None if orders is None else wanted,
+        inputs.tolerance(rtol, wanted, 1e-6),
+        inputs.optional_number("reference_z", reference_z),
+        inputs.spectrum(spectrum),
+        inputs.flag("torque", torque),
+    )
+    inputs.warn_of_units(4.0 * engine.core.largest_crank_radius * rpm / 60.0)
+    return Waveform(engine, rpm, theta, core, by_spectrum=spectrum is not None)

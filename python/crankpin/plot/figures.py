@@ -176,7 +176,7 @@ def firing(
     ax.tick_params(axis="y", length=0, pad=8)
     ax.set_xlabel("crank angle θ")
     ax.set_ylabel("cylinder, bank by bank" if len(firing.banks) > 1 else "cylinder")
-    _entitle(ax, _name(firing.engine), tables.cut(firing._told()))
+    _entitle(ax, _name(firing.engine), tables.cut(firing.summary))
     return ax
 
 
