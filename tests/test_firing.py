@@ -244,19 +244,19 @@ def test_two_strokes() -> None:
     with pytest.raises(cp.InputError, match=r"1-2-3: .* top dead centres as 1-3-2$"):
         i3.firing("1-2-3", strokes=2)
     # A four-stroke with the same crank needs the other turn for an even 240.
-    assert i3.firing("1-2-3").intervals_deg.tolist() == [240.0] * 3
+    assert i3.firing("1-2-3", strokes=4).intervals_deg.tolist() == [240.0] * 3
     power, compression = only.strokes_deg().values()
     assert power.tolist() == [[0.0, 180.0], [240.0, 420.0], [120.0, 300.0]]
     assert compression.tolist() == [[180.0, 360.0], [60.0, 240.0], [300.0, 480.0]]
     with pytest.raises(cp.InputError, match=r"strokes = 2: valves are .* ports: Firing\.ports"):
         only.valves()
     with pytest.raises(cp.InputError, match=r"strokes = 4: ports are .* valves: Firing\.valves"):
-        i3.firing("1-2-3").ports()
+        i3.firing("1-2-3", strokes=4).ports()
     for call in (only.ports, only.exhaust_overlaps, only.plot):
         with pytest.raises(cp.InputError, match=r"timing = ValveTiming.*: give a .*PortTiming"):
             call(timing=cp.ValveTiming())  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match=r"timing = PortTiming.*: give a .*ValveTiming"):
-        i3.firing("1-2-3").exhaust_overlaps(timing=cp.PortTiming())
+        i3.firing("1-2-3", strokes=4).exhaust_overlaps(timing=cp.PortTiming())
 
 
 def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
@@ -380,14 +380,14 @@ def test_throws_of_the_cross_plane_order() -> None:
     assert found.shared_pins
     assert repr(found) == "<Throws 0-90-270-180, shared pins>"
     other = cp.throws(firing.CROSSPLANE, bank_angle_deg=90, odd_bank="right")
-    assert other.pin_splits_deg.tolist() == [180.0] * 4
+    assert other.pin_split_deg.tolist() == [180.0] * 4
     assert not other.shared_pins
 
 
 @pytest.mark.parametrize(("bank_angle", "split"), [(60, -60), (90, -30), (120, 0), (150, 30)])
 def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, split: int) -> None:
     found = cp.throws("1-2-3-4-5-6", bank_angle_deg=bank_angle)
-    assert found.pin_splits_deg.tolist() == [split] * 3
+    assert found.pin_split_deg.tolist() == [split] * 3
     assert found.throws_deg.tolist() == [0.0, 120.0, 240.0]
     engine = cp.Engine.vee(
         PART,
@@ -421,7 +421,7 @@ def test_odd_fire_needs_no_split() -> None:
 def test_throws_of_inline_engines() -> None:
     found = cp.throws("1-3-4-2")
     assert found.throws_deg.tolist() == [0.0, 180.0, 180.0, 0.0]
-    assert found.pin_splits_deg.size == 0
+    assert found.pin_split_deg.size == 0
     assert not found.shared_pins
     assert repr(found) == "<Throws 0-180-180-0>"
     cross = cp.throws("1-3-2-4", intervals_deg=[270, 180, 90, 180])  # Yamaha's R1
@@ -472,13 +472,13 @@ def test_a_crank_made_for_an_order_fires_in_it(
     text = "-".join(map(str, order))
     throws, splits = firing.pins(text, wanted, bank_angle, odd_bank, numbering)
     assert found.throws_deg.tolist() == list(map(float, throws))
-    assert found.pin_splits_deg.tolist() == list(map(float, splits))
+    assert found.pin_split_deg.tolist() == list(map(float, splits))
     pins = {
         (side, z): pin
         for side, z, pin in zip(engine.bank_deg, engine.z, engine.pin_deg, strict=True)
     }
     if 0 < bank_angle < 180:
-        for k, split in enumerate(found.pin_splits_deg):
+        for k, split in enumerate(found.pin_split_deg):
             left, right = (pins[90 + sign * bank_angle / 2, k * 0.1] for sign in (1, -1))
             assert (left - right - split) % 360 == 0
 
@@ -496,7 +496,8 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
     ways = engine.firings(order, strokes=strokes)
     assert rotated in [way.intervals_deg.tolist() for way in ways]
     throws = cp.throws(order, **given_).throws_deg
-    assert engine == cp.Engine.inline(PART, throws_deg=throws, spacing=0.1)
+    known = {"firing_order": engine.firing_order, "strokes": strokes}
+    assert engine == cp.Engine.inline(PART, throws_deg=throws, spacing=0.1, **known)
 
 
 @pytest.mark.parametrize(
@@ -720,7 +721,7 @@ def test_firings_are_frozen_and_copied() -> None:
         *two.ports(),
         *PAGE.strokes_deg().values(),
         throws.throws_deg,
-        throws.pin_splits_deg,
+        throws.pin_split_deg,
         pickle.loads(pickle.dumps(throws)).throws_deg,  # noqa: S301 - our own
     )
     for array in arrays:
@@ -839,15 +840,15 @@ def test_command_of_an_order_in_several_turns(capsys: CAPTURE) -> None:
 
 
 def test_command_lists_orders(capsys: CAPTURE) -> None:
-    lines = printed(capsys, "firing", "i4").splitlines()
+    lines = printed(capsys, "firing", "i4", "--all").splitlines()
     firings = cp.Engine.preset("i4").firing_orders()
     assert [line.split()[0] for line in lines[2:]] == [each.firing_order for each in firings]
     assert lines[2].split() == ["1-2-4-3", "even", "0"]
-    assert printed(capsys, "firing", "v8-crossplane").endswith("and 108 more: --csv prints all\n")
-    head, *rows = csv.reader(io.StringIO(printed(capsys, "firing", "v8-crossplane", "--csv")))
+    assert printed(capsys, "firing", "v8-crossplane", "--all").endswith("and 108 more: --csv prints all\n")
+    head, *rows = csv.reader(io.StringIO(printed(capsys, "firing", "v8-crossplane", "--all", "--csv")))
     assert head == ["firing order", "intervals °", "rms from even °"]
     assert [row[0] for row in rows] == [each.firing_order for each in V8.firing_orders()]
-    lines = printed(capsys, "firing", "boxer-4", "--strokes", "2").splitlines()
+    lines = printed(capsys, "firing", "boxer-4", "--all", "--strokes", "2").splitlines()
     assert lines[2].split()[:2] == ["1+2-3+4", "0-180-0-180"]
 
 
@@ -855,7 +856,7 @@ def test_command_lists_orders(capsys: CAPTURE) -> None:
     ("argv", "words"),
     [
         (["i4", "--order", "1-2-3-4"], "firing_order = 1-2-3-4: this crank cannot fire so"),
-        (["i4", "--plot", "i4.png"], "--plot = i4.png: give --order with it"),
+        (["i4", "--all", "--plot", "i4.png"], "--plot needs --order"),
         (["i4", "--order", "1-3-4-2", "--plot", "i4.txt"], "--plot = i4.txt: a picture's name"),
         (["ijesc-v6"], "NAME = ijesc-v6: firing takes one engine of ijesc-v6-1-3-5-2-4-6"),
         (["i4", "--strokes", "3"], "--strokes"),

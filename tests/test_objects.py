@@ -105,11 +105,11 @@ def figures(value: Any) -> dict[str, Any]:
     """Public figures of an object, by name; without those that a spectrum leaves unknown."""
     found = {}
     for name in dir(value):
-        if name.startswith("_") or callable(getattr(type(value), name, None)):
+        if name.startswith("_") or callable(getattr(type(value), name, None)) or name == "core":
             continue
         try:
             found[name] = getattr(value, name)
-        except cp.InputError:
+        except (cp.InputError, AttributeError):
             continue
     return found
 
@@ -291,6 +291,8 @@ def test_replace_changes_one_thing(name: str) -> None:
     affected |= {"pin_deg": {"tdc_deg", "pin_deg"}, "z": {"z", "reference_z"}}
     # With other bores and the same top dead centres the crankpins are elsewhere.
     affected |= {"bank_deg": {"bank_deg", "pin_deg", "bank_angle_deg"}}
+    for moved in ("tdc_deg", "pin_deg", "bank_deg"):
+        affected[moved] |= {"throws_deg", "pin_split_deg"}
     after = figures(changed)
     for figure in before.keys() & after.keys() - affected.get(name, {name}):
         assert_same(after[figure], before[figure])
@@ -466,7 +468,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
     if not name.startswith(
-        ("Balance", "Vanishing", "ClosedForm", "Ranking")
+        ("Balance", "Engine", "Vanishing", "ClosedForm", "Ranking")
     ):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
@@ -639,7 +641,7 @@ def test_a_piston_faster_than_any_engines_warns_of_units() -> None:
 
 @pytest.mark.parametrize("method", ["balance", "waveform", "sweep"])
 def test_the_warning_of_units_points_at_who_typed_them(method: str) -> None:
-    millimetres = cp.Engine.inline(cp.Cylinder(45, 158, 1.487), throws_deg=[0], spacing=130)
+    millimetres = cp.Engine.inline(cp.Cylinder(4.5, 15.8, 1.487), throws_deg=[0], spacing=13)
     call = partial(cp.sweep, millimetres) if method == "sweep" else getattr(millimetres, method)
     with pytest.warns(UserWarning, match="millimetres") as caught:
         call(rpm=5000)

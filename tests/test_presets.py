@@ -94,7 +94,7 @@ def test_it_builds_balances_and_comes_back_from_its_file(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_names_and_conventions(name: str) -> None:
-    engine, about = cp.Engine.preset(name), cp.presets()[name]
+    engine, about = cp.Engine.preset(name), cp.presets().descriptions[name]
     assert name == name.lower()
     assert not set(name) - set("abcdefghijklmnopqrstuvwxyz0123456789-.")
     assert about
@@ -105,7 +105,7 @@ def test_names_and_conventions(name: str) -> None:
 
 
 def test_no_two_have_the_same_name_or_title() -> None:
-    assert len(NAMES) == len(presets_module.CATALOGUE)
+    assert len(NAMES) == len(set(NAMES)) == len(cp.presets())
     assert len({cp.Engine.preset(name).name for name in NAMES}) == len(NAMES)
 
 
@@ -181,9 +181,11 @@ def test_uneven_firing(name: str, order: str, gaps: tuple[int, ...]) -> None:
     np.testing.assert_array_equal(intervals(name, order), gaps)
 
 
-@pytest.mark.parametrize("name", [n for n in EVEN if "even firing 1-" in cp.presets()[n]])
+@pytest.mark.parametrize(
+    "name", [n for n in EVEN if "even firing 1-" in cp.presets().descriptions[n]]
+)
 def test_the_description_names_that_firing_order(name: str) -> None:
-    assert f"even firing {EVEN[name]}" in cp.presets()[name]
+    assert f"even firing {EVEN[name]}" in cp.presets().descriptions[name]
 
 
 def test_the_180_twin_fires_at_180_and_540() -> None:

@@ -920,7 +920,7 @@ RESULTS = {
     cp.ClosedForm: ["spacing", "reference_z"],
     cp.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
     cp.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
-    cp.Throws: ["throws_deg", "pin_splits_deg"],
+    cp.Throws: ["throws_deg", "pin_split_deg"],
     cp.Sweep: ["force", "moment_peak_xy", "torque", "force_sum_peak_vector"],
     cp.Ranking: ["values"],
 }

@@ -41,7 +41,12 @@ def test_top_dead_centres_follow_the_firing_order() -> None:
     assert (v8.bank_deg == [135.0, 45.0] * 4).all()
     assert (v8.pin_deg[::2] == v8.pin_deg[1::2]).all()  # two cylinders to a crankpin
     assert v8 == cp.Engine.vee(
-        CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=SPACING, odd_bank="left"
+        CYLINDER,
+        bank_angle_deg=90,
+        throws_deg=[0, 90, 270, 180],
+        spacing=SPACING,
+        odd_bank="left",
+        firing_order=crossplane.FIRING_ORDER,
     )
 
 

@@ -12,15 +12,8 @@ counter-clockwise.
 from crankpin._core import InputError, __version__
 from crankpin.analysis.balance import Balance, Ellipse, ErrorBound, OrderBalance
 from crankpin.analysis.exact import ClosedForm, VanishingOrders
-from crankpin.analysis.firing import (
-    Firing,
-    Gap,
-    Overlap,
-    Ports,
-    PortTiming,
-    Valves,
-    ValveTiming,
-)
+from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.rank import Choice, Ranking, rank
 from crankpin.analysis.search import Arrangement, ArrangementSearch, search_arrangements
 from crankpin.analysis.sweep import Sweep, sweep

@@ -48,9 +48,8 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
     Long inputs are converted piece by piece, so that Ctrl-C is answered in between.
     """
-    is_array = type(values) is np.ndarray and values.dtype == np.float64
-    if is_array and values.flags.aligned and values.size <= MOST_NUMBERS:
-        return values
+    if type(values) is np.ndarray and values.dtype == np.float64 and values.size <= MOST_NUMBERS:
+        return values if values.flags.aligned else copied(values)
     count = _length(values)
     if count > MOST_NUMBERS:
         raise _too_many(name, count)

@@ -15,13 +15,13 @@ from crankpin._core import InputError
 from crankpin._support import inputs, tables
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import gas_exchange
-from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
     from crankpin.model.engine import Engine
 
 Groups: TypeAlias = Iterable[Iterable[int]]
@@ -275,7 +275,8 @@ class Firing(Frozen):
         gaps = {gap.before: gap.gap_deg for bank in self.gaps() for gap in bank}
         return np.array([gaps[cylinder] for cylinder in self.order])
 
-    def _table(self) -> tables.Table:
+    def table(self) -> tables.Table:
+        """Return a table of the cylinders in firing order."""
         name = self.engine.name or f"{len(self.engine)} cylinders"
         header = ["cylinder", "fires at °", "to the next °", "to the next of its bank °"]
         places = np.array(self.order) - 1
@@ -298,7 +299,7 @@ class Firing(Frozen):
         return f"<Firing {self.summary}>"
 
     def _repr_html_(self) -> str:
-        return self._table().html()
+        return self.table().html()
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Firing):
@@ -312,17 +313,17 @@ class Firing(Frozen):
         return (_again, (self.engine, self.strokes, self.revolutions))
 
 
-def firing(engine: Engine, order: str | Iterable[int] | None, strokes: int | None) -> Firing:
+def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None) -> Firing:
     """Return the most even way to fire in an order; see :meth:`Engine.firing`."""
-    text, count = _order_and_strokes(engine, order, strokes)
+    text, count = _order_and_strokes(engine, firing_order, strokes)
     return Firing(_core.Firing.named(engine.core, text, count), engine)
 
 
 def firings(
-    engine: Engine, order: str | Iterable[int] | None, strokes: int | None
+    engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None
 ) -> tuple[Firing, ...]:
     """Return every way to fire in an order; see :meth:`Engine.firings`."""
-    text, count = _order_and_strokes(engine, order, strokes)
+    text, count = _order_and_strokes(engine, firing_order, strokes)
     return tuple(Firing(each, engine) for each in _core.Firing.all_named(engine.core, text, count))
 
 
@@ -333,16 +334,19 @@ def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
 
 
 def _order_and_strokes(
-    engine: Engine, order: str | Iterable[int] | None, strokes: int | None
+    engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None
 ) -> tuple[str, int]:
-    """Return what is given, or what the engine knows."""
+    """Return the arguments, or what the engine knows in their place."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
-    if order is not None:
-        return inputs.firing_order("order", order), count
-    if not engine.firing_order:
-        cure = "the engine's firing order is not known; give one, such as '1-3-4-2'"
-        raise InputError(f"order = None: {cure}, or list them by firing_orders()")
-    return engine.firing_order, count
+    if firing_order is not None:
+        return inputs.firing_order("firing_order", firing_order), count
+    if engine.firing_order and count == engine.strokes:
+        return engine.firing_order, count
+    known = "the engine's firing order is not known"
+    if engine.firing_order:
+        known = f"the engine's firing order is that of a {engine.strokes}-stroke"
+    cure = "give one, such as '1-3-4-2', or list them by firing_orders()"
+    raise InputError(f"firing_order = None: {known}; {cure}")
 
 
 def _again(engine: Engine, strokes: int, revolutions: tuple[int, ...]) -> Firing:

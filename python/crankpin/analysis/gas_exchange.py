@@ -110,8 +110,8 @@ class PortTiming:
         Before bottom dead centre.
 
     Each is above 0 and below 180. The defaults are those of an ordinary road engine. With a pin
-    offset, bottom dead centre is where the piston is lowest; that a port of some height is then open
-    a little longer on one side of it than on the other is neglected.
+    offset, bottom dead centre is where the piston is lowest; the small difference between opening
+    and closing that a port of some height then has is neglected.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def ports(core: _core.Firing, timing: PortTiming | None) -> Ports:
 def overlaps(
     core: _core.Firing, groups: list[list[int]] | None, timing: ValveTiming | PortTiming | None
 ) -> tuple[tuple[Overlap, ...], ...]:
-    """Return where exhausts of a group are open at one time; see :meth:`Firing.exhaust_overlaps`."""
+    """Return the overlaps of exhausts in each group; see :meth:`Firing.exhaust_overlaps`."""
     if core.strokes == 2:
         found = core.port_overlaps(groups, _port_texts(port_timing(timing)))
     else:

@@ -32,9 +32,7 @@ class Throws(Frozen):
     """Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,); empty without
     banks."""
 
-    def __init__(
-        self, throws_deg: NDArray[np.float64], pin_split_deg: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, throws_deg: NDArray[np.float64], pin_split_deg: NDArray[np.float64]) -> None:
         given = {"throws_deg": throws_deg, "pin_split_deg": pin_split_deg}
         arrays = {name: inputs.vector(name, values).copy() for name, values in given.items()}
         for name, array in arrays.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
@@ -92,7 +92,7 @@ def vee(
 
 def from_firing_order(
     cylinder: Cylinder,
-    firing_order: str | Iterable[int],
+    firing_order: str,
     spacing: float,
     bank_angle_deg: Angle | None,
     rule: FiringRule,
@@ -106,7 +106,7 @@ def from_firing_order(
 ) -> _core.Engine:
     """Return the engine of :meth:`Engine.from_firing_order`."""
     order = (
-        inputs.firing_order("firing_order", firing_order),
+        firing_order,
         inputs.text("rule", rule, 'give "even" or "ijesc"'),
         None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg),
         inputs.strokes(strokes),
@@ -158,9 +158,7 @@ def _loaded(core: _core.Engine, rotating_mass: ArrayLike) -> _core.Engine:
     return _core.Engine.from_lists(core.cylinders, tdc, None, banks, z, masses, "", "")
 
 
-def _inline_layout(
-    spacing: float, first_tdc_deg: Angle, throws_deg: Angles = ()
-) -> dict[str, Any]:
+def _inline_layout(spacing: float, first_tdc_deg: Angle, throws_deg: Angles = ()) -> dict[str, Any]:
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
         "spacing": inputs.number("spacing", spacing),

@@ -15,8 +15,9 @@ import numpy as np
 from crankpin._support import errors, inputs
 
 if TYPE_CHECKING:
-    from crankpin import _core
     from numpy.typing import NDArray
+
+    from crankpin import _core
 
 LARGEST_CRANK_RADIUS = 5.0
 """Crank radius, m, above which lengths are not in metres.
@@ -44,6 +45,7 @@ and firing intervals."""
 ROUNDED_RADIANS = 0.01
 """Difference, degrees, from a part of a turn up to which radians are recognised: those typed to
 four decimals are within 0.003°."""
+
 
 def units(core: _core.Engine) -> None:
     """Warn of lengths in millimetres and masses in grams."""

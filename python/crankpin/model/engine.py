@@ -17,7 +17,6 @@ from crankpin.model import builders, files, layout
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
@@ -421,9 +420,10 @@ class Engine(Frozen):
 
         See :func:`crankpin.throws` for the crank alone.
         """
+        order = inputs.firing_order("firing_order", firing_order)
         core = builders.from_firing_order(
             cylinder,
-            firing_order,
+            order,
             spacing,
             bank_angle_deg,
             rule,
@@ -435,7 +435,7 @@ class Engine(Frozen):
             rotating_mass,
             first_tdc_deg,
         )
-        return cls(core, name, source, *_allowed(core, (inputs.firing_order("firing_order", firing_order), strokes)))
+        return cls(core, name, source, *_allowed(core, (order, strokes)))
 
     @classmethod
     def preset(
@@ -672,14 +672,15 @@ class Engine(Frozen):
         else:
             banks = f"{count} banks" if count > 1 else f"bores at {self.bank_deg[0]:.6g}°"
         cylinders = f"{len(self)} cylinder" + "s" * (len(self) > 1)
-        lines = [f"{tables.cut(self.name or 'Engine')}: {cylinders}, {banks}"]
+        name = " ".join(self.name.split()) or "Engine"
+        lines = [f"{tables.cut(name)}: {cylinders}, {banks}"]
         lines += [text] if (text := layout.text(self._core)) else []
         return [
             *(line if len(line) <= 100 else f"{line[:99]}…" for line in lines),
             *([tables.cut(self.firing().summary, 100)] if self.firing_order else []),
         ]
 
-    def _table(self) -> tables.Table:
+    def _table(self, title: str) -> tables.Table:
         names = {number: name for name, numbers in self.banks.items() for number in numbers}
         columns = {
             "bore °": self.bank_deg,
@@ -691,17 +692,15 @@ class Engine(Frozen):
             columns["rotating mass kg"] = self.rotating_mass
         labels = [(number, names[number]) for number in range(1, len(self) + 1)][:MOST_SHOWN]
         rows = np.stack(list(columns.values()), axis=1)[:MOST_SHOWN]
-        return tables.Table("; ".join(self._lines()), ["cylinder", "bank", *columns], labels, rows)
+        return tables.Table(title, ["cylinder", "bank", *columns], labels, rows)
 
     def __repr__(self) -> str:
-        table = self._table()
-        _, *body = table.text().split("\n")
         rest = len(self) - MOST_SHOWN
         more = [f"and {rest} more cylinders"] if rest > 0 else []
-        return "\n".join([*self._lines(), *body, *more])
+        return "\n".join([*self._lines(), self._table("").text(), *more])
 
     def _repr_html_(self) -> str:
-        return self._table().html()
+        return self._table("; ".join(self._lines())).html()
 
     def replace(
         self,
@@ -893,13 +892,13 @@ class Engine(Frozen):
         return waveform.waveform(self, rpm, *how, torque=torque)
 
     def firing(
-        self, order: str | Iterable[int] | None = None, *, strokes: int | None = None
+        self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> Firing:
         """Return angles and intervals of firing in an order; of several ways the most even.
 
         Parameters
         ----------
-        order
+        firing_order
             Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list, beginning with any of them. In
             text, ``+`` joins cylinders that fire together: ``"1+4-2+3"``. By default the engine's
             ``firing_order``.
@@ -924,10 +923,10 @@ class Engine(Frozen):
         """
         from crankpin.analysis import firing
 
-        return firing.firing(self, order, strokes)
+        return firing.firing(self, firing_order, strokes)
 
     def firings(
-        self, order: str | Iterable[int] | None = None, *, strokes: int | None = None
+        self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
     ) -> tuple[Firing, ...]:
         """Return every way for the engine to fire in this order, the most even first.
 
@@ -936,7 +935,7 @@ class Engine(Frozen):
 
         Parameters
         ----------
-        order, strokes
+        firing_order, strokes
             As in :meth:`firing`.
 
         Examples
@@ -949,7 +948,7 @@ class Engine(Frozen):
         """
         from crankpin.analysis import firing
 
-        return firing.firings(self, order, strokes)
+        return firing.firings(self, firing_order, strokes)
 
     def firing_orders(self, *, strokes: int | None = None) -> tuple[Firing, ...]:
         """Return every way for the engine to fire, the most even first.

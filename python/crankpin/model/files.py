@@ -56,7 +56,7 @@ def from_json(text: object) -> tuple[_core.Engine, Known]:
 
 def to_toml(core: _core.Engine, known: Known) -> str:
     """Return an engine as TOML."""
-    return _with_keys(core.to_toml(), "\n", known, '{} = {}\n')
+    return _with_keys(core.to_toml(), "\n", known, "{} = {}\n")
 
 
 def to_json(core: _core.Engine, known: Known) -> str:

@@ -98,4 +98,6 @@ def _undefined(name: str, core: _core.Engine, needed: str) -> UndefinedError:
     listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
     listed += ", …" if len(directions) > 4 else ""
     count = "one bank" if len(directions) == 1 else f"{len(directions)} banks"
-    return UndefinedError(f"{name} is undefined for this engine: it has {count} ({listed}); {needed}")
+    return UndefinedError(
+        f"{name} is undefined for this engine: it has {count} ({listed}); {needed}"
+    )

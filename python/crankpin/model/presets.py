@@ -54,12 +54,12 @@ class Presets(Mapping[str, Engine]):
         )
 
     def __repr__(self) -> str:
-        return self._table(longest=60).text()
+        return self.table(longest=60).text()
 
     def _repr_html_(self) -> str:
-        return self._table(longest=1000).html()
+        return self.table(longest=1000).html()
 
-    def _table(self, column: str = "source", longest: int = 1000) -> tables.Table:
+    def table(self, column: str = "source", longest: int = 1000) -> tables.Table:
         """Return a table of all presets with one of their texts, cut."""
         header = ["name", "cylinders", "bank angle °", "firing order", column]
         labels = []
@@ -113,7 +113,7 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     if not math.isfinite(distance):
         raise InputError(f"spacing = {distance}: give a finite distance in metres")
     ((builder, arguments),) = (item for item in entry.items() if isinstance(item[1], dict))
-    common = {"name": entry["title"], "source": entry["source"]}
+    common: dict[str, Any] = {"name": entry["title"], "source": entry["source"]}
     if "firing_order" in entry:
         common["firing_order"] = entry["firing_order"]
     if builder == "from_lists":
@@ -126,7 +126,7 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
 
 
 def _from_lists(
-    cylinder: Cylinder, spacing: float, arguments: dict[str, Any], common: dict[str, str]
+    cylinder: Cylinder, spacing: float, arguments: dict[str, Any], common: dict[str, Any]
 ) -> Engine:
     """Return an engine of lists, with places in spacings and a pin offset for each cylinder."""
     places = arguments["places"]
