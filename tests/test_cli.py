@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -593,3 +595,106 @@ def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
     assert run.returncode == 2
     expected = b'crankpin: error: matplotlib is not installed: pip install "crankpin[plot]"'
     assert run.stderr.splitlines() == [expected]
+
+
+# --- streams that are closed or full ---------------------------------------------------------------
+
+
+def shell(line: str) -> subprocess.CompletedProcess[bytes]:
+    """Run a line of shell, ``crankpin`` standing for the program."""
+    program_ = f"{shlex.quote(sys.executable)} -m crankpin"
+    return subprocess.run(  # noqa: S602 - our own program
+        line.replace("crankpin", program_),
+        shell=True,
+        capture_output=True,
+        env=os.environ | BUFFERED,
+        check=False,
+    )
+
+
+WARNS = "balance i4-ebook --rpm 3000"  # of a piston faster than any
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
+@pytest.mark.parametrize("command", ["balance i4", "--version", WARNS])
+def test_closed_standard_output_is_an_error_in_a_line(command: str) -> None:
+    run = shell(f"crankpin {command} >&-")
+    assert run.returncode == (0 if command == "--version" else 2)  # argparse prints to stderr then
+    assert b"Traceback" not in run.stderr
+    assert b"Exception" not in run.stderr
+    if command != "--version":
+        assert run.stderr.splitlines()[-1] == b"crankpin: error: standard output is closed"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
+def test_full_disk_is_an_error_in_a_line() -> None:
+    run = shell("crankpin balance i4 > /dev/full")
+    assert run.returncode == 2
+    assert run.stderr == b"crankpin: error: standard output: No space left on device\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
+@pytest.mark.parametrize("closed", ["2>&-", "2>/dev/full"])
+def test_warnings_do_not_land_in_the_csv(closed: str) -> None:
+    if "full" in closed and sys.platform != "linux":
+        pytest.skip("needs /dev/full")
+    heard, deaf = (shell(f"crankpin {WARNS} --csv {end}") for end in ("", closed))
+    assert b"warning" in heard.stderr
+    assert b"warning" not in heard.stdout
+    assert deaf.stdout == heard.stdout
+    assert deaf.returncode == 0
+    error = shell(f"crankpin balance nothing {closed}")
+    assert (error.returncode, error.stdout) == (2, b"")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
+def test_help_into_a_closed_pipe_is_quiet() -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    run = subprocess.run(
+        [sys.executable, "-m", "crankpin", "--help"],
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        env=os.environ | BUFFERED,
+        check=False,
+    )
+    os.close(writing)
+    assert (run.returncode, run.stderr) == (141, b"")
+
+
+# --- what is shown ----------------------------------------------------------------------------------
+
+
+def test_negligible_orders_are_left_out_of_tables_and_named(capsys: CAPTURE) -> None:
+    argv = ["sweep", "ijesc-v6", "--rpm", "5000"]
+    text = printed(capsys, *argv)
+    s = cp.sweep(
+        [cp.Engine.preset(name) for name in IJESC],
+        rpm=5000,
+        bank_angle_deg=BANK_ANGLES,
+        hold="pins",
+        orders="auto",
+    )
+    (note,) = re.findall(r"Not shown, below 1e-06 of the largest peak: orders ([\d, ]+)\.", text)
+    left = [int(order) for order in note.split(", ")]
+    shown = {int(order) for order in re.findall(r"\|M_x\| order (\d+)", text)}
+    assert sorted([*left, *shown]) == list(s.orders)
+    head = printed(capsys, *argv, "--csv").splitlines()[0]
+    assert {int(order) for order in re.findall(r"\|M_x\| order (\d+)", head)} == set(s.orders)
+    assert "Not shown" not in printed(capsys, *argv, "--orders", "1,2,3,4,5")
+
+
+def test_firing_of_the_engine_s_own_order(capsys: CAPTURE) -> None:
+    own = printed(capsys, "firing", "v8-crossplane")
+    assert own == printed(capsys, "firing", "v8-crossplane", "--order", "1-8-4-3-6-5-7-2")
+    assert "most even first" in printed(capsys, "firing", "flat-4")  # whose order is not known
+
+
+def test_crankpin_is_a_command() -> None:
+    (entry,) = (
+        line
+        for line in (Path(__file__).parents[1] / "pyproject.toml").read_text().splitlines()
+        if line.startswith("crankpin = ")
+    )
+    module, _, function = entry.split('"')[1].partition(":")
+    assert callable(getattr(importlib.import_module(module), function))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import itertools
 import math
 import os
@@ -11,7 +10,7 @@ import sys
 import warnings
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import numpy as np
 
@@ -63,7 +62,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             _write_out(_text(argv))
     except BrokenPipeError:
         # The reader of the pipe has closed it.
-        _abandon_output()
+        _abandon(sys.stdout)
         return 128 + 13  # as a shell reports SIGPIPE
     except (InputError, OSError, ImportError) as error:
         _say(f"error: {error}")
@@ -78,7 +77,8 @@ def _text(argv: Sequence[str] | None) -> str:
     try:
         arguments = _parser().parse_args(argv)
     except SystemExit:
-        _write_out("")  # flushes the help while a broken pipe can still be answered
+        if sys.stdout is not None:
+            _write_out("")  # flushes the help while a broken pipe can still be answered
         raise
     text: str = arguments.run(arguments)
     return text
@@ -95,14 +95,14 @@ def _write_out(text: str) -> None:
     except BrokenPipeError:
         raise
     except OSError as error:
-        _abandon_output()
+        _abandon(sys.stdout)
         raise OSError(f"standard output: {error.strerror}") from None
 
 
-def _abandon_output() -> None:
-    """Send what is buffered nowhere: Python would fail once more while it closes stdout."""
+def _abandon(stream: TextIO) -> None:
+    """Discard what is buffered: Python would fail once more while it closes the stream."""
     null = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(null, sys.stdout.fileno())
+    os.dup2(null, stream.fileno())
     os.close(null)
 
 
@@ -110,9 +110,11 @@ def _say(message: str) -> None:
     """Write a line to standard error, if there is one; print(file=None) would write to stdout."""
     if sys.stderr is None:
         return
-    with contextlib.suppress(OSError):
+    try:
         sys.stderr.write(f"crankpin: {message}\n")
         sys.stderr.flush()
+    except OSError:
+        _abandon(sys.stderr)
 
 
 def _warn(message: Warning | str, *_: object, **__: object) -> None:
