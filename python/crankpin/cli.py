@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NoReturn
 import numpy as np
 
 from crankpin._core import InputError, __version__
-from crankpin._support import tables
+from crankpin._support import labels, tables
 from crankpin.analysis.rank import rank
 from crankpin.analysis.sweep import Sweep, sweep
 from crankpin.model import presets
@@ -514,16 +514,16 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[tables.Tabl
     papers; a program wants a single table, and so does a comparison of engines alone.
     """
     quantity = arguments.quantity
-    columns = len(tables.SYMBOLS[quantity]) * len(result.orders)
+    columns = len(labels.SYMBOLS[quantity]) * len(result.orders)
     peaks = result.torque_peak if quantity == "torque" else getattr(result, f"{quantity}_peak_xy")
     rows = peaks.reshape(len(result.engines), -1, columns)
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     heads = [COLUMNS[dim] for dim in dims]
     heads += [
-        f"{symbol} order {order} {tables.UNITS[quantity]}"
+        f"{symbol} order {order} {labels.UNITS[quantity]}"
         for order in result.orders
-        for symbol in tables.SYMBOLS[quantity]
+        for symbol in labels.SYMBOLS[quantity]
     ]
     how = _how(result, arguments)
     decimals = tables.decimals(rows)
@@ -546,10 +546,10 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[tables.Tabl
 
 def _how(result: Sweep, arguments: argparse.Namespace) -> str:
     """Say what the table shows, and what was fixed, held or given."""
-    parts = [f"peaks of {tables.NAMES[arguments.quantity]}"]
-    parts += [tables.value_text(dim, value) for dim, value in result.fixed.items()]
+    parts = [f"peaks of {labels.NAMES[arguments.quantity]}"]
+    parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:
-        parts.append(tables.HELD[result.hold])
+        parts.append(labels.HELD[result.hold])
     if arguments.quantity == "moment" and arguments.reference_z is not None:
         parts.append(f"about z = {_number('', arguments.reference_z):g} m")
     if arguments.spectrum is not None:

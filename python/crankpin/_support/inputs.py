@@ -256,14 +256,14 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
 # --- messages -----------------------------------------------------------------------------------
 
 
-def warn_of_units(mean_piston_speed: float) -> None:
-    """Warn the caller's caller where a piston would be faster, in m/s, than in any engine."""
+def warn_of_units(mean_piston_speed: float, stacklevel: int = 3) -> None:
+    """Warn where a piston would be faster, in m/s, than in any engine."""
     if mean_piston_speed > FASTEST_PISTON and math.isfinite(mean_piston_speed):
         warnings.warn(
             f"mean piston speed is {mean_piston_speed:.0f} m/s, more than any engine's "
             f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
             "masses kilograms.",
-            stacklevel=3,
+            stacklevel=stacklevel,
         )
 
 

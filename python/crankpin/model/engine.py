@@ -12,16 +12,17 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.frozen import Frozen
-from crankpin.analysis.balance import Balance
-from crankpin.analysis.exact import ClosedForm, VanishingOrders
-from crankpin.analysis.firing import Firing, stroke_count
-from crankpin.analysis.waveform import Waveform
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.closed_form import ClosedForm
+    from crankpin.analysis.firing import Firing
+    from crankpin.analysis.vanishing import VanishingOrders
+    from crankpin.analysis.waveform import Waveform
 
 Hold: TypeAlias = Literal["pins", "firing"]
 Numbering: TypeAlias = Literal["alternating", "by-bank"]
@@ -481,6 +482,11 @@ class Engine(Frozen):
             raise InputError(f"path = {str(path)!r}: an engine file ends in .toml or .json")
         path.write_text(write(), encoding="utf-8")
 
+    @property
+    def core(self) -> _CoreEngine:
+        """Compiled counterpart, private to crankpin."""
+        return self._core
+
     # --- what it is -----------------------------------------------------------------------------
 
     @property
@@ -619,9 +625,9 @@ class Engine(Frozen):
     def balance(
         self,
         rpm: float,
-        orders: Orders = (1, 2, 4, 6),
         *,
-        rtol: float = 1e-9,
+        orders: Orders = "auto",
+        rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
@@ -667,24 +673,20 @@ class Engine(Frozen):
         >>> b.force[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
-        rpm = inputs.number("rpm", rpm)
-        wanted = inputs.orders(orders)
-        rtol = inputs.number("rtol", rtol)
-        plane = inputs.optional_number("reference_z", reference_z)
-        pairs = inputs.spectrum(spectrum)
-        torque = inputs.flag("torque", torque)
-        core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs, torque)
-        inputs.warn_of_units(self._mean_piston_speed(rpm))
-        how: dict[str, Any] = ({"rtol": rtol} if wanted is None else {}) | {"torque": torque}
-        return Balance(core, self, rpm, plane, None if pairs is None else dict(pairs), how)
+        from crankpin.analysis.balance import balance  # noqa: PLC0415 - analysis reads engines
+
+        return balance(
+            self, rpm, orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum,
+            torque=torque,
+        )  # fmt: skip
 
     def waveform(
         self,
         rpm: float,
+        *,
         theta_deg: ArrayLike | None = None,
         orders: Orders | None = None,
-        *,
-        rtol: float = 1e-6,
+        rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
@@ -721,24 +723,12 @@ class Engine(Frozen):
         >>> w.force.shape
         (3, 2)
         """
-        rpm = inputs.number("rpm", rpm)
-        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
-        if spectrum is not None and orders is None:
-            cure = 'give orders, or orders="auto", with a spectrum'
-            raise InputError(f"orders = None: exact kinematics needs the slider-crank; {cure}")
-        waveform = _core.waveform(
-            self._core,
-            rpm,
-            theta,
-            orders is not None,
-            None if orders is None else inputs.orders(orders),
-            inputs.number("rtol", rtol),
-            inputs.optional_number("reference_z", reference_z),
-            inputs.spectrum(spectrum),
-            inputs.flag("torque", torque),
-        )
-        inputs.warn_of_units(self._mean_piston_speed(rpm))
-        return Waveform(self, rpm, theta, waveform, by_spectrum=spectrum is not None)
+        from crankpin.analysis.waveform import waveform  # noqa: PLC0415 - analysis reads engines
+
+        return waveform(
+            self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, reference_z=reference_z,
+            spectrum=spectrum, torque=torque,
+        )  # fmt: skip
 
     # --- when it fires --------------------------------------------------------------------------
 
@@ -768,6 +758,8 @@ class Engine(Frozen):
         >>> cp.Engine.preset("v6-90-odd-fire").firing("1-6-5-4-3-2")
         <Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>
         """
+        from crankpin.analysis.firing import Firing, stroke_count  # noqa: PLC0415
+
         text, number = inputs.firing_order(firing_order), stroke_count(strokes)
         return Firing(_core.Firing.named(self._core, text, number), self)
 
@@ -790,6 +782,8 @@ class Engine(Frozen):
         <Firing 4-stroke 1-2, 180-540°>
         <Firing 4-stroke 1-2, 540-180°>
         """
+        from crankpin.analysis.firing import Firing, stroke_count  # noqa: PLC0415
+
         text, number = inputs.firing_order(firing_order), stroke_count(strokes)
         found = _core.Firing.all_named(self._core, text, number)
         return tuple(Firing(each, self) for each in found)
@@ -819,6 +813,8 @@ class Engine(Frozen):
         <Firing 4-stroke 1-3-4-2, even, 180°>
         <Firing 4-stroke 1-2+3-4, 180-0-180-360°>
         """
+        from crankpin.analysis.firing import Firing, stroke_count  # noqa: PLC0415
+
         found = _core.Firing.all(self._core, stroke_count(strokes))
         return tuple(Firing(each, self) for each in found)
 
@@ -849,10 +845,12 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i6").vanishing_orders().of("force")
+        >>> cp.Engine.preset("i6").vanishing_orders().force.vanishing
         (1, 2, 3, 4, 5, 7, 8, 9, 10, 11)
         """
-        return VanishingOrders(self, orders, reference_z)
+        from crankpin.analysis.vanishing import vanishing_orders  # noqa: PLC0415
+
+        return vanishing_orders(self, orders, reference_z=reference_z)
 
     def closed_form(
         self,
@@ -887,13 +885,12 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i3").closed_form(1).magnitude
+        >>> cp.Engine.preset("i3").closed_form(1).peak
         sqrt(3)*F*a
         """
-        return ClosedForm(self, order, quantity, reference_z)
+        from crankpin.analysis.closed_form import closed_form  # noqa: PLC0415
 
-    def _mean_piston_speed(self, rpm: float) -> float:
-        return 4.0 * self._core.largest_crank_radius * rpm / 60.0
+        return closed_form(self, order, quantity, reference_z=reference_z)
 
 
 def parts(cylinder: Cylinder) -> tuple[float, float, float, float, float]:
