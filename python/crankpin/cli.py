@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 import numpy as np
 
 from crankpin._core import InputError, __version__
-from crankpin._support import tables
+from crankpin._support import labels, tables
 from crankpin.analysis.rank import rank
-from crankpin.analysis.sweep import Sweep, sweep
+from crankpin.analysis.sweep import Sweep, engine_titles, sweep
 from crankpin.model import presets
 from crankpin.model.engine import Engine
 
@@ -35,8 +35,6 @@ MOST_ROWS = 1_000_000
 """Largest number of rows in a table."""
 MOST_SHOWN = 20
 """Largest number of firing orders in a table; CSV has all."""
-NEGLIGIBLE = 1e-6
-"""Part of the largest peak below which chosen orders are left out of a table; CSV has all."""
 PICTURES = (".pdf", ".png", ".svg")
 FLAGS = {
     "bank_angle_deg": "--bank-angle",
@@ -202,7 +200,7 @@ def _parser() -> _Parser:
     ranks.add_argument(
         "--by",
         metavar="OBJECTIVE,…",
-        default="moment_sum_peak_vector",
+        default="total.moment.peak",
         help="what to minimise (default: %(default)s)",
     )
     ranks.add_argument(
@@ -217,7 +215,9 @@ def _parser() -> _Parser:
     )
     ranks.add_argument("--refine", action="store_true", help="look between these angles too")
     ranks.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    ranks.add_argument("--orders", help="such as 1,2,4, or auto (default: those of crankpin.rank)")
+    ranks.add_argument(
+        "--orders", default="auto", help="such as 1,2,4, or auto (default: %(default)s)"
+    )
     _cylinder_and_output(ranks)
 
     fires = _command(
@@ -322,7 +322,7 @@ def _balance(arguments: argparse.Namespace) -> str:
         figure = balance.plot(quantity=arguments.quantity).get_figure(root=True)
         assert figure is not None  # noqa: S101 - new axes are in a figure
         _write(figure, picture)
-    text = _printed([balance._table()], csv=arguments.csv)
+    text = _printed([balance.table()], csv=arguments.csv)
     return text if arguments.csv or chosen["orders"] != "auto" else text + _left_out(balance)
 
 
@@ -378,7 +378,7 @@ def _sweep(arguments: argparse.Namespace) -> str:
     )
     tables, negligible = _tables_of(result, arguments)
     if picture is not None:
-        _write(result.plot(quantity=arguments.quantity), picture)
+        _write(result.plot(quantity=arguments.quantity)[0, 0].get_figure(root=True), picture)
     text = _printed(tables, csv=arguments.csv)
     if arguments.csv or chosen["orders"] != "auto":
         return text
@@ -393,9 +393,6 @@ def _rank(arguments: argparse.Namespace) -> str:
     if points > MOST_ROWS:
         raise InputError(f"{points} points to rank: give {MOST_ROWS} at most")
     picture = _picture_file(arguments.plot)
-    chosen: dict[str, Any] = {}
-    if arguments.orders is not None:
-        chosen["orders"] = _orders(arguments.orders)
     ranking = rank(
         engines,
         rpm=_number("--rpm", arguments.rpm),
@@ -405,13 +402,13 @@ def _rank(arguments: argparse.Namespace) -> str:
         reference_z=_plane(arguments.reference_z),
         spectrum=_spectrum(arguments.spectrum),
         refine=arguments.refine,
-        **chosen,
+        orders=_orders(arguments.orders),
     )
     if picture is not None:
         figure = ranking.plot().get_figure(root=True)
         assert figure is not None  # noqa: S101 - new axes are in a figure
         _write(figure, picture)
-    return _printed([ranking._table()], csv=arguments.csv)
+    return _printed([ranking.table_of_choices()], csv=arguments.csv)
 
 
 def _firing(arguments: argparse.Namespace) -> str:
@@ -438,7 +435,7 @@ def _firing(arguments: argparse.Namespace) -> str:
 def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> str:
     firings = engine.firing_orders(strokes=strokes)
     shown = firings if csv else firings[:MOST_SHOWN]
-    labels = [
+    listed = [
         (each.firing_order, "even" if each.even and not csv else each.intervals_text)
         for each in shown
     ]
@@ -446,7 +443,7 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> str:
     name = engine.name or f"{len(engine)} cylinders"
     header = ["firing order", "intervals °", "rms from even °"]
     table = tables.Table(
-        f"{name}: {firings[0].strokes}-stroke, most even first", header, labels, rows
+        f"{name}: {firings[0].strokes}-stroke, most even first", header, listed, rows
     )
     text = _printed([table], csv=csv)
     rest = len(firings) - len(shown)
@@ -484,10 +481,10 @@ def _decimal(name: str, text: str) -> Decimal:
     try:
         number = Decimal(text.strip())
     except InvalidOperation:
-        raise InputError(f"{name} = {tables.cut(text)}: give a number") from None
+        raise InputError(f"{name} = {labels.cut(text)}: give a number") from None
     # Decimals go far beyond floats; with these the arithmetic below could not overflow.
     if not number.is_finite() or not math.isfinite(float(number)):
-        raise InputError(f"{name} = {tables.cut(text)}: give a finite number")
+        raise InputError(f"{name} = {labels.cut(text)}: give a finite number")
     return number
 
 
@@ -502,17 +499,17 @@ def _range(name: str, text: str) -> float | NDArray[np.float64]:
         return np.array(numbers) if "," in text else numbers[0]
     parts = text.split(":")
     if len(parts) != 3:
-        raise InputError(f"{name} = {tables.cut(text)}: give START:STOP:STEP, a,b,c or one number")
+        raise InputError(f"{name} = {labels.cut(text)}: give START:STOP:STEP, a,b,c or one number")
     # In decimals, so that 0.2:0.4:0.1 holds 0.3 and 0.4 as they would be typed.
     start, stop, step = (_decimal(name, part) for part in parts)
     if float(step) == 0.0 or (stop - start) * step < 0:
         raise InputError(
-            f"{name} = {tables.cut(text)}: the step does not lead from {start} to {stop}"
+            f"{name} = {labels.cut(text)}: the step does not lead from {start} to {stop}"
         )
     steps = (stop - start) / step
     if steps >= MOST_ROWS:
         raise InputError(
-            f"{name} = {tables.cut(text)}: {float(steps):.3g} steps; give {MOST_ROWS} at most"
+            f"{name} = {labels.cut(text)}: {float(steps):.3g} steps; give {MOST_ROWS} at most"
         )
     return np.array([float(start + k * step) for k in range(int(steps) + 1)])
 
@@ -524,7 +521,7 @@ def _orders(text: str) -> Orders:
         return [int(part) for part in text.split(",")]
     except ValueError:
         cure = "give whole numbers, such as 1,2,4, or auto"
-        raise InputError(f"--orders = {tables.cut(text)}: {cure}") from None
+        raise InputError(f"--orders = {labels.cut(text)}: {cure}") from None
 
 
 def _plane(text: str | None) -> float | None:
@@ -543,10 +540,10 @@ def _spectrum(text: str | None) -> Spectrum | None:
             number = 0
         if not amplitude or number < 1:
             raise InputError(
-                f"--spectrum = {tables.cut(text)}: give order=amplitude, such as 1=9.0,2=3.75"
+                f"--spectrum = {labels.cut(text)}: give order=amplitude, such as 1=9.0,2=3.75"
             )
         if number in spectrum:
-            raise InputError(f"--spectrum = {tables.cut(text)}: order {number} is given twice")
+            raise InputError(f"--spectrum = {labels.cut(text)}: order {number} is given twice")
         spectrum[number] = _number("--spectrum", amplitude)
     return spectrum
 
@@ -558,7 +555,7 @@ def _picture_file(text: str | None) -> Path | None:
     path = Path(text)
     if path.suffix.lower() not in PICTURES:
         raise InputError(
-            f"--plot = {tables.cut(text)}: a picture's name ends in {', '.join(PICTURES)}"
+            f"--plot = {labels.cut(text)}: a picture's name ends in {', '.join(PICTURES)}"
         )
     return path
 
@@ -574,21 +571,20 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> tuple[list[table
     names the chosen orders that are left out of tables for reading.
     """
     quantity = arguments.quantity
-    symbols = tables.SYMBOLS[quantity]
+    symbols = labels.SYMBOLS[quantity]
     peaks = _peaks(result, quantity).reshape(-1, len(result.orders), len(symbols))
     shown, note = np.full(len(result.orders), fill_value=True), ""
     if arguments.orders == "auto" and not arguments.csv:
         largest = peaks.max(axis=(0, 2), initial=0.0)
-        shown = largest >= NEGLIGIBLE * largest.max(initial=0.0)
-        left = ", ".join(str(n) for n, kept in zip(result.orders, shown, strict=True) if not kept)
-        if left:
-            note = f"Not shown, below {NEGLIGIBLE:g} of the largest peak: orders {left}.\n"
+        shown = largest >= labels.NEGLIGIBLE * largest.max(initial=0.0)
+        left = tuple(n for n, kept in zip(result.orders, shown, strict=True) if not kept)
+        note = f"{labels.not_shown(left)}\n" if left else ""
     rows = peaks[:, shown].reshape(len(result.engines), -1, int(shown.sum()) * len(symbols))
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     heads = [COLUMNS[dim] for dim in dims]
     heads += [
-        f"{symbol} order {order} {tables.UNITS[quantity]}"
+        f"{symbol} order {order} {labels.UNITS[quantity]}"
         for order in np.array(result.orders)[shown].tolist()
         for symbol in symbols
     ]
@@ -597,28 +593,27 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> tuple[list[table
     if "engine" not in result.coords or (dims and not arguments.csv):
         return [
             tables.Table(f"{name}: {how}", heads, swept, each, decimals)
-            for name, each in zip(tables.engine_names(result), rows, strict=True)
+            for name, each in zip(engine_titles(result), rows, strict=True)
         ], note
-    labels = [(name, *point) for name in result.coords["engine"] for point in swept]
+    points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
-    table = rows.reshape(len(labels), -1)
-    return [tables.Table(title, ["engine", *heads], labels, table, decimals)], note
+    table = rows.reshape(len(points), -1)
+    return [tables.Table(title, ["engine", *heads], points, table, decimals)], note
 
 
 def _peaks(result: Sweep, quantity: str) -> NDArray[np.float64]:
     """Return the peaks of a quantity: (…, n_orders, components)."""
-    if quantity == "torque":
-        return result.torque_peak
-    peaks: NDArray[np.float64] = getattr(result, f"{quantity}_peak_xy")
+    drawn = getattr(result, quantity)
+    peaks: NDArray[np.float64] = drawn.peak if quantity == "torque" else drawn.peak_xy
     return peaks
 
 
 def _how(result: Sweep, arguments: argparse.Namespace) -> str:
     """Return what the table shows, and what is fixed, held or given."""
-    parts = [f"peaks of {tables.NAMES[arguments.quantity]}"]
-    parts += [tables.value_text(dim, value) for dim, value in result.fixed.items()]
+    parts = [f"peaks of {labels.NAMES[arguments.quantity]}"]
+    parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:
-        parts.append(tables.HELD[result.hold])
+        parts.append(labels.HELD[result.hold])
     if arguments.quantity == "moment" and arguments.reference_z is not None:
         parts.append(f"about z = {_number('', arguments.reference_z):g} m")
     if arguments.spectrum is not None:

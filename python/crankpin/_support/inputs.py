@@ -14,7 +14,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support.errors import warn
+from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

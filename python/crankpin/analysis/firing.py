@@ -12,7 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, tables
+from crankpin._support import inputs, optional, tables
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import gas_exchange
 
@@ -235,7 +235,7 @@ class Firing(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a cylinder in firing order (needs pandas)."""
-        pandas = tables.pandas()
+        pandas = optional.pandas()
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
@@ -262,13 +262,9 @@ class Firing(Frozen):
             When valves open and close; by default ``ValveTiming()``, of a two-stroke
             ``PortTiming()``.
         """
-        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
+        from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
 
-        if self.strokes == 2:
-            ports = self.ports(gas_exchange.port_timing(timing))
-            return figures.firing(self, ax, "transfer open", ports.transfer, ports.exhaust)
-        valves = self.valves(gas_exchange.valve_timing(timing))
-        return figures.firing(self, ax, "intake open", valves.intake, valves.exhaust)
+        return draw(self, ax, timing=timing)  # type: ignore[no-any-return]
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""

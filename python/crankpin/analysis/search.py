@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, tables
+from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin.model.builders import parts
@@ -318,7 +318,7 @@ class ArrangementSearch(Frozen):
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
-        pandas = tables.pandas()
+        pandas = optional.pandas()
         rows = list(self._from(*_window(within)))
         columns = {
             "first_deg": [row.first_deg for row in rows],

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support import errors, inputs
+from crankpin._support import inputs
+from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,7 +72,7 @@ def units(core: _core.Engine) -> None:
         if mass > LARGEST_DENSITY * radius**3
     ]
     if found:
-        errors.warn(f"{'; '.join(found)} Lengths are metres here, masses kilograms")
+        warn(f"{'; '.join(found)} Lengths are metres here, masses kilograms")
 
 
 def angles(**given: object) -> None:
@@ -81,7 +82,7 @@ def angles(**given: object) -> None:
         floats = [float(value) for value in listed if isinstance(value, float) and value]
         if floats and all(map(_radians, floats)):
             degrees = ", ".join(f"{math.degrees(value):.6g}°" for value in floats[:4])
-            errors.warn(
+            warn(
                 f"{name} = {inputs.shorten(values)}: was it given in radians? Angles are degrees "
                 f"here: {degrees}"
             )
@@ -115,7 +116,7 @@ def pin_split(core: _core.Engine, split: str) -> None:
     left = banks == max(banks)  # of an upright vee
     # With the opposite split the left pins are 2·split further back, their TDCs as much later.
     if fires_evenly((tdc + 2.0 * degrees * left) % 360.0):
-        errors.warn(
+        warn(
             f"pin_split_deg = {degrees:g}: this engine fires unevenly; with pin_split_deg = "
             f"{-degrees:g} it would fire evenly. The split is left pin minus right pin in the "
             "direction of rotation, bank angle minus firing interval"

@@ -10,8 +10,8 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, tables
-from crankpin._support.errors import UndefinedError
+from crankpin._support import inputs, labels, tables
+from crankpin._support.absent import AbsentError
 from crankpin._support.frozen import Frozen
 from crankpin.model import builders, files, layout
 from crankpin.model.cylinder import Cylinder
@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
     from crankpin.analysis.balance import Balance
-    from crankpin.analysis.exact import ClosedForm, VanishingOrders
+    from crankpin.analysis.closed_form import ClosedForm
     from crankpin.analysis.firing import Firing
+    from crankpin.analysis.vanishing import VanishingOrders
     from crankpin.analysis.waveform import Waveform
     from crankpin.model.builders import FiringRule, Numbering, Side
 
@@ -644,7 +645,7 @@ class Engine(Frozen):
 
     def _own_firing(self, name: str) -> Firing:
         if not self.firing_order:
-            raise UndefinedError(
+            raise AbsentError(
                 f"{name} is undefined for this engine: its firing order is not known; give it with "
                 "replace(firing_order=…), or use firing(…)"
             )
@@ -673,11 +674,11 @@ class Engine(Frozen):
             banks = f"{count} banks" if count > 1 else f"bores at {self.bank_deg[0]:.6g}°"
         cylinders = f"{len(self)} cylinder" + "s" * (len(self) > 1)
         name = " ".join(self.name.split()) or "Engine"
-        lines = [f"{tables.cut(name)}: {cylinders}, {banks}"]
+        lines = [f"{labels.cut(name)}: {cylinders}, {banks}"]
         lines += [text] if (text := layout.text(self._core)) else []
         return [
             *(line if len(line) <= 100 else f"{line[:99]}…" for line in lines),
-            *([tables.cut(self.firing().summary, 100)] if self.firing_order else []),
+            *([labels.cut(self.firing().summary, 100)] if self.firing_order else []),
         ]
 
     def _table(self, title: str) -> tables.Table:
@@ -790,8 +791,8 @@ class Engine(Frozen):
     def balance(
         self,
         rpm: float,
-        orders: Orders = "auto",
         *,
+        orders: Orders = "auto",
         rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
@@ -837,16 +838,17 @@ class Engine(Frozen):
         >>> b.force[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
-        from crankpin.analysis import balance
+        from crankpin.analysis.balance import balance
 
-        return balance.balance(self, rpm, orders, rtol, reference_z, spectrum, torque=torque)
+        how = {"rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque}
+        return balance(self, rpm, orders=orders, **how)
 
     def waveform(
         self,
         rpm: float,
+        *,
         theta_deg: ArrayLike | None = None,
         orders: Orders | None = None,
-        *,
         rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
@@ -886,10 +888,10 @@ class Engine(Frozen):
         >>> w.force.shape
         (3, 2)
         """
-        from crankpin.analysis import waveform
+        from crankpin.analysis.waveform import waveform
 
-        how = (theta_deg, orders, rtol, reference_z, spectrum)
-        return waveform.waveform(self, rpm, *how, torque=torque)
+        how = {"rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque}
+        return waveform(self, rpm, theta_deg=theta_deg, orders=orders, **how)
 
     def firing(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
@@ -1004,12 +1006,12 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i6").vanishing_orders().of("force")
+        >>> cp.Engine.preset("i6").vanishing_orders().force.vanishing
         (1, 2, 3, 4, 5, 7, 8, 9, 10, 11)
         """
-        from crankpin.analysis.exact import VanishingOrders
+        from crankpin.analysis.vanishing import vanishing_orders
 
-        return VanishingOrders(self, orders, reference_z)
+        return vanishing_orders(self, orders, reference_z=reference_z)
 
     def closed_form(
         self,
@@ -1044,12 +1046,12 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i3").closed_form(1).magnitude
+        >>> cp.Engine.preset("i3").closed_form(1).peak
         sqrt(3)*F*a
         """
-        from crankpin.analysis.exact import ClosedForm
+        from crankpin.analysis.closed_form import closed_form
 
-        return ClosedForm(self, order, quantity, reference_z)
+        return closed_form(self, order, quantity, reference_z=reference_z)
 
 
 def _read(core: _CoreEngine, known: files.Known) -> Engine:

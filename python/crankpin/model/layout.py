@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._support.errors import UndefinedError
+from crankpin._support.absent import AbsentError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,7 +57,7 @@ def pin_split_deg(core: _core.Engine) -> NDArray[np.float64]:
     right, left = (_along(core, numbers) for numbers in found.values())
     if len(right) != len(left):
         sizes = f"{len(right)} cylinders in the right bank and {len(left)} in the left"
-        raise UndefinedError(
+        raise AbsentError(
             f"pin_split_deg is undefined for this engine: it has {sizes}; as many are needed"
         )
     split = _reduced(core.pin_deg[left] - core.pin_deg[right])
@@ -69,7 +69,7 @@ def text(core: _core.Engine) -> str:
     try:
         throws = "throws " + "-".join(f"{angle:.6g}" for angle in throws_deg(core)) + "°"
         splits = pin_split_deg(core)
-    except UndefinedError:
+    except AbsentError:
         return throws if len(banks(core)) == 1 else ""
     if not splits.any():
         return f"{throws}, shared pins"
@@ -93,11 +93,9 @@ def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return values
 
 
-def _undefined(name: str, core: _core.Engine, needed: str) -> UndefinedError:
+def _undefined(name: str, core: _core.Engine, needed: str) -> AbsentError:
     directions = list(dict.fromkeys(core.bank_deg.tolist()))
     listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
     listed += ", …" if len(directions) > 4 else ""
     count = "one bank" if len(directions) == 1 else f"{len(directions)} banks"
-    return UndefinedError(
-        f"{name} is undefined for this engine: it has {count} ({listed}); {needed}"
-    )
+    return AbsentError(f"{name} is undefined for this engine: it has {count} ({listed}); {needed}")

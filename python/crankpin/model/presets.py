@@ -18,7 +18,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, tables
-from crankpin._support.errors import UndefinedError
+from crankpin._support.absent import AbsentError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 
@@ -64,8 +64,8 @@ class Presets(Mapping[str, Engine]):
         header = ["name", "cylinders", "bank angle °", "firing order", column]
         labels = []
         for name, engine in self.items():
-            text = tables.cut(_data()["engines"][name][column], longest)
-            order = tables.cut(engine.firing_order or "–", max(longest, 25))
+            text = labels.cut(_data()["engines"][name][column], longest)
+            order = labels.cut(engine.firing_order or "–", max(longest, 25))
             labels.append((name, len(engine), _bank_angle(engine), order, text))
         return tables.Table("Presets", header, labels, np.empty((len(labels), 0)))
 
@@ -179,7 +179,7 @@ def _unknown(name: object) -> str:
 def _bank_angle(engine: Engine) -> str:
     try:
         return f"{engine.bank_angle_deg:.6g}"
-    except UndefinedError:
+    except AbsentError:
         return "–"
 
 

@@ -156,7 +156,10 @@ impl Balance {
         Ok(frozen(py, self.torque()?.crank.clone()))
     }
 
-    fn torque_sum_peak(&self) -> PyResult<f64> {
-        Ok(self.finder().along_axis(self.torque()?.roll.as_slice().unwrap_or_default()))
+    /// Largest torque of all orders together, on the block or on the crank.
+    fn torque_sum_peak(&self, on_crank: bool) -> PyResult<f64> {
+        let torque = self.torque()?;
+        let phasors = if on_crank { &torque.crank } else { &torque.roll };
+        Ok(self.finder().along_axis(phasors.as_slice().unwrap_or_default()))
     }
 }

@@ -26,8 +26,9 @@ fn quantity(name: &str) -> PyResult<Quantity> {
         "force" => Ok(Quantity::Force),
         "moment" => Ok(Quantity::Moment),
         "torque" => Ok(Quantity::Torque),
+        "crank_torque" => Ok(Quantity::CrankTorque),
         other => {
-            let cure = "give \"force\", \"moment\" or \"torque\"";
+            let cure = "give \"force\", \"moment\", \"torque\" or \"crank_torque\"";
             Err(python_error(Error::value("quantity", other, cure)))
         }
     }
@@ -201,6 +202,32 @@ impl Sweep {
         let quantity = quantity(name)?;
         self.values(py, (quantity, Figure::Amplitude), progress.as_ref(), |out, cancel| {
             self.sweep.write_phasors(quantity, out, cancel)
+        })
+    }
+
+    /// Forward and backward parts of force or moment: (…, `n_orders`, 2).
+    fn turning<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, (quantity, Figure::Amplitude), progress.as_ref(), |out, cancel| {
+            self.sweep.write_turning(quantity, out, cancel)
+        })
+    }
+
+    /// Largest rounding error of a sum that vanishes: (…, `n_orders`).
+    fn zero_bound<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let quantity = quantity(name)?;
+        self.values(py, (quantity, Figure::Length), progress.as_ref(), |out, cancel| {
+            self.sweep.write_zero_bounds(quantity, out, cancel)
         })
     }
 

@@ -80,11 +80,12 @@ impl Functions {
         let (mut power, mut power_cos, mut power_sin) = (1, cos, sin);
         for (&order, functions) in plan.orders.iter().zip(&mut self.by_order) {
             let n = i64::from(order);
-            let turns = match (hold, plan.quantity) {
-                (Hold::Pins, Quantity::Torque) => [-n, 0],
-                (Hold::Pins, _) => [1 - n, -1 - n],
-                (Hold::Firing, Quantity::Torque) => [0, 0],
-                (Hold::Firing, _) => [1, -1],
+            let torque = plan.quantity.is_torque();
+            let turns = match hold {
+                Hold::Pins if torque => [-n, 0],
+                Hold::Pins => [1 - n, -1 - n],
+                Hold::Firing if torque => [0, 0],
+                Hold::Firing => [1, -1],
             };
             for (turn, pair) in turns.into_iter().zip(functions.chunks_exact_mut(2)) {
                 let [out_cos, out_sin] = pair else { continue };

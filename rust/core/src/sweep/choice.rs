@@ -76,11 +76,6 @@ impl Sweep {
                 sweep.omitted.push(order);
             }
         }
-        // A sweep has an axis of orders.
-        if sweep.orders.is_empty() {
-            sweep.orders.push(sweep.omitted.first().copied().unwrap_or(candidates[0]));
-            sweep.omitted.retain(|order| !sweep.orders.contains(order));
-        }
         Ok(sweep)
     }
 
@@ -145,7 +140,7 @@ impl Sweep {
             }
         };
         let ratios = match self.extremes[0] {
-            Some(largest) if centred && quantity != Quantity::Torque => Some(vec![largest]),
+            Some(largest) if centred && !quantity.is_torque() => Some(vec![largest]),
             _ => self.axes.rod_ratio.clone(),
         };
         // As many points at a time as fit.
@@ -177,7 +172,7 @@ impl Sweep {
                         error_bound: [0.0; 3],
                     };
                     let figure = match quantity {
-                        Quantity::Torque => Figure::Amplitude,
+                        _ if quantity.is_torque() => Figure::Amplitude,
                         _ => Figure::Length,
                     };
                     let sizes = part.peaks(quantity, figure, cancel)?;

@@ -106,7 +106,7 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<Array2<Complex64>> {
         if let Some(spectrum) = &self.spectrum {
-            if quantity == Quantity::Torque {
+            if quantity.is_torque() {
                 let cure = "a spectrum of forces tells nothing of torque; leave it out";
                 return Err(Error::value("spectrum", "given", cure));
             }
@@ -114,9 +114,7 @@ impl Sweep {
             return Ok(Array2::from_shape_fn((1, row.len()), |(_, order)| row[order]));
         }
         let centred = cylinder.pin_offset() == 0.0 && self.axes.pin_offset.is_none();
-        if let (Some(ratios), true, true) =
-            (&self.axes.rod_ratio, centred, quantity != Quantity::Torque)
-        {
+        if let (Some(ratios), true, true) = (&self.axes.rod_ratio, centred, !quantity.is_torque()) {
             let table = table::centred_table(&ratios[points.clone()], &self.orders, cancel)?;
             return Ok(table.mapv(Complex64::from));
         }
@@ -127,11 +125,15 @@ impl Sweep {
             let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
             let offset = offsets.map(|offsets| offsets[point % in_a_row]);
             let proportions = proportions(cylinder, ratio, offset)?;
-            let values = match quantity {
-                Quantity::Torque if cylinder.has_rod_inertia() => {
-                    torque::of_cylinder(cylinder, &proportions, &self.orders, cancel)?.roll
+            let torques = || {
+                if cylinder.has_rod_inertia() {
+                    return torque::of_cylinder(cylinder, &proportions, &self.orders, cancel);
                 }
-                Quantity::Torque => torque::torque(&proportions, &self.orders, cancel)?.roll,
+                torque::torque(&proportions, &self.orders, cancel)
+            };
+            let values = match quantity {
+                Quantity::Torque => torques()?.roll,
+                Quantity::CrankTorque => torques()?.crank,
                 _ => harmonics::coefficients(&proportions, &self.orders, cancel)?,
             };
             row.assign(&ArrayView1::from(&values));

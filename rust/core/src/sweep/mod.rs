@@ -58,6 +58,8 @@ pub enum Quantity {
     Moment,
     /// Roll torque on the block.
     Torque,
+    /// Torque on the crank.
+    CrankTorque,
 }
 
 /// Which figure of force, moment or torque over the turn.
@@ -309,6 +311,56 @@ impl Sweep {
         )
     }
 
+    /// Forward and backward parts of force or moment, of the shape of [`Self::phasors`].
+    pub fn write_turning(
+        &self,
+        quantity: Quantity,
+        out: &mut [Complex64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        if quantity.is_torque() {
+            let cure = "only force and moment have a forward and a backward part";
+            return Err(Error::value("quantity", format!("{quantity:?}"), cure));
+        }
+        let width = 2 * self.orders.len();
+        self.fill((quantity, Figure::Amplitude, Cost::Small), out, cancel, |block, factor, out| {
+            block.evaluate();
+            for (i, row) in out.chunks_exact_mut(width).enumerate() {
+                for (order, parts) in row.chunks_exact_mut(2).enumerate() {
+                    let bound = block.bounds[order][i];
+                    let [ahead, against] = block.turning(order, i).map(|part| snapped(part, bound));
+                    // A moment is its levered force turned by a quarter.
+                    let turned = match quantity {
+                        Quantity::Moment => Complex64::i(),
+                        _ => Complex64::new(1.0, 0.0),
+                    };
+                    parts[0] = ahead * turned * factor;
+                    parts[1] = against.conj() * turned * factor;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Largest rounding error of a sum that vanishes, of the shape of [`Figure::Length`].
+    pub fn write_zero_bounds(
+        &self,
+        quantity: Quantity,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let orders = self.orders.len();
+        self.fill((quantity, Figure::Length, Cost::Small), out, cancel, |block, factor, out| {
+            block.evaluate();
+            for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                for (bound, out) in block.bounds.iter().zip(row) {
+                    *out = bound[i] * factor;
+                }
+            }
+            Ok(())
+        })
+    }
+
     /// [`Self::peaks`] into memory that is there, as long as the product of [`Self::result_shape`].
     pub fn write_peaks(
         &self,
@@ -377,7 +429,7 @@ impl Sweep {
 
     /// Torque may not have been asked for.
     fn check_asked(&self, quantity: Quantity) -> Result<()> {
-        if quantity == Quantity::Torque && !self.torque {
+        if quantity.is_torque() && !self.torque {
             return Err(Error::value("torque", "False", "it was not asked for; give torque=True"));
         }
         Ok(())
@@ -407,6 +459,10 @@ impl Sweep {
         finish: impl Fn(&mut Block, f64, &mut [T]) -> Result<()> + Sync,
     ) -> Result<()> {
         self.check_asked(quantity)?;
+        if self.orders.is_empty() {
+            out.fill(T::default());
+            return Ok(());
+        }
         let shape = self.result_shape(quantity, figure);
         if out.len() != shape.iter().product::<usize>() {
             return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
@@ -489,7 +545,12 @@ impl Drop for Sweep {
 impl Quantity {
     /// Axes of one value: x and y, or none for what is about z alone.
     fn shape(self) -> &'static [usize] {
-        if self == Self::Torque { &[] } else { &[2] }
+        if self.is_torque() { &[] } else { &[2] }
+    }
+
+    /// Whether it is about z: one number instead of two.
+    pub(crate) fn is_torque(self) -> bool {
+        matches!(self, Self::Torque | Self::CrankTorque)
     }
 
     /// How many components one value has.

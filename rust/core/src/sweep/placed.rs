@@ -43,31 +43,42 @@ impl Placed {
         }
     }
 
-    /// Roll torque on the block.
+    /// Roll torque on the block, or torque on the crank.
     #[inline(always)]
-    pub fn torque<'o>(&self, units: &Units, outs: &mut impl Iterator<Item = &'o mut [f64]>) {
+    pub fn torque<'o>(
+        &self,
+        on_crank: bool,
+        units: &Units,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
         let cranks: Vec<Cranks> =
             self.kinematics.groups.iter().map(|alike| Cranks::new(alike, units)).collect();
         for (proportions, squares) in &self.points {
-            let mut roll = Column::ZERO;
+            let mut sum = Column::ZERO;
             for ((alike, cranks), proportions) in
                 self.kinematics.groups.iter().zip(&cranks).zip(proportions)
             {
-                for (i, roll) in roll.iter_mut().enumerate() {
+                let (weight, offset) = if on_crank {
+                    (-alike.torque, 0.0)
+                } else {
+                    (alike.torque, proportions.offset)
+                };
+                for (i, sum) in sum.iter_mut().enumerate() {
                     let motion = proportions.motion_at(&cranks.at(i));
-                    let torque = alike.torque * motion.acceleration;
-                    *roll = torque.mul_add(motion.velocity + proportions.offset, *roll);
+                    let torque = weight * motion.acceleration;
+                    *sum = torque.mul_add(motion.velocity + offset, *sum);
                 }
                 if alike.rod_inertia != 0.0 {
-                    for (i, roll) in roll.iter_mut().enumerate() {
+                    for (i, sum) in sum.iter_mut().enumerate() {
                         let swing = Swing::new(proportions, &cranks.at(i));
-                        *roll = alike.rod_inertia.mul_add(swing.roll(), *roll);
+                        let torque = if on_crank { swing.crank() } else { swing.roll() };
+                        *sum = alike.rod_inertia.mul_add(torque, *sum);
                     }
                 }
             }
             for (&square, out) in squares.iter().zip(&mut *outs) {
-                for (out, roll) in out.iter_mut().zip(&roll[..]) {
-                    *out = square * roll;
+                for (out, sum) in out.iter_mut().zip(&sum[..]) {
+                    *out = square * sum;
                 }
             }
         }

@@ -90,9 +90,7 @@ impl EnginePlan {
         for placement in placements {
             let cylinder = placement.cylinder;
             let same = |other: &Cylinder| {
-                if quantity == Quantity::Torque
-                    && (other.has_rod_inertia() || cylinder.has_rod_inertia())
-                {
+                if quantity.is_torque() && (other.has_rod_inertia() || cylinder.has_rod_inertia()) {
                     return *other == cylinder;
                 }
                 other.crank_radius() == cylinder.crank_radius()
@@ -109,18 +107,16 @@ impl EnginePlan {
             let weight = |p: &Placement| match quantity {
                 _ if by_spectrum => 1.0,
                 // In the harmonics.
-                Quantity::Torque if p.cylinder.has_rod_inertia() => 1.0,
-                Quantity::Torque => p.cylinder.second_moment(),
+                _ if quantity.is_torque() && p.cylinder.has_rod_inertia() => 1.0,
+                _ if quantity.is_torque() => p.cylinder.second_moment(),
                 _ => p.cylinder.first_order(),
             };
             let terms = layout.terms(&members, weight, [0.5, 0.5]);
             Ok((terms, Harmonics::new(sweep, cylinder, quantity, passes, cancel)?))
         });
         let groups = groups.collect::<Result<_>>()?;
-        let turning: Vec<&Placement> = placements
-            .iter()
-            .filter(|p| p.rotating_mass > 0.0 && quantity != Quantity::Torque)
-            .collect();
+        let turning: Vec<&Placement> =
+            placements.iter().filter(|p| p.rotating_mass > 0.0 && !quantity.is_torque()).collect();
         let rotating = (!turning.is_empty() && sweep.orders.contains(&1)).then(|| {
             // A mass on the pin: its force is all forward, and of order 1.
             let weight = |p: &Placement| p.rotating_mass * p.cylinder.crank_radius();
@@ -205,7 +201,7 @@ impl Layout<'_> {
         // Rounding of a lever is relative to what it is the difference of.
         let size: f64 = members.iter().map(|p| weight(p) * lever(p).1).sum();
         let constants = self.orders.iter().map(|&n| {
-            if self.quantity == Quantity::Torque {
+            if self.quantity.is_torque() {
                 let [[cos, sin]] = self.functions(members, n, [0], &weight);
                 return [cos, sin, Complex64::default(), Complex64::default()];
             }

@@ -294,7 +294,7 @@ impl<'a> Run<'a> {
         let (speeds, width) = (self.squares.len(), self.width);
         let piece = self.piece();
         let write = |(part, mut out): (usize, &mut [T])| -> Result<()> {
-            self.cancel.check()?;
+            self.cancel.step()?;
             let mut at = part * piece;
             while !out.is_empty() {
                 let (row, speed) = (at / speeds, at % speeds);
@@ -306,6 +306,7 @@ impl<'a> Run<'a> {
             }
             Ok(())
         };
+        self.cancel.expect(out.len().div_ceil(piece * width));
         if out.len() >= WORTH_A_THREAD {
             return out.par_chunks_mut(piece * width).enumerate().try_for_each(write);
         }

@@ -76,6 +76,10 @@ impl Sweep {
         if exact {
             return self.by_kinematics(quantity, &rows, out);
         }
+        if self.orders.is_empty() {
+            out.fill(0.0);
+            return Ok(());
+        }
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
         let mut phasors = vec![Complex64::default(); phasors];
@@ -167,7 +171,8 @@ impl Sweep {
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
                             for here in placed {
                                 match quantity {
-                                    Quantity::Torque => here.torque(&units, &mut outs),
+                                    Quantity::Torque => here.torque(false, &units, &mut outs),
+                                    Quantity::CrankTorque => here.torque(true, &units, &mut outs),
                                     Quantity::Force => here.planar(0, &units, &mut outs),
                                     Quantity::Moment => here.planar(1, &units, &mut outs),
                                 }

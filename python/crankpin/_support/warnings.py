@@ -1,4 +1,4 @@
-"""Errors besides the compiled core's ``InputError``, and warnings."""
+"""Warnings that point at the caller of crankpin."""
 
 from __future__ import annotations
 
@@ -7,16 +7,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from crankpin._core import InputError
-
 _PACKAGE = os.fspath(Path(__file__).parents[1]) + os.sep
-
-
-class UndefinedError(InputError, AttributeError):
-    """A property is undefined for this object.
-
-    Both an InputError and an AttributeError, so that ``hasattr`` returns False.
-    """
 
 
 def warn(message: str) -> None:
