@@ -69,7 +69,7 @@ def _agg() -> None:
 
 def test_presets_lists_all(capsys: CAPTURE) -> None:
     lines = printed(capsys, "presets").splitlines()
-    assert lines[1].split() == "name cylinders bank angle ° firing order description".split()
+    assert " ".join(lines[1].split()) == "name cylinders bank angle ° firing order description"
     assert [line.split()[0] for line in lines[2:]] == list(cp.presets())
     head, *rows = csv.reader(io.StringIO(printed(capsys, "presets", "--csv")))
     assert head == ["name", "cylinders", "bank angle °", "firing order", "description"]
@@ -597,7 +597,7 @@ def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
     assert run.stderr.splitlines() == [expected]
 
 
-# --- streams that are closed or full ---------------------------------------------------------------
+# --- streams that are closed or full ------------------------------------------------------------
 
 
 def shell(line: str) -> subprocess.CompletedProcess[bytes]:
@@ -662,7 +662,7 @@ def test_help_into_a_closed_pipe_is_quiet() -> None:
     assert (run.returncode, run.stderr) == (141, b"")
 
 
-# --- what is shown ----------------------------------------------------------------------------------
+# --- what is shown ------------------------------------------------------------------------------
 
 
 def test_negligible_orders_are_left_out_of_tables_and_named(capsys: CAPTURE) -> None:

@@ -22,6 +22,7 @@ import itertools
 import json
 import math
 import os
+import re
 import reprlib
 import subprocess
 import sys
@@ -146,33 +147,33 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cylinder, "pin_offset", 0.1, "0.1"),  # r = l - e
     (cylinder, "pin_offset", -0.2, "-0.2"),
     (cylinder, "reciprocating_mass", -0.5, "-0.5"),
-    (cylinder, "reciprocating_mass", 10**400, "1000"),
-    (lists, "z", [0.0], "1 entries"),
+    (cylinder, "reciprocating_mass", 10**400, "1000000000…"),
+    (lists, "z", [0.0], "has 1 entries"),
     (lists, "z", [0.0, NAN], "NaN"),
     (lists, "z", [0.0, INF], "inf"),
-    (lists, "z", [[0.0, 0.1]], "(1, 2)"),
+    (lists, "z", [[0.0, 0.1]], "has shape (1, 2)"),
     (lists, "z", [[0.0], [0.0, 0.1]], "[[0.0], [0.0, 0.1]]"),
-    (lists, "z", np.array([0.0, 1j]), "1"),
+    (lists, "z", np.array([0.0, 1j]), "array([0.+0.j, 0.+1.j])"),
     (lists, "z", "ab", "ab"),
     (lists, "z", None, "None"),
-    (lists, "tdc_deg", [0.0], "1 entries"),
+    (lists, "tdc_deg", [0.0], "has 1 entries"),
     (lists, "tdc_deg", [0.0, NAN], "NaN"),
     (lists, "tdc_deg", [0.0, "1/0"], "1/0"),
     (lists, "tdc_deg", [0.0, "north"], "north"),
     (lists, "tdc_deg", [0.0, None], "None"),
-    (lists, "tdc_deg", [0.0, 10**400], "1000"),
+    (lists, "tdc_deg", [0.0, 10**400], "1000000000…"),
     (lists, "tdc_deg", 90, "90"),
     (lists, "tdc_deg", None, "neither given"),
     (lists, "pin_deg", [0, 0], "both given"),
     (lists, "bank_deg", [90.0, INF], "inf"),
     (lists, "bank_deg", "90", "90"),
-    (lists, "bank_deg", [90] * 3, "3"),
+    (lists, "bank_deg", [90] * 3, "has 3"),
     (lists, "bank_deg", None, "None"),
     (lists, "rotating_mass", -1.0, "-1"),
-    (lists, "rotating_mass", [1.0], "1 entries"),
+    (lists, "rotating_mass", [1.0], "has 1 entries"),
     (lists, "rotating_mass", [1.0, NAN], "NaN"),
-    (lists, "rotating_mass", [Fraction(1, 3), np.complex128(1j)], "complex"),
-    (lists, "cylinder", [CYLINDER] * 3, "3 entries"),
+    (lists, "rotating_mass", [Fraction(1, 3), np.complex128(1j)], "[Fraction(1, 3), …"),
+    (lists, "cylinder", [CYLINDER] * 3, "has 3 entries"),
     (lists, "cylinder", 0.05, "0.05"),
     (lists, "cylinder", [None, CYLINDER], "None"),
     (vee, "bank_angle_deg", -60, "-60"),
@@ -186,7 +187,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (vee, "spacing", NAN, "NaN"),
     (vee, "spacing", None, "None"),
     (vee, "bank_stagger", INF, "inf"),
-    (vee, "rotating_mass", [1.0, 1.0, 1.0], "3 entries"),
+    (vee, "rotating_mass", [1.0, 1.0, 1.0], "has 3 entries"),
     (vee, "rotating_mass", -1.0, "-1"),
     (vee, "numbering", "by bank", "by bank"),
     (vee, "numbering", None, "None"),
@@ -196,7 +197,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (inline, "first_tdc_deg", "late", "late"),
     (inline, "spacing", INF, "inf"),
     (firing, "firing_order", "1-2-2-4", "1-2-2-4"),
-    (firing, "firing_order", "1-2-3", "3 cylinders"),
+    (firing, "firing_order", "1-2-3", "of 3 cylinders"),
     (firing, "firing_order", [1, 2, 3, 5], "1-2-3-5"),
     (firing, "firing_order", "1;2", "1;2"),
     (firing, "firing_order", 1342, "1342"),
@@ -204,14 +205,14 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (firing, "rule", "uneven", "uneven"),
     (firing, "rule", None, "None"),
     (firing, "bank_angle_deg", "wide", "wide"),
-    (firing, "intervals_deg", [180, 180], "2 entries"),
+    (firing, "intervals_deg", [180, 180], "has 2 entries"),
     (firing, "intervals_deg", [180, 180, 180, 90], "630"),
     (firing, "intervals_deg", [0, 180, 180, 360], "0"),
     (firing, "intervals_deg", [NAN] * 4, "NaN"),
     (firing, "intervals_deg", 180, "180"),
     (firing, "strokes", 3, "3"),
     (firing, "strokes", None, "None"),
-    (crank, "firing_order", "1-2-3", "3 cylinders"),
+    (crank, "firing_order", "1-2-3", "of 3 cylinders"),
     (crank, "intervals_deg", [180, 180, 180, 90], "630"),
     (crank, "bank_angle_deg", 200, "200"),
     (crank, "odd_bank", "Left", "Left"),
@@ -248,7 +249,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "orders", [1, 1], "1"),
     (balance, "orders", [1.5], "1.5"),
     (balance, "orders", -2, "-2"),
-    (balance, "orders", 10**30, "10000000"),
+    (balance, "orders", 10**30, "1000000000…"),
     (balance, "orders", 20_000, "20000"),
     (balance, "orders", "all", "all"),
     (balance, "orders", None, "None"),
@@ -257,27 +258,26 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "reference_z", "middle", "middle"),
     (balance, "spectrum", {}, "{}"),
     (balance, "spectrum", {1: NAN}, "NaN"),
-    (balance, "spectrum", {1: None}, "None"),
-    (balance, "spectrum", {1: 10**400}, "1000"),
+    (balance, "spectrum", {1: None}, "{1: None}"),
+    (balance, "spectrum", {1: 10**400}, "{1: 1000000000…"),
     (balance, "spectrum", {0: 1.0}, "0"),
-    (balance, "spectrum", {"one": 1.0}, "one"),
+    (balance, "spectrum", {"one": 1.0}, "{'one': 1.0}"),
     (balance, "spectrum", [9.0], "9.0"),
     (waveform, "rpm", NAN, "NaN"),
     (waveform, "theta_deg", [0.0, NAN], "NaN"),
     (waveform, "theta_deg", [-INF], "-inf"),
-    (waveform, "theta_deg", [[0.0, 1.0]], "(1, 2)"),
+    (waveform, "theta_deg", [[0.0, 1.0]], "has shape (1, 2)"),
     (waveform, "theta_deg", "all", "all"),
-    (waveform, "theta_deg", [0.0, 1j], "1j"),
-    (waveform, "theta_deg", np.array([0.0, 1j]), "1"),
+    (waveform, "theta_deg", [0.0, 1j], "[0.0, 1j]"),
+    (waveform, "theta_deg", np.array([0.0, 1j]), "array([0.+0.j, 0.+1.j])"),
     (waveform, "orders", [0], "0"),
     (waveform, "orders", "some", "some"),
     (swept, "rpm", None, "None"),
     (swept, "rpm", [], "[]"),
     (swept, "rpm", NAN, "NaN"),
-    (swept, "rpm", [[1.0]], "(1, 1)"),
+    (swept, "rpm", [[1.0]], "has shape (1, 1)"),
     (swept, "bank_angle_deg", [60, NAN], "NaN"),
     (swept, "bank_angle_deg", [60, 190], "190"),
-    (swept, "bank_angle_deg", None, ""),
     (swept, "hold", None, "None"),
     (swept, "hold", "banks", "banks"),
     (swept, "hold", 3, "3"),
@@ -367,6 +367,18 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
 CURE = 12  # letters at least, after the last thing that is wrong
 
 
+def written(argument: str, shown: str) -> str:
+    """Pattern of an argument with its value: ``z[1] = NaN``, ``z has 1 entries``.
+
+    The whole value and nothing but it, in quotes or not; one that is cut goes on.
+    """
+    if shown.startswith("has "):
+        return rf"(^|\W){re.escape(f'{argument} {shown}')}\b"
+    place = rf"(^|\W){re.escape(argument)}(\[\d+\])*"
+    end = "" if shown.endswith(("…", "0" * 9)) else "(\\W|$)"
+    return rf"{place} = ['\"]?{re.escape(shown.removesuffix('…'))}{end}"
+
+
 def bad_name(case: tuple[Callable[..., Any], str, Any, str]) -> str:
     return f"{case[0].__qualname__}, {case[1]} = {case[3] or case[2]}"
 
@@ -384,8 +396,7 @@ def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     with pytest.raises(cp.InputError) as caught:
         call(**arguments)
     message = str(caught.value)
-    assert argument in message
-    assert shown in message
+    assert re.search(written(argument, shown), message), message
     assert len(message) < 500  # a huge value is cut
     cure = max(message.rsplit(":", maxsplit=1)[-1], message.rsplit(";", maxsplit=1)[-1], key=len)
     assert sum(letter.isalpha() for letter in cure) >= CURE

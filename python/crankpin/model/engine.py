@@ -840,8 +840,10 @@ class Engine(Frozen):
         """
         from crankpin.analysis.balance import balance
 
-        how = {"rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque}
-        return balance(self, rpm, orders=orders, **how)
+        return balance(
+            self, rpm, orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum,
+            torque=torque,
+        )  # fmt: skip
 
     def waveform(
         self,
@@ -890,8 +892,10 @@ class Engine(Frozen):
         """
         from crankpin.analysis.waveform import waveform
 
-        how = {"rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque}
-        return waveform(self, rpm, theta_deg=theta_deg, orders=orders, **how)
+        return waveform(
+            self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, reference_z=reference_z,
+            spectrum=spectrum, torque=torque,
+        )  # fmt: skip
 
     def firing(
         self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None

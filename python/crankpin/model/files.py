@@ -22,7 +22,9 @@ Known: TypeAlias = tuple[str, int]
 
 _MARK = "\ufeff"
 """Byte order mark, which some editors put before a text."""
-_KEYS = re.compile(r'^(firing_order|strokes)[ \t]*=[ \t]*("[^"\\\n]*"|\d+)[ \t]*(#[^\n]*)?$', re.M)
+_KEYS = re.compile(
+    r"""^(firing_order|strokes)[ \t]*=[ \t]*("[^"\\\n]*"|'[^'\n]*'|\d+)[ \t]*(#[^\n]*)?$""", re.M
+)
 
 
 def from_toml(text: object) -> tuple[_core.Engine, Known]:
@@ -34,9 +36,9 @@ def from_toml(text: object) -> tuple[_core.Engine, Known]:
         document = tomllib.loads(given)
     except (tomllib.TOMLDecodeError, RecursionError):
         return _core.Engine.from_toml(given), ("", 4)  # which raises, and says where
-    known = _known(document)
-    head = re.split(r"^\s*\[", given, maxsplit=1, flags=re.M)[0]
-    return _core.Engine.from_toml(_KEYS.sub("", head) + given[len(head) :]), known
+    for key in document.keys() & {"firing_order", "strokes"}:
+        given = _without(given, key)
+    return _core.Engine.from_toml(given), _known(document)
 
 
 def from_json(text: object) -> tuple[_core.Engine, Known]:
@@ -100,6 +102,17 @@ def _known(document: dict[str, Any]) -> Known:
     order, strokes = document.pop("firing_order", ""), document.pop("strokes", 4)
     cure = 'give text, such as "1-3-4-2"'
     return inputs.text("firing_order", order, cure), inputs.strokes(strokes)
+
+
+def _without(text: str, key: str) -> str:
+    """Return a TOML text with the line of a key blank."""
+    others = tomllib.loads(text).keys() - {key}
+    for line in _KEYS.finditer(text):
+        # A line within a text of several lines may look the same.
+        blank = text[: line.start()] + text[line.end() :]
+        if line[1] == key and tomllib.loads(blank).keys() == others:
+            return blank
+    raise InputError(f'{key}: give it a line of its own, such as firing_order = "1-3-4-2"')
 
 
 def _with_keys(text: str, end: str, known: Known, line: str) -> str:

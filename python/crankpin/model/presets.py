@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, tables
+from crankpin._support import inputs, labels, tables
 from crankpin._support.absent import AbsentError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
@@ -62,12 +62,12 @@ class Presets(Mapping[str, Engine]):
     def table(self, column: str = "source", longest: int = 1000) -> tables.Table:
         """Return a table of all presets with one of their texts, cut."""
         header = ["name", "cylinders", "bank angle °", "firing order", column]
-        labels = []
+        rows = []
         for name, engine in self.items():
             text = labels.cut(_data()["engines"][name][column], longest)
             order = labels.cut(engine.firing_order or "–", max(longest, 25))
-            labels.append((name, len(engine), _bank_angle(engine), order, text))
-        return tables.Table("Presets", header, labels, np.empty((len(labels), 0)))
+            rows.append((name, len(engine), _bank_angle(engine), order, text))
+        return tables.Table("Presets", header, rows, np.empty((len(rows), 0)))
 
 
 class UnknownPresetError(InputError, KeyError):

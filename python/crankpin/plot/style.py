@@ -19,6 +19,7 @@ except ImportError as error:
     raise ImportError('matplotlib is not installed: pip install "crankpin[plot]"') from error
 
 if TYPE_CHECKING:
+
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
