@@ -418,7 +418,7 @@ def test_presets_are_a_mapping_to_engines() -> None:
     assert 8 not in presets
     with pytest.raises(KeyError):
         presets["v8-crosplane"]
-    with pytest.raises(cp.InputError, match='^name = "v8-crosplane": .* "v8-crossplane"'):
+    with pytest.raises(cp.InputError, match=r'^name = "v8-crosplane": .* "v8-crossplane"'):
         presets["v8-crosplane"]
 
 

@@ -381,7 +381,7 @@ def test_a_search_is_ranked_arrangement_by_arrangement() -> None:
     search = cp.search_arrangements(14, alternating=True)
     given: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "rpm": 3000}
     ranking = cp.rank(search, by="moment_peak_vector_2", **given)
-    assert ranking.engines == tuple(search.engine(k, CYLINDER, 0.1) for k in range(len(search)))
+    assert ranking.engines == tuple(search[k].engine(CYLINDER, spacing=0.1) for k in range(len(search)))
     scale = MASS_RADIUS * (2 * np.pi * 3000 / 60) ** 2 * 0.1 * CYLINDER.harmonics(2)[0]
     # The longest second-order moment of each, in its units, at least the longer of two axes.
     longer = np.array([max(each.second_order) for each in search])
@@ -509,7 +509,7 @@ def test_some_arrangements_of_a_search() -> None:
     by_arrangement = cp.rank(
         chosen, cylinder=cylinder, spacing=0.1, rpm=3000, by="moment_peak_vector_2"
     )
-    engines = [one.engine(cylinder, 0.1) for one in chosen]
+    engines = [one.engine(cylinder, spacing=0.1) for one in chosen]
     by_engine = cp.rank(engines, rpm=3000, by="moment_peak_vector_2")
     assert [one.value for one in by_arrangement] == [one.value for one in by_engine]
     assert {one.engine for one in by_arrangement} == set(engines)

@@ -749,6 +749,22 @@ VALUES: st.SearchStrategy[Any] = st.one_of(
 SOUND: dict[str, list[Any]] = {
     "ax": [None],
     "backward_force": [1j],
+    "bore": [0.086],
+    "core": [I4.core],
+    "counterweight": [1.5],
+    "cylinders": [6],
+    "first_deg": [[0, 120, 240]],
+    "high": [90],
+    "inertia": [0.0025],
+    "length": [0.15],
+    "low": [10],
+    "mass": [0.6],
+    "piston_mass": [0.4],
+    "rod": [cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)],
+    "second_deg": [[0, 240, 120]],
+    "second_order": [(1.0, 2.0)],
+    "stroke": [0.086],
+    "to_crankpin": [0.05],
     "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
     "bank_deg": [[60, 120], [90, 90, 90]],
     "by": ["moment_sum_peak_vector", ["force_after_counterweight"], lambda b: b.rpm],
@@ -1043,18 +1059,20 @@ def test_fuzz_one_argument_at_a_time(each: Target) -> None:
     found = []
     for parameter in each.parameters:
         needed = [p for p in each.parameters if p.default is p.empty and p is not parameter]
-        others = {p.name: SOUND[p.name][0] for p in needed if p.name in SOUND}
+        # A call that stops at a missing argument would try nothing.
+        given_ = [p for p in needed if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
+        others = {p.name: SOUND[p.name][0] for p in given_}
         if parameter.kind is not parameter.VAR_KEYWORD:
             calls_ = (Call(each, others | {parameter.name: value}) for value in HOSTILE)
             found += [text for call in calls_ if (text := problem(call))]
     assert not found, f"{len(found)} calls\n" + "\n".join(found[:20])
 
 
-@pytest.mark.parametrize("label", SUBJECTS)
+@pytest.mark.parametrize(
+    "label", [name for name, each in SUBJECTS.items() if not isinstance(each, type)]
+)
 def test_properties_give_figures_or_say_why_not(label: str) -> None:
     subject = SUBJECTS[label]
-    if isinstance(subject, type):
-        return
     for name in dir(subject):
         if not name.startswith("_") and not callable(getattr(type(subject), name, None)):
             try:

@@ -60,7 +60,7 @@ def test_a_window_has_its_own_arrangements() -> None:
     assert len(part) > 50
     for arrangement in itertools.islice(part, 0, None, 10):
         assert 60 <= arrangement.bank_angle_deg <= 60.001
-    engine = part.engine(7, cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
+    engine = part[7].engine(cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
     balance = engine.balance(rpm=3000, orders=[1])
     assert balance.backward_moment[0] == 0
     best = V22.best(within=(60, 60.001), count=3)
@@ -128,7 +128,7 @@ def test_an_arrangement_hands_back_its_engine() -> None:
     for search in SEARCHES.values():
         for k in range(0, len(search), 1 + len(search) // 20):
             engine = search[k].engine(cylinder, spacing=0.1)
-            assert engine == search.engine(k, cylinder, 0.1)
+            assert engine == search[k - len(search)].engine(cylinder, spacing=0.1)
             balance = engine.balance(rpm=3000, orders=[1, 2])
             assert balance.backward_moment[0] == 0
             scale = 0.5 * 0.045 * (3000 * np.pi / 30) ** 2 * 0.1
@@ -142,11 +142,11 @@ def test_an_arrangement_hands_back_its_engine() -> None:
 def test_arrangements_of_ones_own() -> None:
     cylinder = cp.Cylinder(0.045, 0.158, 0.5)
     own = cp.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
-    engine = own.engine(cylinder, 0.1)
+    engine = own.engine(cylinder, spacing=0.1)
     assert engine.balance(rpm=3000, orders=[1]).backward_moment[0] == 0
     uneven = cp.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
     with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
-        uneven.engine(cylinder, 0.1)
+        uneven.engine(cylinder, spacing=0.1)
 
 
 def test_an_arrangement_of_nonsense_is_refused() -> None:

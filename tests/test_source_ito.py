@@ -332,7 +332,7 @@ SIX = cp.search_arrangements(6)
 def found_engine(search: cp.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
     """The engine of a bank angle as printed."""
     (index,) = np.flatnonzero(np.abs(search.bank_angles_deg - bank_angle_deg) < 0.005)
-    return search.engine(int(index), CYLINDER, SPACING)
+    return search[int(index)].engine(CYLINDER, spacing=SPACING)
 
 
 def remaining(engine: cp.Engine) -> Array:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import crankpin as cp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from rederivation import kinematics, time_domain
@@ -369,9 +369,9 @@ def test_sweep_over_bank_angle_is_a_loop_of_balances(
     hold: str, case: Case, angle: float, first_bank: int
 ) -> None:
     count = len(case.engine)
-    if first_bank >= count:
-        return
-    banks = [60.0] * first_bank + [120.0] * (count - first_bank)
+    assume(count > 1)
+    right = 1 + first_bank % (count - 1)
+    banks = [60.0] * right + [120.0] * (count - right)
     engine = case.engine.replace(bank_deg=banks)
     s = cp.sweep(
         engine,

@@ -201,6 +201,6 @@ def _engines(
         if value is None:
             raise InputError(f"{name} = None: arrangements need one, as Arrangement.engine does")
     return {
-        f"arrangement {k}, {one.bank_angle_deg:.6g}°": one.engine(cylinder, spacing)  # type: ignore[arg-type]
+        f"arrangement {k}, {one.bank_angle_deg:.6g}°": one.engine(cylinder, spacing=spacing)  # type: ignore[arg-type]
         for k, one in enumerate(arrangements)
     }

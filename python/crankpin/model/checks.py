@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable
 
-    from crankpin import _core
+    from numpy.typing import NDArray
 
 LARGEST_CRANK_RADIUS = 5.0
 """Crank radius, m, above which lengths are not in metres.
@@ -76,9 +77,12 @@ def units(core: _core.Engine) -> None:
 
 
 def angles(**given: object) -> None:
-    """Warn of angles given in radians."""
+    """Warn of angles given in radians, and of angles beside a part of a turn."""
     for name, values in given.items():
         listed = values if isinstance(values, (list, tuple, np.ndarray)) else [values]
+        hints = filter(None, (_near_miss(value) for value in listed))
+        if hint := next(hints, None):
+            warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")
         floats = [float(value) for value in listed if isinstance(value, float) and value]
         if floats and all(map(_radians, floats)):
             degrees = ", ".join(f"{math.degrees(value):.6g}°" for value in floats[:4])
@@ -86,6 +90,12 @@ def angles(**given: object) -> None:
                 f"{name} = {inputs.shorten(values)}: was it given in radians? Angles are degrees "
                 f"here: {degrees}"
             )
+
+
+def _near_miss(value: object) -> str | None:
+    """Return "51.428571 is 4.3e-7° from 360/7" or the like, from a core that finds such angles."""
+    find: Callable[[object], str | None] = getattr(_core, "near_miss", lambda _: None)
+    return find(value)
 
 
 def _radians(value: float) -> bool:
