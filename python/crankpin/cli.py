@@ -17,7 +17,7 @@ import numpy as np
 from crankpin._core import InputError, __version__
 from crankpin._support import labels, tables
 from crankpin.analysis.rank import rank
-from crankpin.analysis.sweep import Sweep, sweep
+from crankpin.analysis.sweep import Sweep, engine_titles, sweep
 from crankpin.model import presets
 from crankpin.model.engine import Engine
 
@@ -110,7 +110,7 @@ def _parser() -> _Parser:
     )
     one.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
     one.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    _orders_or_auto(one, "1,2,4,6")
+    _orders_or_auto(one, "auto")
     _shared(one, "quantity of the picture")
 
     many = _command(
@@ -159,7 +159,7 @@ def _parser() -> _Parser:
     ranks.add_argument(
         "--by",
         metavar="OBJECTIVE,…",
-        default="moment_sum_peak_vector",
+        default="total.moment.peak",
         help="what is to be least (default: %(default)s)",
     )
     ranks.add_argument(
@@ -267,7 +267,7 @@ def _balance(arguments: argparse.Namespace) -> str:
     picture = _picture_file(arguments.plot)
     balance = engine.balance(
         _number("--rpm", arguments.rpm),
-        orders,
+        orders=orders,
         rtol=rtol,
         reference_z=_plane(arguments.reference_z),
         spectrum=_spectrum(arguments.spectrum),
@@ -276,16 +276,16 @@ def _balance(arguments: argparse.Namespace) -> str:
         figure = balance.plot(quantity=arguments.quantity).get_figure(root=True)
         assert figure is not None  # noqa: S101 - new axes are in a figure
         _write(figure, picture)
-    text = _printed([balance._table()], csv=arguments.csv)
+    text = _printed([balance.table()], csv=arguments.csv)
     return text if arguments.csv or orders != "auto" else text + _left_out(balance)
 
 
-def _chosen(arguments: argparse.Namespace) -> tuple[Orders, float]:
+def _chosen(arguments: argparse.Namespace) -> tuple[Orders, float | None]:
     """Return orders, or "auto", and the tolerance they are chosen by."""
     orders: Orders = "auto" if arguments.orders == "auto" else _orders(arguments.orders)
     if arguments.rtol is not None and orders != "auto":
-        raise InputError(f"--rtol = {arguments.rtol}: chooses orders; give --orders auto with it")
-    return orders, 1e-9 if arguments.rtol is None else _number("--rtol", arguments.rtol)
+        raise InputError(f"--rtol = {arguments.rtol}: needs --orders auto")
+    return orders, None if arguments.rtol is None else _number("--rtol", arguments.rtol)
 
 
 def _left_out(result: Balance | Sweep) -> str:
@@ -330,7 +330,7 @@ def _sweep(arguments: argparse.Namespace) -> str:
     )
     tables = _tables_of(result, arguments)
     if picture is not None:
-        _write(result.plot(quantity=arguments.quantity), picture)
+        _write(result.plot(quantity=arguments.quantity)[0, 0].get_figure(root=True), picture)
     text = _printed(tables, csv=arguments.csv)
     return text if arguments.csv or orders != "auto" else text + _left_out(result)
 
@@ -358,7 +358,7 @@ def _rank(arguments: argparse.Namespace) -> str:
         figure = ranking.plot().get_figure(root=True)
         assert figure is not None  # noqa: S101 - new axes are in a figure
         _write(figure, picture)
-    return _printed([ranking._table()], csv=arguments.csv)
+    return _printed([ranking.table_of_choices()], csv=arguments.csv)
 
 
 def _firing(arguments: argparse.Namespace) -> str:
@@ -515,7 +515,8 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[tables.Tabl
     """
     quantity = arguments.quantity
     columns = len(labels.SYMBOLS[quantity]) * len(result.orders)
-    peaks = result.torque_peak if quantity == "torque" else getattr(result, f"{quantity}_peak_xy")
+    drawn = getattr(result, quantity)
+    peaks = drawn.peak if quantity == "torque" else drawn.peak_xy
     rows = peaks.reshape(len(result.engines), -1, columns)
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
@@ -530,14 +531,14 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> list[tables.Tabl
     if "engine" not in result.coords or (dims and not arguments.csv):
         return [
             tables.Table(f"{name}: {how}", heads, swept, each, decimals)
-            for name, each in zip(tables.engine_names(result), rows, strict=True)
+            for name, each in zip(engine_titles(result), rows, strict=True)
         ]
-    labels = [(name, *point) for name in result.coords["engine"] for point in swept]
+    points = [(name, *point) for name in result.coords["engine"] for point in swept]
     return [
         tables.Table(
             f"{how[0].upper()}{how[1:]}",
             ["engine", *heads],
-            labels,
+            points,
             rows.reshape(-1, columns),
             decimals,
         )

@@ -363,6 +363,8 @@ class Engine(Frozen):
         text = inputs.firing_order(firing_order)
         rule_text = inputs.text("rule", rule, 'give "even" or "ijesc"')
         listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
+        from crankpin.analysis.firing import stroke_count  # noqa: PLC0415
+
         order = (text, rule_text, listed, stroke_count(strokes))
         if bank_angle_deg is None:
             inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@draw.register
+@draw.register(Firing)
 def _firing(
     result: Firing, ax: Axes | None = None, *, timing: ValveTiming | PortTiming | None = None
 ) -> Axes:
