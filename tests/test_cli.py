@@ -87,7 +87,7 @@ def test_balance_csv_is_the_library_s_numbers(capsys: CAPTURE) -> None:
     )
     assert head == ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m", "|M_z| N·m"]
     assert orders == [["1"], ["2"], ["4"]]
-    expected = np.hstack([b.force_peak_xy, b.moment_peak_xy, b.torque_peak[:, None]])
+    expected = np.hstack([b.force.peak_xy, b.moment.peak_xy, b.torque.peak[:, None]])
     np.testing.assert_array_equal(values, expected)
     assert values.any()
 
@@ -109,7 +109,7 @@ def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str
 
 def test_balance_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
     text = printed(capsys, "balance", "i4", "--orders", "auto", "--rtol", "1e-3")
-    b = cp.Engine.preset("i4").balance(3000, "auto", rtol=1e-3)
+    b = cp.Engine.preset("i4").balance(3000, orders="auto", rtol=1e-3)
     *table, note = text.splitlines()
     assert "\n".join(table) == repr(b)
     assert f"at most {b.error_bound.force:.2g} N to the force" in note
@@ -136,10 +136,10 @@ def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
     argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
     head, _, values = numbers(printed(capsys, *argv))
     b = cp.Engine.preset("i3-ebook").balance(
-        10, (1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
+        10, orders=(1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
     )
     assert len(head) == 5  # a spectrum tells nothing of torque
-    np.testing.assert_array_equal(values, np.hstack([b.force_peak_xy, b.moment_peak_xy]))
+    np.testing.assert_array_equal(values, np.hstack([b.force.peak_xy, b.moment.peak_xy]))
 
 
 def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
@@ -148,7 +148,8 @@ def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
     _, _, front = numbers(printed(capsys, *argv, "--reference-z", "0"))
     assert middle[0, 2] == 0.0
     assert (
-        front[0, 2] == cp.Engine.preset("i4").balance(3000, 2, reference_z=0.0).moment_peak_xy[0, 0]
+        front[0, 2]
+        == cp.Engine.preset("i4").balance(3000, orders=2, reference_z=0.0).moment.peak_xy[0, 0]
     )
     assert front[0, 2] > 0.0
 
@@ -169,7 +170,7 @@ def test_sweep_of_a_family_is_the_library_s_numbers(capsys: CAPTURE) -> None:
         "|M_x| order 2 N·m",
         "|M_y| order 2 N·m",
     ]
-    np.testing.assert_array_equal(values.reshape(4, 17, 2, 2), s.moment_peak_xy)
+    np.testing.assert_array_equal(values.reshape(4, 17, 2, 2), s.moment.peak_xy)
     assert labels == [[engine.name, str(angle)] for engine in engines for angle in BANK_ANGLES]
 
 
@@ -212,7 +213,7 @@ def test_sweep_holds_pins_unless_told_otherwise(capsys: CAPTURE) -> None:
         assert f"{words} as the bank angle changes" in text.splitlines()[0]
         _, _, values = numbers(printed(capsys, *argv, *more, "--csv"))
         s = cp.sweep(v6, rpm=3000, bank_angle_deg=[60, 75, 90], hold=hold, orders=[1])  # type: ignore[arg-type]
-        np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+        np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
 
 
 @pytest.mark.parametrize("quantity", ["force", "moment", "torque"])
@@ -227,7 +228,7 @@ def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
         pin_offset=[-0.002, 0.002],
         orders=[2, 3],
     )
-    peaks = s.torque_peak if quantity == "torque" else getattr(s, f"{quantity}_peak_xy")
+    peaks = s.torque.peak if quantity == "torque" else getattr(s, f"{quantity}_peak_xy")
     np.testing.assert_array_equal(values, peaks.reshape(12, -1))
     assert values.any() == (quantity != "moment")  # an inline-4 has no rocking moment
     assert head[:3] == ["rod ratio", "pin offset m", "rpm"]
@@ -256,7 +257,7 @@ def test_engines_alone_are_compared_in_one_table(capsys: CAPTURE) -> None:
     ]
     _, _, values = numbers(printed(capsys, *argv, "--csv"))
     expected = [
-        cp.Engine.preset(name).balance(3000, 2).force_peak_xy[0] for name in ("i4", "v6-60")
+        cp.Engine.preset(name).balance(3000, orders=2).force.peak_xy[0] for name in ("i4", "v6-60")
     ]
     np.testing.assert_array_equal(values, expected)
 
@@ -277,7 +278,7 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
     assert ", about z = 0.05 m" in printed(capsys, *argv).splitlines()[0]
     _, _, values = numbers(printed(capsys, *argv, "--csv"))
     s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2], reference_z=0.05)
-    np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+    np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
     assert values[:, 0].all()
 
 
@@ -320,7 +321,7 @@ def test_ranges(text: str, values: float | list[float] | None) -> None:
 
 
 def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
-    by = ["moment_after_counterweight", "moment_peak_vector_2"]
+    by = ["[1].moment.backward", "[2].moment.peak"]
     argv = ["rank", "ijesc-v6", "--rpm", "5000", "--by", ",".join(by), "--reference-z", "0"]
     argv += ["--orders", "1,2", "--spectrum", "1=0.0669,2=0.0191", "--refine"]
     engines = {cp.Engine.preset(name).name: cp.Engine.preset(name) for name in IJESC}
@@ -342,7 +343,7 @@ def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
 
 
 def test_rank_of_engines_as_they_are(capsys: CAPTURE) -> None:
-    out = printed(capsys, "rank", "i4", "i6", "--bank-angle", "own", "--by", "force_peak_vector_2")
+    out = printed(capsys, "rank", "i4", "i6", "--bank-angle", "own", "--by", "[2].force.peak")
     title, _, first, last = out.splitlines()
     assert title == "Ranked by longest shaking force of order 2, 3000 rpm"
     assert first.split() == ["1", "Inline-6", "–", "0"]
@@ -440,7 +441,7 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("balance v6", "balance takes one engine of v6-60, v6-90, v6-90-odd-fire, v6-120"),
         ("rank v6-60 --orders all", "--orders = all"),
         ("rank v6-60 --by shake", "by = 'shake': give"),
-        ("rank v6-60 --by moment_peak_vector_3", 'by = "moment_peak_vector_3" takes order 3'),
+        ("rank v6-60 --by moment_peak_vector_3", 'by = "[3].moment.peak" takes order 3'),
         ("rank v6-60 --bank-angle own --refine", "refine = True"),
         ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to rank"),
         ("rank i4", "bank"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -88,21 +89,26 @@ class BalanceArrays(Source):
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         core, planar = self._core, quantity in PLANE_VECTORS
-        if what == "phasors":
-            if planar:
-                return core.xy(quantity)
-            return core.roll_torque() if quantity == "torque" else core.crank_torque()
-        if what == "zero_bound":
-            return core.zero_bound(quantity if planar else "torque")
-        if what == "peak_xy" or (what == "peak" and not planar):
-            return np.abs(self.read(quantity, "phasors"))
-        if what == "peak":
-            return np.abs(self.read(quantity, "forward")) + np.abs(self.read(quantity, "backward"))
-        if what == "total_peak_xy":
-            return core.sum_peak_xy(quantity)
+        read: dict[str, Callable[[], Any]] = {
+            "zero_bound": lambda: core.zero_bound(quantity if planar else "torque"),
+            "peak_xy": lambda: np.abs(self.read(quantity, "phasors")),
+        }
         if planar:
-            return np.array(core.sum_peak_vector(quantity))
-        return np.array(core.torque_sum_peak(quantity == "crank_torque"))
+            read |= {
+                "phasors": lambda: core.xy(quantity),
+                "peak": lambda: np.abs(self._turning(quantity)).sum(axis=-1),
+                "total_peak": lambda: np.array(core.sum_peak_vector(quantity)),
+                "total_peak_xy": lambda: core.sum_peak_xy(quantity),
+            }
+        else:
+            on_crank = quantity == "crank_torque"
+            read |= {
+                "phasors": core.crank_torque if on_crank else core.roll_torque,
+                "peak": read["peak_xy"],
+                "total_peak": lambda: np.array(core.torque_sum_peak(on_crank)),
+            }
+        found: NDArray[Any] = read[what]()
+        return found
 
 
 def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
@@ -217,7 +223,8 @@ class Balance(AllOrders):
         """
         return draw(self, ax, quantity=quantity)  # type: ignore[no-any-return]
 
-    def _table(self) -> Table:
+    def table(self) -> Table:
+        """Return the table that is shown: peaks by order, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
         shown, left_out = shown_orders(self.source, *names)
         header = ["order"]
@@ -234,7 +241,7 @@ class Balance(AllOrders):
         return Table(title, header, names, rows, note=labels.not_shown(left_out))
 
     def __repr__(self) -> str:
-        return self._table().text()
+        return self.table().text()
 
     def _repr_html_(self) -> str:
-        return self._table().html()
+        return self.table().html()

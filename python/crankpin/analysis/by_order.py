@@ -11,10 +11,11 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
 from crankpin.analysis.quantities import PlaneVector, Scalar
-from crankpin.analysis.source import ErrorBound, Source
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from crankpin.analysis.source import ErrorBound, Source
 
 
 # --- all orders together ------------------------------------------------------------------------
@@ -200,7 +201,7 @@ class AllOrders(Quantities):
 
     @property
     def total(self) -> Total:
-        """All orders together: ``total.force.peak``, ``total.moment.peak_xy``, …"""
+        """All orders together, as in ``total.force.peak`` and ``total.moment.peak_xy``."""
         return Total(self.source)
 
     @property

@@ -61,7 +61,8 @@ def chosen(
         if refine and grid is not None:
 
             def first(where: NDArray[np.float64], engine: Engine = engine) -> NDArray[np.float64]:
-                return objectives[0].values(_part(swept, engine, where))[0]
+                of_part: NDArray[np.float64] = objectives[0].values(_part(swept, engine, where))[0]
+                return of_part
 
             between = dips(first, grid, rows[:, 0], float(tolerances[0]))
             if between.size:
@@ -87,7 +88,7 @@ def chosen(
 
 
 def _least(rows: NDArray[np.float64], tolerances: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return the rows that are lowest in the first column, of those the lowest in the second, …"""
+    """Return the rows lowest in the first column, of those the lowest in the second, and so on."""
     kept = np.flatnonzero(np.isfinite(rows).all(axis=1))
     for column, tolerance in zip(rows.T, tolerances, strict=True):
         if kept.size:

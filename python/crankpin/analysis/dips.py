@@ -18,7 +18,7 @@ POINTS = 9
 NARROW = 1e-10
 """Degrees to which a pointed dip is narrowed."""
 FLAT = 1e-14
-"""Relative difference of values that rounding explains: a dip this flat is represented by its middle."""
+"""Relative difference that rounding explains: the middle stands for a dip this flat."""
 SAME = 1e-3
 """Degrees within which two dips count as one."""
 

@@ -109,7 +109,7 @@ def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
                 reference_z=request.reference_z,
                 spectrum=request.spectrum,
                 torque=request.torque,
-                **chosen,  # type: ignore[arg-type]
+                **chosen,
             )
             for each in turned
         )

@@ -66,7 +66,7 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
     @property
     def peak(self) -> NDArray[np.float64]:
         """Largest magnitude of each order, N or N·m: (…, n_orders)."""
-        return self._read("peak")
+        return self._read("peak")  # type: ignore[no-any-return]
 
     @property
     def zero_bound(self) -> NDArray[np.float64]:
@@ -74,7 +74,7 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
 
         Phasors below it are reported as exactly zero.
         """
-        return self._read("zero_bound")
+        return self._read("zero_bound")  # type: ignore[no-any-return]
 
     def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
         values = self.source.read(self.name, what)
@@ -124,13 +124,32 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
         """Type of the phasors: complex128."""
         return np.dtype(np.complex128)
 
+    @property
+    def real(self) -> NDArray[np.float64]:
+        """Real parts of the phasors: the value at θ = 0, N or N·m."""
+        return np.real(np.asarray(self))
+
+    @property
+    def imag(self) -> NDArray[np.float64]:
+        """Imaginary parts of the phasors, N or N·m."""
+        return np.imag(np.asarray(self))
+
+    def conj(self) -> NDArray[np.complex128]:
+        """Return the conjugates of the phasors, N or N·m."""
+        return np.conj(np.asarray(self))
+
+    def any(self) -> bool:
+        """Return True if any phasor is not zero."""
+        return bool(np.any(np.asarray(self)))
+
     # --- text -----------------------------------------------------------------------------------
 
     def _columns(self) -> dict[str, NDArray[np.float64]]:
         """Columns of the table of a balance: head → (n_orders,)."""
         raise NotImplementedError
 
-    def _table(self) -> Table:
+    def table(self) -> Table:
+        """Return the table that a quantity of a balance shows."""
         shown, omitted = shown_orders(self.source, self.name)
         columns = self._columns()
         rows = np.stack([values[list(shown)] for values in columns.values()], axis=-1)
@@ -147,15 +166,14 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
             over = ", ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape, strict=True))
             return f"<{type(self).__name__} {name}, {self.unit}, over ({over})>"
         if self.place is not None:
-            return f"<{type(self).__name__} {name} of order {self.orders[0]}: " + (
-                f"peak {self.peak:.5g} {self.unit}>"
-            )
-        return self._table().text()
+            peak = f"{self.peak:.5g} {self.unit}"
+            return f"<{type(self).__name__} {name} of order {self.orders[0]}: peak {peak}>"
+        return self.table().text()
 
     def _repr_html_(self) -> str | None:
         if self.source.dims or self.place is not None:
             return None
-        return self._table().html()
+        return self.table().html()
 
 
 class PlaneVector(Quantity):

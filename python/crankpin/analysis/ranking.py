@@ -240,7 +240,8 @@ class Ranking(Frozen):
         least = ", then ".join(each.words for each in self.objectives[:objectives])
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
-    def _table(self, shown: int | None = None) -> Table:
+    def table_of_choices(self, shown: int | None = None) -> Table:
+        """Return the table that is shown: the first choices, all by default."""
         choices = self.choices[:shown]
         rest = len(self) - len(choices)
         parts = [
@@ -249,15 +250,15 @@ class Ranking(Frozen):
         ]
         title = ", ".join(parts) + (f"; {len(choices)} of {len(self)}" if rest else "")
         heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
-        labels = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
+        rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
-        return Table(title, ["place", "engine", "bank angle °", *heads], labels, rows)
+        return Table(title, ["place", "engine", "bank angle °", *heads], rows_of, rows)
 
     def __repr__(self) -> str:
-        return self._table(SHOWN).text()
+        return self.table_of_choices(SHOWN).text()
 
     def _repr_html_(self) -> str:
-        return self._table(SHOWN_IN_NOTEBOOKS).html()
+        return self.table_of_choices(SHOWN_IN_NOTEBOOKS).html()
 
 
 _XARRAY_UNITS = {"N·m": "N m", "°": "degree"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
@@ -471,3 +472,22 @@ def _distinct(names: Sequence[str]) -> list[str]:
     if "" not in names and len(set(names)) == len(names):
         return list(names)
     return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
+
+
+def engine_titles(sweep: Sweep) -> list[str]:
+    """Return names of a sweep's engines for titles and legends.
+
+    Where bank angle is swept, names of engines (not those of a mapping) go without the bank angle
+    that the engine had before, such as in "V6 60°".
+    """
+    given = sweep.coords.get("engine")
+    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
+    if given is not None:
+        names = [str(name) for name in given]
+    own = [engine.name for engine in sweep.engines]
+    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
+        return names
+    pairs = zip(names, sweep.engines, strict=True)
+    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
+    distinct = all(without) and len(set(without)) == len(names)
+    return without if distinct else names

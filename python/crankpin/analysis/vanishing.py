@@ -291,7 +291,8 @@ class VanishingOrders(Frozen):
         table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
         return table
 
-    def _table(self) -> Table:
+    def table(self) -> Table:
+        """Return the table that is shown: a verdict for each order and sum."""
         name = self.engine.name or f"{len(self.engine)} cylinders"
         title = f"{name}: 0 vanishes, ≠0 remains, both proved"
         if self.undecided.any():
@@ -307,8 +308,8 @@ class VanishingOrders(Frozen):
         return Table(title, ["order", *SUMS.values()], cells, np.empty((len(cells), 0)))
 
     def __repr__(self) -> str:
-        return "\n".join([self._table().text(), *self.obstacles])
+        return "\n".join([self.table().text(), *self.obstacles])
 
     def _repr_html_(self) -> str:
         reasons = (f"<p>{html.escape(obstacle)}</p>" for obstacle in self.obstacles)
-        return "".join([self._table().html(), *reasons])
+        return "".join([self.table().html(), *reasons])

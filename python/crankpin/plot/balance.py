@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@draw.register
+@draw.register(Balance)
 def _balance(result: Balance, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
     kind = checked(quantity)
     drawn = getattr(result, kind)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import itertools
-import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
 
 from crankpin._support import labels
+from crankpin.analysis.sweep import engine_titles
 from crankpin.plot.style import COLOURS, DASHES, GREY, number, plain_text, viridis
 
 if TYPE_CHECKING:
@@ -43,14 +43,16 @@ class Words(NamedTuple):
     """What was fixed or held."""
 
     def subtitle(self, quantity: str) -> str:
+        """Return the quantity and the arguments that are fixed or held."""
         return ", ".join([labels.NAMES[quantity], *self.parts])
 
 
 def words_of(sweep: Sweep) -> Words:
+    """Return the words of a sweep's picture."""
     parts = [labels.value_text(dim, value) for dim, value in sweep.fixed.items()]
     if sweep.hold is not None:
         parts.append(labels.HELD[sweep.hold])
-    full = names_of(sweep)
+    full = engine_titles(sweep)
     if "engine" not in sweep.coords:
         return Words([], "", full[0], parts)
     names, shared = short_names(full)
@@ -87,8 +89,8 @@ def curves_of(sweep: Sweep, others: Sequence[str]) -> list[Curve]:
     if n_colours > len(COLOURS):
         colours = viridis(n_colours)
     curves = []
-    for number, place in enumerate(np.ndindex(*shape)):
-        colour, dash = divmod(number, n_dashes)
+    for k, place in enumerate(np.ndindex(*shape)):
+        colour, dash = divmod(k, n_dashes)
         style = {"color": colours[colour], "linewidth": 1.8}
         if n_dashes > len(DASHES):  # more than can be told apart: a thin bundle of each colour
             style |= {"linewidth": 0.7, "alpha": 0.6}
@@ -154,6 +156,7 @@ def explain(
 
 
 def values_of(sweep: Sweep, dims: Sequence[str]) -> list[str]:
+    """Return each combination of swept values as text."""
     each = [
         [
             str(value) if dim == "engine" else labels.value_text(dim, float(value))
@@ -165,6 +168,7 @@ def values_of(sweep: Sweep, dims: Sequence[str]) -> list[str]:
 
 
 def dimension(dim: str, *, unit: bool = False) -> str:
+    """Return the name of a dimension, with its unit if asked."""
     if dim == "engine":
         return "engine"
     name, symbol = labels.SWEPT[dim]
@@ -188,22 +192,3 @@ def _colour_scale(
     bar.ax.minorticks_off()
     bar.outline.set_visible(False)
     bar.set_label(dimension(dim, unit=True))
-
-
-def names_of(sweep: Sweep) -> list[str]:
-    """Return names of a sweep's engines for titles and legends.
-
-    Where bank angle is swept, names of engines (not those of a mapping) go without the bank angle
-    that the engine had before, such as in "V6 60°".
-    """
-    given = sweep.coords.get("engine")
-    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
-    if given is not None:
-        names = [str(name) for name in given]
-    own = [engine.name for engine in sweep.engines]
-    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
-        return names
-    pairs = zip(names, sweep.engines, strict=True)
-    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
-    distinct = all(without) and len(set(without)) == len(names)
-    return without if distinct else names

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@draw.register
+@draw.register(Ranking)
 def _ranking(ranking: Ranking, ax: Axes | None = None) -> Axes:
     """Draw the first objective of each engine over bank angle, a ring where it is best.
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@draw.register
+@draw.register(ArrangementSearch)
 def _search(result: ArrangementSearch, ax: Axes | None = None) -> Axes:
     ax = given_or_new(ax)
     found = list(result)

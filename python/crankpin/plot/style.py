@@ -19,7 +19,6 @@ except ImportError as error:
     raise ImportError('matplotlib is not installed: pip install "crankpin[plot]"') from error
 
 if TYPE_CHECKING:
-
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
@@ -110,7 +109,7 @@ def degrees(ax: Axes, values: NDArray[np.float64]) -> None:
 
 
 def span(ax: Axes, values: NDArray[np.float64]) -> float:
-    """Limit the horizontal axis to the values; return the difference of the largest and smallest."""
+    """Limit the horizontal axis to the values; return largest less smallest."""
     low, high = float(values.min(initial=np.inf)), float(values.max(initial=-np.inf))
     if high > low:
         ax.set_xlim(low, high)

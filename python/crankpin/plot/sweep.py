@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@draw.register
+@draw.register(Sweep)
 def _sweep(
     result: Sweep,
     ax: Any = None,  # noqa: ANN401 - an array of axes

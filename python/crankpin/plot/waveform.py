@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@draw.register
+@draw.register(Waveform)
 def _waveform(result: Waveform, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
     kind = checked(quantity)
     values = by_component(getattr(result, kind), kind)
@@ -55,7 +55,7 @@ def _waveform(result: Waveform, ax: Axes | None = None, *, quantity: str = "mome
     return ax
 
 
-@draw.register
+@draw.register(SweepWaveform)
 def _sweep_waveform(
     result: SweepWaveform,
     ax: Any = None,  # noqa: ANN401 - an array of axes
@@ -98,7 +98,8 @@ def _sweep_waveform(
         panels[0, 0].set_yticks([0.0])
     if ax is None:
         explain(figure, panels, sweep, dims, curves, words, marked=False)
-    return panels[0]
+    drawn: NDArray[Any] = panels[0]
+    return drawn
 
 
 def _summed(result: Waveform | SweepWaveform, kind: str) -> str:
