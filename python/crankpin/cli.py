@@ -189,12 +189,12 @@ def _parser() -> _Parser:
         commands,
         "rank",
         "engines by an objective, the smallest first, each at its best bank angles",
-        example="rank ijesc-v6 --rpm 5000 --by moment_after_counterweight,moment_peak_vector_2",
+        example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
         run=_rank,
-        note="Of several objectives the later ones break ties. They are\n"
-        "moment_ and force_sum_peak_vector (the longest, all orders together), _sum_peak_xy,\n"
-        "_after_counterweight (first order), _peak_vector_2 (of one order), torque_sum_peak and\n"
-        "unevenness_deg.",
+        note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
+        "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
+        "total.torque.peak, [1].moment.backward (left by the best counterweights), [2].moment.peak\n"
+        "(of one order) and unevenness_deg.",
     )
     ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")
     ranks.add_argument(
