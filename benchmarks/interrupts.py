@@ -18,7 +18,7 @@ from _timing import machine, print_table, write_csv
 
 CALLS = {
     "sweep, 20 million rod ratios: peaks of sums": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).moment_sum_peak_xy"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).total.moment.peak_xy"
     ),
     "sweep, 20 million rod ratios: phasors": (
         "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment"
@@ -40,8 +40,8 @@ CALLS = {
     "harmonics with an offset, λ = 0.9999": (
         "cp.slider_crank_harmonics(near_one, range(1, 5), 1e-7)"
     ),
-    "waveform, kinematics": "v6.waveform(1000, thetas).moment",
-    "waveform, 299 orders": ("v6.waveform(1000, thetas, orders=range(1, 300)).moment"),
+    "waveform, kinematics": "v6.waveform(1000, theta_deg=thetas).moment",
+    "waveform, 299 orders": ("v6.waveform(1000, theta_deg=thetas, orders=range(1, 300)).moment"),
     "balance, 10 000 orders, λ = 0.999": "near.balance(1000, orders=range(1, 10_001))",
     "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",
     "search of a V-26": "cp.search_arrangements(26)",

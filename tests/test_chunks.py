@@ -110,10 +110,10 @@ def test_more_than_one_call_takes() -> None:
         _ = cp.sweep(V6, rpm=speeds, rod_ratio=ratios, orders=[1, 2]).moment
     chunked = cp.sweep(V6, rpm=speeds, rod_ratio=ratios, orders=[1, 2], chunks={"rod_ratio": 4000})
     assert chunked.moment.nbytes > 2**32
-    largest = chunked.moment_peak_vector.max().compute(scheduler="threads", num_workers=1)
+    largest = chunked.moment.peak.max().compute(scheduler="threads", num_workers=1)
     # moments grow with speed and with rod ratio: the corner is the largest
     corner = cp.sweep(V6, rpm=speeds[-1:], rod_ratio=ratios[-1:], orders=[1, 2])
-    assert largest == corner.moment_peak_vector.max()
+    assert largest == corner.moment.peak.max()
 
 
 def test_nothing_is_worked_out_before_it_is_asked_for() -> None:
@@ -127,7 +127,7 @@ def test_nothing_is_worked_out_before_it_is_asked_for() -> None:
         chunks={"rpm": -1, "rod_ratio": 10_000, "pin_offset": 50_000},
     )
     assert chunked.moment.shape == (100_000, 100_000, 100_000, 4, 2)
-    part = chunked.moment_peak_xy[0, 0, :3].data
+    part = chunked.moment.peak_xy[0, 0, :3].data
     assert part.dtype == np.float64
 
 

@@ -149,13 +149,13 @@ def test_balance_bars_are_the_peaks() -> None:
     b = V6.balance(5000, orders=(1, 2, 4))
     ax = b.plot()
     heights = np.array([[bar.get_height() for bar in group] for group in ax.containers[:2]])
-    np.testing.assert_array_equal(heights.T, b.moment_peak_xy)
+    np.testing.assert_array_equal(heights.T, b.moment.peak_xy)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["1", "2", "4"]
     assert legend_texts(ax) == ["about x (pitch)", "about y (yaw)"]
     assert ax.get_title(loc="left") == "V6 60°, shared pins\n5000 rpm"
     assert ax.get_ylabel() == "peak rocking moment, N·m"
     assert ax.get_ylim()[0] == 0.0
-    assert ax.get_ylim()[1] > b.moment_peak_xy.max()
+    assert ax.get_ylim()[1] > b.moment.peak_xy.max()
 
 
 def test_balance_force_is_along_the_axes_and_zeros_are_written() -> None:
@@ -165,14 +165,14 @@ def test_balance_force_is_along_the_axes_and_zeros_are_written() -> None:
     assert ax.get_title(loc="left").endswith("12\N{NO-BREAK SPACE}000 rpm")
     texts = [text.get_text() for text in ax.texts]
     assert texts[:3] == ["0", "0", "0"]
-    peak = I4.balance(12_000, orders=(2,)).force_peak_xy[0, 1]
+    peak = I4.balance(12_000, orders=(2,)).force.peak_xy[0, 1]
     assert float(texts[3].replace("\N{NO-BREAK SPACE}", "")) == pytest.approx(peak, rel=5e-4)
 
 
 def test_balance_of_torque_has_one_series_and_no_legend() -> None:
     b = I4.balance(3000)
     ax = b.plot(quantity="torque")
-    assert [bar.get_height() for bar in ax.patches] == b.torque_peak.tolist()  # type: ignore[attr-defined]
+    assert [bar.get_height() for bar in ax.patches] == b.torque.peak.tolist()  # type: ignore[attr-defined]
     assert ax.get_legend() is None
 
 
@@ -215,7 +215,7 @@ def test_waveform_curves_are_the_values() -> None:
     ],
 )
 def test_waveform_ticks_are_parts_of_a_turn(theta: np.ndarray, ticks: list[str]) -> None:
-    assert xtick_texts(V6.waveform(5000, theta).plot()) == ticks
+    assert xtick_texts(V6.waveform(5000, theta_deg=theta).plot()) == ticks
 
 
 def test_waveform_says_which_orders_and_what_the_rest_can_add() -> None:
@@ -229,7 +229,7 @@ def test_waveform_says_which_orders_and_what_the_rest_can_add() -> None:
 
 @pytest.mark.parametrize("theta", [[], [30.0], [10.0, 10.0]])
 def test_waveform_of_few_angles_is_drawn(theta: list[float]) -> None:
-    rendered(V6.waveform(5000, theta).plot().figure)
+    rendered(V6.waveform(5000, theta_deg=theta).plot().figure)
 
 
 def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_point() -> None:
@@ -282,7 +282,7 @@ def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine()
         "order 2, about y (yaw)",
     ]
     for k, ax in enumerate(panels):
-        np.testing.assert_array_equal(curves_of(ax), s.moment_peak_xy[..., k // 2, k % 2])
+        np.testing.assert_array_equal(curves_of(ax), s.moment.peak_xy[..., k // 2, k % 2])
         for line in ax.lines:
             np.testing.assert_array_equal(line.get_xdata(), BANK_ANGLES)
         assert ax.get_ylim()[0] == 0.0
@@ -325,7 +325,7 @@ def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3], orders=[2])
     along = s.plot()
     np.testing.assert_array_equal(along.axes[0].lines[0].get_xdata(), [1000, 2000, 3000])
-    np.testing.assert_array_equal(curves_of(along.axes[1]), s.moment_peak_xy[..., 0, 1])
+    np.testing.assert_array_equal(curves_of(along.axes[1]), s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in along.legends[0].get_texts()] == [
         "rod ratio 0.2",
         "rod ratio 0.3",
@@ -333,7 +333,7 @@ def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
     assert along.axes[0].get_xlabel() == "crank speed, rpm"
     across = s.plot(x="rod_ratio")
     np.testing.assert_array_equal(across.axes[0].lines[0].get_xdata(), [0.2, 0.3])
-    np.testing.assert_array_equal(curves_of(across.axes[1]).T, s.moment_peak_xy[..., 0, 1])
+    np.testing.assert_array_equal(curves_of(across.axes[1]).T, s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in across.legends[0].get_texts()] == [
         "1000 rpm",
         "2000 rpm",
@@ -348,20 +348,20 @@ def test_sweep_of_torque_has_one_column() -> None:
         f"order {order}, about z (roll)" for order in (2, 4, 6)
     ]
     for k, ax in enumerate(figure.axes):
-        np.testing.assert_array_equal(curves_of(ax), s.torque_peak[..., k])
+        np.testing.assert_array_equal(curves_of(ax), s.torque.peak[..., k])
 
 
 def test_sweep_in_any_order_draws_from_left_to_right() -> None:
     s = cp.sweep(V6, rpm=[3000, 1000, 2000], orders=[1])
     line = s.plot().axes[0].lines[0]
     np.testing.assert_array_equal(line.get_xdata(), [1000, 2000, 3000])
-    np.testing.assert_array_equal(line.get_ydata(), s.moment_peak_xy[[1, 2, 0], 0, 0])
+    np.testing.assert_array_equal(line.get_ydata(), s.moment.peak_xy[[1, 2, 0], 0, 0])
 
 
 def test_sweep_over_engines_alone_names_them() -> None:
     s = cp.sweep([V6, I4, UNNAMED.replace(name="Inline-3")], rpm=5000, orders=[1, 2])
     figure = s.plot(quantity="force")
-    np.testing.assert_array_equal(figure.axes[3].lines[0].get_xdata(), s.force_peak_xy[:, 1, 1])
+    np.testing.assert_array_equal(figure.axes[3].lines[0].get_xdata(), s.force.peak_xy[:, 1, 1])
     names = [text.get_text() for text in figure.axes[0].get_yticklabels()]
     assert names == ["V6 60°, shared pins", "Inline-4", "Inline-3"]
     assert figure.get_suptitle() == "3 engines\nshaking force, 5000 rpm"

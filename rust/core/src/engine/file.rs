@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::layout::Strokes;
 use super::{Engine, Placement, Shaft, Unbalance, first_equal};
 use crate::angle::Angle;
 use crate::error::{Error, Result, shorten};
@@ -22,6 +23,8 @@ struct EngineFile {
     source: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     firing_order: String,
+    #[serde(default = "four", skip_serializing_if = "is_four")]
+    strokes: u32,
     /// Running gear of every placement that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
@@ -43,6 +46,15 @@ struct Parts {
     pin_offset: f64,
     #[serde(default, skip_serializing_if = "is_zero")]
     rod_inertia_excess: f64,
+}
+
+fn four() -> u32 {
+    4
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_four(strokes: &u32) -> bool {
+    *strokes == 4
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
@@ -195,6 +207,7 @@ impl EngineFile {
             name: engine.name().to_owned(),
             source: engine.source().to_owned(),
             firing_order: engine.firing_order().to_owned(),
+            strokes: engine.strokes().number(),
             cylinder: shared.then(|| Parts::of(&engine.gears()[0])),
             placements: engine.placements().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(Weight::of).collect(),
@@ -242,7 +255,7 @@ impl EngineFile {
         let shafts = self.shafts.iter().enumerate();
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         engine
-            .firing_as(self.firing_order)?
+            .firing_as(self.firing_order, Strokes::from_number(self.strokes)?)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
     }
@@ -273,6 +286,7 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 
 /// Engine from TOML.
 pub fn from_toml(text: &str) -> Result<Engine> {
+    let text = unmarked(text);
     sized("TOML", text)?;
     toml::from_str::<EngineFile>(text)
         .map_err(|error| {
@@ -289,8 +303,14 @@ pub fn from_toml(text: &str) -> Result<Engine> {
 
 /// Engine from JSON.
 pub fn from_json(text: &str) -> Result<Engine> {
+    let text = unmarked(text);
     sized("JSON", text)?;
     serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+}
+
+/// Without a byte order mark, which some editors put before a text.
+fn unmarked(text: &str) -> &str {
+    text.trim_start_matches('\u{feff}')
 }
 
 fn sized(format: &'static str, text: &str) -> Result<()> {
@@ -340,7 +360,10 @@ mod tests {
         let shafts = proptest::collection::vec(shaft, 0..3);
         (proptest::collection::vec(place, 1..9), ".*", weights, shafts).prop_map(
             |(placements, name, weights, shafts)| {
-                let engine = Engine::new(name, "", placements).unwrap().firing_as("1").unwrap();
+                let engine = Engine::new(name, "", placements)
+                    .unwrap()
+                    .firing_as("1", Strokes::Two)
+                    .unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )
