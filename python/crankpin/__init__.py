@@ -18,12 +18,15 @@ from crankpin.analysis.throws import throws
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
+from crankpin.model.shafts import Shaft, Unbalance
 
 __all__ = [
     "Cylinder",
     "Engine",
     "InputError",
     "Rod",
+    "Shaft",
+    "Unbalance",
     "__version__",
     "presets",
     "rank",

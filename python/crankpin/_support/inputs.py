@@ -182,6 +182,14 @@ def text(name: str, value: object, cure: str = "give text") -> str:
     return value
 
 
+def whole(name: str, value: object) -> int:
+    """Return a whole number."""
+    try:
+        return operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(f"{name} = {shorten(value)}: give a whole number") from None
+
+
 def strokes(value: object) -> int:
     """Return 2 or 4."""
     try:

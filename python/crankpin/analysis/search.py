@@ -408,7 +408,7 @@ def _window(within: object) -> tuple[float, float]:
 
 
 def _bank_angle(name: str, value: object) -> float:
-    angle = _inputs.number(name, value)
+    angle = inputs.number(name, value)
     if math.isnan(angle):
         raise _core.InputError(f"{name} = nan: give a bank angle in degrees")
     return angle

@@ -14,7 +14,9 @@ from crankpin._support import inputs, labels, tables
 from crankpin._support.absent import AbsentError
 from crankpin._support.frozen import Frozen
 from crankpin.model import builders, files, layout
+from crankpin.model import shafts as rotating
 from crankpin.model.cylinder import Cylinder
+from crankpin.model.shafts import Shaft, Unbalance
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -103,6 +105,8 @@ class Engine(Frozen):
         tdc_deg: Angles | None = None,
         pin_deg: Angles | None = None,
         rotating_mass: ArrayLike = 0.0,
+        counterweights: Iterable[Unbalance] = (),
+        shafts: Iterable[Shaft] = (),
         firing_order: str | Iterable[int] = "",
         strokes: int = 4,
         name: str = "",
@@ -127,6 +131,8 @@ class Engine(Frozen):
         rotating_mass
             Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
             for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+        counterweights, shafts
+            What rotates besides: see :class:`crankpin.Unbalance` and :class:`crankpin.Shaft`.
         firing_order
             Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
             and files keep it.
@@ -152,6 +158,8 @@ class Engine(Frozen):
         array([[1.33, 0.  ]])
         """
         core = builders.from_lists(cylinder, tdc_deg, pin_deg, bank_deg, z, rotating_mass)
+        core = rotating.with_counterweights(core, counterweights)
+        core = rotating.with_shafts(core, shafts)
         return cls(core, name, source, firing_order, strokes)
 
     @classmethod
@@ -439,7 +447,14 @@ class Engine(Frozen):
 
     @classmethod
     def preset(
-        cls, name: str, *, cylinder: Cylinder | None = None, spacing: float | None = None
+        cls,
+        name: str,
+        *,
+        cylinder: Cylinder | None = None,
+        spacing: float | None = None,
+        rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] = (),
+        shafts: Iterable[Shaft] = (),
     ) -> Engine:
         """Return an engine by its name in :func:`crankpin.presets`.
 
@@ -451,6 +466,8 @@ class Engine(Frozen):
             Moving parts of all cylinders, in place of the preset's.
         spacing
             Distance between neighbouring throws, in place of the preset's, m.
+        rotating_mass, counterweights, shafts
+            As in :meth:`from_lists`, in place of the preset's.
 
         Raises
         ------
@@ -465,7 +482,12 @@ class Engine(Frozen):
         """
         from crankpin.model import presets
 
-        return presets.preset(name, cylinder=cylinder, spacing=spacing)
+        engine = presets.preset(name, cylinder=cylinder, spacing=spacing)
+        return engine.replace(
+            rotating_mass=rotating_mass,
+            counterweights=counterweights or None,
+            shafts=shafts or None,
+        )
 
     # --- files ----------------------------------------------------------------------------------
 
@@ -589,6 +611,16 @@ class Engine(Frozen):
         return self._core.rotating_mass
 
     @property
+    def counterweights(self) -> tuple[Unbalance, ...]:
+        """Unbalances on the crankshaft besides ``rotating_mass``: amounts in kg·m, z in m."""
+        return rotating.counterweights(self._core)
+
+    @property
+    def shafts(self) -> tuple[Shaft, ...]:
+        """Balance shafts: axes and z in m, unbalances in kg·m."""
+        return rotating.shafts(self._core)
+
+    @property
     def reference_z(self) -> float:
         """Default reference plane of moments, midway between first and last cylinder, m."""
         return self._core.middle
@@ -678,6 +710,7 @@ class Engine(Frozen):
         return [
             *(line if len(line) <= 100 else f"{line[:99]}…" for line in lines),
             *([labels.cut(self.firing().summary, 100)] if self.firing_order else []),
+            *(labels.cut(line, 100) for line in rotating.lines(self._core)),
         ]
 
     def _table(self, title: str) -> tables.Table:
@@ -711,6 +744,8 @@ class Engine(Frozen):
         bank_deg: Angles | None = None,
         z: ArrayLike | None = None,
         rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] | None = None,
+        shafts: Iterable[Shaft] | None = None,
         firing_order: str | Iterable[int] | None = None,
         strokes: int | None = None,
         name: str | None = None,
@@ -740,7 +775,9 @@ class Engine(Frozen):
             self.rotating_mass if rotating_mass is None else rotating_mass,
             self._core.bank if bank_deg is None else None,
         )
-        core = core.with_counterweights(self._core.counterweights).with_shafts(self._core.shafts)
+        weights = self.counterweights if counterweights is None else counterweights
+        core = rotating.with_counterweights(core, weights)
+        core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
         count = self.strokes if strokes is None else inputs.strokes(strokes)
         kept = _allowed(core, self.firing_order, count)
         return Engine(
@@ -750,6 +787,45 @@ class Engine(Frozen):
             kept if firing_order is None else firing_order,
             count,
         )
+
+    def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Engine:
+        """Return the same engine with these counterweights in place of those it has.
+
+        All analyses count them: balances, waveforms, sweeps and proofs.
+
+        Parameters
+        ----------
+        counterweights
+            Unbalances on the crankshaft, each at an angle of its own or at a crankpin.
+
+        Examples
+        --------
+        The couple of the cross-plane V8 turns with the crank: weights at both ends remove it.
+
+        >>> import numpy as np
+        >>> import crankpin as cp
+        >>> v8 = cp.Engine.preset("v8-crossplane")
+        >>> couple = v8.balance(rpm=60)[1].moment.forward / (2 * np.pi) ** 2
+        >>> distance = v8.z.max() - v8.z.min()
+        >>> angle = np.degrees(np.angle(couple))
+        >>> ends = [
+        ...     cp.Unbalance(abs(couple) / distance, z, side + angle)
+        ...     for z, side in [(v8.z.min(), 180), (v8.z.max(), 0)]
+        ... ]
+        >>> bool(v8.with_counterweights(ends).balance(rpm=60, orders=[1])[1].moment.peak < 1e-12)
+        True
+        """
+        return Engine(rotating.with_counterweights(self._core, counterweights))
+
+    def with_shafts(self, shafts: Iterable[Shaft]) -> Engine:
+        """Return the same engine with these balance shafts in place of those it has.
+
+        Parameters
+        ----------
+        shafts
+            Balance shafts; see :class:`crankpin.Shaft`.
+        """
+        return Engine(rotating.with_shafts(self._core, shafts))
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Engine:
         """Return the same engine with its two banks at another angle about the same bisector.
