@@ -247,7 +247,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "orders", 0, "0"),
     (balance, "orders", [], "[]"),
     (balance, "orders", [1, 1], "1"),
-    (balance, "orders", [1.5], "1.5"),
+    (balance, "orders", [1.5], "[1.5]"),
     (balance, "orders", -2, "-2"),
     (balance, "orders", 10**30, "1000000000…"),
     (balance, "orders", 20_000, "20000"),
@@ -262,7 +262,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "spectrum", {1: 10**400}, "{1: 1000000000…"),
     (balance, "spectrum", {0: 1.0}, "0"),
     (balance, "spectrum", {"one": 1.0}, "{'one': 1.0}"),
-    (balance, "spectrum", [9.0], "9.0"),
+    (balance, "spectrum", [9.0], "[9.0]"),
     (waveform, "rpm", NAN, "NaN"),
     (waveform, "theta_deg", [0.0, NAN], "NaN"),
     (waveform, "theta_deg", [-INF], "-inf"),
@@ -292,7 +292,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked, "by", 3, "3"),
     (ranked, "by", [], "[]"),
     (ranked, "by", ["total.torque.peak", None], "None"),
-    (ranked, "by", ["total.torque.peak"] * 2, "total.torque.peak"),
+    (ranked, "by", ["total.torque.peak"] * 2, "['total.torque.peak', …"),
     (ranked, "by", lambda _: "much", "much"),
     (ranked, "by", lambda _: [1.0, 2.0], "[1.0, 2.0]"),
     (ranked, "by", lambda _: -INF, "-inf"),
@@ -301,14 +301,14 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked, "rpm", NAN, "NaN"),
     (ranked, "bank_angle_deg", [60, 190], "190"),
     (ranked, "bank_angle_deg", [], "[]"),
-    (ranked, "bank_angle_deg", [[60]], "(1, 1)"),
+    (ranked, "bank_angle_deg", [[60]], "has shape (1, 1)"),
     (ranked, "hold", None, "None"),
     (ranked, "hold", "banks", "banks"),
     (ranked, "cylinder", CYLINDER, "Cylinder"),
     (ranked, "spacing", 0.1, "0.1"),
     (ranked, "refine", "yes", "yes"),
-    (ranked, "rtol", -1e-9, "-1e-09"),
-    (ranked, "rtol", NAN, "nan"),
+    (ranked, "rtol", -1e-9, "-1e-9"),
+    (ranked, "rtol", NAN, "NaN"),
     (ranked_search, "cylinder", None, "None"),
     (ranked_search, "cylinder", 0.05, "0.05"),
     (ranked_search, "spacing", None, "None"),
@@ -373,8 +373,8 @@ def written(argument: str, shown: str) -> str:
     The whole value and nothing but it, in quotes or not; one that is cut goes on.
     """
     if shown.startswith("has "):
-        return rf"(^|\W){re.escape(f'{argument} {shown}')}\b"
-    place = rf"(^|\W){re.escape(argument)}(\[\d+\])*"
+        return rf"(^|\W){re.escape(f'{argument} {shown}')}(?!\w)"
+    place = rf"(^|\W){re.escape(argument)}(\[\d+\])*( and pin_deg)?"
     end = "" if shown.endswith(("…", "0" * 9)) else "(\\W|$)"
     return rf"{place} = ['\"]?{re.escape(shown.removesuffix('…'))}{end}"
 
@@ -423,7 +423,11 @@ def test_auto_needs_a_tolerance(rtol: Any) -> None:
         (swept, {"bank_angle_deg": None}, ["hold", "bank_angle_deg"]),
         (swept, {"rod_ratio": [0.3], "spectrum": {1: 1.0}}, ["rod_ratio", "spectrum"]),
         (waveform, {"spectrum": {1: 1.0}}, ["orders", "spectrum"]),
-        (I4.with_bank_angle, {"bank_angle_deg": 90, "hold": "pins"}, ["bank_angle_deg", "banks"]),
+        (
+            I4.with_bank_angle,
+            {"bank_angle_deg": 90, "hold": "pins"},
+            ["bank_angle_deg", "one bank"],
+        ),
         (I4.balance, {"rpm": 1e31}, ["rpm", "1e31"]),
         (harmonics, {"rod_ratio": [0.1] * 2, "pin_offset_ratio": [0] * 3}, ["rod_ratio", "(3,)"]),
         (cp.Engine, {"core": None}, ["Engine", "from_lists"]),
