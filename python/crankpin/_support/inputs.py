@@ -36,6 +36,9 @@ MOST_NUMBERS = 2**27
 PIECE = 2**18
 """Numbers converted or copied between two looks at Ctrl-C."""
 
+HIGHEST_ORDER = 10_000
+"""Highest order that the core sums."""
+
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
 
@@ -255,8 +258,8 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     except TypeError:
         raise InputError(f"{name} = {shorten(values)}: {cure}") from None
     for order in result:
-        if not 1 <= order < 2**32:
-            raise InputError(f"{name} = {shorten(order)}: {cure}")
+        if not 1 <= order <= HIGHEST_ORDER:
+            raise InputError(f"{name} = {shorten(order)}: {cure}, 1 to {HIGHEST_ORDER}")
     return result
 
 
