@@ -221,7 +221,7 @@ def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
         pin_offset=[-0.002, 0.002],
         orders=[2, 3],
     )
-    peaks = s.torque.peak if quantity == "torque" else getattr(s, f"{quantity}_peak_xy")
+    peaks = s.torque.peak if quantity == "torque" else getattr(s, quantity).peak_xy
     np.testing.assert_array_equal(values, peaks.reshape(12, -1))
     assert values.any() == (quantity != "moment")  # an inline-4 has no rocking moment
     assert head[:3] == ["rod ratio", "pin offset m", "rpm"]

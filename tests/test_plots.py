@@ -75,6 +75,11 @@ def xtick_texts(ax: Axes) -> list[str]:
     return [t.get_text() for t, seen in zip(ax.get_xticklabels(), inside, strict=True) if seen]
 
 
+def figure_of(axes: Any) -> Any:
+    """The figure of an array of axes."""
+    return np.ravel(axes)[0].get_figure(root=True)
+
+
 # --- new figures and given axes -----------------------------------------------------------------
 
 
@@ -235,7 +240,7 @@ def test_waveform_of_few_angles_is_drawn(theta: list[float]) -> None:
 def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_point() -> None:
     s = cp.sweep([V6, I4], rpm=[3000, 5000], orders=[1, 2])
     w = s.waveform(np.arange(0.0, 361.0))
-    figure = w.plot("force")
+    figure = figure_of(w.plot(quantity="force"))
     along_x, along_y = figure.axes
     assert [ax.get_title(loc="left") for ax in figure.axes] == ["along x", "along y"]
     assert [ax.get_xlabel() for ax in figure.axes] == ["crank angle θ"] * 2
@@ -254,12 +259,12 @@ def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_po
 
 
 def test_waveforms_of_one_point_may_be_zero() -> None:
-    figure = cp.sweep(I4, rpm=3000, orders=[1]).waveform([0.0, 90.0]).plot()
+    figure = figure_of(cp.sweep(I4, rpm=3000, orders=[1]).waveform([0.0, 90.0]).plot())
     assert [text.get_text() for ax in figure.axes for text in ax.texts] == ["zero throughout"] * 2
     assert figure.axes[0].get_ylim() == (-1.0, 1.0)
     assert not figure.legends
     with pytest.raises(cp.InputError, match="quantity"):
-        cp.sweep(I4, rpm=3000).waveform([0.0]).plot("speed")  # type: ignore[arg-type]
+        cp.sweep(I4, rpm=3000).waveform([0.0]).plot(quantity="speed")  # type: ignore[arg-type]
 
 
 # --- sweep --------------------------------------------------------------------------------------
@@ -271,7 +276,7 @@ def curves_of(ax: Axes) -> np.ndarray:
 
 def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine() -> None:
     s = cp.sweep(FAMILY, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="pins", orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert isinstance(figure, Figure)
     assert plt.get_fignums() == [figure.number]
     panels = figure.axes
@@ -306,7 +311,7 @@ def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine()
 
 def test_sweep_says_what_firing_holds_and_keeps_its_legend_off_the_panels() -> None:
     s = cp.sweep(FAMILY, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="firing", orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert "top dead centres held" in figure.get_suptitle()
     rendered(figure)
     legend = figure.legends[0].get_window_extent()
@@ -323,7 +328,7 @@ def test_sweep_says_what_firing_holds_and_keeps_its_legend_off_the_panels() -> N
 
 def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3], orders=[2])
-    along = s.plot()
+    along = figure_of(s.plot())
     np.testing.assert_array_equal(along.axes[0].lines[0].get_xdata(), [1000, 2000, 3000])
     np.testing.assert_array_equal(curves_of(along.axes[1]), s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in along.legends[0].get_texts()] == [
@@ -331,7 +336,7 @@ def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
         "rod ratio 0.3",
     ]
     assert along.axes[0].get_xlabel() == "crank speed, rpm"
-    across = s.plot(x="rod_ratio")
+    across = figure_of(s.plot(x="rod_ratio"))
     np.testing.assert_array_equal(across.axes[0].lines[0].get_xdata(), [0.2, 0.3])
     np.testing.assert_array_equal(curves_of(across.axes[1]).T, s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in across.legends[0].get_texts()] == [
@@ -343,7 +348,7 @@ def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
 
 def test_sweep_of_torque_has_one_column() -> None:
     s = cp.sweep([V6, I4], rpm=5000, rod_ratio=[0.2, 0.25, 0.3], orders=[2, 4, 6])
-    figure = s.plot(quantity="torque")
+    figure = figure_of(s.plot(quantity="torque"))
     assert [ax.get_title(loc="left") for ax in figure.axes] == [
         f"order {order}, about z (roll)" for order in (2, 4, 6)
     ]
@@ -353,14 +358,14 @@ def test_sweep_of_torque_has_one_column() -> None:
 
 def test_sweep_in_any_order_draws_from_left_to_right() -> None:
     s = cp.sweep(V6, rpm=[3000, 1000, 2000], orders=[1])
-    line = s.plot().axes[0].lines[0]
+    line = figure_of(s.plot()).axes[0].lines[0]
     np.testing.assert_array_equal(line.get_xdata(), [1000, 2000, 3000])
     np.testing.assert_array_equal(line.get_ydata(), s.moment.peak_xy[[1, 2, 0], 0, 0])
 
 
 def test_sweep_over_engines_alone_names_them() -> None:
     s = cp.sweep([V6, I4, UNNAMED.replace(name="Inline-3")], rpm=5000, orders=[1, 2])
-    figure = s.plot(quantity="force")
+    figure = figure_of(s.plot(quantity="force"))
     np.testing.assert_array_equal(figure.axes[3].lines[0].get_xdata(), s.force.peak_xy[:, 1, 1])
     names = [text.get_text() for text in figure.axes[0].get_yticklabels()]
     assert names == ["V6 60°, shared pins", "Inline-4", "Inline-3"]
@@ -372,7 +377,7 @@ def test_sweep_over_engines_alone_names_them() -> None:
 def test_many_values_get_a_scale_of_colours() -> None:
     ratios = np.linspace(0.2, 0.4, 11)
     s = cp.sweep(V6, rpm=np.arange(1000.0, 6001.0, 250.0), rod_ratio=ratios, orders=[2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     x_panel, y_panel, scale = figure.axes
     assert len(x_panel.lines) == len(y_panel.lines) == 11
     assert len({tuple(line.get_color()) for line in x_panel.lines}) == 11
@@ -390,7 +395,7 @@ def test_two_more_dimensions_get_colours_and_dashes() -> None:
         rod_ratio=[0.2, 0.3],
         orders=[1],
     )
-    figure = s.plot(x="rpm")
+    figure = figure_of(s.plot(x="rpm"))
     lines = figure.axes[0].lines
     assert len(lines) == 8
     looks = {(line.get_color(), str(line._dash_pattern)) for line in lines}  # type: ignore[attr-defined]
@@ -406,7 +411,7 @@ def test_two_more_dimensions_get_colours_and_dashes() -> None:
 
 def test_more_than_can_be_told_apart_is_drawn_as_bundles() -> None:
     s = cp.sweep(FAMILY[:2], rpm=np.arange(1000, 2000, 100), rod_ratio=np.linspace(0.2, 0.3, 7))
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert len(figure.axes[0].lines) == 14
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert texts == [*ORDERS[:2], "each: 7 × rod ratio"]
@@ -415,7 +420,7 @@ def test_more_than_can_be_told_apart_is_drawn_as_bundles() -> None:
 def test_curves_that_coincide_are_both_seen() -> None:
     """First-order moment does not depend on the rod: the second curve is dashed over the first."""
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3], orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     first, second = figure.axes[0].lines
     assert first.get_linestyle() == "-"
     assert second.get_linestyle() == "--"
@@ -423,7 +428,7 @@ def test_curves_that_coincide_are_both_seen() -> None:
 
 
 def test_panels_of_nothing_say_so() -> None:
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot(quantity="force")
+    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot(quantity="force"))
     assert [text.get_text() for ax in figure.axes for text in ax.texts] == ["zero throughout"] * 2
     assert figure.axes[0].get_yticks().tolist() == [0.0]
 
@@ -436,7 +441,7 @@ def test_one_point_is_marked() -> None:
 
 def test_a_sweep_figure_is_shown_once_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a cell's value; what pyplot's inline backend finds open it would show again."""
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot()
+    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot())
     with pytest.raises(NotImplementedError):  # by which IPython goes on to show a picture
         figure._ipython_display_()  # type: ignore[attr-defined]
     assert len(plt.get_fignums()) == 1  # windows stay open
@@ -447,6 +452,6 @@ def test_a_sweep_figure_is_shown_once_in_a_notebook(monkeypatch: pytest.MonkeyPa
 
 
 def test_figures_pickle() -> None:
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot()
+    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot())
     copy = pickle.loads(pickle.dumps(figure))  # noqa: S301 - our own
     np.testing.assert_array_equal(curves_of(copy.axes[0]), curves_of(figure.axes[0]))
