@@ -157,7 +157,7 @@ def test_balance_bars_are_the_peaks() -> None:
     np.testing.assert_array_equal(heights.T, b.moment.peak_xy)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["1", "2", "4"]
     assert legend_texts(ax) == ["about x (pitch)", "about y (yaw)"]
-    assert ax.get_title(loc="left") == "V6 60°, shared pins\n5000 rpm"
+    assert ax.get_title(loc="left") == "V6 60°, shared pins\n5000 rpm, orders given"
     assert ax.get_ylabel() == "peak rocking moment, N·m"
     assert ax.get_ylim()[0] == 0.0
     assert ax.get_ylim()[1] > b.moment.peak_xy.max()
@@ -167,7 +167,7 @@ def test_balance_force_is_along_the_axes_and_zeros_are_written() -> None:
     ax = I4.balance(12_000, orders=(1, 2)).plot(quantity="force")
     assert legend_texts(ax) == ["along x", "along y"]
     assert ax.get_ylabel() == "peak shaking force, N"
-    assert ax.get_title(loc="left").endswith("12\N{NO-BREAK SPACE}000 rpm")
+    assert ax.get_title(loc="left").endswith("12\N{NO-BREAK SPACE}000 rpm, orders given")
     texts = [text.get_text() for text in ax.texts]
     assert texts[:3] == ["0", "0", "0"]
     peak = I4.balance(12_000, orders=(2,)).force.peak_xy[0, 1]
@@ -175,7 +175,7 @@ def test_balance_force_is_along_the_axes_and_zeros_are_written() -> None:
 
 
 def test_balance_of_torque_has_one_series_and_no_legend() -> None:
-    b = I4.balance(3000)
+    b = I4.balance(3000, orders=[2, 4, 6])
     ax = b.plot(quantity="torque")
     assert [bar.get_height() for bar in ax.patches] == b.torque.peak.tolist()  # type: ignore[attr-defined]
     assert ax.get_legend() is None
@@ -183,7 +183,7 @@ def test_balance_of_torque_has_one_series_and_no_legend() -> None:
 
 def test_balance_says_that_a_spectrum_stands_in_and_counts_unnamed_cylinders() -> None:
     ax = UNNAMED.balance(600, orders=(1,), spectrum={1: 9.0}).plot()
-    assert ax.get_title(loc="left") == "3 cylinders\n600 rpm, spectrum given"
+    assert ax.get_title(loc="left") == "3 cylinders\n600 rpm, orders given, spectrum given"
 
 
 def test_balance_of_nothing_has_no_scale() -> None:
@@ -434,21 +434,18 @@ def test_panels_of_nothing_say_so() -> None:
 
 
 def test_one_point_is_marked() -> None:
-    ax = cp.sweep(V6, rpm=[1000], orders=[1]).plot().axes[0]
+    ax = cp.sweep(V6, rpm=[1000], orders=[1]).plot()[0, 0]
     assert ax.lines[0].get_marker() == "o"
     rendered(ax.figure)
 
 
-def test_a_sweep_figure_is_shown_once_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As a cell's value; what pyplot's inline backend finds open it would show again."""
-    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot())
-    with pytest.raises(NotImplementedError):  # by which IPython goes on to show a picture
-        figure._ipython_display_()  # type: ignore[attr-defined]
-    assert len(plt.get_fignums()) == 1  # windows stay open
-    monkeypatch.setattr(mpl, "get_backend", lambda: "module://matplotlib_inline.backend_inline")
-    with pytest.raises(NotImplementedError):
-        figure._ipython_display_()  # type: ignore[attr-defined]
-    assert plt.get_fignums() == []
+def test_sweeps_are_drawn_on_given_axes() -> None:
+    s = cp.sweep(V6, rpm=[1000, 2000], orders=[1, 2])
+    _, given = plt.subplots(2, 2)
+    assert (s.plot(given) == given).all()
+    assert (s.waveform().plot(given[0]) == given[0]).all()
+    with pytest.raises(cp.InputError, match="give an array of matplotlib axes, "):
+        s.plot(given[0])
 
 
 def test_figures_pickle() -> None:

@@ -179,9 +179,8 @@ def test_a_function_agrees_with_the_name(name: str, hold: Any) -> None:
 @pytest.mark.parametrize("name", SAME)
 def test_engines_as_they_are(name: str) -> None:
     engines = [SHARED, I4, cp.Engine.preset("v8-crossplane")]
-    ranking = cp.rank(engines, rpm=3000, by=name)
-    orders = None if name.startswith("total") else range(1, 7)
-    given: dict[str, Any] = {} if orders is None else {"orders": orders}
+    given: dict[str, Any] = {"orders": range(1, 7)}
+    ranking = cp.rank(engines, rpm=3000, by=name, **given)
     expected = [SAME[name](engine.balance(3000, **given)) for engine in engines]
     assert ranking.values.shape == (3, 1)
     # Relative to the largest force of one cylinder, 6.6 kN, times some levers.
