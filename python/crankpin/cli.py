@@ -148,11 +148,11 @@ def _parser() -> _Parser:
         commands,
         "rank",
         "engines by what is least, each at its best bank angles",
-        example="rank ijesc-v6 --rpm 5000 --by moment_after_counterweight,moment_peak_vector_2",
+        example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
         run=_rank,
         note="Of several objectives the next tells apart what ties by the first. They are\n"
-        "moment_ and force_sum_peak_vector (the longest, all orders together), _sum_peak_xy,\n"
-        "_after_counterweight (first order), _peak_vector_2 (of one order), torque_sum_peak and\n"
+        "total.moment.peak, total.force.peak_xy, total.torque.peak (all orders together),\n"
+        "[1].moment.backward (which the best counterweight leaves), [2].moment.peak and\n"
         "unevenness_deg.",
     )
     ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")

@@ -128,7 +128,7 @@ EBOOK_ROTATING = 2.0
 
 Above order 1 it has 7 kg: those move with the piston. Its tables push the 2 kg along the bore too,
 which is right along one axis only. To get its figures leave them out and give its amplitudes:
-``engine.replace(rotating_mass=0).balance(10, [1, 2], spectrum={1: 9.0, 2: 7.0 * a2})``.
+``engine.replace(rotating_mass=0).balance(10, orders=[1, 2], spectrum={1: 9.0, 2: 7.0 * a2})``.
 """
 
 VR6 = Cylinder(crank_radius=0.04515, rod_length=0.164, reciprocating_mass=0.45)
