@@ -6,10 +6,9 @@ import io
 import pickle
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
-import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -75,7 +74,7 @@ def xtick_texts(ax: Axes) -> list[str]:
     return [t.get_text() for t, seen in zip(ax.get_xticklabels(), inside, strict=True) if seen]
 
 
-def figure_of(axes: Any) -> Any:
+def figure_of(axes: Any) -> Any:  # noqa: ANN401 - axes and a figure
     """The figure of an array of axes."""
     return np.ravel(axes)[0].get_figure(root=True)
 

@@ -1,5 +1,7 @@
 """Quantities: arrays of phasors of balances, single orders and sweeps; totals and exports."""
 
+# ruff: noqa: ANN401, S301 - results of any kind; pickles of our own
+
 from __future__ import annotations
 
 import copy
@@ -90,7 +92,7 @@ def test_quantities_are_read_only_arrays() -> None:
         copy.copy(b.moment),
         copy.deepcopy(b.moment),
         pickle.loads(pickle.dumps(b.moment)),
-    ):  # noqa: S301
+    ):
         np.testing.assert_array_equal(made, b.moment)
 
 
@@ -133,7 +135,7 @@ def test_a_spectrum_is_copied() -> None:
     before = s.force.xy
     spectrum[1] = 99.0
     assert s.spectrum == {1: 1.0, 2: 0.5}
-    np.testing.assert_array_equal(pickle.loads(pickle.dumps(s)).force, before)  # noqa: S301
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(s)).force, before)
     np.testing.assert_array_equal(s.to_dask(1).force.compute(scheduler="synchronous"), before)
 
 

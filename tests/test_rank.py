@@ -417,7 +417,7 @@ def test_what_is_shown() -> None:
     ranking = paper(by=["[1].moment.backward", parts_left])
     title, head, *rows = repr(ranking).splitlines()
     assert title.startswith(
-        "Ranked by backward part of rocking moment, order 1 (what the best counterweight leaves), then"
+        "Ranked by backward part of rocking moment, order 1 (what the best counterweight leaves)"
     )
     assert "5000 rpm, pins held" in title
     assert head.split("  ")[0] == "place"

@@ -108,11 +108,12 @@ def swept(**changes: Any) -> cp.types.Sweep:
 
 def ranked(**changes: Any) -> cp.types.Ranking:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
+    given_ |= {"by": "total.moment.peak"}
     return cp.rank(V6, **given_ | changes)
 
 
 def ranked_search(**changes: Any) -> cp.types.Ranking:
-    given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1}
+    given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "by": "total.moment.peak"}
     return cp.rank(cp.search_arrangements(6), rpm=1000, **given_ | changes)
 
 
@@ -445,7 +446,7 @@ def test_engines_of_a_sweep() -> None:
         with pytest.raises(cp.InputError, match="engines"):
             cp.sweep(engines, rpm=1000)  # type: ignore[arg-type]
         with pytest.raises(cp.InputError, match="engines"):
-            cp.rank(engines, rpm=1000)  # type: ignore[arg-type]
+            cp.rank(engines, rpm=1000, by="total.moment.peak")  # type: ignore[arg-type]
 
 
 def test_an_input_error_is_a_value_error() -> None:
@@ -523,7 +524,7 @@ WITHOUT_END = {
     "intervals": "cp.throws([1, 2], intervals_deg=itertools.repeat(1))",
     "groups": "I4.firing('1-3-4-2').gaps(itertools.repeat([1]))",
     "engines": "cp.sweep(itertools.repeat(I4), rpm=1000)",
-    "engines to rank": "cp.rank(itertools.repeat(I4), rpm=1000)",
+    "engines to rank": "cp.rank(itertools.repeat(I4), rpm=1000, by='total.torque.peak')",
     "objectives": "cp.rank(I4, rpm=1000, by=itertools.repeat('total.torque.peak'))",
     "bank angles": (
         "cp.rank(cp.Engine.preset('v6-60'), rpm=1000, hold='pins', "
@@ -794,7 +795,9 @@ SUBJECTS: dict[str, Any] = {
     "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
-    "ranking, as they are": cp.rank([V6, I4], rpm=1e3, spectrum={1: 1.0, 2: 0.2}),
+    "ranking, as they are": cp.rank(
+        [V6, I4], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
+    ),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
     "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),

@@ -6,8 +6,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-import numpy as np
-
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
@@ -15,6 +13,7 @@ from crankpin._support.frozen import Frozen
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
