@@ -6,8 +6,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-import numpy as np
-
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
@@ -17,6 +15,7 @@ from crankpin.model import builders, files, layout
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
@@ -255,7 +254,7 @@ class Engine(Frozen):
         >>> v8 = cp.Engine.vee(
         ...     cylinder, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1
         ... )
-        >>> v8.balance(rpm=6000, orders=[1]).backward_moment  # all of it turns with the crank
+        >>> v8.balance(rpm=6000, orders=[1]).moment.backward  # all of it turns with the crank
         array([0.+0.j])
         """
         core = builders.vee(
