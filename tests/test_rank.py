@@ -495,7 +495,7 @@ def test_engines_that_cannot_be_turned_are_refused() -> None:
 
 
 def test_a_warning_of_units_comes_once_and_points_here() -> None:
-    millimetres = SHARED.replace(cylinder=cp.Cylinder(45, 158, 1.487))
+    millimetres = SHARED.replace(cylinder=cp.Cylinder(4.5, 15.8, 1.487))
     with pytest.warns(UserWarning, match="mean piston speed") as caught:
         cp.rank(millimetres, rpm=5000, by=["total.torque.peak", lambda b: b.rpm])
     assert len(caught) == 1

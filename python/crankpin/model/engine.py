@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+import numpy as np
+
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
@@ -15,7 +17,6 @@ from crankpin.model import builders, files, layout
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
