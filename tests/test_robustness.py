@@ -753,6 +753,7 @@ SOUND: dict[str, list[Any]] = {
     "ax": [None],
     "backward_force": [1j],
     "bore": [0.086],
+    "chunks": [{"rpm": 1}, 2],
     "core": [I4.core],
     "counterweight": [1.5],
     "cylinders": [6],

@@ -152,7 +152,7 @@ def test_every_engine_keeps_its_promise(
     ratio = CYLINDER.rod_ratio
     spectrum = {1: 0.5 * 0.045, 2: 0.5 * 0.045 * ratio}
     for k, found in enumerate(search):
-        engine = search[k].engine(CYLINDER, spacing=1.0)
+        engine = found.engine(CYLINDER, spacing=1.0)
         balance = engine.balance(3000, orders=[1, 2], spectrum=spectrum)
         assert balance.moment.backward[0] == 0
         # rounding of a sum of 14 terms of at most 3
