@@ -46,7 +46,7 @@ CALLS = {
     "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",
     "search of a V-26": "cp.search_arrangements(26)",
     "ranking, 10 million bank angles": (
-        "cp.rank(v6, rpm=1000, bank_angle_deg=angles[::2], hold='pins')"
+        "cp.rank(v6, rpm=1000, by='total.moment.peak', bank_angle_deg=angles[::2], hold='pins')"
     ),
 }
 MOMENTS = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0)

@@ -142,8 +142,8 @@ def largest_of_zeros(plain: bool) -> float:
         found = (
             plain_force(engine, RPM, TWELVE) if plain else engine.balance(RPM, orders=TWELVE).force
         )
-        for axis, quantity in enumerate(("force_x", "force_y")):
-            zero = [n in proof.of(quantity) for n in TWELVE]
+        for axis, verdicts in enumerate((proof.force.x, proof.force.y)):
+            zero = [n in verdicts.vanishing for n in TWELVE]
             worst = max(worst, float(np.abs(found[zero, axis]).max()) / first_order(engine, RPM))
     return worst
 

@@ -48,7 +48,13 @@ def waveforms(*, exact: bool) -> np.ndarray:
 def ranking() -> np.ndarray:
     """Return the bank angles of a ranking between the given ones."""
     found = cp.rank(
-        [V6, V8], rpm=1000, bank_angle_deg=np.linspace(0, 180, 2001), hold="pins", refine=True
+        [V6, V8],
+        rpm=1000,
+        by="total.moment.peak",
+        orders=[1, 2, 4, 6],
+        bank_angle_deg=np.linspace(0, 180, 2001),
+        hold="pins",
+        refine=True,
     )
     return np.concatenate([choice.bank_angles_deg for choice in found])
 

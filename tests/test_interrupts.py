@@ -29,10 +29,10 @@ LONG_CALLS = {
     ),
     "search of a V-26": "cp.search_arrangements(26)",
     "ranking by name": (
-        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins')"
+        "cp.rank(v6, rpm=1000, by='total.moment.peak', bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins')"
     ),
     "ranking by a function": (
-        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
+        "cp.rank(v6, rpm=1000, by='total.moment.peak', bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
         "by=lambda balance: balance.rpm)"
     ),
     "waveforms of a sweep": (

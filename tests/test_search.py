@@ -152,8 +152,8 @@ def test_every_engine_keeps_its_promise(
     assert np.all(np.diff(search.bank_angles_deg) > 0)
     ratio = CYLINDER.rod_ratio
     spectrum = {1: 0.5 * 0.045, 2: 0.5 * 0.045 * ratio}
-    for k, found in enumerate(search):
-        engine = search[k].engine(CYLINDER, spacing=1.0)
+    for found in search:
+        engine = found.engine(CYLINDER, spacing=1.0)
         balance = engine.balance(3000, orders=[1, 2], spectrum=spectrum)
         assert balance.moment.backward[0] == 0
         # rounding of a sum of 14 terms of at most 3

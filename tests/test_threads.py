@@ -68,4 +68,4 @@ def test_what_progress_raises_stops_a_sweep() -> None:
 
     sweep = cp.sweep(cp.Engine.preset("v6-60"), rpm=range(1, 9000), progress=stop)
     with pytest.raises(LookupError):
-        _ = sweep.force
+        _ = sweep.force.xy

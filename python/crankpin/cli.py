@@ -193,7 +193,7 @@ def _parser() -> _Parser:
         run=_rank,
         note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
         "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
-        "total.torque.peak, [1].moment.backward (left by the best counterweights), [2].moment.peak\n"
+        "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
         "(of one order) and unevenness_deg.",
     )
     ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")

@@ -40,6 +40,9 @@ PIECE = 2**18
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
 
+HIGHEST_ORDER = 10_000
+"""Highest order that the core sums."""
+
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
 
@@ -275,8 +278,8 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     except TypeError:
         raise InputError(f"{name} = {shorten(values)}: {cure}") from None
     for order in result:
-        if not 1 <= order < 2**32:
-            raise InputError(f"{name} = {shorten(order)}: {cure}")
+        if not 1 <= order <= HIGHEST_ORDER:
+            raise InputError(f"{name} = {shorten(order)}: {cure}, 1 to {HIGHEST_ORDER}")
     return result
 
 

@@ -14,7 +14,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_quantities, engine_core
+from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
 from crankpin.analysis.source import PLANE_VECTORS, ErrorBound, Source, shown_orders
 
 if TYPE_CHECKING:
@@ -57,6 +57,7 @@ class BalanceArrays(Source):
     _fields: ClassVar[tuple[str, ...]] = ("engine", "rpm", "request")
 
     def __init__(self, engine: Engine, rpm: float, request: Request) -> None:
+        check_request(request, "Engine.balance")
         core = _core.balance(
             engine_core(engine),
             rpm,

@@ -125,17 +125,17 @@ class Quantities(Frozen):
 
     source: Source
     """Arrays of the result; read them by its quantities."""
-    place: int | None = None
+    _place: int | None = None
 
     @property
     def force(self) -> PlaneVector:
         """Shaking force along x and y, N."""
-        return PlaneVector(self.source, "force", self.place)
+        return PlaneVector(self.source, "force", self._place)
 
     @property
     def moment(self) -> PlaneVector:
         """Rocking moment about x (pitch) and y (yaw), N·m."""
-        return PlaneVector(self.source, "moment", self.place)
+        return PlaneVector(self.source, "moment", self._place)
 
     @property
     def torque(self) -> Scalar:
@@ -143,7 +143,7 @@ class Quantities(Frozen):
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return Scalar(self.source, "torque", self.place)
+        return Scalar(self.source, "torque", self._place)
 
     @property
     def crank_torque(self) -> Scalar:
@@ -151,7 +151,7 @@ class Quantities(Frozen):
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return Scalar(self.source, "crank_torque", self.place)
+        return Scalar(self.source, "crank_torque", self._place)
 
 
 class OrderBalance(Quantities):
@@ -168,13 +168,18 @@ class OrderBalance(Quantities):
     _fields: ClassVar[tuple[str, ...]] = ("source", "place")
 
     def __init__(self, source: Source, place: int) -> None:
-        self._set(source=source, place=place)
+        self._set(source=source, _place=place)
+
+    @property
+    def place(self) -> int | None:
+        """Place of the order among those of the whole result."""
+        return self._place
 
     @property
     def order(self) -> int:
         """Multiple of crank speed."""
-        assert self.place is not None  # noqa: S101 - by the constructor
-        return self.source.orders[self.place]
+        assert self._place is not None  # noqa: S101 - by the constructor
+        return self.source.orders[self._place]
 
     def __repr__(self) -> str:
         names = self.source.request.quantities

@@ -78,7 +78,7 @@ class ValveTiming:
     Examples
     --------
     >>> import crankpin as cp
-    >>> racing = cp.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
+    >>> racing = cp.types.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
     >>> racing.exhaust_opens_deg
     80.0
     """
@@ -116,7 +116,7 @@ class PortTiming:
     Examples
     --------
     >>> import crankpin as cp
-    >>> racing = cp.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
+    >>> racing = cp.types.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
     >>> racing.exhaust_opens_deg
     98.0
     """

@@ -90,6 +90,12 @@ class Request:
         raise AbsentError(f"{name} is not available: it was not requested; give torque=True")
 
 
+def check_request(request: object, maker: str) -> None:
+    """Raise an InputError that names the function that makes such results."""
+    if not isinstance(request, Request):
+        raise InputError(f"request = {inputs.shorten(request)}: use {maker}")
+
+
 def engine_core(engine: object) -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
     core = getattr(engine, "core", None)

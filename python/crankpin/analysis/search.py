@@ -81,7 +81,7 @@ class Arrangement:
         >>> import crankpin as cp
         >>> (best,) = cp.search_arrangements(cylinders=14).best(within=(60, 90))
         >>> engine = best.engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
-        >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+        >>> engine.balance(rpm=6000, orders=[1]).moment.backward
         array([0.+0.j])
         """
         angle = inputs.number("bank_angle_deg", self.bank_angle_deg)
@@ -178,7 +178,7 @@ class ArrangementSearch(Frozen):
     >>> search.bank_angles_deg.round(9)
     array([  0.,  60., 120., 180.])
     >>> engine = search[2].engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
-    >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+    >>> engine.balance(rpm=6000, orders=[1]).moment.backward
     array([0.+0.j])
     """
 

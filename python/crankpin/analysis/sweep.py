@@ -281,9 +281,7 @@ class Sweep(AllOrders):
 
     # --- over crank angle -----------------------------------------------------------------------
 
-    def waveform(
-        self, theta_deg: ArrayLike | None = None, *, exact: bool = False
-    ) -> SweepWaveform:
+    def waveform(self, theta_deg: ArrayLike | None = None, *, exact: bool = False) -> SweepWaveform:
         """Return force, moment and torque over crank angle at every point.
 
         As sums of the sweep's orders, or by exact kinematics. Orders that the layout cancels are

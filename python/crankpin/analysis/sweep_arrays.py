@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import progress as progress_bar
-from crankpin.analysis.request import Request, engine_core
+from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.source import PLANE_VECTORS, ErrorBound, Source
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ class SweepArrays(Source):
         request: Request,
         progress: Progress = False,
     ) -> None:
+        check_request(request, "crankpin.sweep")
         by_name = {name: np.atleast_1d(values) for name, values in axes.items()}
         swept = [name for name in AXES if np.ndim(axes.get(name, 0.0))]
         core = _core.Sweep(

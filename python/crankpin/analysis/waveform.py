@@ -13,7 +13,7 @@ from crankpin._support.frozen import Frozen
 from crankpin.analysis import export
 from crankpin.analysis.balance import error_bound, mean_piston_speed
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_quantities, engine_core
+from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
 from crankpin.analysis.source import ErrorBound
 
 if TYPE_CHECKING:
@@ -108,6 +108,7 @@ class Waveform(Frozen):
         summed: bool,
         request: Request,
     ) -> None:
+        check_request(request, "Engine.waveform")
         force, moment, torque, crank_torque, balance = _core.waveform(
             engine_core(engine),
             rpm,

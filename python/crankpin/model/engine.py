@@ -262,7 +262,7 @@ class Engine(Frozen):
         >>> v8 = cp.Engine.vee(
         ...     cylinder, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1
         ... )
-        >>> v8.balance(rpm=6000, orders=[1]).backward_moment  # all of it turns with the crank
+        >>> v8.balance(rpm=6000, orders=[1]).moment.backward  # all of it turns with the crank
         array([0.+0.j])
         """
         core = builders.vee(

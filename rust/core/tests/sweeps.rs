@@ -42,7 +42,7 @@ fn peaks(sweep: &Sweep, quantity: Quantity, figure: Figure) -> Vec<f64> {
 }
 
 fn components(quantity: Quantity) -> usize {
-    if quantity == Quantity::Torque { 1 } else { 2 }
+    if matches!(quantity, Quantity::Torque | Quantity::CrankTorque) { 1 } else { 2 }
 }
 
 /// Phasors of a quantity, order by order and component by component, what rounding can leave of each
@@ -51,10 +51,12 @@ fn of_balance(balance: &Balance, quantity: Quantity) -> (Vec<Complex64>, Vec<f64
     let shake = match quantity {
         Quantity::Force => &balance.force,
         Quantity::Moment => &balance.moment,
-        Quantity::Torque => {
+        Quantity::Torque | Quantity::CrankTorque => {
             let torque = balance.torque.as_ref().unwrap();
-            let lengths = torque.roll.iter().map(|roll| roll.norm()).collect();
-            return (torque.roll.to_vec(), torque.zero_bound.to_vec(), lengths);
+            let on_block = quantity == Quantity::Torque;
+            let phasors = if on_block { &torque.roll } else { &torque.crank };
+            let lengths = phasors.iter().map(|phasor| phasor.norm()).collect();
+            return (phasors.to_vec(), torque.zero_bound.to_vec(), lengths);
         }
     };
     let lengths = shake.forward.iter().zip(&shake.backward).map(|(f, b)| f.norm() + b.norm());

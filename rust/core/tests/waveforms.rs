@@ -227,6 +227,7 @@ fn components(quantity: Quantity) -> std::ops::Range<usize> {
         Quantity::Force => 0..2,
         Quantity::Moment => 2..4,
         Quantity::Torque => 4..5,
+        Quantity::CrankTorque => 5..6,
     }
 }
 
