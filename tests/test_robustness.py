@@ -308,8 +308,8 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked, "cylinder", CYLINDER, "Cylinder"),
     (ranked, "spacing", 0.1, "0.1"),
     (ranked, "refine", "yes", "yes"),
-    (ranked, "rtol", -1e-9, "-1e-09"),
-    (ranked, "rtol", NAN, "nan"),
+    (ranked, "tie_rtol", -1e-9, "-1e-09"),
+    (ranked, "tie_rtol", NAN, "nan"),
     (ranked_search, "cylinder", None, "None"),
     (ranked_search, "cylinder", 0.05, "0.05"),
     (ranked_search, "spacing", None, "None"),
@@ -397,7 +397,7 @@ def test_speed_of_a_piston_needs_a_crank_speed(motion: str, rpm: Any) -> None:
         getattr(CYLINDER, motion)([0.0, 30.0], rpm)
 
 
-@pytest.mark.parametrize("rtol", [0.0, -1e-6, 1.0, NAN, INF, None, "low"])
+@pytest.mark.parametrize("rtol", [0.0, -1e-6, 1.0, NAN, INF, "low"])
 def test_auto_needs_a_tolerance(rtol: Any) -> None:
     for call in (balance, waveform):
         with pytest.raises(cp.InputError, match="rtol"):
@@ -463,7 +463,7 @@ def grid(**axes: float) -> cp.types.Sweep:
     """1e5 points along each of two axes."""
     fixed: dict[str, Any] = {"rpm": 1000.0} | {name: endless(v, 10**5) for name, v in axes.items()}
     hold: Any = "pins" if "bank_angle_deg" in axes else None
-    return cp.sweep(V6, hold=hold, **fixed)
+    return cp.sweep(V6, hold=hold, orders=[1, 2, 4, 6], **fixed)
 
 
 TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
@@ -490,10 +490,10 @@ TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
         "",
     ),
     "speeds": (lambda: swept(rpm=endless(1.0, 10**12)), "rpm"),
-    "bank angle and speed": (lambda: grid(bank_angle_deg=1.0, rpm=1.0).moment, ""),
+    "bank angle and speed": (lambda: grid(bank_angle_deg=1.0, rpm=1.0).moment.xy, ""),
     "peaks": (lambda: grid(rod_ratio=0.3, rpm=1.0).force.peak_xy, ""),
     "peaks of sums": (lambda: grid(rod_ratio=0.3, rpm=1.0).total.torque.peak, ""),
-    "proportions": (lambda: grid(rod_ratio=0.3, pin_offset=0.0).moment, ""),
+    "proportions": (lambda: grid(rod_ratio=0.3, pin_offset=0.0).moment.xy, ""),
     "places": (lambda: lists(z=endless(0.0, 10**12)), "z"),
     "masses": (lambda: lists(rotating_mass=endless(0.0, 10**12)), "rotating_mass"),
 }
