@@ -28,6 +28,7 @@ import sys
 import time
 import warnings
 from fractions import Fraction
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
@@ -919,19 +920,36 @@ RESULTS = {
     cp.Cylinder: [*PARTS, "rod_ratio"],
     cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
     cp.types.Balance: [
-        "force",
-        "moment",
-        "torque",
-        "crank_torque",
-        "force_peak_vector",
+        "force.xy",
+        "moment.xy",
+        "torque.phasor",
+        "crank_torque.phasor",
+        "force.peak",
+        "moment.forward",
+        "total.force.peak_xy",
+        "total.moment.peak",
+        "total.torque.peak",
+        "force.zero_bound",
         "error_bound",
     ],
+    cp.types.Sweep: [
+        "force.xy",
+        "moment.xy",
+        "torque.phasor",
+        "crank_torque.phasor",
+        "force.peak",
+        "moment.forward",
+        "total.force.peak_xy",
+        "total.moment.peak",
+        "total.torque.peak",
+        "force.zero_bound",
+        "error_bound",
+    ],
+    cp.types.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
     cp.types.VanishingOrders: ["orders", "reference_z"],
     cp.types.ClosedForm: ["spacing", "reference_z"],
-    cp.types.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
     cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
     cp.types.Throws: ["throws_deg", "pin_splits_deg"],
-    cp.types.Sweep: ["force", "moment_peak_xy", "torque", "total.force.peak"],
     cp.types.Ranking: ["values"],
 }
 
@@ -942,7 +960,7 @@ def unsound(value: Any) -> str:
         return f"returned {shown(value)}"
     for name in RESULTS.get(type(value), []):
         try:
-            figure = getattr(value, name)
+            figure = attrgetter(name)(value)
         except cp.InputError:
             continue  # torque, where a spectrum is given
         if not finite(figure):
