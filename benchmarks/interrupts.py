@@ -21,21 +21,24 @@ CALLS = {
         "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).total.moment.peak_xy"
     ),
     "sweep, 20 million rod ratios: phasors": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment.xy"
     ),
     "sweep, 20 million rod ratios: torque": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).torque"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).torque.phasor"
     ),
     "sweep, 20 million bank angles, offset": (
-        "cp.sweep(v6, rpm=1000, bank_angle_deg=angles, hold='pins', pin_offset=1e-3).moment"
+        "cp.sweep(v6, rpm=1000, bank_angle_deg=angles, hold='pins', pin_offset=1e-3, "
+        "orders=[1, 2, 4, 6]).moment.xy"
     ),
-    "sweep, 20 million speeds": "cp.sweep(v6, rpm=speeds, orders=[1, 2, 4, 6]).moment",
+    "sweep, 20 million speeds": "cp.sweep(v6, rpm=speeds, orders=[1, 2, 4, 6]).moment.xy",
     "sweep, bank angle × rod ratio × speed": (
         "cp.sweep(v6, rpm=speeds[::20_000], bank_angle_deg=angles[::100_000], hold='pins', "
-        "rod_ratio=ratios[::40_000], orders=[2]).moment"
+        "rod_ratio=ratios[::40_000], orders=[2]).moment.xy"
     ),
-    "sweep, orders chosen": "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders='auto').force",
-    "sweep, a list of 20 million numbers": "cp.sweep(v6, rpm=1000, rod_ratio=listed).force",
+    "sweep, orders chosen": "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders='auto').force.xy",
+    "sweep, a list of 20 million numbers": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=listed, orders=[1, 2, 4, 6]).force.xy"
+    ),
     "harmonics": "cp.slider_crank_harmonics(ratios, range(1, 21))",
     "harmonics with an offset, λ = 0.9999": (
         "cp.slider_crank_harmonics(near_one, range(1, 5), 1e-7)"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import labels, optional
+from crankpin._support import inputs, labels, optional
 from crankpin.analysis.source import arrays_of
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def made(
     split_complex: bool = False,
 ) -> xr.Dataset:
     """Return a dataset, complex arrays split into a dimension ``part`` if asked."""
-    if split_complex:
+    if inputs.flag("split_complex", split_complex):
         arrays = {name: _split(variable) for name, variable in arrays.items()}
         coords = {**coords, "part": ("part", ["re", "im"])}
     found: xr.Dataset = optional.xarray().Dataset(arrays, coords, attributes)

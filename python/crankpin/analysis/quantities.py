@@ -136,7 +136,7 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
 
     def conj(self) -> NDArray[np.complex128]:
         """Return the conjugates of the phasors, N or N·m."""
-        return np.conj(np.asarray(self))
+        return np.asarray(np.conj(np.asarray(self)))
 
     def any(self) -> bool:
         """Return True if any phasor is not zero."""
