@@ -16,7 +16,6 @@ from crankpin._support.frozen import Frozen
 from crankpin.model import builders, files, layout
 from crankpin.model import shafts as rotating
 from crankpin.model.cylinder import Cylinder
-from crankpin.model.shafts import Shaft, Unbalance
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.vanishing import VanishingOrders
     from crankpin.analysis.waveform import Waveform
     from crankpin.model.builders import FiringRule, Numbering, Side
+    from crankpin.model.shafts import Shaft, Unbalance
 
 Hold: TypeAlias = Literal["pins", "firing"]
 

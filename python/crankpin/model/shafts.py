@@ -149,13 +149,8 @@ def lines(core: _core.Engine) -> list[str]:
     """Return counterweights and shafts in words."""
     found = []
     if core.counterweights:
-        weights = ", ".join(
-            f"{amount:.4g} kg·m at {'pin ' if pin is not None else ''}"
-            f"{f'{pin + 1} + ' if pin is not None else ''}{_degrees(angle):.6g}°, z = {z:.4g} m"
-            for amount, angle, z, pin in core.counterweights[:4]
-        )
-        more = ", …" if len(core.counterweights) > 4 else ""
-        found.append(f"counterweights: {weights}{more}")
+        listed = ", ".join(map(_text, core.counterweights[:4]))
+        found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")
     for name, ratio, x, y, weights in core.shafts[:4]:
         total = sum(weight[0] for weight in weights)
         title = f"balance shaft {name}".strip()
@@ -187,6 +182,12 @@ def _readable(angle: str) -> float | str:
     if "/" in angle or _core.exact_angle("angle_deg", float(angle)) != angle:
         return angle
     return float(angle)
+
+
+def _text(weight: _Weight) -> str:
+    amount, angle, z, pin = weight
+    place = "" if pin is None else f"pin {pin + 1} + "
+    return f"{amount:.4g} kg·m at {place}{_degrees(angle):.6g}°, z = {z:.4g} m"
 
 
 def _degrees(angle: str) -> float:
