@@ -8,7 +8,8 @@ use std::f64::consts::TAU;
 use crankpin_core::harmonics::{self, torque};
 use crankpin_core::slider_crank::{Motion, Proportions};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Request, Spectrum, balance,
+    Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Request, Spectrum,
+    balance,
 };
 
 const HIGHEST: u32 = 12;

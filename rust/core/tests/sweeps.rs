@@ -239,7 +239,12 @@ fn each_point_is_a_balance_with_a_spectrum() {
     let terms = [(1, Complex64::new(0.02, 0.003)), (4, Complex64::new(-0.001, 0.004))];
     let spectrum = Spectrum::new(terms).unwrap();
     for axes in axes(&[0.0, 50.0, 77.0], &[], &[], &[3000.0, 500.0]).take(3) {
-        each_point_is_a_balance(&[mixed(), plain(), weighted()], &axes, &[1, 2, 4], Some(&spectrum));
+        each_point_is_a_balance(
+            &[mixed(), plain(), weighted()],
+            &axes,
+            &[1, 2, 4],
+            Some(&spectrum),
+        );
     }
 }
 
@@ -499,7 +504,10 @@ fn values_that_cannot_be_are_refused() {
     }
     let axes = Axes { bank_angle: Some((vec![60.0], Hold::Pins)), ..good.clone() };
     let no_banks = Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, None);
-    assert!(refusal(no_banks).starts_with("bank_angle_deg is undefined for this engine: it has one bank"));
+    assert!(
+        refusal(no_banks)
+            .starts_with("bank_angle_deg is undefined for this engine: it has one bank")
+    );
 
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     for (name, swept) in [
@@ -964,8 +972,7 @@ fn few_orders_of_a_spectrum_are_chosen() {
     let spectrum = Spectrum::new(terms).unwrap();
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let bank = Angle::QUARTER_TURN;
-    let upright =
-        Placement { cylinder, tdc: Angle::ZERO, bank, z: REFERENCE, rotating_mass: 0.0 };
+    let upright = Placement { cylinder, tdc: Angle::ZERO, bank, z: REFERENCE, rotating_mass: 0.0 };
     let upright = Arc::new(Engine::new("", "", vec![upright]).unwrap());
     let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
     let chosen = |engine: &Arc<Engine>, rtol: f64, spectrum: &Spectrum| {
@@ -981,8 +988,7 @@ fn few_orders_of_a_spectrum_are_chosen() {
     assert_eq!(one.error_bound()[1..], [0.0, 0.0]);
     // What turns has orders of its own.
     let only = Spectrum::new([(4, Complex64::i())]).unwrap();
-    let orders =
-        |engine: &Arc<Engine>| chosen(engine, 1e-3, &only).unwrap().orders().to_vec();
+    let orders = |engine: &Arc<Engine>| chosen(engine, 1e-3, &only).unwrap().orders().to_vec();
     assert_eq!(orders(&mixed()), whole(&[1, 4]));
     assert_eq!(orders(&plain()), whole(&[4]));
     assert_eq!(orders(&weighted()), whole(&[1, 2, 3, 4]));

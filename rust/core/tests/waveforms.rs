@@ -166,7 +166,8 @@ fn sums_of_orders_are_sums_of_orders() {
                     let found = rows(&wave, i);
                     let expected = sum_of_orders(&balance, θ);
                     assert_eq!(found.len(), expected.len());
-                    let size: f64 = xy(&balance, Vector::Force).concat().iter().map(|p| p.norm()).sum();
+                    let size: f64 =
+                        xy(&balance, Vector::Force).concat().iter().map(|p| p.norm()).sum();
                     for (found, expected) in found.into_iter().zip(expected) {
                         // n·θ to 1e-14, of moments and torques shorter than a metre.
                         assert!((found - expected).abs() <= 7.0 * ROUNDING * size);
@@ -242,8 +243,8 @@ fn what_cannot_be_is_refused() {
     for (request, theta, told) in [
         (Request { rpm: -1.0, ..REQUEST }, 0.0, "rpm"),
         (Request { reference_z: Some(f64::NAN), ..REQUEST }, 0.0, "reference_z"),
-        (ASKED, f64::NAN, "theta_deg"),
-        (ASKED, 1e13, "theta_deg"),
+        (REQUEST, f64::NAN, "theta_deg"),
+        (REQUEST, 1e13, "theta_deg"),
     ] {
         for error in both(&request, &[0.0, theta], &cancel) {
             assert!(error.to_string().starts_with(told), "{error}");
@@ -469,7 +470,7 @@ fn waveforms_of_a_sweep_have_their_refusals() {
         assert_eq!(told(&with(None), Quantity::Force, exact, 36), "");
         assert_eq!(told(&with(None), Quantity::Torque, exact, 18), "");
         let told = told(&with(None).without_torque(), Quantity::Torque, exact, 18);
-        assert!(told.starts_with("torque = False"), "{told}");
+        assert!(told.starts_with("torque is not available: torque=False"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     assert_eq!(told(&with(Some(spectrum.clone())), Quantity::Force, false, 36), "");

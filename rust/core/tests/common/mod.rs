@@ -51,7 +51,11 @@ pub fn weighted() -> Arc<Engine> {
     ]);
     let shafts = vec![
         shaft(1, [0.1, -0.05], vec![weight(0.005, 33.0, 0.1, None)]),
-        shaft(-1, [-0.12, 0.04], vec![weight(0.01, 70.0, 0.0, None), weight(0.004, 250.5, 0.4, None)]),
+        shaft(
+            -1,
+            [-0.12, 0.04],
+            vec![weight(0.01, 70.0, 0.0, None), weight(0.004, 250.5, 0.4, None)],
+        ),
         shaft(2, [0.08, 0.2], vec![weight(0.002, 123.4, 0.2, None)]),
         shaft(-2, [0.0, 0.1], vec![weight(0.003, 0.0, 0.25, None)]),
         shaft(-3, [0.03, -0.07], vec![weight(0.001, 300.0, 0.3, None)]),
