@@ -17,9 +17,8 @@ use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
 use crate::wrench::Wrench;
 
-/// Orders above the last one evaluated add less than this part of a sum's largest term: a tenth of
-/// the rounding error.
-const NEGLIGIBLE: f64 = 1e-17;
+/// Orders above the last one evaluated add less than this part of the tolerance.
+const NEGLIGIBLE: f64 = 0.01;
 
 /// Orders chosen for an engine, over ω² so that they serve any speed.
 pub(crate) struct Chosen {
@@ -51,7 +50,7 @@ pub(crate) fn within(
     } else {
         let motions = proportions.iter().enumerate();
         let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
-        let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
+        let last = highest(rtol, loads.list.len(), motions, torque)?;
         (1..=last.max(unbalances.last().copied().unwrap_or(1))).collect()
     };
     let orders = Order::all_whole(&candidates)?;
@@ -116,15 +115,14 @@ pub(crate) fn rod_share(loads: &Loads, of_motion: usize, scales: &[f64; 3]) -> f
 
 /// Highest order to evaluate for `count` loads of these proportions and shares of rod inertia.
 ///
-/// Above it the remainder is at most `negligible`, or, if no order achieves that, at most `rtol`/4.
+/// Above it the remainder is a hundredth of `rtol` at most, or, if no order achieves that, a quarter.
 pub(crate) fn highest(
     rtol: f64,
-    negligible: f64,
     count: usize,
     motions: impl Iterator<Item = (Proportions, f64)>,
     torque: bool,
 ) -> Result<u32> {
-    let (needed, enough) = (0.25 * rtol / count as f64, negligible / count as f64);
+    let (needed, enough) = (0.25 * rtol / count as f64, NEGLIGIBLE * rtol / count as f64);
     let mut highest = 1;
     for (proportions, rod_share) in motions {
         let torque = torque.then_some(rod_share);
@@ -199,4 +197,110 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
 /// Sizes of force, moment and the larger torque.
 fn sizes(wrench: &Wrench) -> [f64; 3] {
     [wrench.force.peak(), wrench.moment.peak(), wrench.torque.peak()]
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
+    use super::*;
+
+    #[test]
+    fn orders_are_dropped_from_the_smallest_up() {
+        let sizes = [[4.0], [1.0], [0.0], [3.0], [2.0]];
+        let mut lost = [0.5];
+        // 1 and 2 fit beside the half that is lost already; 3 does not, nor does 4.
+        assert_eq!(few(&sizes, &[4.0], &mut lost), [true, false, false, true, false]);
+        assert_eq!(lost, [3.5]);
+        // A sum that is met exactly is within its tolerance.
+        let mut lost = [0.0];
+        assert_eq!(few(&sizes, &[3.0], &mut lost), [true, false, false, true, false]);
+        assert_eq!(lost, [3.0]);
+    }
+
+    #[test]
+    fn the_sum_of_which_an_order_takes_most_ranks_it() {
+        // Half of the second sum's tolerance ranks after a third of the first's.
+        let sizes = [[1.0, 0.05], [0.1, 0.1], [2.5, 0.0]];
+        let mut lost = [0.0; 2];
+        assert_eq!(few(&sizes, &[3.0, 0.2], &mut lost), [false, false, true]);
+        let mut lost = [0.0, 0.08];
+        // The second order no longer fits, the third does.
+        assert_eq!(few(&sizes, &[4.0, 0.2], &mut lost), [false, true, false]);
+        assert_eq!(lost, [3.5, 0.13]);
+    }
+
+    #[test]
+    fn orders_of_no_size_are_dropped_whatever_is_lost_already() {
+        let mut lost = [1.0, 0.0];
+        assert_eq!(
+            few(&[[0.0, 0.0], [1e-9, 0.0], [0.0, 0.5]], &[0.0, 1.0], &mut lost),
+            [false, true, false]
+        );
+        assert_eq!(lost, [1.0, 0.5]);
+        assert!(few(&[[0.0]; 0], &[1.0], &mut [0.0]).is_empty());
+    }
+
+    /// Looks for the smallest order left, again and again.
+    fn plainly(sizes: &[[f64; 3]], allowed: [f64; 3], lost: &mut [f64; 3]) -> Vec<bool> {
+        let (mut kept, mut tried) = (vec![true; sizes.len()], vec![false; sizes.len()]);
+        let share = |k: usize| -> f64 {
+            let mut largest = 0.0;
+            for sum in 0..3 {
+                if sizes[k][sum] > 0.0 && sizes[k][sum] / allowed[sum] > largest {
+                    largest = sizes[k][sum] / allowed[sum];
+                }
+            }
+            largest
+        };
+        while let Some(first) = tried.iter().position(|tried| !tried) {
+            let mut smallest = first;
+            for k in first + 1..sizes.len() {
+                if !tried[k] && share(k) < share(smallest) {
+                    smallest = k;
+                }
+            }
+            tried[smallest] = true;
+            let size = sizes[smallest];
+            let fits = |sum: usize| size[sum] == 0.0 || lost[sum] + size[sum] <= allowed[sum];
+            if (0..3).all(fits) {
+                (0..3).for_each(|sum| lost[sum] += size[sum]);
+                kept[smallest] = false;
+            }
+        }
+        kept
+    }
+
+    fn sizes() -> impl Strategy<Value = [f64; 3]> {
+        let size = prop_oneof![
+            select(vec![0.0, 0.0, 1.0, 2.0, 0.5]),
+            (-9.0..1.0_f64).prop_map(|digits| 10_f64.powf(digits)),
+        ];
+        [size.clone(), size.clone(), size]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+
+        #[test]
+        fn few_orders_are_those_of_a_plain_search(
+            sizes in proptest::collection::vec(sizes(), 0..12),
+            allowed in [0.01..8.0, 0.01..8.0, 0.01..8.0],
+            before in [0.0..0.02, 0.0..0.02, 0.0..0.02],
+        ) {
+            let (mut lost, mut expected) = (before, before);
+            let kept = few(&sizes, &allowed, &mut lost);
+            prop_assert_eq!(&kept, &plainly(&sizes, allowed, &mut expected));
+            prop_assert_eq!(lost, expected);
+            for sum in 0..3 {
+                // More is lost than allowed only where it was before.
+                prop_assert!(lost[sum] <= allowed[sum].max(before[sum]));
+            }
+            // None of those kept would fit as well.
+            for (size, _) in sizes.iter().zip(&kept).filter(|(_, kept)| **kept) {
+                prop_assert!((0..3).any(|sum| lost[sum] + size[sum] > allowed[sum]));
+            }
+        }
+    }
 }

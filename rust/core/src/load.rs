@@ -306,3 +306,6 @@ impl Turn {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crankpin_core::balance::balance;
+use crankpin_core::balance::{Vector, balance};
 use crankpin_core::search::{Bank, Search, Solution, bank};
-use crankpin_core::{Angle, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders};
+use crankpin_core::{Angle, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders, Request};
 
 /// Sums of at most seven terms of at most 3, and their arguments, are good to 1e-14; different |Z|
 /// and angles of such small banks are 1e-4 apart at least.
@@ -196,13 +196,15 @@ fn a_window_has_the_angles_within_it() {
 /// What a solution says of its engine, by the engine's own balance.
 #[track_caller]
 fn check(solution: &Solution, engine: &Engine, unit: f64, second_order: f64) {
-    let orders = Orders::Given(vec![1, 2]);
-    let balance = balance(engine, 3000.0, &orders, None, None).unwrap();
+    let orders = Orders::whole(&[1, 2]).unwrap();
+    let request = Request { rpm: 3000.0, reference_z: None, spectrum: None, torque: false };
+    let balance = balance(engine, &request, &orders, &Cancel::new()).unwrap();
     // Sums of fourteen terms, good to 1e-14 of the longest lever, 3.
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} is not {b} of {solution:?}");
-    close(balance.moment.backward[0].norm(), 0.0);
-    close(balance.moment.forward[0].norm() / unit, solution.counterweight);
-    let xy = balance.moment.xy.row(1);
+    let first = balance.planar(Vector::Moment, 0);
+    close(first.backward().norm(), 0.0);
+    close(first.forward.norm() / unit, solution.counterweight);
+    let xy = balance.xy(Vector::Moment, 1);
     close(xy[0].norm() / (unit * second_order), solution.second_order[0]);
     close(xy[1].norm() / (unit * second_order), solution.second_order[1]);
 }

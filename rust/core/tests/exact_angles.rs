@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crankpin_core::closed_form::closed_form;
+use crankpin_core::exact::closed_form::closed_form;
+use crankpin_core::exact::vanishing::{Verdict, vanishing};
 use crankpin_core::layout::{Numbering, Side, Vee};
-use crankpin_core::vanishing::{Verdict, vanishing};
 use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Placement};
 
 fn angle(text: &str) -> Angle {

@@ -1,20 +1,24 @@
 //! Laws that hold for any engine.
 
+mod common;
+
 use std::f64::consts::TAU;
 
+use common::{by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
-use crankpin_core::balance::{self, Shake, balance};
-use crankpin_core::extrema::PeakFinder;
+use crankpin_core::balance::{Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Asked, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Orders, Placement, Spectrum,
-    Sweep, waveform,
+    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Order, Orders, Placement, Request,
+    Spectrum, Sweep, waveform,
 };
 use proptest::prelude::*;
 
 const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
-const ASKED: Asked = Asked { rpm: 3000.0, reference_z: Some(0.0), spectrum: None, torque: true };
+const REQUEST: Request =
+    Request { rpm: 3000.0, reference_z: Some(0.0), spectrum: None, torque: true };
+const VECTORS: [Vector; 2] = [Vector::Force, Vector::Moment];
 
 /// Moving parts of a usual engine, offset or not.
 fn cylinders(offset: bool) -> impl Strategy<Value = Cylinder> {
@@ -70,12 +74,18 @@ fn vees() -> impl Strategy<Value = Engine> {
     })
 }
 
-fn changed(engine: &Engine, change: impl Fn(&Placement) -> Placement) -> Engine {
-    Engine::new("", "", engine.placements().iter().map(change).collect()).unwrap()
+fn of(engine: &Engine) -> Balance {
+    by_orders(engine, &REQUEST, &ORDERS)
 }
 
-fn of(engine: &Engine) -> Balance {
-    balance(engine, 3000.0, &Orders::Given(ORDERS.to_vec()), Some(0.0), None).unwrap()
+fn auto(engine: &Engine, request: &Request, rtol: f64) -> crankpin_core::Result<Balance> {
+    balance(engine, request, &Orders::Auto { rtol }, &Cancel::new())
+}
+
+/// Roll torque, order by order.
+fn rolls(balance: &Balance) -> impl Iterator<Item = Complex64> {
+    assert!(balance.has_torque);
+    balance.wrenches.iter().map(|wrench| wrench.torque.roll)
 }
 
 /// Size that rounding is relative to: Σ m r ω² (1 + |z|).
@@ -92,10 +102,6 @@ fn size(engine: &Engine) -> f64 {
 #[track_caller]
 fn same(a: Complex64, b: Complex64, size: f64) {
     assert!((a - b).norm() <= 2e-13 * size, "{a} is not {b} (of {size})");
-}
-
-fn each(shake: &Shake) -> impl Iterator<Item = (Complex64, Complex64)> + '_ {
-    shake.forward.iter().copied().zip(shake.backward.iter().copied())
 }
 
 proptest! {
@@ -116,16 +122,15 @@ proptest! {
             Placement { cylinder, rotating_mass: p.rotating_mass * factor, ..*p }
         });
         let before = of(&engine);
-        let after = balance(
-            &scaled, 3000.0 * factor, &Orders::Given(ORDERS.to_vec()), Some(0.0), None,
-        ).unwrap();
+        let faster = Request { rpm: 3000.0 * factor, ..REQUEST };
+        let after = by_orders(&scaled, &faster, &ORDERS);
         let power = factor.powi(4);
-        for (a, b) in before.force.xy.iter().zip(&after.force.xy) {
-            same(*a * power, *b, size(&engine) * power);
+        let force = |balance| xy(balance, Vector::Force).concat();
+        for (a, b) in force(&before).iter().zip(force(&after)) {
+            same(*a * power, b, size(&engine) * power);
         }
-        let (a, b) = (before.torque.unwrap(), after.torque.unwrap());
-        for (a, b) in a.roll.iter().zip(&b.roll) {
-            same(*a * power * factor, *b, size(&engine) * power * factor);
+        for (a, b) in rolls(&before).zip(rolls(&after)) {
+            same(a * power * factor, b, size(&engine) * power * factor);
         }
     }
 
@@ -133,8 +138,8 @@ proptest! {
     fn turning_the_engine_turns_the_result(engine in engines(true), by in angles()) {
         let turned = changed(&engine, |p| Placement { bank: p.bank + by, ..*p });
         let (before, after) = (of(&engine), of(&turned));
-        for (a, b) in [(&before.force, &after.force), (&before.moment, &after.moment)] {
-            for ((f, g), (f2, g2)) in each(a).zip(each(b)) {
+        for vector in VECTORS {
+            for ([f, g], [f2, g2]) in turning(&before, vector).into_iter().zip(turning(&after, vector)) {
                 same(f * by.cis(1), f2, size(&engine));
                 same(g * by.cis(1), g2, size(&engine));
             }
@@ -147,10 +152,10 @@ proptest! {
         let (before, after) = (of(&engine), of(&turned));
         for (k, &n) in ORDERS.iter().enumerate() {
             let phase = by.cis(-i64::from(n));
-            same(before.force.forward[k] * phase, after.force.forward[k], size(&engine));
-            same(before.force.backward[k] * phase.conj(), after.force.backward[k], size(&engine));
-            let (a, b) = (before.torque.as_ref().unwrap(), after.torque.as_ref().unwrap());
-            same(a.roll[k] * phase, b.roll[k], size(&engine));
+            let [a, b] = [&before, &after].map(|balance| &balance.wrenches[k]);
+            same(a.force.forward * phase, b.force.forward, size(&engine));
+            same(a.force.backward() * phase.conj(), b.force.backward(), size(&engine));
+            same(a.torque.roll * phase, b.torque.roll, size(&engine));
         }
     }
 
@@ -161,20 +166,21 @@ proptest! {
         placements.rotate_left(by % count);
         placements.reverse();
         let (before, after) = (of(&engine), of(&Engine::new("", "", placements).unwrap()));
-        for (a, b) in before.moment.xy.iter().zip(&after.moment.xy) {
-            same(*a, *b, size(&engine));
+        let moment = |balance| xy(balance, Vector::Moment).concat();
+        for (a, b) in moment(&before).iter().zip(moment(&after)) {
+            same(*a, b, size(&engine));
         }
     }
 
     #[test]
     fn moving_the_plane_adds_force_times_distance(engine in engines(true), by in -1.0..1.0) {
-        let orders = Orders::Given(ORDERS.to_vec());
         let here = of(&engine);
-        let there = balance(&engine, 3000.0, &orders, Some(by), None).unwrap();
+        let there = by_orders(&engine, &Request { reference_z: Some(by), ..REQUEST }, &ORDERS);
         for k in 0..ORDERS.len() {
-            let [x, y] = [here.force.xy[[k, 0]], here.force.xy[[k, 1]]];
-            same(here.moment.xy[[k, 0]] + y * by, there.moment.xy[[k, 0]], 2.0 * size(&engine));
-            same(here.moment.xy[[k, 1]] - x * by, there.moment.xy[[k, 1]], 2.0 * size(&engine));
+            let [x, y] = here.xy(Vector::Force, k);
+            let [a, b] = [&here, &there].map(|balance| balance.xy(Vector::Moment, k));
+            same(a[0] + y * by, b[0], 2.0 * size(&engine));
+            same(a[1] - x * by, b[1], 2.0 * size(&engine));
         }
     }
 
@@ -184,13 +190,12 @@ proptest! {
         // Without rotating mass: a mirrored pin would turn the other way.
         let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
         let mirrored = changed(&engine, |p| Placement { bank: upright - p.bank, ..*p });
-        for ((f, b), (f2, b2)) in each(&of(&engine).force).zip(each(&of(&mirrored).force)) {
-            same(-b.conj(), f2, size(&engine));
-            same(-f.conj(), b2, size(&engine));
-        }
-        for ((f, b), (f2, b2)) in each(&of(&engine).moment).zip(each(&of(&mirrored).moment)) {
-            same(b.conj(), f2, size(&engine));
-            same(f.conj(), b2, size(&engine));
+        for (vector, sign) in [(Vector::Force, -1.0), (Vector::Moment, 1.0)] {
+            let [before, after] = [&engine, &mirrored].map(|engine| turning(&of(engine), vector));
+            for ([f, b], [f2, b2]) in before.into_iter().zip(after) {
+                same(b.conj() * sign, f2, size(&engine));
+                same(f.conj() * sign, b2, size(&engine));
+            }
         }
     }
 
@@ -198,7 +203,8 @@ proptest! {
     fn reversing_the_crank_swaps_forward_and_backward(engine in engines(false)) {
         let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
         let reversed = changed(&engine, |p| Placement { tdc: -p.tdc, ..*p });
-        for ((f, b), (f2, b2)) in each(&of(&engine).force).zip(each(&of(&reversed).force)) {
+        let force = |engine| turning(&of(engine), Vector::Force).into_iter();
+        for ([f, b], [f2, b2]) in force(&engine).zip(force(&reversed)) {
             same(b, f2, size(&engine));
             same(f, b2, size(&engine));
         }
@@ -210,15 +216,18 @@ proptest! {
         let place = |bank| Placement { cylinder, tdc, bank, z: 0.1, rotating_mass: mass };
         let engine = Engine::new("", "", vec![place(bank), place(bank + half)]).unwrap();
         let balance = of(&engine);
-        prop_assert!(balance.force.xy.iter().all(|z| *z == Complex64::default()));
-        prop_assert!(balance.moment.xy.iter().all(|z| *z == Complex64::default()));
+        for vector in VECTORS {
+            let phasors = [xy(&balance, vector), turning(&balance, vector)].concat().concat();
+            prop_assert!(phasors.iter().all(|z| *z == Complex64::default()));
+        }
     }
 
     #[test]
     fn rotating_mass_is_all_forward(engine in engines(true)) {
         let without = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
         let (with, without) = (of(&engine), of(&without));
-        for (a, b) in with.force.backward.iter().zip(&without.force.backward) {
+        let [with, without] = [with, without].map(|balance| turning(&balance, Vector::Force));
+        for ([_, a], [_, b]) in with.iter().zip(&without) {
             same(*a, *b, size(&engine));
         }
         let omega = 3000.0 * TAU / 60.0;
@@ -227,13 +236,13 @@ proptest! {
             .iter()
             .map(|p| p.pin().cis(1) * p.rotating_mass * p.cylinder.crank_radius() * omega * omega)
             .sum();
-        same(with.force.forward[0] - without.force.forward[0], turning, size(&engine));
+        same(with[0][0] - without[0][0], turning, size(&engine));
     }
 
     #[test]
     fn a_balance_is_the_sum_of_its_cylinders(engine in engines(true), reference in -0.3..0.3) {
-        let orders = Orders::Given(ORDERS.to_vec());
-        let balance = balance(&engine, 3000.0, &orders, Some(reference), None).unwrap();
+        let request = Request { reference_z: Some(reference), ..REQUEST };
+        let balance = by_orders(&engine, &request, &ORDERS);
         let square = (3000.0 * TAU / 60.0).powi(2);
         for (k, &n) in ORDERS.iter().enumerate() {
             let mut force = [Complex64::default(); 2];
@@ -278,17 +287,19 @@ proptest! {
                 terms[2] += larger(&swing) * inertia.abs() * square;
             }
             let size = 2.0 * size(&engine);
-            for axis in 0..2 {
-                same(balance.force.xy[[k, axis]], force[axis], size);
-                same(balance.moment.xy[[k, axis]], moment[axis], size);
+            for (vector, expected) in [(Vector::Force, force), (Vector::Moment, moment)] {
+                for (found, expected) in balance.xy(vector, k).into_iter().zip(expected) {
+                    same(found, expected, size);
+                }
             }
-            let torque = balance.torque.as_ref().unwrap();
-            same(torque.roll[k], roll, size);
-            same(torque.crank[k], crank, size);
-            // The documented bound of what rounding leaves.
-            let factor = (engine.placements().len() as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
-            let bounds =
-                [balance.force.zero_bound[k], balance.moment.zero_bound[k], torque.zero_bound[k]];
+            let torque = balance.wrenches[k].torque;
+            same(torque.roll, roll, size);
+            same(torque.crank, crank, size);
+            // The documented bound of rounding errors: a load for each piston and rotating mass.
+            let loads = engine.placements().len() + engine.crank_unbalances().count();
+            let factor = (loads as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
+            let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
+            let bounds = [force, moment, balance.torque_zero_bound(k)];
             for (bound, terms) in bounds.into_iter().zip(terms) {
                 prop_assert!((bound - terms * factor).abs() <= 1e-12 * terms * factor);
             }
@@ -297,24 +308,28 @@ proptest! {
 
     #[test]
     fn peaks_of_all_orders_are_those_of_the_waveform(engine in engines(true)) {
-        let shakes = of(&engine);
-        let finder = PeakFinder::new(&ORDERS);
+        let found = of(&engine);
         let thetas: Vec<f64> = (0..3600).map(|k| f64::from(k) * 0.1).collect();
-        let orders = Orders::Given(ORDERS.to_vec());
+        let orders = Orders::whole(&ORDERS).unwrap();
         let wave =
-            waveform::from_orders(&engine, &ASKED, &thetas, &orders, &Cancel::new()).unwrap();
+            waveform::from_orders(&engine, &REQUEST, &thetas, &orders, &Cancel::new()).unwrap();
         // Half a step of 3600 at order 9: (9·8.7e-4)²/2 = 3.1e-5; six orders add up to 6 sizes.
         let close = |peak: f64, sampled: f64| {
             sampled <= peak + 1e-12 * size(&engine) && peak <= sampled + 2e-4 * size(&engine)
         };
-        for (shake, wave) in [(&shakes.force, &wave.force), (&shakes.moment, &wave.moment)] {
+        for (vector, wave) in [(Vector::Force, &wave.force), (Vector::Moment, &wave.moment)] {
             let largest = |of: &dyn Fn([f64; 2]) -> f64| {
                 wave.rows().into_iter().map(|row| of([row[0], row[1]])).fold(0.0, f64::max)
             };
-            let [x, y] = shake.peak_xy(&finder);
+            let [x, y] = found.peak_xy(vector);
             prop_assert!(close(x, largest(&|[x, _]| x.abs())));
             prop_assert!(close(y, largest(&|[_, y]| y.abs())));
-            prop_assert!(close(shake.peak_vector(&finder), largest(&|[x, y]| x.hypot(y))));
+            prop_assert!(close(found.peak(vector), largest(&|[x, y]| x.hypot(y))));
+        }
+        let torques = [&wave.torque, &wave.crank_torque];
+        for (peak, torque) in found.torque_peaks().into_iter().zip(torques) {
+            let torque = torque.iter().flatten();
+            prop_assert!(close(peak, torque.map(|t| t.abs()).fold(0.0, f64::max)));
         }
     }
 
@@ -322,10 +337,10 @@ proptest! {
     fn orders_and_kinematics_agree_and_keep_their_energy(engine in engines(true)) {
         let thetas: Vec<f64> = (0..256).map(|k| f64::from(k) * 360.0 / 256.0).collect();
         let cancel = Cancel::new();
-        let exact = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
-        let all = Orders::Given((1..=120).collect());
+        let exact = waveform::exact(&engine, &REQUEST, &thetas, &cancel).unwrap();
+        let all = Orders::whole(&(1..=120).collect::<Vec<_>>()).unwrap();
         let summed =
-            waveform::from_orders(&engine, &ASKED, &thetas, &all, &cancel).unwrap();
+            waveform::from_orders(&engine, &REQUEST, &thetas, &all, &cancel).unwrap();
         // λ ≤ 1/1.8 and e ≤ r/2: order 120 is below 1e-20; 120 powers of e^{iθ} lose 120 roundings.
         let tolerance = 1e-12 * size(&engine);
         for (a, b) in exact.force.iter().zip(&summed.force) {
@@ -343,7 +358,8 @@ proptest! {
         // Parseval: the mean square of x + iy is the sum of |forward|² + |backward|².
         let mean: f64 = exact.force.iter().map(|x| x * x).sum::<f64>() / 256.0;
         let parts = summed.balance.unwrap();
-        let total: f64 = each(&parts.force).map(|(f, b)| f.norm_sqr() + b.norm_sqr()).sum();
+        let parts = turning(&parts, Vector::Force).concat();
+        let total: f64 = parts.iter().map(|part| part.norm_sqr()).sum();
         prop_assert!((mean - total).abs() <= 1e-12 * size(&engine).powi(2));
     }
 
@@ -352,28 +368,21 @@ proptest! {
         let rtol = 10_f64.powi(-digits);
         let thetas: Vec<f64> = (0..90).map(|k| f64::from(k) * 4.0).collect();
         let cancel = Cancel::new();
-        let exact = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
+        let exact = waveform::exact(&engine, &REQUEST, &thetas, &cancel).unwrap();
         let orders = Orders::Auto { rtol };
-        let chosen = balance::of(&engine, &ASKED, &orders, &Cancel::new()).unwrap();
-        let cheaper = waveform::from_orders(&engine, &ASKED, &thetas, &orders, &cancel).unwrap();
-        if let Some(balance) = &cheaper.balance {
-            prop_assert_eq!(balance, &chosen);
-        } else {
-            prop_assert_eq!(&cheaper, &exact);
-        }
-        let orders = Orders::Given(chosen.orders.clone());
-        let summed =
-            waveform::from_orders(&engine, &ASKED, &thetas, &orders, &cancel).unwrap();
+        let chosen = auto(&engine, &REQUEST, rtol).unwrap();
+        let summed = waveform::from_orders(&engine, &REQUEST, &thetas, &orders, &cancel).unwrap();
+        prop_assert_eq!(summed.balance.as_ref(), Some(&chosen));
         let rounding = 1e-13 * size(&engine);
         for (a, b, bound) in [
-            (&exact.force, &summed.force, chosen.force.error_bound),
-            (&exact.moment, &summed.moment, chosen.moment.error_bound),
+            (&exact.force, &summed.force, chosen.error_bound[0]),
+            (&exact.moment, &summed.moment, chosen.error_bound[1]),
         ] {
             for (a, b) in a.rows().into_iter().zip(b.rows()) {
                 prop_assert!((a[0] - b[0]).hypot(a[1] - b[1]) <= bound + rounding);
             }
         }
-        let bound = chosen.torque.unwrap().error_bound;
+        let bound = chosen.error_bound[2];
         let torques = exact.torque.unwrap().into_iter().zip(summed.torque.unwrap());
         let crank_torques = exact.crank_torque.unwrap().into_iter().zip(summed.crank_torque.unwrap());
         for (a, b) in torques.chain(crank_torques) {
@@ -385,7 +394,7 @@ proptest! {
             .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
             .fold(0.0, f64::max);
         let omega = 3000.0 * TAU / 60.0;
-        prop_assert!(chosen.force.error_bound <= rtol * largest * omega * omega);
+        prop_assert!(chosen.error_bound[0] <= rtol * largest * omega * omega);
     }
 
     #[test]
@@ -415,10 +424,10 @@ proptest! {
             rpm: vec![rpm, 3000.0],
         };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone().into()], axes, ORDERS.to_vec(), Some(0.1), None, &Cancel::new()).unwrap();
-        let force = sweep.phasors(Quantity::Force, &cancel).unwrap();
-        let moment = sweep.phasors(Quantity::Moment, &cancel).unwrap();
-        let torque = sweep.phasors(Quantity::Torque, &cancel).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), None).unwrap();
+        let phasors = |quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
+        let (force, moment) = (phasors(Quantity::Force), phasors(Quantity::Moment));
+        let torque = phasors(Quantity::Torque);
         let peaks = sweep.peaks(Quantity::Moment, Figure::Amplitude, &cancel).unwrap();
         let vectors = sweep.peaks(Quantity::Force, Figure::Length, &cancel).unwrap();
         for (i, &angle) in angles.iter().enumerate() {
@@ -429,19 +438,19 @@ proptest! {
                 let rod_inertia = p.cylinder.rod_inertia_excess();
                 Placement { cylinder: cylinder.with_rod_inertia_excess(rod_inertia).unwrap(), ..*p }
             });
-            let orders = Orders::Given(ORDERS.to_vec());
-            let alone = balance(&there, 3000.0, &orders, Some(0.1), None).unwrap();
+            let alone = by_orders(&there, &Request { reference_z: Some(0.1), ..REQUEST }, &ORDERS);
             let size = 2.0 * size(&there);
             for k in 0..ORDERS.len() {
                 for axis in 0..2 {
-                    same(force[[0, i, 1, 2, 1, k, axis]], alone.force.xy[[k, axis]], size);
-                    let phasor = alone.moment.xy[[k, axis]];
+                    let phasor = alone.xy(Vector::Force, k)[axis];
+                    same(force[[0, i, 1, 2, 1, k, axis]], phasor, size);
+                    let phasor = alone.xy(Vector::Moment, k)[axis];
                     same(moment[[0, i, 1, 2, 1, k, axis]], phasor, size);
                     let peak = peaks[[0, i, 1, 2, 1, k, axis]];
                     same(peak.into(), phasor.norm().into(), size);
                 }
-                same(torque[[0, i, 1, 2, 1, k]], alone.torque.as_ref().unwrap().roll[k], size);
-                let longest = alone.force.forward[k].norm() + alone.force.backward[k].norm();
+                same(torque[[0, i, 1, 2, 1, k]], alone.wrenches[k].torque.roll, size);
+                let longest = alone.planar(Vector::Force, k).peak();
                 same(vectors[[0, i, 1, 2, 1, k]].into(), longest.into(), size);
             }
         }
@@ -456,12 +465,13 @@ proptest! {
             Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, ORDERS.to_vec(), Some(0.0), None, &Cancel::new()).unwrap();
-        let moment = sweep.phasors(Quantity::Moment, &Cancel::new()).unwrap();
+        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), None).unwrap();
+        let moment = sweep.phasors(Quantity::Moment, Figure::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
             for axis in 0..2 {
-                same(moment[[0, 0, 0, 0, 2, k, axis]], alone.moment.xy[[k, axis]], size(&engine));
+                let phasor = alone.xy(Vector::Moment, k)[axis];
+                same(moment[[0, 0, 0, 0, 2, k, axis]], phasor, size(&engine));
                 prop_assert_eq!(moment[[0, 0, 0, 0, 0, k, axis]], Complex64::default());
             }
         }
@@ -479,7 +489,7 @@ proptest! {
                 rpm: vec![3000.0],
             };
             let engines = vec![engine.clone().into(), engine.clone().into()];
-            let sweep = Sweep::new(engines, axes, vec![1, 2, 4], None, None, &Cancel::new()).unwrap();
+            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, None).unwrap();
             sweep.peaks(Quantity::Moment, Figure::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);
@@ -511,9 +521,8 @@ fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
     for tdc in [0.0, 90.0, 17.123_456_789] {
         let engine = in_phase(cylinder, tdc);
         for rtol in [0.3, 1e-2, 1e-5, 1e-9] {
-            let chosen =
-                balance::of(&engine, &ASKED, &Orders::Auto { rtol }, &Cancel::new()).unwrap();
-            let left = |n: &u32| !chosen.orders.contains(n);
+            let chosen = auto(&engine, &REQUEST, rtol).unwrap();
+            let left = |n: &u32| !chosen.orders.contains(&Order::whole(*n).unwrap());
             let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
                 (0..above.len()).rev().filter(|&k| left(&above[k])).map(of).sum()
             };
@@ -522,15 +531,15 @@ fn bounds_of_what_is_left_out_are_the_sums_of_its_sizes() {
             let turning = 2.0 * cylinder.first_order() * 0.05 * square * turning;
             // The rest that is not worked out is 1e-17 of the largest term.
             let slack = 1e-12 * force + 1e-15 * square * cylinder.first_order();
-            assert!((chosen.force.error_bound - force).abs() <= slack);
-            assert!((chosen.moment.error_bound - 0.1 * force).abs() <= slack);
-            let torque = chosen.torque.unwrap();
-            assert!((torque.error_bound - turning).abs() <= slack);
-            assert!(chosen.force.error_bound <= rtol * cylinder.first_order() * square);
-            assert!(chosen.omitted.iter().all(left));
+            let expected = [force, 0.1 * force, turning];
+            for (found, expected) in chosen.error_bound.iter().zip(expected) {
+                assert!((found - expected).abs() <= slack);
+            }
+            assert!(chosen.error_bound[0] <= rtol * cylinder.first_order() * square);
+            assert!(chosen.omitted.iter().all(|order| !chosen.orders.contains(order)));
             assert!(chosen.omitted.windows(2).all(|pair| pair[0] < pair[1]));
-            let last = chosen.omitted.last().unwrap();
-            assert!(sizes[*last as usize - 1].norm() < 1e-15);
+            let last = chosen.omitted.last().unwrap().as_whole().unwrap();
+            assert!(sizes[last as usize - 1].norm() < 1e-15);
         }
     }
 }
@@ -543,26 +552,23 @@ fn orders_that_a_layout_cancels_are_not_omitted() {
     let at = |degrees| Angle::from_degrees(degrees).unwrap();
     let place =
         |tdc, bank, z| Placement { cylinder, tdc: at(tdc), bank: at(bank), z, rotating_mass: 0.0 };
-    let asked = Asked { torque: false, ..ASKED };
+    let request = Request { torque: false, ..REQUEST };
     let boxer = Engine::new("", "", vec![place(0.0, 0.0, 0.1), place(0.0, 180.0, 0.1)]).unwrap();
-    let balance =
-        balance::of(&boxer, &asked, &Orders::Auto { rtol: 1e-9 }, &Cancel::new()).unwrap();
-    assert_eq!(
-        (balance.orders.len(), balance.omitted.len(), balance.force.error_bound),
-        (0, 0, 0.0)
-    );
+    let balance = auto(&boxer, &request, 1e-9).unwrap();
+    assert_eq!((balance.orders.len(), balance.omitted.len()), (0, 0));
+    // Orders above those evaluated are bounded as if nothing cancelled.
+    assert!(balance.error_bound[0] <= 1e-16 * cylinder.first_order() * 1e5);
     let pair = Engine::new("", "", vec![place(0.0, 90.0, 0.0), place(180.0, 90.0, 0.0)]).unwrap();
-    let balance = balance::of(&pair, &asked, &Orders::Auto { rtol: 1e-6 }, &Cancel::new()).unwrap();
+    let balance = auto(&pair, &request, 1e-6).unwrap();
     assert!(!balance.orders.is_empty() && !balance.omitted.is_empty());
-    assert!(balance.orders.iter().chain(&balance.omitted).all(|n| n % 2 == 0));
+    let mut orders = balance.orders.iter().chain(&balance.omitted);
+    assert!(orders.all(|order| order.as_whole().unwrap() % 2 == 0));
 }
 
 #[test]
 fn tolerances_out_of_reach_are_refused() {
     let engine = |ratio: f64| in_phase(Cylinder::new(0.05, 0.05 / ratio, 0.5, 0.0).unwrap(), 0.0);
-    let auto = |ratio: f64, rtol: f64| {
-        balance::of(&engine(ratio), &ASKED, &Orders::Auto { rtol }, &Cancel::new())
-    };
+    let auto = |ratio: f64, rtol: f64| auto(&engine(ratio), &REQUEST, rtol);
     for rtol in [0.0, -1.0, 1.0, 1e-16, f64::NAN] {
         assert!(auto(0.3, rtol).unwrap_err().to_string().contains("rtol"), "{rtol}");
     }
@@ -577,17 +583,15 @@ fn a_spectrum_stands_in_for_the_rods() {
     let turning = changed(&engine, |p| Placement { rotating_mass: 1.0, ..*p });
     let amplitudes = [(2, 0.2), (4, 1e-6), (6, 0.0)];
     let spectrum = Spectrum::new(amplitudes.map(|(n, a)| (n, Complex64::new(a, 0.0)))).unwrap();
-    let asked = Asked { spectrum: Some(&spectrum), ..ASKED };
-    let auto =
-        |engine| balance::of(engine, &asked, &Orders::Auto { rtol: 1e-3 }, &Cancel::new()).unwrap();
-    let (still, turning) = (auto(&engine), auto(&turning));
-    assert_eq!((&still.orders[..], &still.omitted[..]), (&[2][..], &[4][..]));
+    let request = Request { spectrum: Some(&spectrum), ..REQUEST };
+    let [still, turning] = [&engine, &turning].map(|engine| auto(engine, &request, 1e-3).unwrap());
+    assert_eq!((&still.orders, &still.omitted), (&whole(&[2]), &whole(&[4])));
     // Rotating mass acts at order 1, which the spectrum does not have.
-    assert_eq!((&turning.orders[..], &turning.omitted[..]), (&[1, 2][..], &[4][..]));
-    assert!(still.torque.is_none());
+    assert_eq!((turning.orders, turning.omitted), (whole(&[1, 2]), whole(&[4])));
+    assert!(!still.has_torque);
     let square = (3000.0 * TAU / 60.0).powi(2);
-    same(still.force.xy[[0, 1]], Complex64::new(0.4 * square, 0.0), square);
-    same(still.force.error_bound.into(), (2e-6 * square).into(), 1e-6 * square);
+    same(still.xy(Vector::Force, 0)[1], Complex64::new(0.4 * square, 0.0), square);
+    same(still.error_bound[0].into(), (2e-6 * square).into(), 1e-6 * square);
 }
 
 #[test]

@@ -8,7 +8,8 @@ use std::f64::consts::TAU;
 use crankpin_core::harmonics::{self, torque};
 use crankpin_core::slider_crank::{Motion, Proportions};
 use crankpin_core::{
-    Angle, Asked, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Spectrum, balance,
+    Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Request, Spectrum,
+    balance,
 };
 
 const HIGHEST: u32 = 12;
@@ -123,9 +124,11 @@ fn who_stops_waiting_is_told_at_once() {
     let placement = Placement { cylinder, tdc: zero, bank: zero, z: 0.0, rotating_mass: 0.0 };
     let engine = Engine::new("", "", vec![placement]).unwrap();
     let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
-    let asked = Asked { rpm: 1000.0, reference_z: None, spectrum: Some(&spectrum), torque: false };
-    for orders in [Orders::Given(vec![1]), Orders::Auto { rtol: 1e-3 }] {
-        assert_eq!(balance::of(&engine, &asked, &orders, &stopped).unwrap_err(), Error::Cancelled);
+    let spectrum = Some(&spectrum);
+    let request = Request { rpm: 1000.0, reference_z: None, spectrum, torque: false };
+    for orders in [Orders::whole(&[1]).unwrap(), Orders::Auto { rtol: 1e-3 }] {
+        let found = balance::balance(&engine, &request, &orders, &stopped);
+        assert_eq!(found.unwrap_err(), Error::Cancelled);
     }
 }
 

@@ -5,16 +5,18 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{alone, in_line, mixed, places, plain, there};
-use crankpin_core::sweep::{Axes, Quantity};
+use common::{alone, by_orders, in_line, mixed, places, plain, there, weighted, whole, xy};
+use crankpin_core::balance::{Vector, balance};
+use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Asked, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders,
-    Placement, Spectrum, Sweep, Waveform, balance, waveform,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders,
+    Placement, Request, Spectrum, Sweep, Waveform, waveform,
 };
 
 const REFERENCE: f64 = 0.07;
 const RPM: f64 = 3000.0;
-const ASKED: Asked = Asked { rpm: RPM, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+const REQUEST: Request =
+    Request { rpm: RPM, reference_z: Some(REFERENCE), spectrum: None, torque: true };
 
 fn square(rpm: f64) -> f64 {
     (rpm * std::f64::consts::TAU / 60.0).powi(2)
@@ -59,6 +61,31 @@ fn kinematics(engine: &Engine, θ: f64) -> ([f64; 6], [f64; 6]) {
             sizes[k] += size[k];
         }
     }
+    let mut add = |force: Complex64, z: f64, [x, y]: [f64; 2]| {
+        let (lever, size) = (z - REFERENCE, force.norm());
+        let roll = x * force.im - y * force.re;
+        let terms = [force.re, force.im, -lever * force.im, lever * force.re, roll, 0.0];
+        let levered = size * (z.abs() + REFERENCE);
+        let terms_of = [size, size, levered, levered, size * (x.abs() + y.abs()), 0.0];
+        for k in 0..6 {
+            sums[k] += terms[k];
+            // Up to three turns of the crank are nine of a shaft.
+            sizes[k] += 3.0 * terms_of[k];
+        }
+    };
+    for weight in engine.counterweights() {
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.placements()[i].pin());
+        let turned = pin.degrees().to_radians() + weight.angle.degrees().to_radians() + θ;
+        add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
+    }
+    for shaft in engine.shafts() {
+        let ratio = f64::from(shaft.ratio);
+        for weight in &shaft.unbalances {
+            let turned = weight.angle.degrees().to_radians() + ratio * θ;
+            let force = Complex64::cis(turned) * (ratio * ratio * weight.amount);
+            add(force, weight.z, shaft.axis);
+        }
+    }
     (sums, sizes)
 }
 
@@ -80,16 +107,16 @@ const ROUNDING: f64 = 1e-14;
 
 #[test]
 fn kinematics_are_those_of_each_cylinder() {
-    for engine in [mixed(), plain(), in_line()] {
+    for engine in [mixed(), plain(), in_line(), weighted()] {
         // Blocks of 256, and enough of them for threads.
         for count in [0, 1, 255, 256, 257, 1024, 1025, 1300] {
             let thetas = thetas(count);
             let cancel = Cancel::new();
-            let wave = waveform::exact(&engine, &ASKED, &thetas, &cancel).unwrap();
+            let wave = waveform::exact(&engine, &REQUEST, &thetas, &cancel).unwrap();
             assert_eq!(wave.force.shape(), [count, 2]);
             assert!(wave.balance.is_none());
-            let asked = Asked { torque: false, ..ASKED };
-            let planar = waveform::exact(&engine, &asked, &thetas, &cancel).unwrap();
+            let request = Request { torque: false, ..REQUEST };
+            let planar = waveform::exact(&engine, &request, &thetas, &cancel).unwrap();
             assert_eq!((&planar.force, &planar.moment), (&wave.force, &wave.moment));
             assert!(planar.torque.is_none() && planar.crank_torque.is_none());
             for (i, θ) in thetas.iter().enumerate() {
@@ -105,12 +132,14 @@ fn kinematics_are_those_of_each_cylinder() {
 
 /// Σ Re(P e^{inθ}) of force x, y, moment x, y, roll and crank torque.
 fn sum_of_orders(balance: &Balance, θ: f64) -> Vec<f64> {
-    let mut sums = vec![0.0; if balance.torque.is_some() { 6 } else { 4 }];
+    let mut sums = vec![0.0; if balance.has_torque { 6 } else { 4 }];
     for (k, &n) in balance.orders.iter().enumerate() {
-        let unit = Complex64::cis(f64::from(n) * θ.to_radians());
-        let [force, moment] = [&balance.force.xy, &balance.moment.xy];
-        let mut phasors = vec![force[[k, 0]], force[[k, 1]], moment[[k, 0]], moment[[k, 1]]];
-        phasors.extend(balance.torque.iter().flat_map(|torque| [torque.roll[k], torque.crank[k]]));
+        let unit = Complex64::cis(n.number() * θ.to_radians());
+        let mut phasors = [balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k)].concat();
+        if balance.has_torque {
+            let torque = balance.wrenches[k].torque;
+            phasors.extend([torque.roll, torque.crank]);
+        }
         for (sum, phasor) in sums.iter_mut().zip(phasors) {
             *sum += (phasor * unit).re;
         }
@@ -121,23 +150,24 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> Vec<f64> {
 #[test]
 fn sums_of_orders_are_sums_of_orders() {
     let spectrum = Spectrum::new([(1, Complex64::new(0.02, 0.003)), (4, Complex64::i())]).unwrap();
-    for engine in [mixed(), plain(), in_line()] {
+    for engine in [mixed(), plain(), in_line(), weighted()] {
         for (spectrum, torque) in [(None, true), (None, false), (Some(&spectrum), true)] {
-            let asked = Asked { spectrum, torque, ..ASKED };
-            let given = Orders::Given(vec![1, 4, 2, 7]);
-            let balance = balance::of(&engine, &asked, &given, &Cancel::new()).unwrap();
+            let request = Request { spectrum, torque, ..REQUEST };
+            let given = Orders::whole(&[1, 4, 2, 7]).unwrap();
+            let balance = by_orders(&engine, &request, &[1, 4, 2, 7]);
             for count in [1, 256, 257, 1300] {
                 let thetas = thetas(count);
                 let cancel = Cancel::new();
                 let wave =
-                    waveform::from_orders(&engine, &asked, &thetas, &given, &cancel).unwrap();
+                    waveform::from_orders(&engine, &request, &thetas, &given, &cancel).unwrap();
                 assert_eq!(wave.balance.as_ref(), Some(&balance));
                 assert_eq!(wave.torque.is_some(), torque && spectrum.is_none());
                 for (i, &θ) in thetas.iter().enumerate() {
                     let found = rows(&wave, i);
                     let expected = sum_of_orders(&balance, θ);
                     assert_eq!(found.len(), expected.len());
-                    let size: f64 = balance.force.xy.iter().map(|p| p.norm()).sum();
+                    let size: f64 =
+                        xy(&balance, Vector::Force).concat().iter().map(|p| p.norm()).sum();
                     for (found, expected) in found.into_iter().zip(expected) {
                         // n·θ to 1e-14, of moments and torques shorter than a metre.
                         assert!((found - expected).abs() <= 7.0 * ROUNDING * size);
@@ -162,60 +192,61 @@ fn at_degrees(degrees: impl Iterator<Item = u32>) -> Engine {
 }
 
 #[test]
-fn waveforms_keep_their_tolerance_whichever_way_is_taken() {
-    let thetas = thetas(90);
-    let cancel = Cancel::new();
-    let of = |engine: &Engine, asked: &Asked, rtol: f64| {
-        waveform::from_orders(engine, asked, &thetas, &Orders::Auto { rtol }, &cancel).unwrap()
+fn chosen_orders_are_summed_or_too_many() {
+    let (thetas, cancel) = (thetas(90), Cancel::new());
+    let auto = |engine: &Engine, request: &Request, rtol: f64| {
+        waveform::from_orders(engine, request, &thetas, &Orders::Auto { rtol }, &cancel)
     };
-    let turned = |count: u32| at_degrees(0..count);
+    let (one, forty) = (at_degrees(0..1), at_degrees(0..40));
     for torque in [true, false] {
-        let asked = Asked { torque, ..ASKED };
-        // One cylinder to many orders, and forty to few.
-        let (one, forty) = (of(&turned(1), &asked, 1e-12), of(&turned(40), &asked, 1e-2));
-        assert_eq!(one, waveform::exact(&turned(1), &asked, &thetas, &cancel).unwrap());
-        let balance =
-            balance::of(&turned(40), &asked, &Orders::Auto { rtol: 1e-2 }, &Cancel::new()).unwrap();
-        assert_eq!(forty.balance.as_ref(), Some(&balance));
+        let request = Request { torque, ..REQUEST };
+        for (engine, rtol) in [(&one, 1e-12), (&forty, 1e-2)] {
+            let summed = auto(engine, &request, rtol).unwrap();
+            let orders = Orders::Auto { rtol };
+            let chosen = balance(engine, &request, &orders, &cancel).unwrap();
+            assert_eq!(summed.balance.as_ref(), Some(&chosen));
+            let given = Orders::Given(chosen.orders);
+            let again = waveform::from_orders(engine, &request, &thetas, &given, &cancel).unwrap();
+            assert_eq!((summed.force, summed.torque), (again.force, again.torque));
+        }
     }
     // A rod as long as the crank takes more orders than there are.
     let stiff = Cylinder::new(0.05, 0.05 * (1.0 + 1e-12), 0.5, 0.0).unwrap();
-    let stiff = Placement { cylinder: stiff, ..turned(1).placements()[0] };
-    let stiff = Engine::new("", "", vec![stiff; 40]).unwrap();
-    let exact = waveform::exact(&stiff, &ASKED, &thetas, &cancel).unwrap();
-    assert_eq!(of(&stiff, &ASKED, 1e-6), exact);
+    let stiff = Placement { cylinder: stiff, ..one.placements()[0] };
+    let stiff = Engine::new("", "", vec![stiff]).unwrap();
+    assert!(matches!(auto(&stiff, &REQUEST, 1e-6), Err(Error::TooManyOrders { .. })));
     // A spectrum is summed, however many orders it has, and has no kinematics.
     let spectrum = Spectrum::new((1..40).map(|n| (n, Complex64::new(1.0, 0.0)))).unwrap();
-    let asked = Asked { spectrum: Some(&spectrum), ..ASKED };
-    let summed = of(&turned(1), &asked, 1e-9);
+    let request = Request { spectrum: Some(&spectrum), ..REQUEST };
+    let summed = auto(&one, &request, 1e-9).unwrap();
     assert_eq!(summed.balance.unwrap().orders.len(), 39);
-    let refused = waveform::exact(&turned(1), &asked, &thetas, &cancel).unwrap_err();
+    let refused = waveform::exact(&one, &request, &thetas, &cancel).unwrap_err();
     assert!(refused.to_string().starts_with("spectrum = given"));
 }
 
 #[test]
 fn what_cannot_be_is_refused() {
-    let (engine, cancel, given) = (plain(), Cancel::new(), Orders::Given(vec![1]));
+    let (engine, cancel, given) = (plain(), Cancel::new(), Orders::whole(&[1]).unwrap());
     let raised = Cancel::new();
     raised.raise();
-    let both = |asked: &Asked, thetas: &[f64], cancel: &Cancel| {
+    let both = |request: &Request, thetas: &[f64], cancel: &Cancel| {
         [
-            waveform::exact(&engine, asked, thetas, cancel).unwrap_err(),
-            waveform::from_orders(&engine, asked, thetas, &given, cancel).unwrap_err(),
+            waveform::exact(&engine, request, thetas, cancel).unwrap_err(),
+            waveform::from_orders(&engine, request, thetas, &given, cancel).unwrap_err(),
         ]
     };
     for count in [1, 2000] {
-        for error in both(&ASKED, &thetas(count), &raised) {
+        for error in both(&REQUEST, &thetas(count), &raised) {
             assert_eq!(error, Error::Cancelled);
         }
     }
-    for (asked, theta, told) in [
-        (Asked { rpm: -1.0, ..ASKED }, 0.0, "rpm"),
-        (Asked { reference_z: Some(f64::NAN), ..ASKED }, 0.0, "reference_z"),
-        (ASKED, f64::NAN, "theta_deg"),
-        (ASKED, 1e13, "theta_deg"),
+    for (request, theta, told) in [
+        (Request { rpm: -1.0, ..REQUEST }, 0.0, "rpm"),
+        (Request { reference_z: Some(f64::NAN), ..REQUEST }, 0.0, "reference_z"),
+        (REQUEST, f64::NAN, "theta_deg"),
+        (REQUEST, 1e13, "theta_deg"),
     ] {
-        for error in both(&asked, &[0.0, theta], &cancel) {
+        for error in both(&request, &[0.0, theta], &cancel) {
             assert!(error.to_string().starts_with(told), "{error}");
         }
     }
@@ -231,16 +262,16 @@ fn components(quantity: Quantity) -> std::ops::Range<usize> {
     }
 }
 
-const QUANTITIES: [Quantity; 3] = [Quantity::Force, Quantity::Moment, Quantity::Torque];
+const QUANTITIES: [Quantity; 4] =
+    [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
 
 fn sweep(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) -> Sweep {
-    let (axes, orders) = (axes.clone(), orders.to_vec());
-    Sweep::new(engines.to_vec(), axes, orders, Some(REFERENCE), None, &Cancel::new()).unwrap()
+    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), None).unwrap()
 }
 
 fn waveforms(sweep: &Sweep, quantity: Quantity, thetas: &[f64], exact: bool) -> Vec<f64> {
     let shape = sweep.waveform_shape(quantity, thetas.len()).unwrap();
-    let components = if quantity == Quantity::Torque { vec![] } else { vec![2] };
+    let components = if components(quantity).len() == 1 { vec![] } else { vec![2] };
     assert_eq!(shape, [&sweep.shape()[..], &[thetas.len()], &components].concat());
     let mut out = vec![f64::NAN; shape.iter().product()];
     let (angles, cancel) = (CrankAngles::new(thetas).unwrap(), Cancel::new());
@@ -266,7 +297,7 @@ fn each_row_is_a_waveform(
         let width = thetas.len() * which.len();
         let exact = waveforms(&all, quantity, thetas, true);
         let summed = waveforms(&all, quantity, thetas, false);
-        let phasors = all.phasors(quantity, &Cancel::new()).unwrap();
+        let phasors = all.phasors(quantity, Figure::Amplitude, &Cancel::new()).unwrap();
         let phasors = phasors.as_slice().unwrap();
         let last = phasors.len() / orders.len() / which.len() - 1;
         for (point, place) in places(all.shape()).enumerate() {
@@ -323,6 +354,7 @@ fn each_row_of_a_sweep_is_a_waveform() {
             rpm: vec![3000.0, 500.0],
         };
         each_row_is_a_waveform(&engines, &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
+        each_row_is_a_waveform(&[weighted()], &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
     }
     let ratios = Axes { rod_ratio: Some(vec![0.3, 0.2]), rpm: vec![RPM], ..Axes::default() };
     each_row_is_a_waveform(&[in_line()], &ratios, &[9, 1], &thetas(3), [1, 1]);
@@ -397,7 +429,7 @@ fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders
     let (sweep, thetas) = (sweep(engines, axes, orders), thetas(5));
     for quantity in QUANTITIES {
         let count = components(quantity).len();
-        let phasors = sweep.phasors(quantity, &Cancel::new()).unwrap();
+        let phasors = sweep.phasors(quantity, Figure::Amplitude, &Cancel::new()).unwrap();
         let all = waveforms(&sweep, quantity, &thetas, false);
         let points = phasors.as_slice().unwrap().chunks(orders.len() * count);
         for (point, row) in points.zip(all.chunks(thetas.len() * count)) {
@@ -416,32 +448,6 @@ fn each_row_is_a_waveform_of_orders(engines: &[Arc<Engine>], axes: &Axes, orders
     }
 }
 
-/// Whether kinematics take less time depends on how many groups there are to how many orders.
-#[test]
-fn kinematics_cost_less_than_many_orders() {
-    // Two alike among them: they move as one.
-    let engine = |groups: u32| Arc::new(at_degrees((0..groups).chain([0])));
-    let axes = Axes { rpm: vec![RPM], ..Axes::default() };
-    let less = |engines: &[Arc<Engine>], orders: u32| {
-        sweep(engines, &axes, &(1..=orders).collect::<Vec<_>>()).kinematics_cost_less()
-    };
-    for groups in 1..8 {
-        for orders in 1..16 {
-            let one = less(&[engine(groups)], orders);
-            assert_eq!(less(&[engine(2 * groups)], 2 * orders), one, "{groups} {orders}");
-            // Each of four engines is summed.
-            let four = [engine(groups), engine(1), engine(2 * groups - 1), engine(groups)];
-            assert_eq!(less(&four, orders), one, "{groups} {orders}");
-        }
-    }
-    assert!(less(&[engine(1)], 16) && !less(&[engine(16)], 1));
-    let spectrum = Spectrum::new((1..40).map(|n| (n, Complex64::i()))).unwrap();
-    let orders = (1..40).collect();
-    let measured =
-        Sweep::new(vec![engine(1)], axes.clone(), orders, None, Some(spectrum), &Cancel::new());
-    assert!(!measured.unwrap().kinematics_cost_less());
-}
-
 #[test]
 fn waveforms_of_a_sweep_have_their_refusals() {
     let axes = Axes { rpm: vec![RPM, 1000.0], ..Axes::default() };
@@ -449,7 +455,7 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     let angles = CrankAngles::new(&thetas(9)).unwrap();
     let with = |spectrum: Option<Spectrum>| {
         let reference = Some(REFERENCE);
-        Sweep::new(vec![plain()], axes.clone(), vec![1], reference, spectrum, &cancel).unwrap()
+        Sweep::new(vec![plain()], axes.clone(), whole(&[1]), reference, spectrum).unwrap()
     };
     let told = |sweep: &Sweep, quantity: Quantity, exact: bool, room: usize| {
         let mut out = vec![0.0; room];
@@ -464,7 +470,7 @@ fn waveforms_of_a_sweep_have_their_refusals() {
         assert_eq!(told(&with(None), Quantity::Force, exact, 36), "");
         assert_eq!(told(&with(None), Quantity::Torque, exact, 18), "");
         let told = told(&with(None).without_torque(), Quantity::Torque, exact, 18);
-        assert!(told.starts_with("torque = False"), "{told}");
+        assert!(told.starts_with("torque is not available: torque=False"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     assert_eq!(told(&with(Some(spectrum.clone())), Quantity::Force, false, 36), "");

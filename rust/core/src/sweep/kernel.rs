@@ -448,3 +448,6 @@ fn scale<T: Number>(rows: &[T], speeds: &[f64], width: usize, first: usize, mut 
         (at, out) = (at + here, after);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,16 +1,24 @@
 //! Engines no two of whose cylinders are alike, and what a sweep makes of one at a point.
 
+#![allow(dead_code, reason = "each test crate uses some of these")]
+
 use std::sync::Arc;
 
+use crankpin_core::balance::{Balance, Vector, balance};
 use crankpin_core::sweep::Axes;
-use crankpin_core::{Angle, Cylinder, Engine, Placement};
+use crankpin_core::{
+    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Placement, Request, Shaft, Unbalance,
+};
 
 /// Crank radius, rod length, reciprocating mass, pin offset, inertia of the rod beyond its two
 /// masses; top dead centre and bank, degrees; z; rotating mass.
 type Figures = ([f64; 5], [f64; 2], f64, f64);
 
+pub fn angle(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees).unwrap()
+}
+
 fn engine(cylinders: &[Figures]) -> Arc<Engine> {
-    let angle = |degrees| Angle::from_degrees(degrees).unwrap();
     let place = |&([r, l, m, e, j], [tdc, bank], z, rotating_mass): &Figures| {
         let cylinder = Cylinder::new(r, l, m, e).unwrap().with_rod_inertia_excess(j).unwrap();
         Placement { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
@@ -30,6 +38,29 @@ pub fn mixed() -> Arc<Engine> {
         ([0.05, 0.16, 0.5, 0.0, -2e-4], [211.0, 132.0], 0.33, 0.0),
         ([0.05, 0.16, 0.55, 0.0, 3e-4], [30.0, 60.0], 0.4, 0.1),
     ])
+}
+
+/// The [`mixed`] engine with counterweights, free and at pins, and balance shafts either way round.
+pub fn weighted() -> Arc<Engine> {
+    let weight = |amount, degrees, z, pin| Unbalance { amount, angle: angle(degrees), z, pin };
+    let shaft = |ratio, axis, unbalances| Shaft { name: String::new(), ratio, axis, unbalances };
+    let engine = mixed().with_counterweights(vec![
+        weight(0.02, 200.0, -0.02, None),
+        weight(0.015, 180.0, 0.11, Some(1)),
+        weight(0.01, 165.5, 0.05, Some(0)),
+    ]);
+    let shafts = vec![
+        shaft(1, [0.1, -0.05], vec![weight(0.005, 33.0, 0.1, None)]),
+        shaft(
+            -1,
+            [-0.12, 0.04],
+            vec![weight(0.01, 70.0, 0.0, None), weight(0.004, 250.5, 0.4, None)],
+        ),
+        shaft(2, [0.08, 0.2], vec![weight(0.002, 123.4, 0.2, None)]),
+        shaft(-2, [0.0, 0.1], vec![weight(0.003, 0.0, 0.25, None)]),
+        shaft(-3, [0.03, -0.07], vec![weight(0.001, 300.0, 0.3, None)]),
+    ];
+    Arc::new(engine.and_then(|engine| engine.with_shafts(shafts)).unwrap())
 }
 
 /// A vee whose cylinders share one slider-crank without offset, and whose pins carry nothing.
@@ -88,6 +119,34 @@ pub fn there(engine: &Engine, axes: &Axes) -> Engine {
         let cylinder = cylinder.with_rod_inertia_excess(c.rod_inertia_excess()).unwrap();
         Placement { cylinder, ..*p }
     };
-    let placements = turned.as_ref().unwrap_or(engine).placements();
-    Engine::new("", "", placements.iter().map(change).collect()).unwrap()
+    changed(turned.as_ref().unwrap_or(engine), change)
+}
+
+/// An engine with its placements changed, its counterweights and shafts as they are.
+pub fn changed(engine: &Engine, change: impl Fn(&Placement) -> Placement) -> Engine {
+    Engine::new("", "", engine.placements().iter().map(change).collect())
+        .and_then(|changed| changed.with_counterweights(engine.counterweights().to_vec()))
+        .and_then(|changed| changed.with_shafts(engine.shafts().to_vec()))
+        .unwrap()
+}
+
+/// Whole orders.
+pub fn whole(orders: &[u32]) -> Vec<Order> {
+    Order::all_whole(orders).unwrap()
+}
+
+/// The balance of an engine by given whole orders.
+pub fn by_orders(engine: &Engine, request: &Request, orders: &[u32]) -> Balance {
+    balance(engine, request, &Orders::whole(orders).unwrap(), &Cancel::new()).unwrap()
+}
+
+/// Phasors along (about) x and y, order by order.
+pub fn xy(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
+    (0..balance.orders.len()).map(|k| balance.xy(vector, k)).collect()
+}
+
+/// Forward and backward parts, order by order.
+pub fn turning(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
+    let planar = |k| balance.planar(vector, k);
+    (0..balance.orders.len()).map(|k| [planar(k).forward, planar(k).backward()]).collect()
 }

@@ -1,0 +1,366 @@
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use super::*;
+use crate::engine::{Placement, Shaft, Unbalance};
+use crate::slider_crank::Cylinder;
+
+fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
+    let place = |&(tdc, bank, z, mass, offset): &(f64, f64, f64, f64, f64)| Placement {
+        cylinder: Cylinder::new(0.05, 0.15, mass, offset).unwrap(),
+        tdc: Angle::from_degrees(tdc).unwrap(),
+        bank: Angle::from_degrees(bank).unwrap(),
+        z,
+        rotating_mass: 0.0,
+    };
+    Engine::new("", "", places.iter().map(place).collect()).unwrap()
+}
+
+fn verdicts(engine: &Engine, order: u32) -> [Verdict; 9] {
+    vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().verdicts[0]
+}
+
+const V: Verdict = Verdict::Vanishes;
+const R: Verdict = Verdict::Remains;
+const U: Verdict = Verdict::Undecided;
+
+#[test]
+fn an_inline_three() {
+    let i3 = engine(&[0.0, 1.0, 2.0].map(|k| (120.0 * k, 90.0, 0.13 * k, 0.45, 0.0)));
+    assert_eq!(verdicts(&i3, 1), [V, V, V, V, R, V, R, R, V]);
+    assert_eq!(verdicts(&i3, 5), [V; 9]);
+    assert_eq!(verdicts(&i3, 6), [V, R, R, R, V, V, V, V, R]);
+}
+
+#[test]
+fn decimals_of_spacing_count_as_even() {
+    // 0.3 is not 3 · 0.1 in doubles; an evenly spaced inline-4 has no moment all the same.
+    let i4 = |last| {
+        let tdc_z = [(0.0, 0.0), (180.0, 0.1), (180.0, 0.2), (0.0, last)];
+        engine(&tdc_z.map(|(tdc, z)| (tdc, 90.0, z, 0.45, 0.0)))
+    };
+    assert_eq!(verdicts(&i4(0.3), 1)[..8], [V; 8]);
+    assert_eq!(verdicts(&i4(0.3001), 1)[4], R);
+}
+
+#[test]
+fn irrational_banks_cancel_bank_by_bank_or_not_at_all() {
+    // Each bank by itself is an inline-3 in one plane: no force whatever the angle.
+    let banks = |b: f64| [0.0, 1.0, 2.0].map(|k| (120.0 * k, b, 0.1 * k, 0.45, 0.0));
+    let v6 = engine(&[banks(61.234_567_891_2), banks(118.765_432_108_8)].concat());
+    assert_eq!(verdicts(&v6, 1)[..4], [V; 4]);
+    assert_eq!(verdicts(&v6, 1)[4..8], [U; 4]);
+    assert_eq!(verdicts(&v6, 1)[8], V);
+    // One bank alone: the direction is a factor, and not zero.
+    assert_eq!(verdicts(&engine(&banks(61.234_567_891_2)), 1)[4..8], [R; 4]);
+}
+
+#[test]
+fn rows_that_are_no_part_of_a_turn_apart_cancel_row_by_row() {
+    // As in a VR6: two rows of three, evenly spaced, the second 22.123456° later.
+    let row = |tdc: f64, bank: f64, z: f64| {
+        [0.0, 1.0, 2.0].map(|k| (120.0 * k + tdc, bank, z, 0.45, 0.0))
+    };
+    let vr6 = engine(&[row(0.0, 82.5, 0.0), row(22.123_456_789_1, 97.5, 0.0)].concat());
+    assert_eq!(verdicts(&vr6, 2), [V; 9]);
+    assert_eq!(verdicts(&vr6, 6)[..4], [U; 4]);
+    assert_eq!(verdicts(&vr6, 6)[8], U);
+}
+
+#[test]
+fn proportions_that_differ_cancel_group_by_group() {
+    let mut places = [0.0, 180.0].map(|tdc| (tdc, 90.0, 0.0, 0.45, 0.001)).to_vec();
+    assert_eq!(verdicts(&engine(&places), 1)[..4], [V; 4]);
+    // Opposite offsets have the same even orders, and odd ones of opposite sign.
+    places[1].4 = -0.001;
+    assert_eq!(verdicts(&engine(&places), 2)[1], R);
+    places[1].0 = 90.0;
+    assert_eq!(verdicts(&engine(&places), 2)[1], V);
+    places[1].0 = 0.0;
+    assert_eq!(verdicts(&engine(&places), 3)[1], V);
+    assert_eq!(verdicts(&engine(&places), 1)[1], R);
+    // Another offset is another slider-crank.
+    places[1] = (90.0, 90.0, 0.0, 0.45, 0.002);
+    assert_eq!(verdicts(&engine(&places), 2)[1], U);
+}
+
+#[test]
+fn rotating_mass_counts_as_a_reciprocating_one_at_order_one() {
+    // A 90° twin on one pin: reciprocating forces add to a forward one of half its size each.
+    let twin = engine(&[(0.0, 45.0, 0.0, 0.5, 0.0), (90.0, 135.0, 0.0, 0.5, 0.0)]);
+    assert_eq!(verdicts(&twin, 1)[..4], [R, R, R, V]);
+    // Turning masses that make up for a piston between them: 2·0.5/2 forward at 90° and 270°.
+    let mut places =
+        engine(&[(0.0, 90.0, 0.0, 0.5, 0.0), (180.0, 90.0, 0.0, 0.0, 0.0)]).placements().to_vec();
+    places[1].rotating_mass = 0.25;
+    let countered = Engine::new("", "", places).unwrap();
+    assert_eq!(verdicts(&countered, 1)[..4], [R, R, V, R]);
+}
+
+#[test]
+fn what_is_in_the_way_is_named() {
+    let obstacles = |engine: &Engine, order| {
+        vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().obstacles
+    };
+    let place = (0.0, 90.0, 0.0, 0.45, 0.0);
+    let (tdc, bank) =
+        ((17.123_456_789_1, 90.0, 0.0, 0.45, 0.0), (0.0, 61.234_567_891_2, 0.0, 0.45, 0.0));
+    let (rod, mass) =
+        ((90.0, 90.0, 0.0, 0.45, 0.002), (180.0, 90.0, 0.0, 0.45 * 2_f64.sqrt(), 0.0));
+    // At an order that is decided nothing is in the way.
+    assert_eq!(obstacles(&engine(&[place, place]), 2), [""; 0]);
+    assert_eq!(obstacles(&engine(&[bank, bank]), 2), [""; 0]);
+    // Neither are places along the crank that are multiples of one length.
+    let further = (17.123_456_789_1, 90.0, 0.1, 0.45, 0.0);
+    assert_eq!(obstacles(&engine(&[place, further]), 2).len(), 1);
+    assert_eq!(
+        obstacles(&engine(&[place, tdc]), 2),
+        ["tdc_deg is no rational part of a turn in cylinders 2"]
+    );
+    assert_eq!(
+        obstacles(&engine(&[place, bank, bank]), 2),
+        ["bank_deg is no rational part of a turn in cylinders 2, 3"]
+    );
+    assert_eq!(obstacles(&engine(&[place, rod]), 2), ["slider-cranks of different proportions"]);
+    assert_eq!(
+        obstacles(&engine(&[place, mass]), 2),
+        ["masses times radius that are no rational multiples of each other"]
+    );
+    let spread = [0.0, 0.1, 0.1 + 0.1 * 2_f64.sqrt(), 0.4].map(|z| (0.0, 90.0, z, 0.45, 0.0));
+    assert_eq!(
+        obstacles(&engine(&spread), 2),
+        ["places that are no rational multiples of each other"]
+    );
+}
+
+/// Cylinders of few kinds, so that sums vanish now and then; m·r² of some is 1, the unit of rods.
+fn placements() -> impl Strategy<Value = Vec<Placement>> {
+    let root = 2.0_f64.sqrt();
+    let mass = select(vec![400.0, 800.0, 400.0 * root]);
+    let cylinder = (mass, select(vec![0.0, 0.001, -0.001, 0.002, 0.003]), select(vec![0.0, 0.3]));
+    let cylinder = cylinder.prop_map(|(mass, offset, inertia)| {
+        let cylinder = Cylinder::new(0.05, 0.15, mass, offset).unwrap();
+        cylinder.with_rod_inertia_excess(inertia).unwrap()
+    });
+    let tdc = select(vec![0.0, 90.0, 120.0, 180.0, 240.0, 17.123_456_789_1, 107.123_456_789_1]);
+    let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567_891_2]);
+    let z = select(vec![0.0, 0.1, 0.2, 0.1 * root]);
+    let place = (cylinder, tdc, bank, z, select(vec![0.0, 200.0])).prop_map(
+        |(cylinder, tdc, bank, z, rotating_mass)| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(tdc).unwrap(),
+            bank: Angle::from_degrees(bank).unwrap(),
+            z,
+            rotating_mass,
+        },
+    );
+    let half = Angle::HALF_TURN;
+    // With each a second one that differs in few things.
+    let pair = (place, any::<[bool; 4]>()).prop_map(move |(p, [tdc, bank, offset, rod])| {
+        let c = p.cylinder;
+        let e = if offset { -c.pin_offset() } else { c.pin_offset() };
+        let second = Cylinder::new(0.05, 0.15, c.reciprocating_mass(), e).unwrap();
+        let inertia = if rod { c.rod_inertia_excess() } else { 0.0 };
+        let second = Placement {
+            cylinder: second.with_rod_inertia_excess(inertia).unwrap(),
+            tdc: if tdc { p.tdc + half } else { p.tdc },
+            bank: if bank { p.bank + half } else { p.bank },
+            ..p
+        };
+        [p, second]
+    });
+    proptest::collection::vec(pair, 1..3).prop_map(|pairs| pairs.concat())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1024))]
+
+    #[test]
+    fn what_is_proved_is_so(
+        placements in placements(),
+        reference in select(vec![None, Some(0.0), Some(0.05), Some(0.05 * 2.0_f64.sqrt())]),
+    ) {
+        let engine = Engine::new("", "", placements).unwrap();
+        let orders = [1, 2, 3, 4];
+        let found = vanishing(&engine, &orders, reference, &crate::Cancel::new()).unwrap();
+        // Nothing of these kinds is near zero without being zero.
+        for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+            for (&verdict, &zero) in verdicts.iter().zip(zeros) {
+                prop_assert!(verdict == U || (verdict == V) == zero, "{:?}", verdicts);
+            }
+        }
+    }
+}
+
+/// Unbalances of the sizes of [`placements`], on the crankshaft, at a pin of it, and on shafts.
+fn weights() -> impl Strategy<Value = (Vec<Unbalance>, Vec<Shaft>)> {
+    let angles = vec![0.0, 60.0, 180.0, 270.0, 61.234_567_891_2, 241.234_567_891_2];
+    let unbalance = || {
+        let amount = select(vec![10.0, 20.0, 2.5, 10.0 * 2.0_f64.sqrt()]);
+        let place = select(vec![0.0, 0.1, 0.2, 0.1 * 2.0_f64.sqrt()]);
+        (amount, select(angles.clone()), place).prop_map(|(amount, degrees, z)| Unbalance {
+            amount,
+            angle: Angle::from_degrees(degrees).unwrap(),
+            z,
+            pin: None,
+        })
+    };
+    let arm = || select(vec![0.0, 0.1, -0.1, 0.2, 0.1 * 2.0_f64.sqrt()]);
+    // Each shaft with a second unbalance, opposite the first one or not.
+    let shaft = (select(vec![1, -1, 2, -2, 3]), [arm(), arm()], unbalance(), any::<bool>())
+        .prop_map(|(ratio, axis, first, twice)| {
+            let second = Unbalance { angle: first.angle + Angle::HALF_TURN, ..first };
+            let unbalances = if twice { vec![first, second] } else { vec![first] };
+            Shaft { name: String::new(), ratio, axis, unbalances }
+        });
+    let on_crank = (unbalance(), select(vec![None, Some(0), Some(1)]))
+        .prop_map(|(unbalance, pin)| Unbalance { pin, ..unbalance });
+    (proptest::collection::vec(on_crank, 0..3), proptest::collection::vec(shaft, 0..3))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1024))]
+
+    #[test]
+    fn verdicts_on_shafts_are_true_and_obstacles_named(
+        placements in placements(),
+        (counterweights, shafts) in weights(),
+        reference in select(vec![None, Some(0.0), Some(0.05), Some(1000.0)]),
+    ) {
+        let engine = Engine::new("", "", placements)
+            .and_then(|engine| engine.with_counterweights(counterweights))
+            .and_then(|engine| engine.with_shafts(shafts))
+            .unwrap();
+        let found = vanishing(&engine, &[1, 2, 3], reference, &crate::Cancel::new()).unwrap();
+        for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+            for (&verdict, &zero) in verdicts.iter().zip(zeros) {
+                prop_assert!(verdict == U || (verdict == V) == zero, "{:?} {:?}", verdicts, zeros);
+            }
+        }
+        let undecided = found.verdicts.iter().flatten().any(|&verdict| verdict == U);
+        prop_assert_eq!(undecided, !found.obstacles.is_empty(), "{:?}", found.verdicts);
+    }
+}
+
+#[test]
+fn far_reference_planes_neither_prove_nor_undo_zeros() {
+    let i4 = |last: f64| {
+        let tdc_z = [(0.0, 0.0), (180.0, 0.1), (180.0, 0.2), (0.0, last)];
+        engine(&tdc_z.map(|(tdc, z)| (tdc, 90.0, z, 0.45, 0.0)))
+    };
+    let about = |last: f64, plane: f64| {
+        vanishing(&i4(last), &[1, 2], Some(plane), &crate::Cancel::new()).unwrap().verdicts
+    };
+    for plane in [0.0, 1000.0, 1e6, 1e14, -1e14, 12_345.678_9] {
+        // Forces of order 1 are in balance, so that no plane changes their couple.
+        assert_eq!(about(0.3, plane)[0][..8], [V; 8], "{plane}");
+        // 0 − 0.1 − 0.2 + 0.31 is not zero.
+        assert_eq!(about(0.31, plane)[0][..8], [V, V, V, V, R, V, R, R], "{plane}");
+        // About a plane so far away the force of order 2 has a moment.
+        assert_eq!(about(0.3, plane)[1][4..8], [R, V, R, R], "{plane}");
+    }
+    // About the plane in the middle it has none.
+    assert_eq!(about(0.3, 0.15)[1][4..8], [V; 4]);
+}
+
+#[test]
+fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
+    let single = |inertia: f64| {
+        let cylinder = Cylinder::new(0.045, 0.158, 0.5, 0.0).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+        let place = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]).placements()[0];
+        Engine::new("", "", vec![Placement { cylinder, ..place }]).unwrap()
+    };
+    let of = |inertia: f64| {
+        let found = vanishing(&single(inertia), &[1], None, &crate::Cancel::new()).unwrap();
+        (found.verdicts[0][8], found.within_rounding[0][8], !found.obstacles.is_empty())
+    };
+    let proportions = single(0.0).gears()[0].proportions();
+    let cancel = crate::Cancel::new();
+    let [masses, rod] = [harmonics::torque::torque, harmonics::rod::torque]
+        .map(|torque| torque(&proportions, &[1], &cancel).unwrap().roll[0]);
+    let cancelling = -(masses / rod).re * single(0.0).gears()[0].second_moment();
+    // To four digits it is that of the rod at hand.
+    assert!((cancelling / -2.558e-4 - 1.0).abs() < 1e-3, "{cancelling}");
+    for inertia in [-2.558e-4, 2.558e-4, cancelling * (1.0 + 1e-5), cancelling * (1.0 - 1e-5)] {
+        assert_eq!(of(inertia), (R, false, false), "{inertia}");
+    }
+    for off in [0.0, 1e-16, -1e-15, 1e-14, -1e-13, 1e-12, 1e-11] {
+        let (verdict, _, obstacles) = of(cancelling * (1.0 + off));
+        assert_eq!((verdict, obstacles), (U, true), "{off}");
+    }
+    for k in 0..200 {
+        let (verdict, zero, _) = of(cancelling * (1.0 + 10_f64.powf(-16.0 + 0.06 * f64::from(k))));
+        assert!(verdict == U || !zero);
+    }
+}
+
+#[test]
+fn pin_offsets_beside_rotating_masses_are_an_obstacle() {
+    // Order 1 of an offset has a phase of its own, with no rational relation to what rotates.
+    let places = engine(&[(0.0, 90.0, 0.0, 0.5, 0.001), (120.0, 90.0, 0.1, 0.5, 0.001)]);
+    let turning = |p: &Placement| Placement { rotating_mass: 0.25, ..*p };
+    let places = places.placements().iter().map(turning).collect();
+    let found = vanishing(&Engine::new("", "", places).unwrap(), &[1], None, &crate::Cancel::new())
+        .unwrap();
+    assert!(found.verdicts[0].contains(&U));
+    assert_eq!(
+        found.obstacles,
+        ["pin offsets: harmonics with no rational relation to what rotates"]
+    );
+}
+
+#[test]
+fn what_is_out_of_reach_is_told_once() {
+    // Parts of a turn whose common denominator is beyond what is tested.
+    let tdc = |parts: i64| Angle::from_degree_fraction(360, parts).unwrap();
+    let places = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0); 2]).placements().to_vec();
+    let places = [
+        Placement { tdc: tdc(1_000_003), ..places[0] },
+        Placement { tdc: tdc(1_000_033), ..places[1] },
+    ];
+    let engine = Engine::new("", "", places.to_vec()).unwrap();
+    let found = vanishing(&engine, &[1, 2, 4], None, &crate::Cancel::new()).unwrap();
+    let moments = 4..8;
+    for verdicts in &found.verdicts {
+        assert!(verdicts[..4].iter().all(|&v| v == U));
+        assert!(verdicts[moments.clone()].iter().all(|&v| v == V));
+    }
+    let mut told = found.obstacles.clone();
+    assert!(
+        !told.is_empty() && told.iter().all(|text| text.contains("common denominator")),
+        "{told:?}"
+    );
+    told.sort();
+    told.dedup();
+    assert_eq!(told.len(), found.obstacles.len());
+}
+
+#[test]
+fn floating_point_finds_the_same_zeros() {
+    let i3 = engine(&[0.0, 1.0, 2.0].map(|k| (120.0 * k, 90.0, 0.13 * k, 0.45, 0.0)));
+    let boxer = engine(&[(0.0, 0.0, 0.0, 0.45, 0.0), (0.0, 180.0, 0.1, 0.45, 0.0)]);
+    let unlike = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0), (180.0, 90.0, 0.2, 0.9, 0.0)]);
+    for engine in [i3, boxer, unlike] {
+        for reference in [None, Some(0.0), Some(0.05), Some(0.07)] {
+            let orders = [1, 2, 3, 4, 6];
+            let cancel = crate::Cancel::new();
+            let found = vanishing(&engine, &orders, reference, &cancel).unwrap();
+            assert_eq!(found.within_rounding.len(), orders.len());
+            for (verdicts, zeros) in found.verdicts.iter().zip(&found.within_rounding) {
+                assert_eq!(verdicts.map(|v| v == V), *zeros, "{reference:?}");
+                assert!(!verdicts.contains(&U));
+            }
+        }
+    }
+}
+
+#[test]
+fn orders_and_planes_are_checked() {
+    let single = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]);
+    let cancel = crate::Cancel::new();
+    assert!(vanishing(&single, &[], None, &cancel).is_err());
+    assert!(vanishing(&single, &[1], Some(f64::NAN), &cancel).is_err());
+    cancel.raise();
+    assert_eq!(vanishing(&single, &[1], None, &cancel), Err(Error::Cancelled));
+}

@@ -1,0 +1,239 @@
+use std::f64::consts::TAU;
+
+use super::*;
+use crate::engine::{Placement, Shaft, Unbalance};
+
+const REFERENCE: f64 = 0.03;
+
+fn angle(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees).unwrap()
+}
+
+/// e^{ix}, x in degrees.
+fn cis(degrees: f64) -> Complex64 {
+    Complex64::cis(degrees * TAU / 360.0)
+}
+
+fn unbalance(amount: f64, degrees: f64, z: f64, pin: Option<usize>) -> Unbalance {
+    Unbalance { amount, angle: angle(degrees), z, pin }
+}
+
+/// A vee of three cylinders, two of one gear, with weights at pins and elsewhere, and shafts.
+fn engine() -> Engine {
+    let gears = [(0.05, 0.15, 0.5, 0.0), (0.04, 0.12, 0.75, 0.0), (0.05, 0.15, 0.5, 0.0)];
+    let places = [(10.0, 60.0, 0.0, 0.3), (130.0, 130.0, 0.1, 0.0), (255.0, 60.0, 0.2, 0.4)];
+    let place = |((r, l, m, e), (tdc, bank, z, rotating_mass))| Placement {
+        cylinder: Cylinder::new(r, l, m, e).unwrap().with_rod_inertia_excess(-1e-4).unwrap(),
+        tdc: angle(tdc),
+        bank: angle(bank),
+        z,
+        rotating_mass,
+    };
+    let shaft = |ratio, axis, unbalances| Shaft { name: String::new(), ratio, axis, unbalances };
+    Engine::new("", "", gears.into_iter().zip(places).map(place).collect())
+        .unwrap()
+        .with_counterweights(vec![
+            unbalance(0.01, 200.0, -0.1, None),
+            unbalance(0.02, 170.0, 0.15, Some(1)),
+        ])
+        .unwrap()
+        .with_shafts(vec![
+            shaft(-1, [0.1, 0.05], vec![unbalance(0.004, 30.0, 0.3, None)]),
+            shaft(2, [-0.08, 0.2], vec![unbalance(0.003, 77.0, 0.1, None)]),
+        ])
+        .unwrap()
+}
+
+fn loads(engine: &Engine, alike: Alike) -> Loads {
+    Loads::new(engine, REFERENCE, alike)
+}
+
+#[track_caller]
+fn close(found: Complex64, expected: Complex64) {
+    assert!((found - expected).norm() < 1e-15, "{found} is not {expected}");
+}
+
+#[test]
+fn loads_are_pistons_then_crank_unbalances_then_shafts() {
+    let loads = loads(&engine(), Alike::Proportions);
+    let list: Vec<_> =
+        loads.list.iter().map(|l| (l.weight, l.direction.degrees(), l.z, l.bank)).collect();
+    assert_eq!(
+        list,
+        [
+            (0.5 * 0.05, 60.0, 0.0, Some(0)),
+            (0.75 * 0.04, 130.0, 0.1, Some(1)),
+            (0.5 * 0.05, 60.0, 0.2, Some(0)),
+            // Rotating masses, and a counterweight that belongs to the bank of its pin's cylinder.
+            (0.3 * 0.05, 60.0, 0.0, Some(0)),
+            (0.4 * 0.05, 60.0, 0.2, Some(0)),
+            (0.01, 200.0, -0.1, None),
+            (0.02, 300.0, 0.15, Some(1)),
+            (0.004, 30.0, 0.3, None),
+            (0.003, 77.0, 0.1, None),
+        ]
+    );
+    assert_eq!(loads.unbalance_orders(), [1, 2]);
+    assert_eq!(loads.longest_lever(), 0.3 - REFERENCE);
+    assert!(loads.has_rod_inertia(0));
+}
+
+#[test]
+fn pistons_alike_share_a_motion() {
+    let count = |alike| loads(&engine(), alike).motions.len();
+    assert_eq!((count(Alike::Dimensions), count(Alike::All)), (2, 1));
+    // One of half the size has the same proportions.
+    let halved = engine().placements()[0];
+    let cylinder = Cylinder::new(0.025, 0.075, 0.5, 0.0).unwrap();
+    let halved = Engine::new("", "", vec![halved, Placement { cylinder, ..halved }]).unwrap();
+    let count = |alike| loads(&halved, alike).motions.len();
+    assert_eq!((count(Alike::Dimensions), count(Alike::Proportions)), (2, 1));
+    // A spectrum has the masses in it.
+    let weights = loads(&engine(), Alike::All).list.into_iter().map(|load| load.weight);
+    assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);
+}
+
+/// Sums of one order written out: channel by channel, forward part, conjugate of the backward part and
+/// roll torque.
+fn written_out(order: u32) -> [[Complex64; 5]; 3] {
+    let n = f64::from(order);
+    let i = Complex64::i();
+    // Motions 0 and 1, and unbalances.
+    let mut sums = [[Complex64::default(); 5]; 3];
+    let mut add = |channel: usize, forward: Complex64, backward: Complex64, z: f64, roll| {
+        let lever = z - REFERENCE;
+        let moment = [i * forward * lever, i * backward * lever];
+        let parts = [forward, backward.conj(), moment[0], moment[1].conj(), roll];
+        sums[channel].iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+    };
+    for (motion, tdc, bank, z, weight, inertia) in [
+        (0, 10.0, 60.0, 0.0, 0.025, 0.5 * 0.05 * 0.05),
+        (1, 130.0, 130.0, 0.1, 0.03, 0.75 * 0.04 * 0.04),
+        (0, 255.0, 60.0, 0.2, 0.025, 0.5 * 0.05 * 0.05),
+    ] {
+        let [forward, backward] = [cis(bank - n * tdc), cis(bank + n * tdc)];
+        add(
+            motion,
+            forward * (0.5 * weight),
+            backward * (0.5 * weight),
+            z,
+            cis(-n * tdc) * inertia,
+        );
+    }
+    for (ratio, amount, start, z, [x, y]) in [
+        (1, 0.015, 60.0 - 10.0, 0.0, [0.0, 0.0]),
+        (1, 0.02, 60.0 - 255.0, 0.2, [0.0, 0.0]),
+        (1, 0.01, 200.0, -0.1, [0.0, 0.0]),
+        (1, 0.02, 130.0 - 130.0 + 170.0, 0.15, [0.0, 0.0]),
+        (-1, 0.004, 30.0, 0.3, [0.1, 0.05]),
+        (2, 0.003, 77.0, 0.1, [-0.08, 0.2]),
+    ] {
+        if i32::unsigned_abs(ratio) != order {
+            continue;
+        }
+        let force = cis(start) * (amount * f64::from(ratio * ratio));
+        let (forward, backward) =
+            if ratio > 0 { (force, Complex64::default()) } else { (Complex64::default(), force) };
+        // F = forward·e^{inθ} + backward·e^{−inθ}; peak phasors of its real and imaginary part.
+        let along_x = forward + backward.conj();
+        let along_y = -i * (forward - backward.conj());
+        add(2, forward, backward, z, along_y * x - along_x * y);
+    }
+    sums
+}
+
+#[test]
+fn sums_are_those_of_loads_written_out() {
+    let loads = loads(&engine(), Alike::Dimensions);
+    let channels = [Channel::Masses(0), Channel::Masses(1), Channel::Unit];
+    for order in 1..5 {
+        let (planar, roll) = (loads.planar(order, false), loads.roll(order, false));
+        for (channel, expected) in channels.into_iter().zip(written_out(order)) {
+            let found = planar.iter().find(|sum| sum.channel == channel);
+            let unbalanced = loads.unbalance_orders().contains(&order);
+            assert_eq!(found.is_some(), channel != Channel::Unit || unbalanced);
+            let found = found.map_or_else(Default::default, |sum| {
+                let (f, m) = (sum.force, sum.moment);
+                [f.forward, f.backward_conj, m.forward, m.backward_conj]
+            });
+            found.into_iter().zip(expected).for_each(|(found, expected)| close(found, expected));
+            let found = roll.iter().find(|sum| sum.channel == channel);
+            close(found.map_or_else(Default::default, |sum| sum.sum), expected[4]);
+        }
+        // Both rods of the first gear and one of the other, at −1e-4 kg·m².
+        let rods = [
+            cis(-10.0 * f64::from(order)) + cis(-255.0 * f64::from(order)),
+            cis(-130.0 * f64::from(order)),
+        ];
+        for (motion, expected) in rods.into_iter().enumerate() {
+            let found = roll.iter().find(|sum| sum.channel == Channel::Rod(motion)).unwrap();
+            close(found.sum, expected * -1e-4);
+        }
+    }
+}
+
+#[test]
+fn sizes_are_sums_of_terms() {
+    let loads = loads(&engine(), Alike::Dimensions);
+    let of = |order: u32, channel| {
+        let planar = loads.planar(order, false);
+        let sum = planar.iter().find(|sum| sum.channel == channel).unwrap();
+        let roll = loads.roll(order, false);
+        let roll = roll.iter().find(|sum| sum.channel == channel).unwrap().size;
+        [sum.force.size, sum.moment.size, roll]
+    };
+    let near = |found: [f64; 3], expected: [f64; 3]| {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15)
+    };
+    // Levers count by what they are the difference of.
+    let levered = 0.025 * (REFERENCE + 0.2 + REFERENCE);
+    assert!(near(of(3, Channel::Masses(0)), [0.05, levered, 2.0 * 0.5 * 0.0025]));
+    let (force, arm) = (4.0 * 0.003, Complex64::new(-0.08, 0.2).norm());
+    assert!(near(of(2, Channel::Unit), [force, force * (0.1 + REFERENCE), force * arm]));
+}
+
+/// The sums of each bank, turned as [`Turn`] says, are those of the engine with its banks turned.
+#[test]
+fn banks_turn_their_loads() {
+    let engine = engine();
+    let by = engine.banks().unwrap();
+    assert_eq!((by.right, by.angle()), (0, angle(70.0)));
+    for (hold, to) in [Hold::Pins, Hold::Firing].into_iter().zip([100.0, 35.5]) {
+        let turned = engine.with_bank_angle(angle(to), hold).unwrap();
+        let [before, after] = [&engine, &turned].map(|engine| loads(engine, Alike::Dimensions));
+        // The left bank turns ahead by this, the right one back.
+        let turn_of = |bank: Option<usize>| match bank {
+            None => 0.0,
+            Some(0) => -0.5 * (to - 70.0),
+            Some(_) => 0.5 * (to - 70.0),
+        };
+        for order in 1..4 {
+            let multiples = Turn::new(order, hold);
+            let turned =
+                |sum: Complex64, bank, multiple: i64| sum * cis(turn_of(bank) * multiple as f64);
+            for whole in after.planar(order, false) {
+                let mut sums = [Complex64::default(); 4];
+                let banks = before.planar(order, true);
+                for part in banks.iter().filter(|part| part.channel == whole.channel) {
+                    let (f, m) = (part.force, part.moment);
+                    let multiples = [multiples.forward, multiples.backward_conj];
+                    let parts = [f.forward, f.backward_conj, m.forward, m.backward_conj];
+                    for (k, (sum, part_of)) in sums.iter_mut().zip(parts).enumerate() {
+                        *sum += turned(part_of, part.bank, multiples[k % 2]);
+                    }
+                }
+                let (f, m) = (whole.force, whole.moment);
+                let expected = [f.forward, f.backward_conj, m.forward, m.backward_conj];
+                sums.into_iter().zip(expected).for_each(|(sum, expected)| close(sum, expected));
+            }
+            for whole in after.roll(order, false) {
+                let banks = before.roll(order, true).into_iter();
+                let banks = banks.filter(|part| part.channel == whole.channel);
+                close(
+                    banks.map(|part| turned(part.sum, part.bank, multiples.roll)).sum(),
+                    whole.sum,
+                );
+            }
+        }
+    }
+}
