@@ -173,8 +173,8 @@ class Balance(AllOrders):
     def omitted(self) -> tuple[int, ...]:
         """With ``orders="auto"``: orders that were left out although they are not zero.
 
-        All orders above the last of them add less than a hundredth of ``rtol``; ``error_bound``
-        includes them.
+        All orders above add less than 1e-17 of the quantity that ``rtol`` is relative to;
+        ``error_bound`` includes them.
         """
         return self.source.omitted
 

@@ -17,8 +17,9 @@ use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
 use crate::wrench::Wrench;
 
-/// Orders above the last one evaluated add less than this part of the tolerance.
-const NEGLIGIBLE: f64 = 0.01;
+/// Orders above the last one evaluated add less than this part of a sum's largest term: a tenth of
+/// the rounding error.
+const NEGLIGIBLE: f64 = 1e-17;
 
 /// Orders chosen for an engine, over ω² so that they serve any speed.
 pub(crate) struct Chosen {
@@ -50,7 +51,7 @@ pub(crate) fn within(
     } else {
         let motions = proportions.iter().enumerate();
         let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
-        let last = highest(rtol, loads.list.len(), motions, torque)?;
+        let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
         (1..=last.max(unbalances.last().copied().unwrap_or(1))).collect()
     };
     let orders = Order::all_whole(&candidates)?;
@@ -115,14 +116,15 @@ pub(crate) fn rod_share(loads: &Loads, of_motion: usize, scales: &[f64; 3]) -> f
 
 /// Highest order to evaluate for `count` loads of these proportions and shares of rod inertia.
 ///
-/// Above it the remainder is a hundredth of `rtol` at most, or, if no order achieves that, a quarter.
+/// Above it the remainder is at most `negligible`, or, if no order achieves that, at most `rtol`/4.
 pub(crate) fn highest(
     rtol: f64,
+    negligible: f64,
     count: usize,
     motions: impl Iterator<Item = (Proportions, f64)>,
     torque: bool,
 ) -> Result<u32> {
-    let (needed, enough) = (0.25 * rtol / count as f64, NEGLIGIBLE * rtol / count as f64);
+    let (needed, enough) = (0.25 * rtol / count as f64, negligible / count as f64);
     let mut highest = 1;
     for (proportions, rod_share) in motions {
         let torque = torque.then_some(rod_share);

@@ -19,6 +19,8 @@ use crate::order::Order;
 use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
 
+/// Orders above the last one evaluated add less than this part of the tolerance.
+const NEGLIGIBLE: f64 = 0.01;
 /// Numbers evaluated at a time.
 const MOST_SIZES: usize = 1 << 22;
 
@@ -97,7 +99,8 @@ impl Sweep {
                 motions.push((self.slowest(motion)?, rod_share(loads, k, &scales)));
             }
         }
-        let last = highest(rtol, most, motions.into_iter(), self.torque)?;
+        let negligible = NEGLIGIBLE * rtol;
+        let last = highest(rtol, negligible, most, motions.into_iter(), self.torque)?;
         Ok((1..=unbalances.into_iter().max().unwrap_or(1).max(last)).collect())
     }
 
