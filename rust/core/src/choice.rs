@@ -45,14 +45,14 @@ pub(crate) fn within(
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
     let proportions: Vec<Proportions> = loads.motions.iter().map(Cylinder::proportions).collect();
-    let candidates = match spectrum {
-        Some(spectrum) => of_spectrum(spectrum, &loads.unbalance_orders()),
-        None => {
-            let motions = proportions.iter().enumerate();
-            let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
-            let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
-            (1..=last.max(loads.unbalance_orders().last().copied().unwrap_or(1))).collect()
-        }
+    let unbalances = loads.unbalance_orders();
+    let candidates = if let Some(spectrum) = spectrum {
+        of_spectrum(spectrum, &unbalances)
+    } else {
+        let motions = proportions.iter().enumerate();
+        let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
+        let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
+        (1..=last.max(unbalances.last().copied().unwrap_or(1))).collect()
     };
     let orders = Order::all_whole(&candidates)?;
     let all = wrenches(loads, spectrum, torque, &orders, cancel)?;
@@ -258,8 +258,8 @@ mod tests {
         };
         while let Some(first) = tried.iter().position(|tried| !tried) {
             let mut smallest = first;
-            for k in first + 1..sizes.len() {
-                if !tried[k] && share(k) < share(smallest) {
+            for (k, tried) in tried.iter().enumerate().skip(first + 1) {
+                if !tried && share(k) < share(smallest) {
                     smallest = k;
                 }
             }

@@ -69,7 +69,8 @@ pub fn from_orders(
         vectorised(
             #[inline(always)]
             || rows.add_orders(&balance, angles),
-        )
+        );
+        Ok(())
     })?;
     let torque = balance.has_torque;
     memory.waveform(Some(balance), torque)
@@ -142,7 +143,7 @@ impl Rows {
     }
 
     #[inline(always)]
-    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) -> Result<()> {
+    fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
         for (k, &order) in balance.orders.iter().enumerate() {
             let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
             let ([force_x, force_y], [moment_x, moment_y]) =
@@ -158,7 +159,6 @@ impl Rows {
                 }
             }
         }
-        Ok(())
     }
 }
 

@@ -138,7 +138,7 @@ impl Wrench {
     /// The same wrench with its moment about a point this far from the reference point, m.
     ///
     /// M′ = M − a × F: with a = (x, y, z), the moment in the cross-section loses i·z·F and the roll
-    /// torque x·F_y − y·F_x.
+    /// torque `x·F_y − y·F_x`.
     #[must_use]
     pub fn moved(&self, [x, y, z]: [f64; 3]) -> Self {
         let mut moved = *self;

@@ -111,9 +111,10 @@ impl<F: Sync> Job<'_, F> {
                     let span = angle_slab.start * points..angle_slab.end * points;
                     let out = &mut out[span.start * width..span.end * width];
                     // Rows are contiguous over several bank angles where the slab has all points.
-                    let (per_run, part) = match point_slab.len() == points {
-                        true => (out.len(), 0..out.len()),
-                        false => (points * width, point_slab.start * width..point_slab.end * width),
+                    let (per_run, part) = if point_slab.len() == points {
+                        (out.len(), 0..out.len())
+                    } else {
+                        (points * width, point_slab.start * width..point_slab.end * width)
                     };
                     for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
                         let rows = out[part.clone()].chunks_mut(piece * width).enumerate();

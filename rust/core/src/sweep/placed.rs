@@ -41,8 +41,8 @@ impl Placed {
             units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
         }
         match quantity {
-            Quantity::Force => self.planar(0, &units, [x, y], outs),
-            Quantity::Moment => self.planar(1, &units, [x, y], outs),
+            Quantity::Force => self.planar(0, &units, &[x, y], outs),
+            Quantity::Moment => self.planar(1, &units, &[x, y], outs),
             Quantity::Torque => self.torque::<true>(&units, &y, outs),
             Quantity::CrankTorque => self.torque::<false>(&units, &Column::ZERO, outs),
         }
@@ -54,7 +54,7 @@ impl Placed {
         &self,
         which: usize,
         units: &Units,
-        unbalances: [Column; 2],
+        unbalances: &[Column; 2],
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
