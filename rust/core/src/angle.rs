@@ -5,7 +5,7 @@
 //! and its phasor is good to the last bit at every order. Any other angle is a double of degrees,
 //! where reduction by whole turns is exact too.
 //!
-//! Typed angles are exact: fractions and decimal text as written ([`Angle::from_str`]), a double as
+//! Typed angles are exact: fractions and decimal text as written ([`Angle`]'s `FromStr`), a double as
 //! the decimal or fraction it stands for ([`Angle::from_degrees`]). Sums, differences and halves of
 //! exact angles are exact as long as their denominator fits, so that one angle reached in two ways
 //! is one value.

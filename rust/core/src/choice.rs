@@ -258,8 +258,8 @@ mod tests {
         };
         while let Some(first) = tried.iter().position(|tried| !tried) {
             let mut smallest = first;
-            for k in first + 1..sizes.len() {
-                if !tried[k] && share(k) < share(smallest) {
+            for (k, tried) in tried.iter().enumerate().skip(first + 1) {
+                if !tried && share(k) < share(smallest) {
                     smallest = k;
                 }
             }

@@ -4,7 +4,7 @@
 //! only if the cyclotomic polynomial `Φ_N`, the smallest of which ζ is a root, divides P. Nothing
 //! here is a floating-point number.
 //!
-//! A [`RootSum`] lists its terms, for few terms of any N up to 10¹¹. A [`Ring`] holds
+//! A [`RootSum`] lists its terms, for few terms of any N up to 10¹¹. A `Ring` holds
 //! the powers of ζ modulo `Φ_N` and compares many sums of one small N, given by all their N weights.
 
 mod sum;

@@ -4,6 +4,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
+use common::random::{angles, cylinders, engines, vees};
 use common::{by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{Vector, balance};
@@ -19,60 +20,6 @@ const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
 const REQUEST: Request =
     Request { rpm: 3000.0, reference_z: Some(0.0), spectrum: None, torque: true };
 const VECTORS: [Vector; 2] = [Vector::Force, Vector::Moment];
-
-/// Moving parts of a usual engine, offset or not.
-fn cylinders(offset: bool) -> impl Strategy<Value = Cylinder> {
-    let rod_inertia = prop_oneof![Just(0.0), -0.3..0.3];
-    let parts = (0.02..0.2, 1.8..6.0, 0.1..3.0, -0.5..0.5_f64, rod_inertia);
-    parts.prop_map(move |(r, l, m, e, j)| {
-        let pin_offset = if offset { r * e } else { 0.0 };
-        let cylinder = Cylinder::new(r, r * l, m, pin_offset).unwrap();
-        cylinder.with_rod_inertia_excess(j * m * r * r).unwrap()
-    })
-}
-
-/// Angles that are parts of a turn, and angles that are not.
-fn angles() -> impl Strategy<Value = Angle> {
-    prop_oneof![
-        (0_i64..24).prop_map(|k| Angle::from_degree_fraction(15 * k, 1).unwrap()),
-        (0_i64..7).prop_map(|k| Angle::from_degree_fraction(360 * k, 7).unwrap()),
-        (0.0..360.0).prop_map(|d| Angle::from_degrees(d).unwrap()),
-    ]
-}
-
-fn placements(offset: bool) -> impl Strategy<Value = Placement> {
-    (cylinders(offset), angles(), angles(), -0.5..0.5, 0.0..2.0).prop_map(
-        |(cylinder, tdc, bank, z, rotating_mass)| Placement {
-            cylinder,
-            tdc,
-            bank,
-            z,
-            rotating_mass,
-        },
-    )
-}
-
-fn engines(offset: bool) -> impl Strategy<Value = Engine> {
-    proptest::collection::vec(placements(offset), 1..9)
-        .prop_map(|placements| Engine::new("", "", placements).unwrap())
-}
-
-/// Vees whose cylinders stand in two banks.
-fn vees() -> impl Strategy<Value = Engine> {
-    let cylinder = cylinders(true);
-    let rest =
-        proptest::collection::vec((cylinder, angles(), -0.5..0.5, 0.0..2.0, any::<bool>()), 0..7);
-    (placements(true), placements(true), rest, 20.0..160.0).prop_map(|(a, b, rest, angle)| {
-        let right = Angle::from_degrees(90.0 - 0.5 * angle).unwrap();
-        let left = Angle::from_degrees(90.0 + 0.5 * angle).unwrap();
-        let mut placements = vec![Placement { bank: right, ..a }, Placement { bank: left, ..b }];
-        placements.extend(rest.into_iter().map(|(cylinder, tdc, z, rotating_mass, on_left)| {
-            let bank = if on_left { left } else { right };
-            Placement { cylinder, tdc, bank, z, rotating_mass }
-        }));
-        Engine::new("", "", placements).unwrap()
-    })
-}
 
 fn of(engine: &Engine) -> Balance {
     by_orders(engine, &REQUEST, &ORDERS)
@@ -359,7 +306,7 @@ proptest! {
         let mean: f64 = exact.force.iter().map(|x| x * x).sum::<f64>() / 256.0;
         let parts = summed.balance.unwrap();
         let parts = turning(&parts, Vector::Force).concat();
-        let total: f64 = parts.iter().map(|part| part.norm_sqr()).sum();
+        let total: f64 = parts.iter().map(Complex64::norm_sqr).sum();
         prop_assert!((mean - total).abs() <= 1e-12 * size(&engine).powi(2));
     }
 

@@ -5,7 +5,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{
-    alone, by_orders, changed, in_line, mixed, places, plain, there, turning, weighted, whole, xy,
+    alone, by_orders, changed, in_line, mixed, places, plain, scales, there, turning, weighted,
+    whole, xy,
 };
 use crankpin_core::balance::Vector;
 use crankpin_core::extrema::PeakFinder;
@@ -727,40 +728,10 @@ impl Worst {
             }
             (0..4).for_each(|which| rest[which] = rest[which].max(here[which]));
         }
-        let [force, moment, torque] = scales(engine);
+        let [force, moment, torque] = scales(engine, REFERENCE);
         let allowed = [force, moment, torque, torque].map(|scale| rtol * scale);
         Self { sizes, rest, allowed }
     }
-}
-
-/// The largest m·r of a cylinder or ρ²·U of an unbalance, times the longest lever; of torque times the
-/// crank radius or the distance of the shaft, or what rod inertia makes of order 1.
-fn scales(engine: &Engine) -> [f64; 3] {
-    let (mut force, mut lever, mut torque) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let radius = engine.largest_crank_radius();
-    let mut add = |amount: f64, arm: f64, z: f64| {
-        force = force.max(amount);
-        torque = torque.max(amount * arm);
-        lever = lever.max((z - REFERENCE).abs());
-    };
-    for p in engine.placements() {
-        let (c, r) = (p.cylinder, p.cylinder.crank_radius());
-        add(c.first_order(), r, p.z);
-        add(p.rotating_mass * r, radius, p.z);
-    }
-    for weight in engine.counterweights() {
-        add(weight.amount, radius, weight.z);
-    }
-    for shaft in engine.shafts() {
-        let [x, y] = shaft.axis;
-        for weight in &shaft.unbalances {
-            add(weight.amount * f64::from(shaft.ratio.pow(2)), radius.max(x.hypot(y)), weight.z);
-        }
-    }
-    for p in engine.placements() {
-        torque = torque.max(p.cylinder.rod_inertia_excess().abs() * p.cylinder.rod_ratio());
-    }
-    [force, force * lever, torque]
 }
 
 /// Number of loads: pistons, rotating masses and unbalances.
@@ -779,7 +750,7 @@ fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
         for p in there(engine, &alone(axes, place)).placements() {
-            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine)[2];
+            let share = p.cylinder.rod_inertia_excess().abs() / scales(engine, REFERENCE)[2];
             let (proportions, part) = (p.cylinder.proportions(), 0.01 * rtol / count as f64);
             let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
             last = last.max(here.unwrap());

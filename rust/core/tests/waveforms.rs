@@ -5,7 +5,9 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{alone, by_orders, in_line, mixed, places, plain, there, weighted, whole, xy};
+use common::{
+    alone, by_orders, in_line, kinematics, mixed, places, plain, there, weighted, whole, xy,
+};
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
@@ -20,73 +22,6 @@ const REQUEST: Request =
 
 fn square(rpm: f64) -> f64 {
     (rpm * std::f64::consts::TAU / 60.0).powi(2)
-}
-
-/// Force x, y, moment x, y, roll and crank torque over ω²; and the sizes of their terms.
-fn kinematics(engine: &Engine, θ: f64) -> ([f64; 6], [f64; 6]) {
-    let (mut sums, mut sizes) = ([0.0; 6], [0.0; 6]);
-    for p in engine.placements() {
-        let (c, bank, pin) = (p.cylinder, p.bank.cis(1), p.pin().degrees().to_radians());
-        let (r, lever) = (c.crank_radius(), p.z - REFERENCE);
-        let (sin, cos) = (θ - p.tdc.degrees().to_radians()).sin_cos();
-        // x = cos θ + h with h² = (l/r)² − u², u = sin θ − e/r, in radii.
-        let (rod, offset) = (c.rod_length() / r, c.pin_offset() / r);
-        let u = sin - offset;
-        let h = (rod * rod - u * u).sqrt();
-        let velocity = -sin - u * cos / h;
-        let acceleration = -cos - (cos * cos - u * sin) / h - (u * cos).powi(2) / h.powi(3);
-        let along = -c.first_order() * acceleration;
-        let turning = Complex64::cis(pin + θ) * (p.rotating_mass * r);
-        let force = bank * along + turning;
-        // A force across the bore at the piston, and one along it at the crank: r × F.
-        let weight = c.first_order() * r * acceleration;
-        // sin φ = u/(l/r): how the rod swings.
-        let swing = cos / h;
-        let bend = (u * swing * swing - sin) / h;
-        let inertia = c.rod_inertia_excess() * bend;
-        let terms = [
-            force.re,
-            force.im,
-            -lever * force.im,
-            lever * force.re,
-            weight * (velocity + offset) + inertia * (1.0 + swing),
-            -weight * velocity - inertia * swing,
-        ];
-        let moved = c.first_order() * 3.0 + turning.norm();
-        let torque = 5.0 * moved * r + 3.0 * c.rod_inertia_excess().abs();
-        let levered = moved * (p.z.abs() + REFERENCE);
-        let size = [moved, moved, levered, levered, torque, torque];
-        for k in 0..6 {
-            sums[k] += terms[k];
-            sizes[k] += size[k];
-        }
-    }
-    let mut add = |force: Complex64, z: f64, [x, y]: [f64; 2]| {
-        let (lever, size) = (z - REFERENCE, force.norm());
-        let roll = x * force.im - y * force.re;
-        let terms = [force.re, force.im, -lever * force.im, lever * force.re, roll, 0.0];
-        let levered = size * (z.abs() + REFERENCE);
-        let terms_of = [size, size, levered, levered, size * (x.abs() + y.abs()), 0.0];
-        for k in 0..6 {
-            sums[k] += terms[k];
-            // Up to three turns of the crank are nine of a shaft.
-            sizes[k] += 3.0 * terms_of[k];
-        }
-    };
-    for weight in engine.counterweights() {
-        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.placements()[i].pin());
-        let turned = pin.degrees().to_radians() + weight.angle.degrees().to_radians() + θ;
-        add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
-    }
-    for shaft in engine.shafts() {
-        let ratio = f64::from(shaft.ratio);
-        for weight in &shaft.unbalances {
-            let turned = weight.angle.degrees().to_radians() + ratio * θ;
-            let force = Complex64::cis(turned) * (ratio * ratio * weight.amount);
-            add(force, weight.z, shaft.axis);
-        }
-    }
-    (sums, sizes)
 }
 
 /// Crank angles, some of more than a turn.
@@ -120,7 +55,7 @@ fn kinematics_are_those_of_each_cylinder() {
             assert_eq!((&planar.force, &planar.moment), (&wave.force, &wave.moment));
             assert!(planar.torque.is_none() && planar.crank_torque.is_none());
             for (i, θ) in thetas.iter().enumerate() {
-                let (expected, sizes) = kinematics(&engine, θ.to_radians());
+                let (expected, sizes) = kinematics(&engine, REFERENCE, θ.to_radians());
                 for (k, found) in rows(&wave, i).into_iter().enumerate() {
                     let off = (found - expected[k] * square(RPM)).abs();
                     assert!(off <= ROUNDING * sizes[k] * square(RPM), "{count} {θ} {k}: {found}");
@@ -317,7 +252,7 @@ fn each_row_is_a_waveform(
                 if i % every[1] != 0 && i + 1 != thetas.len() {
                     continue;
                 }
-                let (expected, sizes) = kinematics(&there, θ);
+                let (expected, sizes) = kinematics(&there, REFERENCE, θ);
                 for (k, of_all) in which.clone().enumerate() {
                     let slack = ROUNDING * sizes[of_all] * square;
                     let (found, expected) = (exact[i * which.len() + k], expected[of_all] * square);

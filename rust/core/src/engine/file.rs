@@ -354,7 +354,9 @@ mod tests {
         let weights = proptest::collection::vec(weight, 0..3);
         let shaft = (prop_oneof![-2..0, 1..3], [-9.0..9.0, -9.0..9.0], weights.clone());
         let shaft = shaft.prop_map(|(ratio, axis, mut unbalances)| {
-            unbalances.iter_mut().for_each(|unbalance| unbalance.pin = None);
+            for unbalance in &mut unbalances {
+                unbalance.pin = None;
+            }
             Shaft { name: format!("{ratio}"), ratio, axis, unbalances }
         });
         let shafts = proptest::collection::vec(shaft, 0..3);

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test crate uses some of these")]
 
+pub mod random;
+
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
@@ -149,4 +151,101 @@ pub fn xy(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
 pub fn turning(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
     let planar = |k| balance.planar(vector, k);
     (0..balance.orders.len()).map(|k| [planar(k).forward, planar(k).backward()]).collect()
+}
+
+/// Force x, y, moment x, y, roll and crank torque over ω²; and the sizes of their terms.
+pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 6]) {
+    let (mut sums, mut sizes) = ([0.0; 6], [0.0; 6]);
+    for p in engine.placements() {
+        let (c, bank, pin) = (p.cylinder, p.bank.cis(1), p.pin().degrees().to_radians());
+        let (r, lever) = (c.crank_radius(), p.z - reference);
+        let (sin, cos) = (θ - p.tdc.degrees().to_radians()).sin_cos();
+        // x = cos θ + h with h² = (l/r)² − u², u = sin θ − e/r, in radii.
+        let (rod, offset) = (c.rod_length() / r, c.pin_offset() / r);
+        let u = sin - offset;
+        let h = (rod * rod - u * u).sqrt();
+        let velocity = -sin - u * cos / h;
+        let acceleration = -cos - (cos * cos - u * sin) / h - (u * cos).powi(2) / h.powi(3);
+        let along = -c.first_order() * acceleration;
+        let turning = Complex64::cis(pin + θ) * (p.rotating_mass * r);
+        let force = bank * along + turning;
+        // A force across the bore at the piston, and one along it at the crank: r × F.
+        let weight = c.first_order() * r * acceleration;
+        // sin φ = u/(l/r): how the rod swings.
+        let swing = cos / h;
+        let bend = (u * swing * swing - sin) / h;
+        let inertia = c.rod_inertia_excess() * bend;
+        let terms = [
+            force.re,
+            force.im,
+            -lever * force.im,
+            lever * force.re,
+            weight * (velocity + offset) + inertia * (1.0 + swing),
+            -weight * velocity - inertia * swing,
+        ];
+        let moved = c.first_order() * 3.0 + turning.norm();
+        let torque = 5.0 * moved * r + 3.0 * c.rod_inertia_excess().abs();
+        let levered = moved * (p.z.abs() + reference.abs());
+        let size = [moved, moved, levered, levered, torque, torque];
+        for k in 0..6 {
+            sums[k] += terms[k];
+            sizes[k] += size[k];
+        }
+    }
+    let mut add = |force: Complex64, z: f64, [x, y]: [f64; 2]| {
+        let (lever, size) = (z - reference, force.norm());
+        let roll = x * force.im - y * force.re;
+        let terms = [force.re, force.im, -lever * force.im, lever * force.re, roll, 0.0];
+        let levered = size * (z.abs() + reference.abs());
+        let terms_of = [size, size, levered, levered, size * (x.abs() + y.abs()), 0.0];
+        for k in 0..6 {
+            sums[k] += terms[k];
+            // Up to three turns of the crank are nine of a shaft.
+            sizes[k] += 3.0 * terms_of[k];
+        }
+    };
+    for weight in engine.counterweights() {
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.placements()[i].pin());
+        let turned = pin.degrees().to_radians() + weight.angle.degrees().to_radians() + θ;
+        add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
+    }
+    for shaft in engine.shafts() {
+        let ratio = f64::from(shaft.ratio);
+        for weight in &shaft.unbalances {
+            let turned = weight.angle.degrees().to_radians() + ratio * θ;
+            let force = Complex64::cis(turned) * (ratio * ratio * weight.amount);
+            add(force, weight.z, shaft.axis);
+        }
+    }
+    (sums, sizes)
+}
+
+/// The largest m·r of a cylinder or ρ²·U of an unbalance, times the longest lever; of torque times the
+/// crank radius or the distance of the shaft, or what rod inertia makes of order 1.
+pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
+    let (mut force, mut lever, mut torque) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let radius = engine.largest_crank_radius();
+    let mut add = |amount: f64, arm: f64, z: f64| {
+        force = force.max(amount);
+        torque = torque.max(amount * arm);
+        lever = lever.max((z - reference).abs());
+    };
+    for p in engine.placements() {
+        let (c, r) = (p.cylinder, p.cylinder.crank_radius());
+        add(c.first_order(), r, p.z);
+        add(p.rotating_mass * r, radius, p.z);
+    }
+    for weight in engine.counterweights() {
+        add(weight.amount, radius, weight.z);
+    }
+    for shaft in engine.shafts() {
+        let [x, y] = shaft.axis;
+        for weight in &shaft.unbalances {
+            add(weight.amount * f64::from(shaft.ratio.pow(2)), radius.max(x.hypot(y)), weight.z);
+        }
+    }
+    for p in engine.placements() {
+        torque = torque.max(p.cylinder.rod_inertia_excess().abs() * p.cylinder.rod_ratio());
+    }
+    [force, force * lever, torque]
 }

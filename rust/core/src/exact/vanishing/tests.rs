@@ -3,7 +3,7 @@ use proptest::sample::select;
 
 use super::*;
 use crate::engine::{Placement, Shaft, Unbalance};
-use crate::slider_crank::Cylinder;
+use crate::{Angle, Cylinder};
 
 fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
     let place = |&(tdc, bank, z, mass, offset): &(f64, f64, f64, f64, f64)| Placement {
