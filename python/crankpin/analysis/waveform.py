@@ -93,8 +93,7 @@ class Waveform(Frozen):
     moment: NDArray[np.float64]
     """Rocking moment about x (pitch) and y (yaw), N·m: (n_theta, 2)."""
     orders: tuple[int, ...] | None
-    """Orders that were summed; None for exact kinematics, which ``orders="auto"`` chooses where it
-    costs less."""
+    """Orders that were summed; None for exact kinematics."""
     omitted: tuple[int, ...]
     """With ``orders="auto"``: orders that were left out; see :attr:`Balance.omitted`."""
     error_bound: ErrorBound

@@ -807,12 +807,12 @@ class Engine(Frozen):
         >>> v8 = cp.Engine.preset("v8-crossplane")
         >>> couple = v8.balance(rpm=60)[1].moment.forward / (2 * np.pi) ** 2
         >>> distance = v8.z.max() - v8.z.min()
-        >>> angle = np.degrees(np.angle(couple))
+        >>> angle = np.degrees(np.angle(couple)) + 90
         >>> ends = [
         ...     cp.Unbalance(abs(couple) / distance, z, side + angle)
         ...     for z, side in [(v8.z.min(), 180), (v8.z.max(), 0)]
         ... ]
-        >>> bool(v8.with_counterweights(ends).balance(rpm=60, orders=[1])[1].moment.peak < 1e-12)
+        >>> bool(v8.with_counterweights(ends).balance(rpm=60, orders=[1])[1].moment.peak < 1e-9)
         True
         """
         return Engine(rotating.with_counterweights(self._core, counterweights))

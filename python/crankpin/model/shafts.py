@@ -42,7 +42,7 @@ class Unbalance:
     >>> single = cp.Engine.preset("single")
     >>> half = 0.5 * 0.45 * 0.043
     >>> weight = cp.Unbalance(amount=half, z=0, angle_deg=180, pin=1)
-    >>> single.with_counterweights([weight]).balance(rpm=3000)[1].force.forward
+    >>> complex(single.with_counterweights([weight]).balance(rpm=3000)[1].force.forward)
     0j
     """
 

@@ -305,6 +305,8 @@ pub fn from_toml(text: &str) -> Result<Engine> {
 pub fn from_json(text: &str) -> Result<Engine> {
     let text = unmarked(text);
     sized("JSON", text)?;
+    let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
+    check_tables(&value, "the file")?;
     serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
 }
 
@@ -319,6 +321,29 @@ fn sized(format: &'static str, text: &str) -> Result<()> {
     }
     let reason = format!("{} bytes long; an engine file has at most {LONGEST_TEXT}", text.len());
     Err(Error::File { format, reason })
+}
+
+/// Rejects arrays in place of objects, which serde would read by position.
+fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
+    const LISTS: [&str; 4] = ["placements", "counterweights", "shafts", "unbalances"];
+    let Some(table) = value.as_object() else {
+        let reason = format!("{place}: give an object, {{ }}");
+        return Err(Error::File { format: "JSON", reason });
+    };
+    for (key, value) in table {
+        if value.is_object() {
+            check_tables(value, key)?;
+        }
+        let Some(list) = value.as_array() else { continue };
+        if !LISTS.contains(&key.as_str()) {
+            let reason = format!("{}: an array is not allowed here", shorten(key));
+            return Err(Error::File { format: "JSON", reason });
+        }
+        for (i, item) in list.iter().enumerate() {
+            check_tables(item, &format!("{key}[{i}]"))?;
+        }
+    }
+    Ok(())
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
@@ -443,6 +468,24 @@ mod tests {
         for (length, fits) in [(LONGEST_TEXT, true), (LONGEST_TEXT + 1, false)] {
             assert_eq!(from_toml(&padded(to_toml(&engine).unwrap(), length)).is_ok(), fits);
             assert_eq!(from_json(&padded(to_json(&engine).unwrap(), length)).is_ok(), fits);
+        }
+    }
+
+    #[test]
+    fn json_arrays_are_not_taken_for_objects() {
+        let place = r#"{"tdc_deg": 0, "bank_deg": 90, "z": 0}"#;
+        let parts = r#"{"crank_radius": 0.05, "rod_length": 0.15, "reciprocating_mass": 0.5}"#;
+        let file = |cylinder: &str, place: &str| {
+            format!(r#"{{"schema": 1, "cylinder": {cylinder}, "placements": [{place}]}}"#)
+        };
+        assert!(from_json(&file(parts, place)).is_ok());
+        for bad in [
+            "[1]".to_owned(),
+            file("[0.05, 0.15, 0.5]", place),
+            file(parts, "[0, 90, 0]"),
+            "7".to_owned(),
+        ] {
+            assert!(matches!(from_json(&bad), Err(Error::File { .. })), "{bad}");
         }
     }
 
