@@ -125,7 +125,6 @@ def test_the_plane_of_reference_matters_where_a_force_is_left() -> None:
     assert i4.vanishing_orders(2, reference_z=math.pi)[2].moment.x == "remains"
 
 
-@pytest.mark.filterwarnings("ignore:.*is 9.9e-14° from 120; if that is meant:UserWarning")
 def test_an_angle_that_is_no_part_of_a_turn_is_not_decided() -> None:
     i3 = cp.Engine.from_lists(
         CYLINDER, tdc_deg=[0, 120.0001234, 240], bank_deg=[90] * 3, z=[0, 0.1, 0.2]

@@ -425,7 +425,6 @@ def test_texts_read_back_as_the_same_engine(name: str, tmp_path: Path) -> None:
         assert cp.Engine.load(str(path)) == engine
 
 
-@pytest.mark.filterwarnings("ignore:.* from 0; if that is meant, give it as text:UserWarning")
 @pytest.mark.parametrize("angle", ["360/7", Fraction(1, 3), Fraction(360, 999), "-1/3", 1e-17, 7.3])
 def test_angles_survive_files_and_copies_exactly(angle: Any) -> None:
     """Sums that vanish are exact zeros only while the angle is the fraction that was given."""
@@ -452,7 +451,6 @@ def test_angles_survive_files_and_copies_exactly(angle: Any) -> None:
         assert not again.balance(1000, orders=[1, 2]).force.any()
 
 
-@pytest.mark.filterwarnings("ignore:.* from 0; if that is meant, give it as text:UserWarning")
 @pytest.mark.parametrize("angle", [-1e-300, -5e-324, -1e-17, "-1/1000000000000", 360.0, -0.0])
 def test_angles_beside_a_whole_turn_read_back(angle: Any) -> None:
     """Less whole turns such an angle rounds to 360 degrees, which is none."""

@@ -751,6 +751,12 @@ VALUES: st.SearchStrategy[Any] = st.one_of(
 )
 
 SOUND: dict[str, list[Any]] = {
+    "amount": [0.01],
+    "counterweights": [[cp.Unbalance(0.01, 0.1, 180, pin=1)]],
+    "pin": [1, None],
+    "ratio": [-1, 2],
+    "shafts": [[cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1)]],
+    "unbalances": [[cp.Unbalance(0.01, 0.1)]],
     "ax": [None],
     "backward_force": [1j],
     "bore": [0.086],
@@ -827,7 +833,7 @@ SUBJECTS: dict[str, Any] = {
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
     "ranking, as they are": cp.rank(
-        [V6, I4], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
+        [V6, vee()], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
     ),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
