@@ -18,35 +18,38 @@ from _timing import machine, print_table, write_csv
 
 CALLS = {
     "sweep, 20 million rod ratios: peaks of sums": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).moment_sum_peak_xy"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6, 8, 10]).total.moment.peak_xy"
     ),
     "sweep, 20 million rod ratios: phasors": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).moment.xy"
     ),
     "sweep, 20 million rod ratios: torque": (
-        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).torque"
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders=[1, 2, 4, 6]).torque.phasor"
     ),
     "sweep, 20 million bank angles, offset": (
-        "cp.sweep(v6, rpm=1000, bank_angle_deg=angles, hold='pins', pin_offset=1e-3).moment"
+        "cp.sweep(v6, rpm=1000, bank_angle_deg=angles, hold='pins', pin_offset=1e-3, "
+        "orders=[1, 2, 4, 6]).moment.xy"
     ),
-    "sweep, 20 million speeds": "cp.sweep(v6, rpm=speeds, orders=[1, 2, 4, 6]).moment",
+    "sweep, 20 million speeds": "cp.sweep(v6, rpm=speeds, orders=[1, 2, 4, 6]).moment.xy",
     "sweep, bank angle × rod ratio × speed": (
         "cp.sweep(v6, rpm=speeds[::20_000], bank_angle_deg=angles[::100_000], hold='pins', "
-        "rod_ratio=ratios[::40_000], orders=[2]).moment"
+        "rod_ratio=ratios[::40_000], orders=[2]).moment.xy"
     ),
-    "sweep, orders chosen": "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders='auto').force",
-    "sweep, a list of 20 million numbers": "cp.sweep(v6, rpm=1000, rod_ratio=listed).force",
+    "sweep, orders chosen": "cp.sweep(v6, rpm=1000, rod_ratio=ratios, orders='auto').force.xy",
+    "sweep, a list of 20 million numbers": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=listed, orders=[1, 2, 4, 6]).force.xy"
+    ),
     "harmonics": "cp.slider_crank_harmonics(ratios, range(1, 21))",
     "harmonics with an offset, λ = 0.9999": (
         "cp.slider_crank_harmonics(near_one, range(1, 5), 1e-7)"
     ),
-    "waveform, kinematics": "v6.waveform(1000, thetas).moment",
-    "waveform, 299 orders": ("v6.waveform(1000, thetas, orders=range(1, 300)).moment"),
+    "waveform, kinematics": "v6.waveform(1000, theta_deg=thetas).moment",
+    "waveform, 299 orders": ("v6.waveform(1000, theta_deg=thetas, orders=range(1, 300)).moment"),
     "balance, 10 000 orders, λ = 0.999": "near.balance(1000, orders=range(1, 10_001))",
     "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",
     "search of a V-26": "cp.search_arrangements(26)",
     "ranking, 10 million bank angles": (
-        "cp.rank(v6, rpm=1000, bank_angle_deg=angles[::2], hold='pins')"
+        "cp.rank(v6, rpm=1000, by='total.moment.peak', bank_angle_deg=angles[::2], hold='pins')"
     ),
 }
 MOMENTS = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0)

@@ -44,7 +44,9 @@ def without_layout(engine: cp.Engine, rtol: float) -> tuple[int, ...]:
     one = engine.cylinders[0]
     alike = cp.Engine.from_lists(one, tdc_deg=[0.0], bank_deg=[90.0], z=[0.0])
     # What each of them leaves out adds up.
-    return alike.balance(RPM, "auto", rtol=max(rtol / len(engine), 1e-15), torque=False).orders
+    return alike.balance(
+        RPM, orders="auto", rtol=max(rtol / len(engine), 1e-15), torque=False
+    ).orders
 
 
 def counts() -> list[Row]:
@@ -54,7 +56,7 @@ def counts() -> list[Row]:
         for rod_ratio in RATIOS:
             engine = with_rod(cp.Engine.preset(name), rod_ratio)
             for rtol in TOLERANCES:
-                b = engine.balance(RPM, "auto", rtol=rtol, torque=False)
+                b = engine.balance(RPM, orders="auto", rtol=rtol, torque=False)
                 rows.append(
                     {
                         "kind": "count",
@@ -82,11 +84,11 @@ def times(quick: bool = False) -> list[Row]:
 def time_waveforms(name: str, rod_ratio: float, rtol: float) -> Row:
     """Time one engine's waveforms by each method, and take the errors."""
     engine = with_rod(cp.Engine.preset(name), rod_ratio)
-    fewest = engine.balance(RPM, "auto", rtol=rtol, torque=False).orders or (1,)
+    fewest = engine.balance(RPM, orders="auto", rtol=rtol, torque=False).orders or (1,)
     all_of_them = without_layout(engine, rtol)
 
-    def run(orders: object, rtol: float = 1e-6) -> cp.Waveform:
-        return engine.waveform(RPM, THETA, orders, rtol=rtol, torque=False)  # type: ignore[arg-type]
+    def run(orders: object, rtol: float = 1e-6) -> cp.types.Waveform:
+        return engine.waveform(RPM, theta_deg=THETA, orders=orders, rtol=rtol, torque=False)  # type: ignore[arg-type]
 
     best = interleaved(
         {

@@ -155,8 +155,8 @@ def ours(sweep: Sweep, _setting: None = None) -> Array:
     """Ask crankpin for true extrema, about the paper's plane, that of crank 1."""
     built = engines(sweep.firing_orders)
     if sweep.peaks == 1:
-        one = built[0].balance(ijesc.RPM, (1, 2), reference_z=0.0, torque=False)
-        return np.array([[one.moment_sum_peak_vector]])
+        one = built[0].balance(ijesc.RPM, orders=(1, 2), reference_z=0.0, torque=False)
+        return np.array([[one.total.moment.peak]])
     found = cp.sweep(
         built,
         rpm=ijesc.RPM,
@@ -166,7 +166,7 @@ def ours(sweep: Sweep, _setting: None = None) -> Array:
         reference_z=0.0,
         torque=False,
     )
-    return found.moment_sum_peak_vector
+    return found.total.moment.peak
 
 
 class Method(NamedTuple):

@@ -41,7 +41,7 @@ class Case(NamedTuple):
     set_up: float
     """Seconds that NumPy took to list them."""
 
-    def crankpin(self) -> cp.ArrangementSearch:
+    def crankpin(self) -> cp.types.ArrangementSearch:
         """Ask crankpin."""
         return cp.search_arrangements(2 * self.throws, alternating=self.alternating)
 

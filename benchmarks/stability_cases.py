@@ -139,9 +139,11 @@ def largest_of_zeros(plain: bool) -> float:
     for name in BALANCED:
         engine = cp.Engine.preset(name).replace(rotating_mass=0.0)
         proof = engine.vanishing_orders(TWELVE)
-        found = plain_force(engine, RPM, TWELVE) if plain else engine.balance(RPM, TWELVE).force
-        for axis, quantity in enumerate(("force_x", "force_y")):
-            zero = [n in proof.of(quantity) for n in TWELVE]
+        found = (
+            plain_force(engine, RPM, TWELVE) if plain else engine.balance(RPM, orders=TWELVE).force
+        )
+        for axis, verdicts in enumerate((proof.force.x, proof.force.y)):
+            zero = [n in verdicts.vanishing for n in TWELVE]
             worst = max(worst, float(np.abs(found[zero, axis]).max()) / first_order(engine, RPM))
     return worst
 
@@ -218,9 +220,9 @@ def beside_right_angles(plain: bool) -> float:
             if plain:
                 found = plain_backward(engine, order)
             else:
-                balance = engine.balance(RPM, [order])
+                balance = engine.balance(RPM, orders=[order])
                 size = first_order(engine, RPM) * CYLINDER.harmonics([order])[0].real
-                found = complex(balance.backward_moment[0]) / size
+                found = complex(balance.moment.backward[0]) / size
             if abs(exact) < 1e-30 and found != 0:
                 return math.inf
             worst = max(worst, abs(found - exact))
@@ -261,8 +263,8 @@ def sampled_torque(samples: int) -> float:
     """Error of the first orders of torque in so many samples of a single's turn."""
     engine = cp.Engine.preset("single")
     theta = 360 * np.arange(samples) / samples
-    torque = engine.waveform(6000, theta).torque
-    exact = engine.balance(6000, [1, 2, 3, 4]).torque
+    torque = engine.waveform(6000, theta_deg=theta).torque
+    exact = engine.balance(6000, orders=[1, 2, 3, 4]).torque
     found = [methods.order_of_samples(torque, n) for n in (1, 2, 3, 4)]
     return float(np.abs((np.array(found) - exact) / exact).max())
 
@@ -270,7 +272,9 @@ def sampled_torque(samples: int) -> float:
 def few_angles_or_many() -> float:
     """Error of orders by number against 4096 samples, and of few angles against many."""
     engine = cp.Engine.preset("single")
-    few, many = (engine.waveform(6000, np.arange(0, 360, step)).torque for step in (60.0, 1.0))
+    few, many = (
+        engine.waveform(6000, theta_deg=np.arange(0, 360, step)).torque for step in (60.0, 1.0)
+    )
     if not np.array_equal(few, many[::60]):
         return math.inf
     return sampled_torque(4096)
@@ -306,8 +310,8 @@ def our_peak(orders: list[int], phasors: list[complex]) -> float:
     """Find the peak of the force of one upright cylinder with that spectrum, over ω²."""
     engine = cp.Engine.preset("single").replace(rotating_mass=0.0)
     rpm = 60 / (2 * np.pi)
-    found = engine.balance(rpm, orders, spectrum=dict(zip(orders, phasors, strict=True)))
-    return float(found.force_sum_peak_xy[1])
+    found = engine.balance(rpm, orders=orders, spectrum=dict(zip(orders, phasors, strict=True)))
+    return float(found.total.force.peak_xy[1])
 
 
 def polished_error(case: tuple[list[int], list[complex], float], samples: int) -> float:
@@ -345,11 +349,11 @@ def scaled_force(length: float, mass: float, *, plain: bool) -> float:
     reference = cp.Engine.vee(cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1, **layout)
     # the same piston speed: forces as mass over length
     rpm, force = 6000 / length, mass / length
-    exact = reference.balance(6000, TWELVE)
+    exact = reference.balance(6000, orders=TWELVE)
     if plain:
         found = methods.thresholded(plain_force(engine, rpm, TWELVE), 1e-9) / force
         return worst_of_phasors(found, exact.force)
-    ours = engine.balance(rpm, TWELVE)
+    ours = engine.balance(rpm, orders=TWELVE)
     forces = worst_of_phasors(ours.force / force, exact.force)
     return max(forces, worst_of_phasors(ours.moment / mass, exact.moment))
 
@@ -367,7 +371,7 @@ def many_cylinders(count: int, *, plain: bool) -> float:
     engine = inline_six(count=count)
     if plain:
         return float(np.abs(plain_force(engine, RPM, [1])).max() / first_order(engine, RPM))
-    balance = engine.balance(RPM, [1])
+    balance = engine.balance(RPM, orders=[1])
     return float(max(np.abs(balance.force).max(), np.abs(balance.moment).max()))
 
 
@@ -376,7 +380,11 @@ def single(plain: bool) -> float:
     engine = cp.Engine.from_lists(CYLINDER, tdc_deg=[0], bank_deg=[90], z=[0])
     size = first_order(engine, RPM)
     exact = np.stack([np.zeros(3), size * CYLINDER.harmonics([1, 2, 4]).real], axis=1)
-    found = plain_force(engine, RPM, [1, 2, 4]) if plain else engine.balance(RPM, [1, 2, 4]).force
+    found = (
+        plain_force(engine, RPM, [1, 2, 4])
+        if plain
+        else engine.balance(RPM, orders=[1, 2, 4]).force
+    )
     return float(relative_errors(found, exact).max())
 
 
@@ -399,7 +407,7 @@ CASES = [
         "6 roundings of 1.1e-16 of the whole, of which 1e-9 is left, and as much from the angles",
         "zero below 1e-8 of m·r·ω²",
         lambda: imbalance(plain_with_threshold),
-        lambda: imbalance(lambda engine: complex(engine.balance(RPM, [1]).force[0, 1])),
+        lambda: imbalance(lambda engine: complex(engine.balance(RPM, orders=[1]).force[0, 1])),
     ),
     Case(
         "bank angles",

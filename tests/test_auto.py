@@ -56,11 +56,11 @@ def peak(turning: NDArray[Any], against: NDArray[Any], orders: tuple[int, ...]) 
 def left_out(engine: cp.Engine, kept: tuple[int, ...]) -> dict[str, float]:
     """What all orders but these add to force, moment and either torque at the worst crank angle."""
     rest = tuple(n for n in range(1, max(top(engine), *kept, 1) + 1) if n not in kept)
-    b = engine.balance(RPM, rest)
+    b = engine.balance(RPM, orders=rest)
     torques = (peak(t / 2, t.conj() / 2, rest) for t in (b.torque, b.crank_torque))
     return {
-        "force": peak(b.forward_force, b.backward_force, rest),
-        "moment": peak(b.forward_moment, b.backward_moment, rest),
+        "force": peak(b.force.forward, b.force.backward, rest),
+        "moment": peak(b.moment.forward, b.moment.backward, rest),
         "torque": max(torques),
     }
 
@@ -89,7 +89,7 @@ def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
         engine = with_rod(cp.Engine.preset(name), rod_ratio, offset)
         scale = scales(engine)
         for rtol in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-14):
-            b = engine.balance(RPM, "auto", rtol=rtol)
+            b = engine.balance(RPM, orders="auto", rtol=rtol)
             for quantity, true in left_out(engine, b.orders).items():
                 bound = getattr(b.error_bound, quantity)
                 # Each of the sums is rounded.
@@ -136,7 +136,7 @@ TOLERANCES = st.sampled_from([1e-2, 1e-4, 1e-7, 1e-10, 1e-13])
 @examples
 @given(engines(), TOLERANCES)
 def test_the_bound_holds_for_any_engine(engine: cp.Engine, rtol: float) -> None:
-    b = engine.balance(RPM, "auto", rtol=rtol)
+    b = engine.balance(RPM, orders="auto", rtol=rtol)
     for quantity, true in left_out(engine, b.orders).items():
         bound = getattr(b.error_bound, quantity)
         assert true <= bound * (1.0 + 1e-12) + 1e-18 * scales(engine)[quantity]
@@ -147,9 +147,9 @@ def test_the_bound_holds_for_any_engine(engine: cp.Engine, rtol: float) -> None:
 @given(engines(), TOLERANCES)
 def test_the_bound_holds_against_kinematics(engine: cp.Engine, rtol: float) -> None:
     theta = np.linspace(0.0, 360.0, 97)
-    b = engine.balance(RPM, "auto", rtol=rtol)
-    exact = engine.waveform(RPM, theta)
-    summed = engine.waveform(RPM, theta, b.orders) if b.orders else None
+    b = engine.balance(RPM, orders="auto", rtol=rtol)
+    exact = engine.waveform(RPM, theta_deg=theta)
+    summed = engine.waveform(RPM, theta_deg=theta, orders=b.orders) if b.orders else None
     for quantity, scale in scales(engine).items():
         off = getattr(exact, quantity) - (getattr(summed, quantity) if summed else 0.0)
         length = np.abs(off) if quantity == "torque" else np.hypot(*off.T)
@@ -168,22 +168,22 @@ def test_the_bound_holds_against_kinematics(engine: cp.Engine, rtol: float) -> N
 def test_the_bound_holds_for_spectra(
     engine: cp.Engine, spectrum: dict[int, float], rtol: float
 ) -> None:
-    b = engine.balance(RPM, "auto", rtol=rtol, spectrum=spectrum)
+    b = engine.balance(RPM, orders="auto", rtol=rtol, spectrum=spectrum)
     listed = tuple(sorted({1, *spectrum} - set(b.orders)))
     assert b.error_bound.torque is None
     if listed:
-        rest = engine.balance(RPM, listed, spectrum=spectrum)
-        force = peak(rest.forward_force, rest.backward_force, listed)
-        moment = peak(rest.forward_moment, rest.backward_moment, listed)
+        rest = engine.balance(RPM, orders=listed, spectrum=spectrum)
+        force = peak(rest.force.forward, rest.force.backward, listed)
+        moment = peak(rest.moment.forward, rest.moment.backward, listed)
         assert force <= b.error_bound.force * (1.0 + 1e-12)
         assert moment <= b.error_bound.moment * (1.0 + 1e-12)
 
 
 def test_what_cancels_at_every_order_has_no_bound() -> None:
     """Parts of a turn make the layout's sums periodic in the order: zero in one, zero in all."""
-    assert cp.Engine.preset("boxer-6").balance(RPM, "auto").error_bound.force == 0.0
-    assert cp.Engine.preset("i6").balance(RPM, "auto").error_bound.moment == 0.0
-    assert cp.Engine.preset("i6").balance(RPM, "auto").error_bound.force > 0.0
+    assert cp.Engine.preset("boxer-6").balance(RPM, orders="auto").error_bound.force == 0.0
+    assert cp.Engine.preset("i6").balance(RPM, orders="auto").error_bound.moment == 0.0
+    assert cp.Engine.preset("i6").balance(RPM, orders="auto").error_bound.force > 0.0
 
 
 # --- the fewest ---------------------------------------------------------------------------------
@@ -194,10 +194,10 @@ def fewest(engine: cp.Engine, rtol: float, *, torque: bool) -> int:
     wanted = QUANTITIES if torque else QUANTITIES[:2]
     scale = scales(engine)
     everything = tuple(range(1, top(engine) + 1))
-    b = engine.balance(RPM, everything)
+    b = engine.balance(RPM, orders=everything)
     sizes = {
-        "force": b.force_peak_vector,
-        "moment": b.moment_peak_vector,
+        "force": b.force.peak,
+        "moment": b.moment.peak,
         "torque": np.maximum(np.abs(b.torque), np.abs(b.crank_torque)),
     }
     parts = np.array(
@@ -219,15 +219,15 @@ def fewest(engine: cp.Engine, rtol: float, *, torque: bool) -> int:
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(engines(), st.sampled_from([3e-2, 1e-3, 1e-5]), st.booleans())
 def test_no_fewer_orders_would_do(engine: cp.Engine, rtol: float, torque: bool) -> None:
-    b = engine.balance(RPM, "auto", rtol=rtol, torque=torque)
+    b = engine.balance(RPM, orders="auto", rtol=rtol, torque=torque)
     assert len(b.orders) == fewest(engine, rtol, torque=torque)
 
 
 def test_cancellations_save_orders() -> None:
     """A V12 is two inline sixes: only every sixth order is left."""
     for rtol in (1e-2, 1e-4):
-        v12 = cp.Engine.preset("v12-60").balance(RPM, "auto", rtol=rtol, torque=False)
-        single = cp.Engine.preset("single").balance(RPM, "auto", rtol=rtol, torque=False)
+        v12 = cp.Engine.preset("v12-60").balance(RPM, orders="auto", rtol=rtol, torque=False)
+        single = cp.Engine.preset("single").balance(RPM, orders="auto", rtol=rtol, torque=False)
         assert len(v12.orders) < len(single.orders)
         assert all(n % 6 == 0 for n in v12.orders)
 
@@ -235,7 +235,7 @@ def test_cancellations_save_orders() -> None:
 @pytest.mark.parametrize("rpm", [0.0, 1.0, 6000.0])
 def test_speed_changes_no_choice(rpm: float) -> None:
     v6 = cp.Engine.preset("v6-60")
-    assert v6.balance(rpm, "auto").orders == v6.balance(RPM, "auto").orders
+    assert v6.balance(rpm, orders="auto").orders == v6.balance(RPM, orders="auto").orders
 
 
 # --- torque only when asked ---------------------------------------------------------------------
@@ -243,17 +243,17 @@ def test_speed_changes_no_choice(rpm: float) -> None:
 
 def test_torque_counts_only_when_asked() -> None:
     i6 = cp.Engine.preset("i6")
-    with_torque, without = (i6.balance(RPM, "auto", torque=asked) for asked in (True, False))
+    with_torque, without = (i6.balance(RPM, orders="auto", torque=asked) for asked in (True, False))
     assert {3, 9} <= set(with_torque.orders)
     assert not {3, 9} & set(without.orders)
     assert without.error_bound.torque is None
-    explicit = i6.balance(RPM, [6], torque=False)
-    w = i6.waveform(RPM, [0.0], torque=False)
+    explicit = i6.balance(RPM, orders=[6], torque=False)
+    w = i6.waveform(RPM, theta_deg=[0.0], torque=False)
     s = cp.sweep(i6, rpm=RPM, torque=False)
     for result in (without, explicit, w, s):
         with pytest.raises(cp.InputError, match="torque=True"):
             _ = result.torque
-    np.testing.assert_array_equal(w.force, i6.waveform(RPM, [0.0]).force)
+    np.testing.assert_array_equal(w.force, i6.waveform(RPM, theta_deg=[0.0]).force)
     assert w.error_bound == (0.0, 0.0, None)
     assert "torque" not in explicit.to_pandas()
     assert "torque" not in explicit.to_xarray()
@@ -266,14 +266,14 @@ def test_torque_counts_only_when_asked() -> None:
 def test_kinematics_are_taken_where_they_cost_less() -> None:
     theta = np.arange(0.0, 360.0, 7.0)
     near = with_rod(cp.Engine.preset("i4"), 0.99, 0.0)  # some seventy orders, or four cylinders
-    w = near.waveform(RPM, theta, "auto", rtol=1e-12)
+    w = near.waveform(RPM, theta_deg=theta, orders="auto", rtol=1e-12)
     assert w.orders is None
     assert w.omitted == ()
     assert w.error_bound == (0.0, 0.0, 0.0)
-    np.testing.assert_array_equal(w.moment, near.waveform(RPM, theta).moment)
+    np.testing.assert_array_equal(w.moment, near.waveform(RPM, theta_deg=theta).moment)
     far = cp.Engine.preset("v12-60")  # twelve cylinders, or a few orders
-    w = far.waveform(RPM, theta, "auto", rtol=1e-6)
-    b = far.balance(RPM, "auto", rtol=1e-6)
+    w = far.waveform(RPM, theta_deg=theta, orders="auto", rtol=1e-6)
+    b = far.balance(RPM, orders="auto", rtol=1e-6)
     assert (w.orders, w.omitted, w.error_bound) == (b.orders, b.omitted, b.error_bound)
     assert w.orders is not None
 
@@ -281,12 +281,14 @@ def test_kinematics_are_taken_where_they_cost_less() -> None:
 def test_kinematics_are_taken_where_no_orders_suffice() -> None:
     stuck = with_rod(cp.Engine.preset("i4"), 1.0 - 1e-12, 0.0)
     with pytest.raises(cp.InputError, match="rtol"):
-        stuck.balance(RPM, "auto")
-    assert stuck.waveform(RPM, [0.0, 1.0], "auto").orders is None
+        stuck.balance(RPM, orders="auto")
+    assert stuck.waveform(RPM, theta_deg=[0.0, 1.0], orders="auto").orders is None
 
 
 def test_a_spectrum_is_always_summed() -> None:
-    w = cp.Engine.preset("single").waveform(RPM, [0.0], "auto", spectrum={1: 1.0, 2: 0.3, 4: 0.1})
+    w = cp.Engine.preset("single").waveform(
+        RPM, theta_deg=[0.0], orders="auto", spectrum={1: 1.0, 2: 0.3, 4: 0.1}
+    )
     assert w.orders == (1, 2, 4)
 
 
@@ -343,10 +345,10 @@ def test_sweeps_reach_the_tolerance_everywhere(
         ]
         there = there.replace(cylinder=cylinders)
         rest = tuple(n for n in range(1, top(there) + 1) if n not in s.orders)
-        b = there.balance(RPM, rest)
+        b = there.balance(RPM, orders=rest)
         true = {
-            "force": peak(b.forward_force, b.backward_force, rest),
-            "moment": peak(b.forward_moment, b.backward_moment, rest),
+            "force": peak(b.force.forward, b.force.backward, rest),
+            "moment": peak(b.moment.forward, b.moment.backward, rest),
             "torque": peak(b.torque / 2, b.torque.conj() / 2, rest),
         }
         for quantity in wanted:
@@ -359,7 +361,7 @@ def test_a_sweep_of_one_point_is_a_balance() -> None:
     i4 = cp.Engine.preset("i4")
     for rtol in (1e-2, 1e-6, 1e-12):
         s = cp.sweep(i4, rpm=RPM, orders="auto", rtol=rtol, torque=False)
-        assert s.orders == i4.balance(RPM, "auto", rtol=rtol, torque=False).orders
+        assert s.orders == i4.balance(RPM, orders="auto", rtol=rtol, torque=False).orders
 
 
 def test_the_largest_rod_ratio_is_the_worst() -> None:
@@ -373,4 +375,4 @@ def test_a_sweep_always_has_an_order() -> None:
     boxer = cp.Engine.preset("boxer-6")
     s = cp.sweep(boxer, rpm=RPM, orders="auto", rtol=0.99, torque=False)
     assert len(s.orders) == 1
-    assert s.force_peak_vector.shape == (1,)
+    assert s.force.peak.shape == (1,)

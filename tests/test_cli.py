@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -45,6 +47,7 @@ def refused(capsys: CAPTURE, *argv: str) -> str:
     out, err = capsys.readouterr()
     assert out == ""
     (line,) = err.splitlines()
+    assert len(line) < 500
     start = "crankpin: error: "
     assert line.startswith(start)
     return line.removeprefix(start)
@@ -66,12 +69,12 @@ def _agg() -> None:
 
 def test_presets_lists_all(capsys: CAPTURE) -> None:
     lines = printed(capsys, "presets").splitlines()
-    assert lines[0].split() == ["name", "engine"]
-    told = dict(line.split(maxsplit=1) for line in lines[1:])
-    assert told == cp.presets()
+    assert " ".join(lines[1].split()) == "name cylinders bank angle ° firing order description"
+    assert [line.split()[0] for line in lines[2:]] == list(cp.presets())
     head, *rows = csv.reader(io.StringIO(printed(capsys, "presets", "--csv")))
-    assert head == ["name", "engine"]
-    assert dict(rows) == cp.presets()
+    assert head == ["name", "cylinders", "bank angle °", "firing order", "description"]
+    assert {row[0]: row[-1] for row in rows} == dict(cp.presets().descriptions)
+    assert ["v8-crossplane", "8", "90", "1-8-4-3-6-5-7-2"] in [row[:4] for row in rows]
 
 
 # --- balance ------------------------------------------------------------------------------------
@@ -84,14 +87,17 @@ def test_balance_csv_is_the_library_s_numbers(capsys: CAPTURE) -> None:
     )
     assert head == ["order", "|F_x| N", "|F_y| N", "|M_x| N·m", "|M_y| N·m", "|M_z| N·m"]
     assert orders == [["1"], ["2"], ["4"]]
-    expected = np.hstack([b.force_peak_xy, b.moment_peak_xy, b.torque_peak[:, None]])
+    expected = np.hstack([b.force.peak_xy, b.moment.peak_xy, b.torque.peak[:, None]])
     np.testing.assert_array_equal(values, expected)
     assert values.any()
 
 
 def test_balance_prints_what_python_prints(capsys: CAPTURE) -> None:
     text = printed(capsys, "balance", "v8-crossplane")
-    assert text == repr(cp.Engine.preset("v8-crossplane").balance(3000)) + "\n"
+    balance = cp.Engine.preset("v8-crossplane").balance(3000)
+    assert text.startswith(repr(balance) + "\nOmitted orders add at most ")
+    text = printed(capsys, "balance", "v8-crossplane", "--orders", "1,2,4")
+    assert text == repr(cp.Engine.preset("v8-crossplane").balance(3000, orders=[1, 2, 4])) + "\n"
 
 
 @pytest.mark.parametrize("suffix", [".toml", ".json"])
@@ -103,14 +109,14 @@ def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str
 
 def test_balance_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
     text = printed(capsys, "balance", "i4", "--orders", "auto", "--rtol", "1e-3")
-    b = cp.Engine.preset("i4").balance(3000, "auto", rtol=1e-3)
+    b = cp.Engine.preset("i4").balance(3000, orders="auto", rtol=1e-3)
     *table, note = text.splitlines()
     assert "\n".join(table) == repr(b)
     assert f"at most {b.error_bound.force:.2g} N to the force" in note
     assert f"{b.error_bound.moment:.2g} N·m to the rocking moment" in note
-    assert f"left out: {', '.join(map(str, b.omitted))}." in note
+    assert f"omitted: {', '.join(map(str, b.omitted))}." in note
     assert b.omitted
-    assert "left out" not in printed(capsys, "balance", "i4", "--orders", "auto", "--csv")
+    assert "mitted" not in printed(capsys, "balance", "i4", "--orders", "auto", "--csv")
 
 
 def test_sweep_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
@@ -120,9 +126,9 @@ def test_sweep_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
     s = cp.sweep(i4, rpm=3000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3)
     assert all(f"order {n}" in table for n in s.orders)
     assert f"at most {s.error_bound.force:.2g} N to the force" in note
-    assert f"left out: {', '.join(map(str, s.omitted))}." in note
+    assert f"omitted: {', '.join(map(str, s.omitted))}." in note
     assert s.omitted
-    assert "left out" not in printed(capsys, *argv, "--csv")
+    assert "mitted" not in printed(capsys, *argv, "--csv")
 
 
 def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
@@ -130,10 +136,10 @@ def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
     argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
     head, _, values = numbers(printed(capsys, *argv))
     b = cp.Engine.preset("i3-ebook").balance(
-        10, (1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
+        10, orders=(1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
     )
     assert len(head) == 5  # a spectrum tells nothing of torque
-    np.testing.assert_array_equal(values, np.hstack([b.force_peak_xy, b.moment_peak_xy]))
+    np.testing.assert_array_equal(values, np.hstack([b.force.peak_xy, b.moment.peak_xy]))
 
 
 def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
@@ -142,7 +148,8 @@ def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
     _, _, front = numbers(printed(capsys, *argv, "--reference-z", "0"))
     assert middle[0, 2] == 0.0
     assert (
-        front[0, 2] == cp.Engine.preset("i4").balance(3000, 2, reference_z=0.0).moment_peak_xy[0, 0]
+        front[0, 2]
+        == cp.Engine.preset("i4").balance(3000, orders=2, reference_z=0.0).moment.peak_xy[0, 0]
     )
     assert front[0, 2] > 0.0
 
@@ -151,7 +158,7 @@ def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
 
 
 def test_sweep_of_a_family_is_the_library_s_numbers(capsys: CAPTURE) -> None:
-    text = printed(capsys, "sweep", "ijesc-v6", "--rpm", "5000", "--csv")
+    text = printed(capsys, "sweep", "ijesc-v6", "--rpm", "5000", "--orders", "1,2", "--csv")
     head, labels, values = numbers(text, labels=2)
     engines = [cp.Engine.preset(name) for name in IJESC]
     s = cp.sweep(engines, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="pins", orders=[1, 2])
@@ -163,14 +170,15 @@ def test_sweep_of_a_family_is_the_library_s_numbers(capsys: CAPTURE) -> None:
         "|M_x| order 2 N·m",
         "|M_y| order 2 N·m",
     ]
-    np.testing.assert_array_equal(values.reshape(4, 17, 2, 2), s.moment_peak_xy)
+    np.testing.assert_array_equal(values.reshape(4, 17, 2, 2), s.moment.peak_xy)
     assert labels == [[engine.name, str(angle)] for engine in engines for angle in BANK_ANGLES]
 
 
 def test_sweep_prints_the_tables_of_the_ijesc_paper(capsys: CAPTURE) -> None:
     """Tables I to IV, where they have no misprint: to the second decimal, one table each."""
     spectrum = ",".join(f"{order}={amplitude!r}" for order, amplitude in IJESC_SPECTRUM.items())
-    text = printed(capsys, "sweep", "ijesc-v6", "--rpm", "5000", "--spectrum", spectrum)
+    argv = ["sweep", "ijesc-v6", "--rpm", "5000", "--orders", "1,2", "--spectrum", spectrum]
+    text = printed(capsys, *argv)
     tables = text.split("\n\n")
     assert len(tables) == 4
     ours = {}
@@ -205,7 +213,7 @@ def test_sweep_holds_pins_unless_told_otherwise(capsys: CAPTURE) -> None:
         assert f"{words} as the bank angle changes" in text.splitlines()[0]
         _, _, values = numbers(printed(capsys, *argv, *more, "--csv"))
         s = cp.sweep(v6, rpm=3000, bank_angle_deg=[60, 75, 90], hold=hold, orders=[1])  # type: ignore[arg-type]
-        np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+        np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
 
 
 @pytest.mark.parametrize("quantity", ["force", "moment", "torque"])
@@ -220,7 +228,7 @@ def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
         pin_offset=[-0.002, 0.002],
         orders=[2, 3],
     )
-    peaks = s.torque_peak if quantity == "torque" else getattr(s, f"{quantity}_peak_xy")
+    peaks = s.torque.peak if quantity == "torque" else getattr(s, quantity).peak_xy
     np.testing.assert_array_equal(values, peaks.reshape(12, -1))
     assert values.any() == (quantity != "moment")  # an inline-4 has no rocking moment
     assert head[:3] == ["rod ratio", "pin offset m", "rpm"]
@@ -249,7 +257,7 @@ def test_engines_alone_are_compared_in_one_table(capsys: CAPTURE) -> None:
     ]
     _, _, values = numbers(printed(capsys, *argv, "--csv"))
     expected = [
-        cp.Engine.preset(name).balance(3000, 2).force_peak_xy[0] for name in ("i4", "v6-60")
+        cp.Engine.preset(name).balance(3000, orders=2).force.peak_xy[0] for name in ("i4", "v6-60")
     ]
     np.testing.assert_array_equal(values, expected)
 
@@ -270,7 +278,7 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
     assert ", about z = 0.05 m" in printed(capsys, *argv).splitlines()[0]
     _, _, values = numbers(printed(capsys, *argv, "--csv"))
     s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2], reference_z=0.05)
-    np.testing.assert_array_equal(values, s.moment_peak_xy[:, 0])
+    np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
     assert values[:, 0].all()
 
 
@@ -313,7 +321,7 @@ def test_ranges(text: str, values: float | list[float] | None) -> None:
 
 
 def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
-    by = ["moment_after_counterweight", "moment_peak_vector_2"]
+    by = ["[1].moment.backward", "[2].moment.peak"]
     argv = ["rank", "ijesc-v6", "--rpm", "5000", "--by", ",".join(by), "--reference-z", "0"]
     argv += ["--orders", "1,2", "--spectrum", "1=0.0669,2=0.0191", "--refine"]
     engines = {cp.Engine.preset(name).name: cp.Engine.preset(name) for name in IJESC}
@@ -335,9 +343,9 @@ def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
 
 
 def test_rank_of_engines_as_they_are(capsys: CAPTURE) -> None:
-    out = printed(capsys, "rank", "i4", "i6", "--bank-angle", "own", "--by", "force_peak_vector_2")
+    out = printed(capsys, "rank", "i4", "i6", "--bank-angle", "own", "--by", "[2].force.peak")
     title, _, first, last = out.splitlines()
-    assert title == "Ranked by longest shaking force of order 2, 3000 rpm"
+    assert title == "Ranked by longest shaking force, order 2, 3000 rpm"
     assert first.split() == ["1", "Inline-6", "–", "0"]
     assert last.split()[:3] == ["2", "Inline-4", "–"]
 
@@ -403,7 +411,7 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("balance i4 --orders 1,x", "--orders = 1,x: give whole numbers"),
         ("balance i4 --orders 1.5", "--orders = 1.5"),
         ("balance i4 --orders 0", "orders"),
-        ("balance i4 --rtol 1e-3", "--rtol = 1e-3"),
+        ("balance i4 --orders 1,2 --rtol 1e-3", "--rtol needs --orders auto"),
         ("balance i4 --reference-z front", "--reference-z = front"),
         ("balance i4 --spectrum 9.0", "--spectrum = 9.0: give order=amplitude"),
         ("balance i4 --spectrum 1=9.0,1=8.0", "order 1 is given twice"),
@@ -421,12 +429,21 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("sweep v6-60 --bank-angle 10:190:10", "bank_angle"),
         ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "rod_ratio"),
         ("sweep v6-60 --hold nothing", "--hold"),
-        ("sweep v6-60 --rtol 1e-3", "--rtol = 1e-3: chooses orders"),
-        ("rank v6-60 --orders auto", "--orders = auto"),
+        ("sweep v6-60 --orders 1 --rtol 1e-3", "--rtol needs --orders auto"),
+        ("balance i4 --rpm sNaN", "--rpm = sNaN: give a finite number"),
+        ("balance i4 --rpm " + "9" * 100_000, "--rpm = 999999"),
+        ("sweep i4 --rpm 1:" + "x" * 100_000 + ":1", "give a number"),
+        ("balance i4 --spectrum 1=" + "x" * 100_000, "--spectrum = xxx"),
+        ("balance i4 --orders " + "x" * 100_000, "--orders = xxx"),
+        ("balance i4 --plot " + "x" * 100_000, "--plot = xxx"),
+        ("balance " + "x" * 100_000, "no such preset"),
+        ("balance inline-4", 'did you mean "i4"?'),
+        ("balance v6", "balance takes one engine of v6-60, v6-90, v6-90-odd-fire, v6-120"),
+        ("rank v6-60 --orders all", "--orders = all"),
         ("rank v6-60 --by shake", "by = 'shake': give"),
-        ("rank v6-60 --by moment_peak_vector_3", 'by = "moment_peak_vector_3" takes order 3'),
+        ("rank v6-60 --orders 1,2 --by [3].moment.peak", "by = "),
         ("rank v6-60 --bank-angle own --refine", "refine = True"),
-        ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to look at"),
+        ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to rank"),
         ("rank i4", "bank"),
         ("rank v6-60 --plot picture.bmp", "a picture's name ends in"),
         ("sweep", "NAME"),
@@ -485,7 +502,7 @@ def test_examples_of_help_run(
 ) -> None:
     with pytest.raises(SystemExit, match=r"^0$"):
         main([*command, "--help"])
-    (example,) = re.findall(r"example:\n  python -m crankpin (.*)\n", capsys.readouterr().out)
+    (example,) = re.findall(r"example:\n  crankpin (.*)\n", capsys.readouterr().out)
     monkeypatch.chdir(tmp_path)
     assert printed(capsys, *example.split())
     pictures = re.findall(r"--plot (\S+)", example)
@@ -579,3 +596,106 @@ def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
     assert run.returncode == 2
     expected = b'crankpin: error: matplotlib is not installed: pip install "crankpin[plot]"'
     assert run.stderr.splitlines() == [expected]
+
+
+# --- streams that are closed or full ------------------------------------------------------------
+
+
+def shell(line: str) -> subprocess.CompletedProcess[bytes]:
+    """Run a line of shell, ``crankpin`` standing for the program."""
+    program_ = f"{shlex.quote(sys.executable)} -m crankpin"
+    return subprocess.run(  # noqa: S602 - our own program
+        line.replace("crankpin", program_),
+        shell=True,
+        capture_output=True,
+        env=os.environ | BUFFERED,
+        check=False,
+    )
+
+
+WARNS = "balance i4-ebook --rpm 3000"  # of a piston faster than any
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
+@pytest.mark.parametrize("command", ["balance i4", "--version", WARNS])
+def test_closed_standard_output_is_an_error_in_a_line(command: str) -> None:
+    run = shell(f"crankpin {command} >&-")
+    assert run.returncode == (0 if command == "--version" else 2)  # argparse prints to stderr then
+    assert b"Traceback" not in run.stderr
+    assert b"Exception" not in run.stderr
+    if command != "--version":
+        assert run.stderr.splitlines()[-1] == b"crankpin: error: standard output is closed"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
+def test_full_disk_is_an_error_in_a_line() -> None:
+    run = shell("crankpin balance i4 > /dev/full")
+    assert run.returncode == 2
+    assert run.stderr == b"crankpin: error: standard output: No space left on device\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
+@pytest.mark.parametrize("closed", ["2>&-", "2>/dev/full"])
+def test_warnings_do_not_land_in_the_csv(closed: str) -> None:
+    if "full" in closed and sys.platform != "linux":
+        pytest.skip("needs /dev/full")
+    heard, deaf = (shell(f"crankpin {WARNS} --csv {end}") for end in ("", closed))
+    assert b"warning" in heard.stderr
+    assert b"warning" not in heard.stdout
+    assert deaf.stdout == heard.stdout
+    assert deaf.returncode == 0
+    error = shell(f"crankpin balance nothing {closed}")
+    assert (error.returncode, error.stdout) == (2, b"")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
+def test_help_into_a_closed_pipe_is_quiet() -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    run = subprocess.run(
+        [sys.executable, "-m", "crankpin", "--help"],
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        env=os.environ | BUFFERED,
+        check=False,
+    )
+    os.close(writing)
+    assert (run.returncode, run.stderr) == (141, b"")
+
+
+# --- what is shown ------------------------------------------------------------------------------
+
+
+def test_negligible_orders_are_left_out_of_tables_and_named(capsys: CAPTURE) -> None:
+    argv = ["sweep", "ijesc-v6", "--rpm", "5000"]
+    text = printed(capsys, *argv)
+    s = cp.sweep(
+        [cp.Engine.preset(name) for name in IJESC],
+        rpm=5000,
+        bank_angle_deg=BANK_ANGLES,
+        hold="pins",
+        orders="auto",
+    )
+    (note,) = re.findall(r"Not shown: orders ([\d, ]+) \(their peaks are below 1e-06", text)
+    left = [int(order) for order in note.split(", ")]
+    shown = {int(order) for order in re.findall(r"\|M_x\| order (\d+)", text)}
+    assert sorted([*left, *shown]) == list(s.orders)
+    head = printed(capsys, *argv, "--csv").splitlines()[0]
+    assert {int(order) for order in re.findall(r"\|M_x\| order (\d+)", head)} == set(s.orders)
+    assert "Not shown" not in printed(capsys, *argv, "--orders", "1,2,3,4,5")
+
+
+def test_firing_of_the_engine_s_own_order(capsys: CAPTURE) -> None:
+    own = printed(capsys, "firing", "v8-crossplane")
+    assert own == printed(capsys, "firing", "v8-crossplane", "--order", "1-8-4-3-6-5-7-2")
+    assert "most even first" in printed(capsys, "firing", "flat-4")  # whose order is not known
+
+
+def test_crankpin_is_a_command() -> None:
+    (entry,) = (
+        line
+        for line in (Path(__file__).parents[1] / "pyproject.toml").read_text().splitlines()
+        if line.startswith("crankpin = ")
+    )
+    module, _, function = entry.split('"')[1].partition(":")
+    assert callable(getattr(importlib.import_module(module), function))

@@ -18,18 +18,19 @@ import pytest
 LONG_CALLS = {
     "sum of orders over bank angle, rod ratio and speed": (
         "cp.sweep(v6, rpm=np.linspace(1, 9000, 100), bank_angle_deg=np.linspace(0, 180, 400), "
-        "hold='pins', rod_ratio=np.linspace(0.1, 0.5, 6000)).moment_sum_peak_vector"
+        "hold='pins', rod_ratio=np.linspace(0.1, 0.5, 6000), orders=[1, 2, 4, 6]).total.moment.peak"
     ),
     "sum of orders over rod ratio": (
         "cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 20_000_000), "
-        "orders=[1, 2, 4, 6, 8, 10]).moment_sum_peak_xy"
+        "orders=[1, 2, 4, 6, 8, 10]).total.moment.peak_xy"
     ),
     "harmonics with an offset": (
         "cp.slider_crank_harmonics(np.full(10_000_000, 0.9999), range(1, 5), 1e-7)"
     ),
     "search of a V-26": "cp.search_arrangements(26)",
     "ranking by name": (
-        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins')"
+        "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
+        "by='total.moment.peak')"
     ),
     "ranking by a function": (
         "cp.rank(v6, rpm=1000, bank_angle_deg=np.linspace(0, 180, 10_000_000), hold='pins', "
@@ -40,23 +41,23 @@ LONG_CALLS = {
         ".waveform(np.linspace(0, 720, 2000)).force for _ in range(100)]"
     ),
     "waveforms of a sweep by kinematics": (
-        "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000))"
+        "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000), orders=[1, 2, 4, 6])"
         ".waveform(np.linspace(0, 720, 2000), exact=True).force for _ in range(100)]"
     ),
     "balance of ten thousand orders": "near(0.999, 1e-6).balance(1000, orders=range(1, 10_001))",
     "orders chosen for a balance": "near(0.99999, 1e-9).balance(1000, orders='auto', rtol=1e-3)",
     "waveform of chosen orders": (
-        "near(0.99999, 1e-9).waveform(1000, [0.0], orders='auto', rtol=1e-3)"
+        "near(0.99999, 1e-9).waveform(1000, theta_deg=[0.0], orders='auto', rtol=1e-3)"
     ),
     "harmonics of one cylinder": (
         "[near(0.999, 1e-6).cylinders[0].harmonics(range(1, 10_001)) for _ in range(100)]"
     ),
     "one point of a sweep": (
-        "[cp.sweep(near(0.999, 1e-6), rpm=1000, orders=range(1, 10_001)).torque "
+        "[cp.sweep(near(0.999, 1e-6), rpm=1000, orders=range(1, 10_001)).torque.phasor "
         "for _ in range(100)]"
     ),
     "waveform as a sum of orders": (
-        "v6.waveform(1000, np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
+        "v6.waveform(1000, theta_deg=np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),
 }
 
@@ -112,11 +113,12 @@ def test_other_threads_go_on() -> None:
         bank_angle_deg=np.linspace(0, 180, 300),
         hold="pins",
         rod_ratio=np.linspace(0.1, 0.5, 40),
+        orders=[1, 2, 4, 6],
     )
     done = threading.Event()
 
     def work() -> None:
-        _ = sweep.moment_sum_peak_xy
+        _ = sweep.total.moment.peak_xy
         done.set()
 
     turns = 0
@@ -131,10 +133,12 @@ def test_other_threads_go_on() -> None:
 
 def test_several_threads_at_once_agree() -> None:
     v6 = cp.Engine.preset("v6-60")
-    alone = v6.waveform(5000, np.arange(5000.0)).moment
+    alone = v6.waveform(5000, theta_deg=np.arange(5000.0)).moment
     results: list[np.ndarray] = []
     threads = [
-        threading.Thread(target=lambda: results.append(v6.waveform(5000, np.arange(5000.0)).moment))
+        threading.Thread(
+            target=lambda: results.append(v6.waveform(5000, theta_deg=np.arange(5000.0)).moment)
+        )
         for _ in range(8)
     ]
     for thread in threads:

@@ -50,14 +50,14 @@ def same(found: np.ndarray, expected: np.ndarray, scale: float) -> None:
     assert np.abs(np.asarray(found) - np.asarray(expected)).max() <= 2e-13 * scale
 
 
-def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.Balance:
-    return engine.balance(RPM, ORDERS, reference_z=reference_z)
+def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.types.Balance:
+    return engine.balance(RPM, orders=ORDERS, reference_z=reference_z)
 
 
 @settings(max_examples=60, deadline=None)
 @given(engine=engines(), factor=st.floats(0.01, 1))
 def test_force_goes_with_the_square_of_speed(engine: cp.Engine, factor: float) -> None:
-    faster = engine.balance(RPM * factor, ORDERS, reference_z=0.0)
+    faster = engine.balance(RPM * factor, orders=ORDERS, reference_z=0.0)
     same(faster.force, of(engine).force * factor**2, size(engine) * factor**2)
     same(faster.torque, of(engine).torque * factor**2, size(engine) * factor**2)
 
@@ -67,8 +67,8 @@ def test_force_goes_with_the_square_of_speed(engine: cp.Engine, factor: float) -
 def test_turning_the_engine_turns_the_result(engine: cp.Engine, by: float) -> None:
     turned = of(engine.replace(tdc_deg=engine.tdc_deg, bank_deg=engine.bank_deg + by))
     turn = np.exp(1j * np.radians(by))
-    same(turned.forward_moment, of(engine).forward_moment * turn, size(engine))
-    same(turned.backward_moment, of(engine).backward_moment * turn, size(engine))
+    same(turned.moment.forward, of(engine).moment.forward * turn, size(engine))
+    same(turned.moment.backward, of(engine).moment.backward * turn, size(engine))
 
 
 @settings(max_examples=60, deadline=None)
@@ -99,8 +99,8 @@ def test_moving_the_plane_adds_force_times_distance(engine: cp.Engine, by: float
 def test_a_mirror_swaps_and_conjugates(engine: cp.Engine) -> None:
     still = engine.replace(rotating_mass=0.0)
     mirrored = of(still.replace(tdc_deg=still.tdc_deg, bank_deg=180 - still.bank_deg))
-    same(mirrored.forward_force, -of(still).backward_force.conj(), size(engine))
-    same(mirrored.backward_force, -of(still).forward_force.conj(), size(engine))
+    same(mirrored.force.forward, -of(still).force.backward.conj(), size(engine))
+    same(mirrored.force.backward, -of(still).force.forward.conj(), size(engine))
 
 
 @settings(max_examples=60, deadline=None)
@@ -109,17 +109,17 @@ def test_reversing_the_crank_swaps_the_two(engine: cp.Engine) -> None:
     centred = [c.replace(pin_offset=0.0) for c in engine.cylinders]
     still = engine.replace(rotating_mass=0.0, cylinder=centred)
     reversed_ = of(still.replace(tdc_deg=-still.tdc_deg))
-    same(reversed_.forward_force, of(still).backward_force, size(engine))
-    same(reversed_.backward_moment, of(still).forward_moment, size(engine))
+    same(reversed_.force.forward, of(still).force.backward, size(engine))
+    same(reversed_.moment.backward, of(still).moment.forward, size(engine))
 
 
 @settings(max_examples=40, deadline=None)
 @given(engine=engines())
 def test_parseval(engine: cp.Engine) -> None:
     """Mean square of the waveform is the sum of |forward|² + |backward|²."""
-    force = engine.waveform(RPM, np.arange(512) * 360 / 512).force
-    parts = engine.balance(RPM, range(1, 121))
-    total = (np.abs(parts.forward_force) ** 2 + np.abs(parts.backward_force) ** 2).sum()
+    force = engine.waveform(RPM, theta_deg=np.arange(512) * 360 / 512).force
+    parts = engine.balance(RPM, orders=range(1, 121))
+    total = (np.abs(parts.force.forward) ** 2 + np.abs(parts.force.backward) ** 2).sum()
     # λ ≤ 1/1.8 with e ≤ r/2: order 120 is below 1e-20 of the first
     assert abs((force**2).sum(axis=1).mean() - total) <= 1e-12 * size(engine) ** 2
 
@@ -138,11 +138,11 @@ def test_boxer_pairs_cancel(cylinder: cp.Cylinder, throws: list[float | str]) ->
 def test_peaks_are_those_of_the_waveform(engine: cp.Engine) -> None:
     """No sample is higher than the true peak of the sum of orders, and a dense one is as high."""
     theta = np.linspace(0, 360, 2881)
-    waveform = engine.waveform(RPM, theta, ORDERS, reference_z=0.0)
+    waveform = engine.waveform(RPM, theta_deg=theta, orders=ORDERS, reference_z=0.0)
     balance = of(engine)
     for samples, peak, longest in (
-        (waveform.force, balance.force_sum_peak_xy, balance.force_sum_peak_vector),
-        (waveform.moment, balance.moment_sum_peak_xy, balance.moment_sum_peak_vector),
+        (waveform.force, balance.total.force.peak_xy, balance.total.force.peak),
+        (waveform.moment, balance.total.moment.peak_xy, balance.total.moment.peak),
     ):
         rounding = 1e-12 * size(engine)
         dense = np.abs(samples).max(axis=0)

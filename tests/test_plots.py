@@ -6,10 +6,9 @@ import io
 import pickle
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
-import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -73,6 +72,11 @@ def xtick_texts(ax: Axes) -> list[str]:
     low, high = ax.get_xlim()
     inside = [low <= place <= high for place in ax.get_xticks()]
     return [t.get_text() for t, seen in zip(ax.get_xticklabels(), inside, strict=True) if seen]
+
+
+def figure_of(axes: Any) -> Any:  # noqa: ANN401 - axes and a figure
+    """The figure of an array of axes."""
+    return np.ravel(axes)[0].get_figure(root=True)
 
 
 # --- new figures and given axes -----------------------------------------------------------------
@@ -149,36 +153,36 @@ def test_balance_bars_are_the_peaks() -> None:
     b = V6.balance(5000, orders=(1, 2, 4))
     ax = b.plot()
     heights = np.array([[bar.get_height() for bar in group] for group in ax.containers[:2]])
-    np.testing.assert_array_equal(heights.T, b.moment_peak_xy)
+    np.testing.assert_array_equal(heights.T, b.moment.peak_xy)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["1", "2", "4"]
     assert legend_texts(ax) == ["about x (pitch)", "about y (yaw)"]
-    assert ax.get_title(loc="left") == "V6 60°, shared pins\n5000 rpm"
+    assert ax.get_title(loc="left") == "V6 60°, shared pins\n5000 rpm, orders given"
     assert ax.get_ylabel() == "peak rocking moment, N·m"
     assert ax.get_ylim()[0] == 0.0
-    assert ax.get_ylim()[1] > b.moment_peak_xy.max()
+    assert ax.get_ylim()[1] > b.moment.peak_xy.max()
 
 
 def test_balance_force_is_along_the_axes_and_zeros_are_written() -> None:
     ax = I4.balance(12_000, orders=(1, 2)).plot(quantity="force")
     assert legend_texts(ax) == ["along x", "along y"]
     assert ax.get_ylabel() == "peak shaking force, N"
-    assert ax.get_title(loc="left").endswith("12\N{NO-BREAK SPACE}000 rpm")
+    assert ax.get_title(loc="left").endswith("12\N{NO-BREAK SPACE}000 rpm, orders given")
     texts = [text.get_text() for text in ax.texts]
     assert texts[:3] == ["0", "0", "0"]
-    peak = I4.balance(12_000, orders=(2,)).force_peak_xy[0, 1]
+    peak = I4.balance(12_000, orders=(2,)).force.peak_xy[0, 1]
     assert float(texts[3].replace("\N{NO-BREAK SPACE}", "")) == pytest.approx(peak, rel=5e-4)
 
 
 def test_balance_of_torque_has_one_series_and_no_legend() -> None:
-    b = I4.balance(3000)
+    b = I4.balance(3000, orders=[2, 4, 6])
     ax = b.plot(quantity="torque")
-    assert [bar.get_height() for bar in ax.patches] == b.torque_peak.tolist()  # type: ignore[attr-defined]
+    assert [bar.get_height() for bar in ax.patches] == b.torque.peak.tolist()  # type: ignore[attr-defined]
     assert ax.get_legend() is None
 
 
 def test_balance_says_that_a_spectrum_stands_in_and_counts_unnamed_cylinders() -> None:
     ax = UNNAMED.balance(600, orders=(1,), spectrum={1: 9.0}).plot()
-    assert ax.get_title(loc="left") == "3 cylinders\n600 rpm, spectrum given"
+    assert ax.get_title(loc="left") == "3 cylinders\n600 rpm, orders given, spectrum given"
 
 
 def test_balance_of_nothing_has_no_scale() -> None:
@@ -215,7 +219,7 @@ def test_waveform_curves_are_the_values() -> None:
     ],
 )
 def test_waveform_ticks_are_parts_of_a_turn(theta: np.ndarray, ticks: list[str]) -> None:
-    assert xtick_texts(V6.waveform(5000, theta).plot()) == ticks
+    assert xtick_texts(V6.waveform(5000, theta_deg=theta).plot()) == ticks
 
 
 def test_waveform_says_which_orders_and_what_the_rest_can_add() -> None:
@@ -229,13 +233,13 @@ def test_waveform_says_which_orders_and_what_the_rest_can_add() -> None:
 
 @pytest.mark.parametrize("theta", [[], [30.0], [10.0, 10.0]])
 def test_waveform_of_few_angles_is_drawn(theta: list[float]) -> None:
-    rendered(V6.waveform(5000, theta).plot().figure)
+    rendered(V6.waveform(5000, theta_deg=theta).plot().figure)
 
 
 def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_point() -> None:
     s = cp.sweep([V6, I4], rpm=[3000, 5000], orders=[1, 2])
     w = s.waveform(np.arange(0.0, 361.0))
-    figure = w.plot("force")
+    figure = figure_of(w.plot(quantity="force"))
     along_x, along_y = figure.axes
     assert [ax.get_title(loc="left") for ax in figure.axes] == ["along x", "along y"]
     assert [ax.get_xlabel() for ax in figure.axes] == ["crank angle θ"] * 2
@@ -254,12 +258,12 @@ def test_waveforms_of_a_sweep_have_a_panel_for_each_axis_and_a_curve_for_each_po
 
 
 def test_waveforms_of_one_point_may_be_zero() -> None:
-    figure = cp.sweep(I4, rpm=3000, orders=[1]).waveform([0.0, 90.0]).plot()
+    figure = figure_of(cp.sweep(I4, rpm=3000, orders=[1]).waveform([0.0, 90.0]).plot())
     assert [text.get_text() for ax in figure.axes for text in ax.texts] == ["zero throughout"] * 2
     assert figure.axes[0].get_ylim() == (-1.0, 1.0)
     assert not figure.legends
     with pytest.raises(cp.InputError, match="quantity"):
-        cp.sweep(I4, rpm=3000).waveform([0.0]).plot("speed")  # type: ignore[arg-type]
+        cp.sweep(I4, rpm=3000).waveform([0.0]).plot(quantity="speed")  # type: ignore[arg-type]
 
 
 # --- sweep --------------------------------------------------------------------------------------
@@ -271,7 +275,7 @@ def curves_of(ax: Axes) -> np.ndarray:
 
 def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine() -> None:
     s = cp.sweep(FAMILY, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="pins", orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert isinstance(figure, Figure)
     assert plt.get_fignums() == [figure.number]
     panels = figure.axes
@@ -282,7 +286,7 @@ def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine()
         "order 2, about y (yaw)",
     ]
     for k, ax in enumerate(panels):
-        np.testing.assert_array_equal(curves_of(ax), s.moment_peak_xy[..., k // 2, k % 2])
+        np.testing.assert_array_equal(curves_of(ax), s.moment.peak_xy[..., k // 2, k % 2])
         for line in ax.lines:
             np.testing.assert_array_equal(line.get_xdata(), BANK_ANGLES)
         assert ax.get_ylim()[0] == 0.0
@@ -306,7 +310,7 @@ def test_sweep_has_a_panel_for_each_order_and_axis_and_a_curve_for_each_engine()
 
 def test_sweep_says_what_firing_holds_and_keeps_its_legend_off_the_panels() -> None:
     s = cp.sweep(FAMILY, rpm=5000, bank_angle_deg=BANK_ANGLES, hold="firing", orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert "top dead centres held" in figure.get_suptitle()
     rendered(figure)
     legend = figure.legends[0].get_window_extent()
@@ -323,17 +327,17 @@ def test_sweep_says_what_firing_holds_and_keeps_its_legend_off_the_panels() -> N
 
 def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3], orders=[2])
-    along = s.plot()
+    along = figure_of(s.plot())
     np.testing.assert_array_equal(along.axes[0].lines[0].get_xdata(), [1000, 2000, 3000])
-    np.testing.assert_array_equal(curves_of(along.axes[1]), s.moment_peak_xy[..., 0, 1])
+    np.testing.assert_array_equal(curves_of(along.axes[1]), s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in along.legends[0].get_texts()] == [
         "rod ratio 0.2",
         "rod ratio 0.3",
     ]
     assert along.axes[0].get_xlabel() == "crank speed, rpm"
-    across = s.plot(x="rod_ratio")
+    across = figure_of(s.plot(x="rod_ratio"))
     np.testing.assert_array_equal(across.axes[0].lines[0].get_xdata(), [0.2, 0.3])
-    np.testing.assert_array_equal(curves_of(across.axes[1]).T, s.moment_peak_xy[..., 0, 1])
+    np.testing.assert_array_equal(curves_of(across.axes[1]).T, s.moment.peak_xy[..., 0, 1])
     assert [t.get_text() for t in across.legends[0].get_texts()] == [
         "1000 rpm",
         "2000 rpm",
@@ -343,25 +347,25 @@ def test_sweep_takes_the_longest_dimension_along_x_or_the_one_named() -> None:
 
 def test_sweep_of_torque_has_one_column() -> None:
     s = cp.sweep([V6, I4], rpm=5000, rod_ratio=[0.2, 0.25, 0.3], orders=[2, 4, 6])
-    figure = s.plot(quantity="torque")
+    figure = figure_of(s.plot(quantity="torque"))
     assert [ax.get_title(loc="left") for ax in figure.axes] == [
         f"order {order}, about z (roll)" for order in (2, 4, 6)
     ]
     for k, ax in enumerate(figure.axes):
-        np.testing.assert_array_equal(curves_of(ax), s.torque_peak[..., k])
+        np.testing.assert_array_equal(curves_of(ax), s.torque.peak[..., k])
 
 
 def test_sweep_in_any_order_draws_from_left_to_right() -> None:
     s = cp.sweep(V6, rpm=[3000, 1000, 2000], orders=[1])
-    line = s.plot().axes[0].lines[0]
+    line = figure_of(s.plot()).axes[0].lines[0]
     np.testing.assert_array_equal(line.get_xdata(), [1000, 2000, 3000])
-    np.testing.assert_array_equal(line.get_ydata(), s.moment_peak_xy[[1, 2, 0], 0, 0])
+    np.testing.assert_array_equal(line.get_ydata(), s.moment.peak_xy[[1, 2, 0], 0, 0])
 
 
 def test_sweep_over_engines_alone_names_them() -> None:
     s = cp.sweep([V6, I4, UNNAMED.replace(name="Inline-3")], rpm=5000, orders=[1, 2])
-    figure = s.plot(quantity="force")
-    np.testing.assert_array_equal(figure.axes[3].lines[0].get_xdata(), s.force_peak_xy[:, 1, 1])
+    figure = figure_of(s.plot(quantity="force"))
+    np.testing.assert_array_equal(figure.axes[3].lines[0].get_xdata(), s.force.peak_xy[:, 1, 1])
     names = [text.get_text() for text in figure.axes[0].get_yticklabels()]
     assert names == ["V6 60°, shared pins", "Inline-4", "Inline-3"]
     assert figure.get_suptitle() == "3 engines\nshaking force, 5000 rpm"
@@ -372,7 +376,7 @@ def test_sweep_over_engines_alone_names_them() -> None:
 def test_many_values_get_a_scale_of_colours() -> None:
     ratios = np.linspace(0.2, 0.4, 11)
     s = cp.sweep(V6, rpm=np.arange(1000.0, 6001.0, 250.0), rod_ratio=ratios, orders=[2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     x_panel, y_panel, scale = figure.axes
     assert len(x_panel.lines) == len(y_panel.lines) == 11
     assert len({tuple(line.get_color()) for line in x_panel.lines}) == 11
@@ -390,7 +394,7 @@ def test_two_more_dimensions_get_colours_and_dashes() -> None:
         rod_ratio=[0.2, 0.3],
         orders=[1],
     )
-    figure = s.plot(x="rpm")
+    figure = figure_of(s.plot(x="rpm"))
     lines = figure.axes[0].lines
     assert len(lines) == 8
     looks = {(line.get_color(), str(line._dash_pattern)) for line in lines}  # type: ignore[attr-defined]
@@ -406,7 +410,7 @@ def test_two_more_dimensions_get_colours_and_dashes() -> None:
 
 def test_more_than_can_be_told_apart_is_drawn_as_bundles() -> None:
     s = cp.sweep(FAMILY[:2], rpm=np.arange(1000, 2000, 100), rod_ratio=np.linspace(0.2, 0.3, 7))
-    figure = s.plot()
+    figure = figure_of(s.plot())
     assert len(figure.axes[0].lines) == 14
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert texts == [*ORDERS[:2], "each: 7 × rod ratio"]
@@ -415,7 +419,7 @@ def test_more_than_can_be_told_apart_is_drawn_as_bundles() -> None:
 def test_curves_that_coincide_are_both_seen() -> None:
     """First-order moment does not depend on the rod: the second curve is dashed over the first."""
     s = cp.sweep(V6, rpm=[1000, 2000, 3000], rod_ratio=[0.2, 0.3], orders=[1, 2])
-    figure = s.plot()
+    figure = figure_of(s.plot())
     first, second = figure.axes[0].lines
     assert first.get_linestyle() == "-"
     assert second.get_linestyle() == "--"
@@ -423,30 +427,27 @@ def test_curves_that_coincide_are_both_seen() -> None:
 
 
 def test_panels_of_nothing_say_so() -> None:
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot(quantity="force")
+    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot(quantity="force"))
     assert [text.get_text() for ax in figure.axes for text in ax.texts] == ["zero throughout"] * 2
     assert figure.axes[0].get_yticks().tolist() == [0.0]
 
 
 def test_one_point_is_marked() -> None:
-    ax = cp.sweep(V6, rpm=[1000], orders=[1]).plot().axes[0]
+    ax = cp.sweep(V6, rpm=[1000], orders=[1]).plot()[0, 0]
     assert ax.lines[0].get_marker() == "o"
     rendered(ax.figure)
 
 
-def test_a_sweep_figure_is_shown_once_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As a cell's value; what pyplot's inline backend finds open it would show again."""
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot()
-    with pytest.raises(NotImplementedError):  # by which IPython goes on to show a picture
-        figure._ipython_display_()  # type: ignore[attr-defined]
-    assert len(plt.get_fignums()) == 1  # windows stay open
-    monkeypatch.setattr(mpl, "get_backend", lambda: "module://matplotlib_inline.backend_inline")
-    with pytest.raises(NotImplementedError):
-        figure._ipython_display_()  # type: ignore[attr-defined]
-    assert plt.get_fignums() == []
+def test_sweeps_are_drawn_on_given_axes() -> None:
+    s = cp.sweep(V6, rpm=[1000, 2000], orders=[1, 2])
+    _, given = plt.subplots(2, 2)
+    assert (s.plot(given) == given).all()
+    assert (s.waveform().plot(given[0]) == given[0]).all()
+    with pytest.raises(cp.InputError, match="give an array of matplotlib axes, "):
+        s.plot(given[0])
 
 
 def test_figures_pickle() -> None:
-    figure = cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot()
+    figure = figure_of(cp.sweep(V6, rpm=[1000, 2000], orders=[1]).plot())
     copy = pickle.loads(pickle.dumps(figure))  # noqa: S301 - our own
     np.testing.assert_array_equal(curves_of(copy.axes[0]), curves_of(figure.axes[0]))

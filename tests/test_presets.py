@@ -53,13 +53,13 @@ def unit(engine: cp.Engine, order: int) -> float:
 def force(name: str, order: int) -> float:
     """Longest force of one order."""
     engine = cp.Engine.preset(name)
-    return float(engine.balance(RPM, order).force_peak_vector[0]) / unit(engine, order)
+    return float(engine.balance(RPM, orders=order).force.peak[0]) / unit(engine, order)
 
 
 def moment(name: str, order: int) -> float:
     """Longest moment of one order, at a spacing of 1 m."""
     engine = cp.Engine.preset(name, spacing=1.0)
-    return float(engine.balance(RPM, order).moment_peak_vector[0]) / unit(engine, order)
+    return float(engine.balance(RPM, orders=order).moment.peak[0]) / unit(engine, order)
 
 
 def highest(engine: cp.Engine) -> NDArray[np.float64]:
@@ -84,17 +84,17 @@ def test_it_builds_balances_and_comes_back_from_its_file(name: str) -> None:
     engine = cp.Engine.preset(name)
     assert engine.name
     assert engine.source
-    balance = engine.balance(RPM, range(1, 17))  # the V14's torque begins at order 14
+    balance = engine.balance(RPM, orders=range(1, 17))  # the V14's torque begins at order 14
     for part in (balance.force, balance.moment, balance.torque):
         assert np.isfinite(part).all()
-    assert balance.torque_peak.max() > 0.0
+    assert balance.torque.peak.max() > 0.0
     assert cp.Engine.from_toml(engine.to_toml()) == engine
     assert cp.Engine.from_json(engine.to_json()) == engine
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_names_and_conventions(name: str) -> None:
-    engine, about = cp.Engine.preset(name), cp.presets()[name]
+    engine, about = cp.Engine.preset(name), cp.presets().descriptions[name]
     assert name == name.lower()
     assert not set(name) - set("abcdefghijklmnopqrstuvwxyz0123456789-.")
     assert about
@@ -105,7 +105,7 @@ def test_names_and_conventions(name: str) -> None:
 
 
 def test_no_two_have_the_same_name_or_title() -> None:
-    assert len(NAMES) == len(presets_module.CATALOGUE)
+    assert len(NAMES) == len(set(NAMES)) == len(cp.presets())
     assert len({cp.Engine.preset(name).name for name in NAMES}) == len(NAMES)
 
 
@@ -181,9 +181,11 @@ def test_uneven_firing(name: str, order: str, gaps: tuple[int, ...]) -> None:
     np.testing.assert_array_equal(intervals(name, order), gaps)
 
 
-@pytest.mark.parametrize("name", [n for n in EVEN if "even firing 1-" in cp.presets()[n]])
+@pytest.mark.parametrize(
+    "name", [n for n in EVEN if "even firing 1-" in cp.presets().descriptions[n]]
+)
 def test_the_description_names_that_firing_order(name: str) -> None:
-    assert f"even firing {EVEN[name]}" in cp.presets()[name]
+    assert f"even firing {EVEN[name]}" in cp.presets().descriptions[name]
 
 
 def test_the_180_twin_fires_at_180_and_540() -> None:
@@ -300,9 +302,9 @@ def test_what_cancels_is_exactly_zero(
 ) -> None:
     engine = cp.Engine.preset(name)
     if force_orders:
-        assert not engine.balance(RPM, force_orders).force.any()
+        assert not engine.balance(RPM, orders=force_orders).force.any()
     if moment_orders:
-        assert not engine.balance(RPM, moment_orders).moment.any()
+        assert not engine.balance(RPM, orders=moment_orders).moment.any()
 
 
 @pytest.mark.parametrize(
@@ -369,9 +371,9 @@ def test_first_order_moment_of_two_like_banks(
     # later and points `bank_angle` further on: its forward part differs by the difference of the
     # two angles (the pin split), its backward part by their sum.
     engine = cp.Engine.preset(name, spacing=1.0)
-    balance = engine.balance(RPM, 1)
-    forward = abs(balance.forward_moment[0]) / unit(engine, 1)
-    backward = abs(balance.backward_moment[0]) / unit(engine, 1)
+    balance = engine.balance(RPM, orders=1)
+    forward = abs(balance.moment.forward[0]) / unit(engine, 1)
+    backward = abs(balance.moment.backward[0]) / unit(engine, 1)
     expected = of_one_bank * abs(math.cos(math.radians(bank_angle - interval) / 2.0))
     assert forward == pytest.approx(expected, abs=tolerance)
     if bank_angle + interval == 180:
@@ -386,11 +388,11 @@ def test_first_order_moment_of_two_like_banks(
 
 def test_cross_plane_couple_turns_as_the_page_has_it() -> None:
     engine = cp.Engine.preset("v8-crossplane", spacing=1.0)
-    balance = engine.balance(RPM, 1)
+    balance = engine.balance(RPM, orders=1)
     # Its levers count towards the front: Σ z F is the other way round; M_x = −Σ z F_y.
     horizontal, vertical = -crossplane.couple(1) * unit(engine, 1)
     np.testing.assert_allclose(balance.moment[0], [-vertical, horizontal], rtol=ROUNDING)
-    assert balance.backward_moment[0] == 0.0
+    assert balance.moment.backward[0] == 0.0
 
 
 # --- the IJESC paper ------------------------------------------------------------------------------
@@ -424,7 +426,9 @@ def test_ijesc_tables(order: str) -> None:
         turned = engine.with_bank_angle(float(row["bank_angle_deg"]), hold="pins")
         # Printed with a₂ = λ, about the plane of crank 1.
         spectrum = {1: scale, 2: scale * ijesc.ROD_RATIO}
-        peaks = turned.balance(ijesc.RPM, [1, 2], reference_z=0.0, spectrum=spectrum).moment_peak_xy
+        peaks = turned.balance(
+            ijesc.RPM, orders=[1, 2], reference_z=0.0, spectrum=spectrum
+        ).moment.peak_xy
         printed = [float(row[column]) for column in ("m_px", "m_py", "m_sx", "m_sy")]
         # Printed to two decimals: half of the last, and a little for reading it.
         np.testing.assert_allclose(peaks.ravel(), printed, rtol=0, atol=0.0050001)
@@ -440,14 +444,14 @@ def test_v14(row: dict[str, str]) -> None:
     engine = cp.Engine.preset(f"v14-{row['bank_angle_deg']}", spacing=1.0)
     # Half of the last printed digit, and 1e-9 of it for reading it.
     assert engine.bank_angle_deg == pytest.approx(float(row["bank_angle_deg"]), abs=0.005 + 1e-11)
-    balance = engine.balance(RPM, [1, 2])
-    assert balance.backward_moment[0] == 0.0
+    balance = engine.balance(RPM, orders=[1, 2])
+    assert balance.moment.backward[0] == 0.0
     digits = len(row["amplitude"].split(".")[1])
-    amplitude = abs(balance.forward_moment[0]) / unit(engine, 1)
+    amplitude = abs(balance.moment.forward[0]) / unit(engine, 1)
     assert amplitude == pytest.approx(float(row["amplitude"]), abs=0.5000005 * 10.0**-digits)
     assert not balance.force.any()
     # Printed in units of λ m r s ω², rod ratio left open: a₂ here. Pitch is about our x.
-    pitch, yaw = balance.moment_peak_xy[1] / unit(engine, 2)
+    pitch, yaw = balance.moment.peak_xy[1] / unit(engine, 2)
     for found, column in ((pitch, "second_order_pitch"), (yaw, "second_order_yaw")):
         if row[column]:
             assert found == pytest.approx(float(row[column]), abs=0.0005 + 1e-9)
@@ -486,18 +490,18 @@ def test_ebook_tables(name: str, layout: ebook.Layout) -> None:
     assert engine.rotating_mass.tolist() == [2.0] * len(engine)
     # Its 9 kg at order 1, all along the bore; 7 kg above.
     spectrum = dict(zip(orders, ebook.single_cylinder()[1:] / OMEGA**2, strict=False))
-    balance = engine.replace(rotating_mass=0).balance(RPM, orders, spectrum=spectrum)
+    balance = engine.replace(rotating_mass=0).balance(RPM, orders=orders, spectrum=spectrum)
     # Σ z F_x and Σ z F_y are the sizes of M_y and M_x.
-    found = np.hstack([balance.force_peak_xy, balance.moment_peak_xy[:, ::-1]])
+    found = np.hstack([balance.force.peak_xy, balance.moment.peak_xy[:, ::-1]])
     # The re-derivation's harmonics come from a Fourier transform of samples, sums of 9.87 N.
     np.testing.assert_allclose(found, ebook.table(layout)[1:], rtol=1e-11, atol=1e-11)
 
 
 def test_ebook_cylinder_has_9_kg_along_the_bore_and_2_kg_across() -> None:
-    balance = cp.Engine.preset("single-ebook").balance(RPM, 1)
-    np.testing.assert_allclose(balance.force_peak_xy[0] / OMEGA**2, [2.0, 9.0], rtol=ROUNDING)
+    balance = cp.Engine.preset("single-ebook").balance(RPM, orders=1)
+    np.testing.assert_allclose(balance.force.peak_xy[0] / OMEGA**2, [2.0, 9.0], rtol=ROUNDING)
     # 9.870 N is printed.
-    assert round(float(balance.force_peak_xy[0, 1]), 3) == 9.870
+    assert round(float(balance.force.peak_xy[0, 1]), 3) == 9.870
 
 
 # --- VR and W -------------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ def test_its_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setenv("MPLBACKEND", "Agg")
     names: dict[str, Any] = {}
     exec(compile(code, "README.md", "exec"), names)  # noqa: S102 - our own text
-    assert names["s"].moment_peak_xy.shape == (17, 2, 2)
+    assert names["s"].moment.peak_xy.shape == (17, 2, 2)
     assert cp.Engine.load(tmp_path / "v8.toml") == names["v8"]
     names["plt"] = pytest.importorskip("matplotlib.pyplot")
     names["plt"].close("all")

@@ -22,12 +22,14 @@ import itertools
 import json
 import math
 import os
+import re
 import reprlib
 import subprocess
 import sys
 import time
 import warnings
 from fractions import Fraction
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
@@ -68,15 +70,15 @@ def vee(**changes: Any) -> cp.Engine:
     return cp.Engine.vee(CYLINDER, **given_ | changes)
 
 
-def fires(**changes: Any) -> cp.Firing:
+def fires(**changes: Any) -> cp.types.Firing:
     return V6.firing(**{"firing_order": "1-2-5-6-3-4"} | changes)
 
 
-def two_stroke() -> cp.Firing:
+def two_stroke() -> cp.types.Firing:
     return I4.firing("1+4-2+3", strokes=2)
 
 
-def crank(**changes: Any) -> cp.Throws:
+def crank(**changes: Any) -> cp.types.Throws:
     given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90}
     return cp.throws(**given_ | changes)
 
@@ -91,36 +93,37 @@ def inline(**changes: Any) -> cp.Engine:
     return cp.Engine.inline(CYLINDER, **given_ | changes)
 
 
-def balance(**changes: Any) -> cp.Balance:
+def balance(**changes: Any) -> cp.types.Balance:
     given_: dict[str, Any] = {"rpm": 1000}
     return V6.balance(**given_ | changes)
 
 
-def waveform(**changes: Any) -> cp.Waveform:
+def waveform(**changes: Any) -> cp.types.Waveform:
     given_: dict[str, Any] = {"rpm": 1000, "theta_deg": [0.0, 1.0]}
     return V6.waveform(**given_ | changes)
 
 
-def swept(**changes: Any) -> cp.Sweep:
+def swept(**changes: Any) -> cp.types.Sweep:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
     return cp.sweep(V6, **given_ | changes)
 
 
-def ranked(**changes: Any) -> cp.Ranking:
+def ranked(**changes: Any) -> cp.types.Ranking:
     given_: dict[str, Any] = {"rpm": 1000, "bank_angle_deg": [60, 90], "hold": "pins"}
+    given_ |= {"by": "total.moment.peak"}
     return cp.rank(V6, **given_ | changes)
 
 
-def ranked_search(**changes: Any) -> cp.Ranking:
-    given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1}
+def ranked_search(**changes: Any) -> cp.types.Ranking:
+    given_: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "by": "total.moment.peak"}
     return cp.rank(cp.search_arrangements(6), rpm=1000, **given_ | changes)
 
 
-def proportions(**changes: Any) -> cp.Sweep:
+def proportions(**changes: Any) -> cp.types.Sweep:
     return swept(bank_angle_deg=None, hold=None, **changes)
 
 
-def closed_form(**changes: Any) -> cp.ClosedForm:
+def closed_form(**changes: Any) -> cp.types.ClosedForm:
     given_: dict[str, Any] = {"order": 1}
     return V6.closed_form(**given_ | changes)
 
@@ -146,33 +149,33 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cylinder, "pin_offset", 0.1, "0.1"),  # r = l - e
     (cylinder, "pin_offset", -0.2, "-0.2"),
     (cylinder, "reciprocating_mass", -0.5, "-0.5"),
-    (cylinder, "reciprocating_mass", 10**400, "1000"),
-    (lists, "z", [0.0], "1 entries"),
+    (cylinder, "reciprocating_mass", 10**400, "1000000000…"),
+    (lists, "z", [0.0], "has 1 entries"),
     (lists, "z", [0.0, NAN], "NaN"),
     (lists, "z", [0.0, INF], "inf"),
-    (lists, "z", [[0.0, 0.1]], "(1, 2)"),
+    (lists, "z", [[0.0, 0.1]], "has shape (1, 2)"),
     (lists, "z", [[0.0], [0.0, 0.1]], "[[0.0], [0.0, 0.1]]"),
-    (lists, "z", np.array([0.0, 1j]), "1"),
+    (lists, "z", np.array([0.0, 1j]), "array([0.+0.j, 0.+1.j])"),
     (lists, "z", "ab", "ab"),
     (lists, "z", None, "None"),
-    (lists, "tdc_deg", [0.0], "1 entries"),
+    (lists, "tdc_deg", [0.0], "has 1 entries"),
     (lists, "tdc_deg", [0.0, NAN], "NaN"),
     (lists, "tdc_deg", [0.0, "1/0"], "1/0"),
     (lists, "tdc_deg", [0.0, "north"], "north"),
     (lists, "tdc_deg", [0.0, None], "None"),
-    (lists, "tdc_deg", [0.0, 10**400], "1000"),
+    (lists, "tdc_deg", [0.0, 10**400], "1000000000…"),
     (lists, "tdc_deg", 90, "90"),
     (lists, "tdc_deg", None, "neither given"),
     (lists, "pin_deg", [0, 0], "both given"),
     (lists, "bank_deg", [90.0, INF], "inf"),
     (lists, "bank_deg", "90", "90"),
-    (lists, "bank_deg", [90] * 3, "3"),
+    (lists, "bank_deg", [90] * 3, "has 3"),
     (lists, "bank_deg", None, "None"),
     (lists, "rotating_mass", -1.0, "-1"),
-    (lists, "rotating_mass", [1.0], "1 entries"),
+    (lists, "rotating_mass", [1.0], "has 1 entries"),
     (lists, "rotating_mass", [1.0, NAN], "NaN"),
-    (lists, "rotating_mass", [Fraction(1, 3), np.complex128(1j)], "complex"),
-    (lists, "cylinder", [CYLINDER] * 3, "3 entries"),
+    (lists, "rotating_mass", [Fraction(1, 3), np.complex128(1j)], "[Fraction(1, 3), …"),
+    (lists, "cylinder", [CYLINDER] * 3, "has 3 entries"),
     (lists, "cylinder", 0.05, "0.05"),
     (lists, "cylinder", [None, CYLINDER], "None"),
     (vee, "bank_angle_deg", -60, "-60"),
@@ -186,7 +189,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (vee, "spacing", NAN, "NaN"),
     (vee, "spacing", None, "None"),
     (vee, "bank_stagger", INF, "inf"),
-    (vee, "rotating_mass", [1.0, 1.0, 1.0], "3 entries"),
+    (vee, "rotating_mass", [1.0, 1.0, 1.0], "has 3 entries"),
     (vee, "rotating_mass", -1.0, "-1"),
     (vee, "numbering", "by bank", "by bank"),
     (vee, "numbering", None, "None"),
@@ -196,7 +199,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (inline, "first_tdc_deg", "late", "late"),
     (inline, "spacing", INF, "inf"),
     (firing, "firing_order", "1-2-2-4", "1-2-2-4"),
-    (firing, "firing_order", "1-2-3", "3 cylinders"),
+    (firing, "firing_order", "1-2-3", "of 3 cylinders"),
     (firing, "firing_order", [1, 2, 3, 5], "1-2-3-5"),
     (firing, "firing_order", "1;2", "1;2"),
     (firing, "firing_order", 1342, "1342"),
@@ -204,14 +207,14 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (firing, "rule", "uneven", "uneven"),
     (firing, "rule", None, "None"),
     (firing, "bank_angle_deg", "wide", "wide"),
-    (firing, "intervals_deg", [180, 180], "2 entries"),
+    (firing, "intervals_deg", [180, 180], "has 2 entries"),
     (firing, "intervals_deg", [180, 180, 180, 90], "630"),
     (firing, "intervals_deg", [0, 180, 180, 360], "0"),
     (firing, "intervals_deg", [NAN] * 4, "NaN"),
     (firing, "intervals_deg", 180, "180"),
     (firing, "strokes", 3, "3"),
     (firing, "strokes", None, "None"),
-    (crank, "firing_order", "1-2-3", "3 cylinders"),
+    (crank, "firing_order", "1-2-3", "of 3 cylinders"),
     (crank, "intervals_deg", [180, 180, 180, 90], "630"),
     (crank, "bank_angle_deg", 200, "200"),
     (crank, "odd_bank", "Left", "Left"),
@@ -228,13 +231,13 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (fires().exhaust_overlaps, "groups", [[]], "[]"),
     (fires().exhaust_overlaps, "timing", 50, "50"),
     (fires().valves, "timing", (10, 50), "(10, 50)"),
-    (cp.ValveTiming, "intake_opens_deg", 181, "181"),
-    (cp.ValveTiming, "intake_closes_deg", NAN, "NaN"),
-    (cp.ValveTiming, "exhaust_opens_deg", "early", "early"),
-    (cp.ValveTiming, "exhaust_closes_deg", -90, "-90"),
-    (cp.PortTiming, "transfer_opens_deg", 0, "0"),
-    (cp.PortTiming, "exhaust_opens_deg", 180, "180"),
-    (two_stroke().ports, "timing", cp.ValveTiming(), "ValveTiming"),
+    (cp.types.ValveTiming, "intake_opens_deg", 181, "181"),
+    (cp.types.ValveTiming, "intake_closes_deg", NAN, "NaN"),
+    (cp.types.ValveTiming, "exhaust_opens_deg", "early", "early"),
+    (cp.types.ValveTiming, "exhaust_closes_deg", -90, "-90"),
+    (cp.types.PortTiming, "transfer_opens_deg", 0, "0"),
+    (cp.types.PortTiming, "exhaust_opens_deg", 180, "180"),
+    (two_stroke().ports, "timing", cp.types.ValveTiming(), "ValveTiming"),
     (two_stroke().exhaust_overlaps, "timing", 50, "50"),
     (V6.with_bank_angle, "hold", "crank", "crank"),
     (V6.with_bank_angle, "hold", None, "None"),
@@ -246,9 +249,9 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "orders", 0, "0"),
     (balance, "orders", [], "[]"),
     (balance, "orders", [1, 1], "1"),
-    (balance, "orders", [1.5], "1.5"),
+    (balance, "orders", [1.5], "[1.5]"),
     (balance, "orders", -2, "-2"),
-    (balance, "orders", 10**30, "10000000"),
+    (balance, "orders", 10**30, "1000000000…"),
     (balance, "orders", 20_000, "20000"),
     (balance, "orders", "all", "all"),
     (balance, "orders", None, "None"),
@@ -257,27 +260,26 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "reference_z", "middle", "middle"),
     (balance, "spectrum", {}, "{}"),
     (balance, "spectrum", {1: NAN}, "NaN"),
-    (balance, "spectrum", {1: None}, "None"),
-    (balance, "spectrum", {1: 10**400}, "1000"),
+    (balance, "spectrum", {1: None}, "{1: None}"),
+    (balance, "spectrum", {1: 10**400}, "{1: 1000000000…"),
     (balance, "spectrum", {0: 1.0}, "0"),
-    (balance, "spectrum", {"one": 1.0}, "one"),
-    (balance, "spectrum", [9.0], "9.0"),
+    (balance, "spectrum", {"one": 1.0}, "{'one': 1.0}"),
+    (balance, "spectrum", [9.0], "[9.0]"),
     (waveform, "rpm", NAN, "NaN"),
     (waveform, "theta_deg", [0.0, NAN], "NaN"),
     (waveform, "theta_deg", [-INF], "-inf"),
-    (waveform, "theta_deg", [[0.0, 1.0]], "(1, 2)"),
+    (waveform, "theta_deg", [[0.0, 1.0]], "has shape (1, 2)"),
     (waveform, "theta_deg", "all", "all"),
-    (waveform, "theta_deg", [0.0, 1j], "1j"),
-    (waveform, "theta_deg", np.array([0.0, 1j]), "1"),
+    (waveform, "theta_deg", [0.0, 1j], "[0.0, 1j]"),
+    (waveform, "theta_deg", np.array([0.0, 1j]), "array([0.+0.j, 0.+1.j])"),
     (waveform, "orders", [0], "0"),
     (waveform, "orders", "some", "some"),
     (swept, "rpm", None, "None"),
     (swept, "rpm", [], "[]"),
     (swept, "rpm", NAN, "NaN"),
-    (swept, "rpm", [[1.0]], "(1, 1)"),
+    (swept, "rpm", [[1.0]], "has shape (1, 1)"),
     (swept, "bank_angle_deg", [60, NAN], "NaN"),
     (swept, "bank_angle_deg", [60, 190], "190"),
-    (swept, "bank_angle_deg", None, ""),
     (swept, "hold", None, "None"),
     (swept, "hold", "banks", "banks"),
     (swept, "hold", 3, "3"),
@@ -288,11 +290,11 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (swept, "reference_z", NAN, "NaN"),
     (swept, "reference_z", "middle", "middle"),
     (ranked, "by", "moment", "moment"),
-    (ranked, "by", "moment_peak_vector_0", "moment_peak_vector_0"),
+    (ranked, "by", "[0].moment.peak", "[0].moment.peak"),
     (ranked, "by", 3, "3"),
     (ranked, "by", [], "[]"),
-    (ranked, "by", ["torque_sum_peak", None], "None"),
-    (ranked, "by", ["torque_sum_peak"] * 2, "torque_sum_peak"),
+    (ranked, "by", ["total.torque.peak", None], "None"),
+    (ranked, "by", ["total.torque.peak"] * 2, "['total.torque.peak', …"),
     (ranked, "by", lambda _: "much", "much"),
     (ranked, "by", lambda _: [1.0, 2.0], "[1.0, 2.0]"),
     (ranked, "by", lambda _: -INF, "-inf"),
@@ -301,14 +303,14 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked, "rpm", NAN, "NaN"),
     (ranked, "bank_angle_deg", [60, 190], "190"),
     (ranked, "bank_angle_deg", [], "[]"),
-    (ranked, "bank_angle_deg", [[60]], "(1, 1)"),
+    (ranked, "bank_angle_deg", [[60]], "has shape (1, 1)"),
     (ranked, "hold", None, "None"),
     (ranked, "hold", "banks", "banks"),
     (ranked, "cylinder", CYLINDER, "Cylinder"),
     (ranked, "spacing", 0.1, "0.1"),
     (ranked, "refine", "yes", "yes"),
-    (ranked, "rtol", -1e-9, "-1e-09"),
-    (ranked, "rtol", NAN, "nan"),
+    (ranked, "tie_rtol", -1e-9, "-1e-09"),
+    (ranked, "tie_rtol", NAN, "nan"),
     (ranked_search, "cylinder", None, "None"),
     (ranked_search, "cylinder", 0.05, "0.05"),
     (ranked_search, "spacing", None, "None"),
@@ -340,8 +342,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (V6.vanishing_orders, "orders", 20_000, "20000"),
     (V6.vanishing_orders, "reference_z", NAN, "NaN"),
     (V6.vanishing_orders, "reference_z", "middle", "middle"),
-    (V6.vanishing_orders().of, "quantity", "power", "power"),
-    (V6.vanishing_orders().order, "order", 13, "13"),
+    (V6.vanishing_orders().__getitem__, "order", 13, "13"),
     (closed_form, "order", 1.5, "1.5"),
     (closed_form, "order", [1, 2], "[1, 2]"),
     (closed_form, "order", 0, "0"),
@@ -359,12 +360,23 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cp.Engine.preset, "name", None, "None"),
     (cp.Engine.load, "path", "engine.yaml", "engine.yaml"),
     (I4.save, "path", "engine", "engine"),
-    (balance().order, "order", 3, "3"),
-    (balance().order, "order", None, "None"),
-    (swept().dims, "quantity", "power", "power"),
-    (swept().to_pandas, "quantity", "power", "power"),
+    (balance().__getitem__, "order", 3, "3"),
+    (balance().__getitem__, "order", None, "None"),
+    (swept().plot, "quantity", "power", "power"),
 ]
 CURE = 12  # letters at least, after the last thing that is wrong
+
+
+def written(argument: str, shown: str) -> str:
+    """Pattern of an argument with its value: ``z[1] = NaN``, ``z has 1 entries``.
+
+    The whole value and nothing but it, in quotes or not; one that is cut goes on.
+    """
+    if shown.startswith("has "):
+        return rf"(^|\W){re.escape(f'{argument} {shown}')}(?!\w)"
+    place = rf"(^|\W){re.escape(argument)}(\[\d+\])*( and pin_deg)?"
+    end = "" if shown.endswith(("…", "0" * 9)) else "(\\W|$)"
+    return rf"{place} = ['\"]?{re.escape(shown.removesuffix('…'))}{end}"
 
 
 def bad_name(case: tuple[Callable[..., Any], str, Any, str]) -> str:
@@ -380,12 +392,11 @@ def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     if call == V6.with_bank_angle:
         arguments["bank_angle_deg"] = 90
     if (call, argument) == (ranked, "orders"):
-        arguments["by"] = "moment_peak_vector_2"
+        arguments["by"] = "[2].moment.peak"
     with pytest.raises(cp.InputError) as caught:
         call(**arguments)
     message = str(caught.value)
-    assert argument in message
-    assert shown in message
+    assert re.search(written(argument, shown), message), message
     assert len(message) < 500  # a huge value is cut
     cure = max(message.rsplit(":", maxsplit=1)[-1], message.rsplit(";", maxsplit=1)[-1], key=len)
     assert sum(letter.isalpha() for letter in cure) >= CURE
@@ -398,7 +409,7 @@ def test_speed_of_a_piston_needs_a_crank_speed(motion: str, rpm: Any) -> None:
         getattr(CYLINDER, motion)([0.0, 30.0], rpm)
 
 
-@pytest.mark.parametrize("rtol", [0.0, -1e-6, 1.0, NAN, INF, None, "low"])
+@pytest.mark.parametrize("rtol", [0.0, -1e-6, 1.0, NAN, INF, "low"])
 def test_auto_needs_a_tolerance(rtol: Any) -> None:
     for call in (balance, waveform):
         with pytest.raises(cp.InputError, match="rtol"):
@@ -412,7 +423,11 @@ def test_auto_needs_a_tolerance(rtol: Any) -> None:
         (swept, {"bank_angle_deg": None}, ["hold", "bank_angle_deg"]),
         (swept, {"rod_ratio": [0.3], "spectrum": {1: 1.0}}, ["rod_ratio", "spectrum"]),
         (waveform, {"spectrum": {1: 1.0}}, ["orders", "spectrum"]),
-        (I4.with_bank_angle, {"bank_angle_deg": 90, "hold": "pins"}, ["bank_angle_deg", "banks"]),
+        (
+            I4.with_bank_angle,
+            {"bank_angle_deg": 90, "hold": "pins"},
+            ["bank_angle_deg", "one bank"],
+        ),
         (I4.balance, {"rpm": 1e31}, ["rpm", "1e31"]),
         (harmonics, {"rod_ratio": [0.1] * 2, "pin_offset_ratio": [0] * 3}, ["rod_ratio", "(3,)"]),
         (cp.Engine, {"core": None}, ["Engine", "from_lists"]),
@@ -445,7 +460,7 @@ def test_engines_of_a_sweep() -> None:
         with pytest.raises(cp.InputError, match="engines"):
             cp.sweep(engines, rpm=1000)  # type: ignore[arg-type]
         with pytest.raises(cp.InputError, match="engines"):
-            cp.rank(engines, rpm=1000)  # type: ignore[arg-type]
+            cp.rank(engines, rpm=1000, by="total.moment.peak")  # type: ignore[arg-type]
 
 
 def test_an_input_error_is_a_value_error() -> None:
@@ -460,11 +475,11 @@ def endless(value: float, *shape: int) -> Any:
     return np.broadcast_to(np.float64(value), shape)
 
 
-def grid(**axes: float) -> cp.Sweep:
+def grid(**axes: float) -> cp.types.Sweep:
     """1e5 points along each of two axes."""
     fixed: dict[str, Any] = {"rpm": 1000.0} | {name: endless(v, 10**5) for name, v in axes.items()}
     hold: Any = "pins" if "bank_angle_deg" in axes else None
-    return cp.sweep(V6, hold=hold, **fixed)
+    return cp.sweep(V6, hold=hold, orders=[1, 2, 4, 6], **fixed)
 
 
 TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
@@ -491,10 +506,10 @@ TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
         "",
     ),
     "speeds": (lambda: swept(rpm=endless(1.0, 10**12)), "rpm"),
-    "bank angle and speed": (lambda: grid(bank_angle_deg=1.0, rpm=1.0).moment, ""),
-    "peaks": (lambda: grid(rod_ratio=0.3, rpm=1.0).force_peak_xy, ""),
-    "peaks of sums": (lambda: grid(rod_ratio=0.3, rpm=1.0).torque_sum_peak, ""),
-    "proportions": (lambda: grid(rod_ratio=0.3, pin_offset=0.0).moment, ""),
+    "bank angle and speed": (lambda: grid(bank_angle_deg=1.0, rpm=1.0).moment.xy, ""),
+    "peaks": (lambda: grid(rod_ratio=0.3, rpm=1.0).force.peak_xy, ""),
+    "peaks of sums": (lambda: grid(rod_ratio=0.3, rpm=1.0).total.torque.peak, ""),
+    "proportions": (lambda: grid(rod_ratio=0.3, pin_offset=0.0).moment.xy, ""),
     "places": (lambda: lists(z=endless(0.0, 10**12)), "z"),
     "masses": (lambda: lists(rotating_mass=endless(0.0, 10**12)), "rotating_mass"),
 }
@@ -509,11 +524,11 @@ def test_what_no_memory_holds_is_refused(name: str) -> None:
 
 
 WITHOUT_END = {
-    "orders": "I4.balance(1000, itertools.count(1))",
+    "orders": "I4.balance(1000, orders=itertools.count(1))",
     "orders that vanish": "I4.vanishing_orders(itertools.count(1))",
-    "orders of a waveform": "I4.waveform(1000, [0.0], itertools.count(1))",
+    "orders of a waveform": "I4.waveform(1000, theta_deg=[0.0], orders=itertools.count(1))",
     "orders of a sweep": "cp.sweep(I4, rpm=1000, orders=itertools.count(1))",
-    "many orders": "I4.balance(1000, range(1, 10**12))",
+    "many orders": "I4.balance(1000, orders=range(1, 10**12))",
     "harmonics": "cp.slider_crank_harmonics(0.3, itertools.count(1))",
     "throws": "cp.Engine.inline(C, throws_deg=itertools.repeat(0.0), spacing=0.1)",
     "top dead centres": "I4.replace(tdc_deg=itertools.count(0))",
@@ -523,10 +538,10 @@ WITHOUT_END = {
     "intervals": "cp.throws([1, 2], intervals_deg=itertools.repeat(1))",
     "groups": "I4.firing('1-3-4-2').gaps(itertools.repeat([1]))",
     "engines": "cp.sweep(itertools.repeat(I4), rpm=1000)",
-    "engines to rank": "cp.rank(itertools.repeat(I4), rpm=1000)",
-    "objectives": "cp.rank(I4, rpm=1000, by=itertools.repeat('torque_sum_peak'))",
+    "engines to rank": "cp.rank(itertools.repeat(I4), rpm=1000, by='total.torque.peak')",
+    "objectives": "cp.rank(I4, rpm=1000, by=itertools.repeat('total.torque.peak'))",
     "bank angles": (
-        "cp.rank(cp.Engine.preset('v6-60'), rpm=1000, hold='pins', "
+        "cp.rank(cp.Engine.preset('v6-60'), rpm=1000, hold='pins', by='total.moment.peak', "
         "bank_angle_deg=np.broadcast_to(1.0, 10**12))"
     ),
 }
@@ -738,9 +753,26 @@ VALUES: st.SearchStrategy[Any] = st.one_of(
 SOUND: dict[str, list[Any]] = {
     "ax": [None],
     "backward_force": [1j],
+    "bore": [0.086],
+    "chunks": [{"rpm": 1}, 2],
+    "core": [I4.core],
+    "counterweight": [1.5],
+    "cylinders": [6],
+    "first_deg": [[0, 120, 240]],
+    "high": [90],
+    "inertia": [0.0025],
+    "length": [0.15],
+    "low": [10],
+    "mass": [0.6],
+    "piston_mass": [0.4],
+    "rod": [cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)],
+    "second_deg": [[0, 240, 120]],
+    "second_order": [(1.0, 2.0)],
+    "stroke": [0.086],
+    "to_crankpin": [0.05],
     "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
     "bank_deg": [[60, 120], [90, 90, 90]],
-    "by": ["moment_sum_peak_vector", ["force_after_counterweight"], lambda b: b.rpm],
+    "by": ["total.moment.peak", ["[1].force.backward"], lambda b: b.rpm],
     "count": [1, 0],
     "cylinder": [CYLINDER],
     "crank_radius": [0.05],
@@ -767,7 +799,7 @@ SOUND: dict[str, list[Any]] = {
     "text": [TOML, JSON],
     "theta_deg": [[0.0, 90.0], 30.0],
     "throws_deg": [[0, 120, 240], [0]],
-    "timing": [cp.ValveTiming(exhaust_opens_deg="360/7"), cp.PortTiming()],
+    "timing": [cp.types.ValveTiming(exhaust_opens_deg="360/7"), cp.types.PortTiming()],
     "x": ["rpm"],
     "z": [[0.0, 0.1]],
 }
@@ -775,26 +807,28 @@ SOUND: dict[str, list[Any]] = {
 SUBJECTS: dict[str, Any] = {
     "Cylinder": cp.Cylinder,
     "Engine": cp.Engine,
-    "Balance": cp.Balance,
-    "Waveform": cp.Waveform,
-    "Sweep": cp.Sweep,
+    "Balance": cp.types.Balance,
+    "Waveform": cp.types.Waveform,
+    "Sweep": cp.types.Sweep,
     "cylinder": CYLINDER,
     "v6": V6,
     "i4": I4,
     "balance": V6.balance(1000),
-    "balance of a spectrum": V6.balance(1000, [1], spectrum={1: 1.0}),
-    "balance, auto": V6.balance(1000, "auto"),
+    "balance of a spectrum": V6.balance(1000, orders=[1], spectrum={1: 1.0}),
+    "balance, auto": V6.balance(1000, orders="auto"),
     "vanishing orders": V6.vanishing_orders(),
     "closed form": V6.closed_form(1),
-    "waveform": V6.waveform(1000, [0.0, 1.0]),
-    "waveform, auto": V6.waveform(1000, [0.0, 1.0], "auto"),
-    "waveform of a spectrum": V6.waveform(1000, [0.0], [1], spectrum={1: 1.0}),
+    "waveform": V6.waveform(1000, theta_deg=[0.0, 1.0]),
+    "waveform, auto": V6.waveform(1000, theta_deg=[0.0, 1.0], orders="auto"),
+    "waveform of a spectrum": V6.waveform(1000, theta_deg=[0.0], orders=[1], spectrum={1: 1.0}),
     "firing": V6.firing("1-2-5-6-3-4"),
     "firing, two-stroke": two_stroke(),
     "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
-    "ranking": ranked(by=["force_sum_peak_xy", lambda b: b.rpm], refine=True),
-    "ranking, as they are": cp.rank([V6, I4], rpm=1e3, spectrum={1: 1.0, 2: 0.2}),
+    "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
+    "ranking, as they are": cp.rank(
+        [V6, I4], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
+    ),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
     "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
@@ -836,8 +870,10 @@ def targets() -> Iterator[Target]:
     """Every public function, constructor and method."""
     for name in cp.__all__:
         value = getattr(cp, name)
-        if callable(value) and name not in PLAIN | RESULTS_MADE_ELSEWHERE:
+        if callable(value) and name not in PLAIN:
             yield target(name, value)
+    for name in ("PortTiming", "ValveTiming"):
+        yield target(f"types.{name}", getattr(cp.types, name))
     for label, subject in SUBJECTS.items():
         for name in dir(type(subject) if not isinstance(subject, type) else subject):
             of_class = isinstance(subject, type)
@@ -915,14 +951,38 @@ def finite(value: Any) -> bool:
 RESULTS = {
     cp.Cylinder: [*PARTS, "rod_ratio"],
     cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
-    cp.Balance: ["force", "moment", "torque", "crank_torque", "force_peak_vector", "error_bound"],
-    cp.VanishingOrders: ["orders", "reference_z"],
-    cp.ClosedForm: ["spacing", "reference_z"],
-    cp.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
-    cp.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
-    cp.Throws: ["throws_deg", "pin_splits_deg"],
-    cp.Sweep: ["force", "moment_peak_xy", "torque", "force_sum_peak_vector"],
-    cp.Ranking: ["values"],
+    cp.types.Balance: [
+        "force.xy",
+        "moment.xy",
+        "torque.phasor",
+        "crank_torque.phasor",
+        "force.peak",
+        "moment.forward",
+        "total.force.peak_xy",
+        "total.moment.peak",
+        "total.torque.peak",
+        "force.zero_bound",
+        "error_bound",
+    ],
+    cp.types.Sweep: [
+        "force.xy",
+        "moment.xy",
+        "torque.phasor",
+        "crank_torque.phasor",
+        "force.peak",
+        "moment.forward",
+        "total.force.peak_xy",
+        "total.moment.peak",
+        "total.torque.peak",
+        "force.zero_bound",
+        "error_bound",
+    ],
+    cp.types.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
+    cp.types.VanishingOrders: ["orders", "reference_z"],
+    cp.types.ClosedForm: ["spacing", "reference_z"],
+    cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
+    cp.types.Throws: ["throws_deg", "pin_split_deg"],
+    cp.types.Ranking: ["values"],
 }
 
 
@@ -932,7 +992,7 @@ def unsound(value: Any) -> str:
         return f"returned {shown(value)}"
     for name in RESULTS.get(type(value), []):
         try:
-            figure = getattr(value, name)
+            figure = attrgetter(name)(value)
         except cp.InputError:
             continue  # torque, where a spectrum is given
         if not finite(figure):
@@ -947,7 +1007,7 @@ def problem(call: Call) -> str:
     """What comes of a call but a sound result or an allowed error; nothing if all is well."""
     start = time.monotonic()
     with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        warnings.simplefilter("ignore", UserWarning)  # of units and pin splits
         try:
             found = unsound(invoke(call))
         except ALLOWED:
@@ -994,10 +1054,10 @@ def somewhere_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[
 def test_fuzz_reaches_the_whole_public_surface() -> None:
     labels = {each.label for each in TARGETS + PICTURES}
     for name in cp.__all__:
-        assert name in labels | PLAIN | RESULTS_MADE_ELSEWHERE | {"__version__"}
-    for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "ValveTiming"):
+        assert name in labels | PLAIN | {"__version__", "types"}
+    for label in ("firing.gaps", "firing.valves", "i4.firings", "throws", "types.ValveTiming"):
         assert label in labels
-    for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.order", "i4.save"):
+    for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.plot", "i4.save"):
         assert label in labels
     for label in ("rank", "ranking.best", "ranking.plot"):
         assert label in labels
@@ -1006,7 +1066,7 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
 @pytest.mark.parametrize("name", sorted(RESULTS_MADE_ELSEWHERE))
 @pytest.mark.parametrize("value", [None, "text", 0, [], V6])
 def test_results_cannot_be_made_of_anything(name: str, value: Any) -> None:
-    kind = getattr(cp, name)
+    kind = getattr(cp.types, name)
     count = len(inspect.signature(kind).parameters)
     with pytest.raises((TypeError, ValueError)):
         kind(*[value] * count)
@@ -1032,18 +1092,20 @@ def test_fuzz_one_argument_at_a_time(each: Target) -> None:
     found = []
     for parameter in each.parameters:
         needed = [p for p in each.parameters if p.default is p.empty and p is not parameter]
-        others = {p.name: SOUND[p.name][0] for p in needed if p.name in SOUND}
+        # A call that stops at a missing argument would try nothing.
+        given_ = [p for p in needed if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
+        others = {p.name: SOUND[p.name][0] for p in given_}
         if parameter.kind is not parameter.VAR_KEYWORD:
             calls_ = (Call(each, others | {parameter.name: value}) for value in HOSTILE)
             found += [text for call in calls_ if (text := problem(call))]
     assert not found, f"{len(found)} calls\n" + "\n".join(found[:20])
 
 
-@pytest.mark.parametrize("label", SUBJECTS)
+@pytest.mark.parametrize(
+    "label", [name for name, each in SUBJECTS.items() if not isinstance(each, type)]
+)
 def test_properties_give_figures_or_say_why_not(label: str) -> None:
     subject = SUBJECTS[label]
-    if isinstance(subject, type):
-        return
     for name in dir(subject):
         if not name.startswith("_") and not callable(getattr(type(subject), name, None)):
             try:

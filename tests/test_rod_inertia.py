@@ -329,7 +329,7 @@ def test_a_sweep_by_tolerance_bounds_every_point() -> None:
 def test_what_vanishes_is_proved() -> None:
     i4 = cp.Engine.inline(CYLINDERS[0], throws_deg=[0, 180, 180, 0], spacing=0.1)
     proof = i4.vanishing_orders(range(1, 7))
-    found = [proof.order(n)["torque"] for n in range(1, 7)]
+    found = [proof[n].torque for n in range(1, 7)]
     assert found == ["vanishes", "remains"] * 3
     unlike = i4.replace(
         cylinder=[
@@ -337,7 +337,7 @@ def test_what_vanishes_is_proved() -> None:
         ]
     )
     assert (np.asarray(unlike.balance(rpm=RPM, orders=range(1, 7)).torque) != 0).all()
-    assert unlike.vanishing_orders(range(1, 7)).of("torque") == ()
+    assert unlike.vanishing_orders(range(1, 7)).torque.vanishing == ()
 
 
 # --- objects ------------------------------------------------------------------------------------

@@ -60,9 +60,9 @@ def test_a_window_has_its_own_arrangements() -> None:
     assert len(part) > 50
     for arrangement in itertools.islice(part, 0, None, 10):
         assert 60 <= arrangement.bank_angle_deg <= 60.001
-    engine = part.engine(7, cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
+    engine = part[7].engine(cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
     balance = engine.balance(rpm=3000, orders=[1])
-    assert balance.backward_moment[0] == 0
+    assert balance.moment.backward[0] == 0
     best = V22.best(within=(60, 60.001), count=3)
     assert best == part.best(count=3)
     assert len(best) == 3
@@ -128,11 +128,11 @@ def test_an_arrangement_hands_back_its_engine() -> None:
     for search in SEARCHES.values():
         for k in range(0, len(search), 1 + len(search) // 20):
             engine = search[k].engine(cylinder, spacing=0.1)
-            assert engine == search.engine(k, cylinder, 0.1)
+            assert engine == search[k - len(search)].engine(cylinder, spacing=0.1)
             balance = engine.balance(rpm=3000, orders=[1, 2])
-            assert balance.backward_moment[0] == 0
+            assert balance.moment.backward[0] == 0
             scale = 0.5 * 0.045 * (3000 * np.pi / 30) ** 2 * 0.1
-            forward = abs(balance.forward_moment[0]) / scale
+            forward = abs(balance.moment.forward[0]) / scale
             # the angle is rounded once, sums of at most 7 terms of at most 3
             assert forward == pytest.approx(search[k].counterweight, abs=1e-13)
             second = abs(balance.moment[1]) / (scale * cylinder.harmonics([2])[0].real)
@@ -141,12 +141,12 @@ def test_an_arrangement_hands_back_its_engine() -> None:
 
 def test_arrangements_of_ones_own() -> None:
     cylinder = cp.Cylinder(0.045, 0.158, 0.5)
-    own = cp.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
-    engine = own.engine(cylinder, 0.1)
-    assert engine.balance(rpm=3000, orders=[1]).backward_moment[0] == 0
-    uneven = cp.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
+    own = cp.types.Arrangement(90, (0, 120, 240), (0, 120, 240), 0.0, (0.0, 0.0), "pins")
+    engine = own.engine(cylinder, spacing=0.1)
+    assert engine.balance(rpm=3000, orders=[1]).moment.backward[0] == 0
+    uneven = cp.types.Arrangement(90, (0, 120, 240), (0, 120), 0.0, (0.0, 0.0))
     with pytest.raises(cp.InputError, match="second_deg has 2 entries, first_deg has 3"):
-        uneven.engine(cylinder, 0.1)
+        uneven.engine(cylinder, spacing=0.1)
 
 
 def test_an_arrangement_of_nonsense_is_refused() -> None:
@@ -156,4 +156,4 @@ def test_an_arrangement_of_nonsense_is_refused() -> None:
     names = ("bank_angle_deg", "first_deg", "second_deg", "counterweight", "second_order", "hold")
     for k, name in enumerate(names):
         with pytest.raises(cp.InputError, match=name):
-            cp.Arrangement(*(*given[:k], endless, *given[k + 1 :]))  # type: ignore[arg-type]
+            cp.types.Arrangement(*(*given[:k], endless, *given[k + 1 :]))  # type: ignore[arg-type]

@@ -32,7 +32,7 @@ def crossplane_v8(odd_bank: Literal["left", "right"] = "left") -> cp.Engine:
     )
 
 
-BALANCE = crossplane_v8().balance(RPM, (1, 2, 4, 6))
+BALANCE = crossplane_v8().balance(RPM, orders=(1, 2, 4, 6))
 
 
 def test_top_dead_centres_follow_the_firing_order() -> None:
@@ -41,38 +41,43 @@ def test_top_dead_centres_follow_the_firing_order() -> None:
     assert (v8.bank_deg == [135.0, 45.0] * 4).all()
     assert (v8.pin_deg[::2] == v8.pin_deg[1::2]).all()  # two cylinders to a crankpin
     assert v8 == cp.Engine.vee(
-        CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=SPACING, odd_bank="left"
+        CYLINDER,
+        bank_angle_deg=90,
+        throws_deg=[0, 90, 270, 180],
+        spacing=SPACING,
+        odd_bank="left",
+        firing_order=crossplane.FIRING_ORDER,
     )
 
 
 @pytest.mark.parametrize("order", [1, 2, 6])
 def test_forces_vanish_exactly(order: int) -> None:
-    assert not BALANCE.order(order).force.any()
+    assert not BALANCE[order].force.any()
     assert np.abs(crossplane.force(order)).max() < ROUNDING
 
 
 def test_second_order_couple_vanishes_exactly() -> None:
-    assert not BALANCE.order(2).moment.any()
+    assert not BALANCE[2].moment.any()
 
 
 def test_first_order_couple_is_root_ten() -> None:
-    pitch, yaw = BALANCE.order(1).moment / (ONE * SPACING)
+    pitch, yaw = BALANCE[1].moment / (ONE * SPACING)
     np.testing.assert_allclose([-yaw, pitch], crossplane.couple(1), rtol=0, atol=ROUNDING)
     assert abs(pitch) == pytest.approx(10**0.5, rel=ROUNDING)
     assert abs(yaw) == pytest.approx(10**0.5, rel=ROUNDING)
 
 
 def test_first_order_couple_turns_with_the_crank_from_the_phase_of_the_page() -> None:
-    first = BALANCE.order(1)
-    assert first.backward_moment == 0j
+    first = BALANCE[1]
+    assert first.moment.backward == 0j
     # pitch + i yaw = -i (horizontal... ) = -sqrt 10 (cos t + i sin t) with t = theta - phase.
     expected = -(10**0.5) * np.exp(-1j * crossplane.COUPLE_PHASE)
-    assert first.forward_moment / (ONE * SPACING) == pytest.approx(expected, rel=ROUNDING)
-    assert first.moment_ellipse.minor == first.moment_ellipse.major
+    assert first.moment.forward / (ONE * SPACING) == pytest.approx(expected, rel=ROUNDING)
+    assert first.moment.ellipse.minor == first.moment.ellipse.major
 
 
 def test_first_order_couple_instant_by_instant() -> None:
-    w = crossplane_v8().waveform(RPM, THETA, [1])
+    w = crossplane_v8().waveform(RPM, theta_deg=THETA, orders=[1])
     sums = np.stack([-w.moment[:, 1], w.moment[:, 0]], axis=1) / (ONE * SPACING)
     expected = crossplane.first_order_couple(np.deg2rad(THETA))
     # Angles up to 4 pi in radians on the other side: their last bit is 1.8e-15.
@@ -83,12 +88,12 @@ def test_first_order_couple_instant_by_instant() -> None:
 
 def test_fourth_order_force_is_vertical_where_the_page_draws_a_circle() -> None:
     (a4,) = cp.slider_crank_harmonics(CYLINDER.rod_ratio, 4)
-    fourth = BALANCE.order(4)
+    fourth = BALANCE[4]
     x, y = fourth.force
     assert x == 0j
     assert y == pytest.approx(4.0 * 2**0.5 * ONE * a4, rel=ROUNDING)
-    assert fourth.force_ellipse.minor == pytest.approx(0.0, abs=ROUNDING * abs(y))
-    w = crossplane_v8().waveform(RPM, THETA, [4])
+    assert fourth.force.ellipse.minor == pytest.approx(0.0, abs=ROUNDING * abs(y))
+    w = crossplane_v8().waveform(RPM, theta_deg=THETA, orders=[4])
     in_units = w.force / (ONE * a4)
     right = crossplane.fourth_order_force(np.deg2rad(THETA))
     wrong = crossplane.fourth_order_force_as_printed(np.deg2rad(THETA))
@@ -112,19 +117,19 @@ def test_odd_bank_right_needs_other_pins_and_its_couple_turns_backward() -> None
     assert (left.tdc_deg == right.tdc_deg).all()
     split = (right.pin_deg[1::2] - right.pin_deg[::2]) % 360.0
     assert (split == 180.0).all()  # no two cylinders share a pin
-    first = right.balance(RPM, 1).order(1)
-    assert first.forward_moment == 0j
-    assert abs(first.backward_moment) == pytest.approx(10**0.5 * ONE * SPACING, rel=ROUNDING)
+    first = right.balance(RPM, orders=1)[1]
+    assert first.moment.forward == 0j
+    assert abs(first.moment.backward) == pytest.approx(10**0.5 * ONE * SPACING, rel=ROUNDING)
 
 
 def test_pins_of_the_ebook_leave_a_second_order_couple() -> None:
     """Pins at 0, 90, 180, 270: the same forces, but 2 sqrt 2 at order 1 and a couple at order 2."""
     v8 = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 180, 270], spacing=SPACING)
-    b = v8.balance(RPM, (1, 2))
+    b = v8.balance(RPM, orders=(1, 2))
     assert not b.force.any()
     (a2,) = cp.slider_crank_harmonics(CYLINDER.rod_ratio, 2)
     expected = [[8**0.5] * 2, [0.0, 8**0.5 * a2]]
-    np.testing.assert_allclose(b.moment_peak_xy / (ONE * SPACING), expected, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(b.moment.peak_xy / (ONE * SPACING), expected, rtol=0, atol=ROUNDING)
     layout = ebook.V_ENGINES["v8_cross_plane"]
     sums = np.abs([ebook.phasor_moment_sum_2d(layout, n) for n in (1, 2)])[:, ::-1]
     np.testing.assert_allclose(np.array(expected) / [[1.0], [a2]], sums, rtol=0, atol=ROUNDING)

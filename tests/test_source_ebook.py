@@ -60,19 +60,19 @@ def engine(
     )
 
 
-def sizes(b: cp.Balance) -> Array:
+def sizes(b: cp.types.Balance) -> Array:
     """|F_x|, |F_y|, |sum z F_x|, |sum z F_y| per order, (n_orders, 4)."""
-    return np.hstack([b.force_peak_xy, b.moment_peak_xy[:, ::-1]])
+    return np.hstack([b.force.peak_xy, b.moment.peak_xy[:, ::-1]])
 
 
 def as_printed(layout: ebook.Layout) -> Array:
     """Table of one engine by the books' masses, orders 1 to 4, (4, 4)."""
-    return sizes(engine(layout).balance(ebook.RPM, ORDERS, spectrum=AS_PRINTED))
+    return sizes(engine(layout).balance(ebook.RPM, orders=ORDERS, spectrum=AS_PRINTED))
 
 
 def physical(layout: ebook.Layout) -> Array:
     """The same where two kilograms turn with the pin, orders 1 to 4, (4, 4)."""
-    return sizes(engine(layout, rotating_mass=ROTATING_MASS).balance(ebook.RPM, ORDERS))
+    return sizes(engine(layout, rotating_mass=ROTATING_MASS).balance(ebook.RPM, orders=ORDERS))
 
 
 # --- the cylinder -------------------------------------------------------------------------------
@@ -105,8 +105,8 @@ def test_tables_agree_with_the_rederivation(name: str) -> None:
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_their_phasors_are_ours_seen_in_a_mirror(name: str) -> None:
     layout = LAYOUTS[name]
-    ours = engine(layout).balance(ebook.RPM, ORDERS, spectrum=AS_PRINTED)
-    leading = engine(layout, mirrored=True).balance(ebook.RPM, ORDERS, spectrum=AS_PRINTED)
+    ours = engine(layout).balance(ebook.RPM, orders=ORDERS, spectrum=AS_PRINTED)
+    leading = engine(layout, mirrored=True).balance(ebook.RPM, orders=ORDERS, spectrum=AS_PRINTED)
     for k, order in enumerate(ORDERS):
         one = AS_PRINTED.get(order, 0.0) * OMEGA_SQUARED
         book = one * ebook.phasor_sum_2d(layout, order)
@@ -187,8 +187,8 @@ def test_no_pins_give_the_printed_moments_of_the_v6() -> None:
             spacing=ebook.HALF_SPACING,
             pin_split_deg=split,
         )
-        b = v6.balance(ebook.RPM, (1, 2), spectrum=AS_PRINTED)
-        squares[split] = (b.moment_peak_xy**2).sum(axis=1) / straight_three**2
+        b = v6.balance(ebook.RPM, orders=(1, 2), spectrum=AS_PRINTED)
+        squares[split] = (b.moment.peak_xy**2).sum(axis=1) / straight_three**2
     assert squares[0] == pytest.approx([2.5, 1.5])  # shared pins, as listed
     # Print has 1 and 1. No split comes near, as the second order turns with twice the split.
     assert squares.min() == pytest.approx(1.0)
@@ -232,18 +232,18 @@ BUILDERS = {
 
 @pytest.mark.parametrize("name", BUILDERS)
 def test_builders_give_the_engines_of_the_lists(name: str) -> None:
-    b = BUILDERS[name].balance(ebook.RPM, ORDERS, spectrum=AS_PRINTED)
+    b = BUILDERS[name].balance(ebook.RPM, orders=ORDERS, spectrum=AS_PRINTED)
     listed = as_printed(ebook.MASTER[name])
     # The books' bores lie along x, an inline engine's stand upright.
     np.testing.assert_allclose(
-        b.force_peak_vector, np.hypot(*listed[:, :2].T), rtol=0, atol=100 * ROUNDING
+        b.force.peak, np.hypot(*listed[:, :2].T), rtol=0, atol=100 * ROUNDING
     )
     np.testing.assert_allclose(
-        b.moment_peak_vector, np.hypot(*listed[:, 2:].T), rtol=0, atol=100 * ROUNDING
+        b.moment.peak, np.hypot(*listed[:, 2:].T), rtol=0, atol=100 * ROUNDING
     )
 
 
-def rod_ratio_sweep(ratios: list[float], mass: float) -> dict[str, cp.Sweep]:
+def rod_ratio_sweep(ratios: list[float], mass: float) -> dict[str, cp.types.Sweep]:
     """Engines over rod ratio, one mass at all orders."""
     cylinder = PISTON.replace(reciprocating_mass=mass)
     names = ("single", "inline_4", "flat_4_non_boxer", "straight_3", "boxer_4")
@@ -260,12 +260,12 @@ def rod_ratio_table() -> tuple[list[float], dict[str, Array]]:
     nine = rod_ratio_sweep(ratios, ebook.MASS_AT_FIRST_ORDER)
     seven = rod_ratio_sweep(ratios, ebook.MASS_ABOVE)
     columns = {
-        "single_1x": nine["single"].force_peak_xy[:, 0, 0],
-        "single_2x": seven["single"].force_peak_xy[:, 1, 0],
-        "inline_4_2x": seven["inline_4"].force_peak_xy[:, 1, 0],
-        "flat_4_1x_moment": nine["flat_4_non_boxer"].moment_peak_xy[:, 0, 1],
-        "straight_3_1x_moment": nine["straight_3"].moment_peak_xy[:, 0, 1],
-        "boxer_4_2x": seven["boxer_4"].force_peak_xy[:, 1, 0],
+        "single_1x": nine["single"].force.peak_xy[:, 0, 0],
+        "single_2x": seven["single"].force.peak_xy[:, 1, 0],
+        "inline_4_2x": seven["inline_4"].force.peak_xy[:, 1, 0],
+        "flat_4_1x_moment": nine["flat_4_non_boxer"].moment.peak_xy[:, 0, 1],
+        "straight_3_1x_moment": nine["straight_3"].moment.peak_xy[:, 0, 1],
+        "boxer_4_2x": seven["boxer_4"].force.peak_xy[:, 1, 0],
     }
     return ratios, columns
 
@@ -298,12 +298,12 @@ def test_second_order_does_not_scale_with_the_rod_ratio() -> None:
 
 def test_engines_said_to_be_balanced_shake_at_order_six() -> None:
     one = ebook.MASS_ABOVE * abs(A6) * OMEGA_SQUARED
-    six = BUILDERS["straight_6"].balance(ebook.RPM, (1, 2, 3, 4, 5, 6))
-    np.testing.assert_allclose(six.force_peak_vector, [0, 0, 0, 0, 0, 6.0 * one], rtol=ROUNDING)
-    v6 = engine(ebook.V_ENGINES["v6_60"]).balance(ebook.RPM, 6)
-    forces = v6.force_peak_xy[0]
+    six = BUILDERS["straight_6"].balance(ebook.RPM, orders=(1, 2, 3, 4, 5, 6))
+    np.testing.assert_allclose(six.force.peak, [0, 0, 0, 0, 0, 6.0 * one], rtol=ROUNDING)
+    v6 = engine(ebook.V_ENGINES["v6_60"]).balance(ebook.RPM, orders=6)
+    forces = v6.force.peak_xy[0]
     assert np.hypot(*forces) == pytest.approx(3.0 * 3.0**0.5 * one, rel=ROUNDING)
-    assert 6 in engine(ebook.MASTER["straight_6"]).balance(ebook.RPM, "auto").orders
+    assert 6 in engine(ebook.MASTER["straight_6"]).balance(ebook.RPM, orders="auto").orders
 
 
 # --- the physical engine beside it --------------------------------------------------------------

@@ -96,7 +96,7 @@ def v14(row: Row, bank_angle_deg: float | None = None) -> cp.Engine:
 def test_sevenths_of_a_turn_are_exact(row: Row) -> None:
     """No force is left at any order below seven, and none is reported."""
     engine = v14(row)
-    assert not engine.balance(RPM, [1, 2, 4, 6]).force.any()
+    assert not engine.balance(RPM, orders=[1, 2, 4, 6]).force.any()
     assert engine == v14(row).replace(tdc_deg=[float(tdc) for tdc in engine.tdc_deg])
 
 
@@ -112,7 +112,7 @@ def test_bank_coefficients(row: Row) -> None:
     """Bank moment a_1 cos theta + a_2 sin theta: our pitch phasor is a_1 - i a_2."""
     found = []
     for name in ("first_bank", "second_bank"):
-        pitch, yaw = bank(arrangement(row, name)).balance(RPM, 1).order(1).moment / M_0
+        pitch, yaw = bank(arrangement(row, name)).balance(RPM, orders=1)[1].moment / M_0
         assert yaw == 0
         found += [pitch.real, -pitch.imag]
         expected = ito.bank_coefficients(arrangement(row, name))
@@ -124,15 +124,15 @@ def test_bank_coefficients(row: Row) -> None:
 
 @each_case
 def test_first_order_precesses_with_the_crank(row: Row) -> None:
-    first = v14(row).balance(RPM, 1)
-    assert first.backward_moment[0] == 0
-    assert first.moment_ellipse.minor == first.moment_ellipse.major
-    amplitude = abs(first.forward_moment[0]) / M_0
+    first = v14(row).balance(RPM, orders=1)
+    assert first.moment.backward[0] == 0
+    assert first.moment.ellipse.minor == first.moment.ellipse.major
+    amplitude = abs(first.moment.forward[0]) / M_0
     assert amplitude == printed(row, "amplitude")
     expected = ito.precession(arrangement(row, "first_bank"), arrangement(row, "second_bank"))
     assert amplitude == pytest.approx(expected.amplitude, rel=ROUNDING)
     # M_y = M cos(theta + theta_0), M_x = -M sin(theta + theta_0): forward is M exp(i theta_0).
-    phase = np.rad2deg(np.angle(first.forward_moment[0]))
+    phase = np.rad2deg(np.angle(first.moment.forward[0]))
     assert phase == pytest.approx(expected.phase_deg, rel=ROUNDING)
     if row["phase_deg"]:
         assert phase == printed(row, "phase_deg")
@@ -142,11 +142,11 @@ def test_first_order_precesses_with_the_crank(row: Row) -> None:
 def test_at_other_angles_part_of_it_turns_backward(row: Row) -> None:
     angle = angle_deg(row)
     for off in (-5.0, 5.0):
-        wrong = v14(row, angle + off).balance(RPM, 1)
+        wrong = v14(row, angle + off).balance(RPM, orders=1)
         z = complex(ito.bank_sum(arrangement(row, "first_bank")))
         # |Z| |1 - exp(i off)| / 2.
         expected = abs(z) * np.sin(np.deg2rad(abs(off)) / 2.0)
-        assert abs(wrong.backward_moment[0]) / M_0 == pytest.approx(expected, rel=1e-12)
+        assert abs(wrong.moment.backward[0]) / M_0 == pytest.approx(expected, rel=1e-12)
 
 
 @each_case
@@ -164,8 +164,8 @@ def test_a_sweep_that_holds_the_firing_finds_the_angle(row: Row) -> None:
 
 @each_case
 def test_second_order_in_units_of_rod_ratio_times_m_0(row: Row) -> None:
-    b = v14(row).balance(RPM, 2, spectrum=AS_THE_PAPER)
-    left = b.moment_peak_xy[0] / (ROD_RATIO * M_0)
+    b = v14(row).balance(RPM, orders=2, spectrum=AS_THE_PAPER)
+    left = b.moment.peak_xy[0] / (ROD_RATIO * M_0)
     expected = ito.precession(arrangement(row, "first_bank"), arrangement(row, "second_bank"))
     np.testing.assert_allclose(left, expected[3:], rtol=0, atol=ROUNDING)
     if row["second_order_pitch"]:
@@ -175,7 +175,8 @@ def test_second_order_in_units_of_rod_ratio_times_m_0(row: Row) -> None:
 
 def test_pitch_and_yaw_change_places_at_the_supplement() -> None:
     narrow, wide = (
-        v14(row).balance(RPM, 2, spectrum=AS_THE_PAPER).moment_peak_xy[0] for row in CASES[2:]
+        v14(row).balance(RPM, orders=2, spectrum=AS_THE_PAPER).moment.peak_xy[0]
+        for row in CASES[2:]
     )
     np.testing.assert_allclose(narrow, wide[::-1], rtol=1e-12)  # angles from an arctangent each
 
@@ -183,8 +184,8 @@ def test_pitch_and_yaw_change_places_at_the_supplement() -> None:
 def test_the_paper_and_the_exact_second_order_differ_by_two_per_cent() -> None:
     row = CASES[0]
     (a2,) = cp.slider_crank_harmonics(ROD_RATIO, 2)
-    paper = v14(row).balance(RPM, 2, spectrum=AS_THE_PAPER).moment
-    exact = v14(row).balance(RPM, 2).moment
+    paper = v14(row).balance(RPM, orders=2, spectrum=AS_THE_PAPER).moment
+    exact = v14(row).balance(RPM, orders=2).moment
     np.testing.assert_allclose(exact, paper * a2 / ROD_RATIO, rtol=ROUNDING)
     assert a2 / ROD_RATIO == pytest.approx(1.0235, abs=5e-5)
 
@@ -194,7 +195,7 @@ def test_waveform_of_exact_kinematics(row: Row) -> None:
     """The paper's equations (3) and (5) in the time domain, its lost square restored."""
     longer = CYLINDER.replace(rod_length=CYLINDER.crank_radius / ROD_RATIO)
     engine = v14(row).replace(cylinder=longer)
-    found = engine.waveform(RPM, THETA).moment / M_0
+    found = engine.waveform(RPM, theta_deg=THETA).moment / M_0
     pitch, yaw = ito.engine_moment(
         arrangement(row, "first_bank"),
         arrangement(row, "second_bank"),
@@ -209,7 +210,7 @@ def test_waveform_of_exact_kinematics(row: Row) -> None:
 
 @each_case
 def test_first_order_waveform_is_a_circle(row: Row) -> None:
-    w = v14(row).waveform(RPM, THETA, [1])
+    w = v14(row).waveform(RPM, theta_deg=THETA, orders=[1])
     length = np.hypot(*w.moment.T) / M_0
     assert length[0] == printed(row, "amplitude")
     assert np.ptp(length) < ROUNDING
@@ -219,7 +220,7 @@ def test_amplitude_of_each_bank_is_the_same() -> None:
     """|Z_1| = |Z_2| is what makes an angle exist."""
     for row in CASES:
         one, two = (
-            bank(arrangement(row, name)).balance(RPM, 1).moment_peak_vector[0]
+            bank(arrangement(row, name)).balance(RPM, orders=1).moment.peak[0]
             for name in ("first_bank", "second_bank")
         )
         assert one == pytest.approx(two, rel=ROUNDING)
@@ -329,26 +330,26 @@ SEARCH = cp.search_arrangements(14, alternating=True)
 SIX = cp.search_arrangements(6)
 
 
-def found_engine(search: cp.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
+def found_engine(search: cp.types.ArrangementSearch, bank_angle_deg: float) -> cp.Engine:
     """The engine of a bank angle as printed."""
     (index,) = np.flatnonzero(np.abs(search.bank_angles_deg - bank_angle_deg) < 0.005)
-    return search.engine(int(index), CYLINDER, SPACING)
+    return search[int(index)].engine(CYLINDER, spacing=SPACING)
 
 
 def remaining(engine: cp.Engine) -> Array:
     """Second-order pitch and yaw, in units of lambda M_0."""
-    b = engine.balance(RPM, 2, spectrum=AS_THE_PAPER)
-    return b.moment_peak_xy[0] / (ROD_RATIO * M_0)
+    b = engine.balance(RPM, orders=2, spectrum=AS_THE_PAPER)
+    return b.moment.peak_xy[0] / (ROD_RATIO * M_0)
 
 
 @each_case
 def test_the_balancer_of_the_engine_that_the_search_hands_back(row: Row) -> None:
     """Dashed in the figures: M_yb = M cos(theta + theta_0), M_xb = -M sin(theta + theta_0)."""
     engine = found_engine(SEARCH, float(row["bank_angle_deg"]))
-    length = np.hypot(*engine.waveform(RPM, THETA, [1]).moment.T) / M_0
+    length = np.hypot(*engine.waveform(RPM, theta_deg=THETA, orders=[1]).moment.T) / M_0
     assert np.max(length) == printed(row, "amplitude")
     assert np.ptp(length) < ROUNDING
-    phase = np.angle(engine.balance(RPM, 1).forward_moment[0], deg=True)
+    phase = np.angle(engine.balance(RPM, orders=1).moment.forward[0], deg=True)
     if row["phase_deg"]:
         # The same engine turned by a seventh, reversed or mirrored: theta_0 in steps of 180/7
         # degrees, either sign.
@@ -374,14 +375,14 @@ def test_moment_balancer_and_rest_are_the_rederivations(row: Row) -> None:
     pitch, yaw = ito.engine_moment(
         one, two, sides * np.deg2rad(found.bank_angle_deg), theta, ROD_RATIO
     )
-    whole = engine.waveform(RPM, THETA).moment / M_0
+    whole = engine.waveform(RPM, theta_deg=THETA).moment / M_0
     # z runs to the rear as -s from a middle plane: as in the cases above.
     np.testing.assert_allclose(whole, np.stack([pitch, -yaw], axis=1), rtol=0, atol=3e-13)
-    balancer = engine.waveform(RPM, THETA, [1]).moment / M_0
+    balancer = engine.waveform(RPM, theta_deg=THETA, orders=[1]).moment / M_0
     rest = whole - balancer
     # What is left has the peaks of the second order, and the fourth and sixth on top of it.
-    above = [np.abs(engine.balance(RPM, n).moment_peak_xy[0]) / M_0 for n in (4, 6, 8)]
-    second = engine.balance(RPM, 2).moment_peak_xy[0] / M_0
+    above = [np.abs(engine.balance(RPM, orders=n).moment.peak_xy[0]) / M_0 for n in (4, 6, 8)]
+    second = engine.balance(RPM, orders=2).moment.peak_xy[0] / M_0
     assert np.all(np.abs(rest).max(axis=0) <= second + np.sum(above, axis=0) + 1e-4)
     assert np.all(np.abs(rest).max(axis=0) >= 0.99 * (second - np.sum(above, axis=0)))
 

@@ -90,7 +90,7 @@ def test_every_point_is_that_engine(hold: cp._engine.Hold, how: tuple[int, ...] 
             rod_ratio=ratios[k],
             pin_offset=offsets[o],
         )
-        one = engine.waveform(speeds[v], THETA, how)
+        one = engine.waveform(speeds[v], theta_deg=THETA, orders=how)
         for quantity in QUANTITIES:
             found, expected = getattr(w, quantity)[index], getattr(one, quantity)
             assert np.abs(found - expected).max() <= ROUNDING * size(engine, speeds[v], quantity)
@@ -213,7 +213,7 @@ def test_what_is_refused() -> None:
     by_spectrum = cp.sweep(V6, rpm=1000, spectrum={1: 1.0, 2: 0.3}, orders=[1, 2])
     with pytest.raises(cp.InputError, match="spectrum"):
         by_spectrum.waveform(exact=True)
-    one = V6.waveform(1000, THETA, [1, 2], spectrum={1: 1.0, 2: 0.3})
+    one = V6.waveform(1000, theta_deg=THETA, orders=[1, 2], spectrum={1: 1.0, 2: 0.3})
     # forces are some kg·m times ω²: 1e4 N
     np.testing.assert_allclose(by_spectrum.waveform(THETA).force, one.force, rtol=0, atol=1e-9)
     with pytest.raises(cp.InputError, match="exact"):
@@ -237,7 +237,7 @@ def test_labels() -> None:
     assert dataset.moment.attrs["units"] == "N m"
     assert dataset.attrs["rod_ratio"] == 0.3
     one = single(UNLIKE, rod_ratio=0.3)
-    expected = one.waveform(2e3, [0.0, 90.0], s.orders).moment
+    expected = one.waveform(2e3, theta_deg=[0.0, 90.0], orders=s.orders).moment
     apart = np.abs(dataset.moment.sel(engine="b", rpm=2e3).to_numpy() - expected).max()
     assert apart <= ROUNDING * size(UNLIKE, 2e3, "moment")
 
@@ -252,9 +252,9 @@ digest = hashlib.sha256()
 for exact in (True, False):
     for quantity in ("force", "moment", "torque"):
         digest.update(s.waveform(theta, exact=exact).values(quantity))
-w = v8.waveform(6000, np.linspace(0, 720, 100_001), "auto")
+w = v8.waveform(6000, theta_deg=np.linspace(0, 720, 100_001), orders="auto")
 digest.update(w.force)
-digest.update(v8.waveform(6000, np.linspace(0, 720, 100_001)).torque)
+digest.update(v8.waveform(6000, theta_deg=np.linspace(0, 720, 100_001)).torque)
 print(digest.hexdigest())
 """
 

@@ -53,7 +53,7 @@ def test_a_sweep_tells_its_progress() -> None:
         progress=lambda done, total: told.append((done, total)),
     )
     assert told == []
-    for name in ("moment", "torque_sum_peak"):
+    for name in ("moment", "total.torque.peak"):
         assert getattr(sweep, name).any()
         assert told == sorted(told)
         assert told[-1][0] == told[-1][1] > 1
@@ -68,4 +68,4 @@ def test_what_progress_raises_stops_a_sweep() -> None:
 
     sweep = cp.sweep(cp.Engine.preset("v6-60"), rpm=range(1, 9000), progress=stop)
     with pytest.raises(LookupError):
-        _ = sweep.force
+        _ = sweep.force.xy

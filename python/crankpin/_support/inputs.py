@@ -1,4 +1,4 @@
-"""What people type, in the form the core takes; and the warning that units were mixed up."""
+"""Arguments as people type them, converted to what the core takes, and checked on the way."""
 
 from __future__ import annotations
 
@@ -6,8 +6,6 @@ import itertools
 import math
 import operator
 import reprlib
-import sys
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
@@ -17,6 +15,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
+from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -41,6 +40,9 @@ PIECE = 2**18
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
 
+HIGHEST_ORDER = 10_000
+"""Highest order that the core sums."""
+
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
 
@@ -49,31 +51,43 @@ MOST_ITEMS = 10_000
 
 
 def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return an array of floats of any shape; without a copy where it is one already.
+    """Return an aligned array of floats of any shape; without a copy if it is one already.
 
-    What is long goes piece by piece, so that Ctrl-C is answered between.
+    Long inputs are converted piece by piece, so that Ctrl-C is answered in between.
     """
     if type(values) is np.ndarray and values.dtype == np.float64 and values.size <= MOST_NUMBERS:
-        return values
-    if isinstance(values, Sequence) and _length(values) > MOST_NUMBERS:
+        return values if values.flags.aligned else copied(values)
+    count = _length(values)
+    if count > MOST_NUMBERS:
         # Before NumPy allocates memory for it.
-        raise _too_many(name, _length(values))
+        raise _too_many(name, count)
     try:
         if isinstance(values, np.ma.MaskedArray):
-            raise TypeError("masked values are no numbers: fill them first")
+            raise TypeError("masked arrays are not supported; use .filled()")
         if type(values) is int or type(values) is float:
             return np.array(float(values))
         found = _from_list(values)
         if found.dtype.kind not in "fiub":
             if found.dtype.kind != "O":
-                raise TypeError(f"{found.dtype} is no real number")
+                raise TypeError(f"{found.dtype} is not a real number")
             # Fractions and the like, each by its own conversion.
             found = np.array([_real(value) for value in found.ravel()]).reshape(found.shape)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        raise InputError(f"{name} = {shorten(values)}: give numbers ({error})") from None
+        message = f"{name} = {shorten(values)}: give numbers ({reason(error)})"
+        raise InputError(message) from None
     if found.size > MOST_NUMBERS:
         raise _too_many(name, found.size)
-    return found if found.dtype == np.float64 else copied(found)
+    return found if found.dtype == np.float64 and found.flags.aligned else copied(found)
+
+
+def _length(values: object) -> int:
+    """Return the length of a sequence, 0 if it has none."""
+    if isinstance(values, range):  # len() takes no range beyond 2⁶³
+        return max(0, -((values.start - values.stop) // values.step))
+    try:
+        return len(values)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return 0
 
 
 def contiguous(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -96,14 +110,6 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
     return np.concatenate(pieces)
 
 
-def _length(values: Sequence[Any]) -> int:
-    try:
-        return len(values)
-    except OverflowError:
-        # Of a range longer than a list can be.
-        return sys.maxsize
-
-
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:
     copy = np.empty(values.shape)
     if values.size <= PIECE:
@@ -123,23 +129,24 @@ def _too_many(name: str, count: int) -> InputError:
 
 def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return an array that results of this shape can be written to."""
-    cure = f"give a writeable C-contiguous array of float64, of shape {shape}"
+    cure = f"give a writeable, aligned, C-contiguous array of float64, of shape {shape}"
     if not isinstance(values, np.ndarray):
         raise InputError(f"{name} = {shorten(values)}: {cure}")
     if values.dtype != np.float64 or values.shape != shape or not values.flags.carray:
-        kind = "" if values.flags.carray else ", not writeable or not contiguous"
+        kind = "" if values.flags.carray else ", not writeable, aligned and contiguous"
         raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {cure}")
     return values
 
 
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return a float."""
-    if type(value) is float:
-        return value
+    if type(value) is float or type(value) is int and abs(value) < 2**53:
+        return float(value)
     try:
         return _real(value)
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
-        raise InputError(f"{name} = {shorten(value)}: give a number ({error})") from None
+        message = f"{name} = {shorten(value)}: give a number ({reason(error)})"
+        raise InputError(message) from None
 
 
 def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
@@ -168,10 +175,34 @@ def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() ta
 
 
 def text(name: str, value: object, cure: str = "give text") -> str:
-    """Return a string."""
+    """Return a string that can be written as UTF-8."""
     if not isinstance(value, str):
         raise InputError(f"{name} = {shorten(value)}: {cure}")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"{name} = {shorten(value)}: {cure} ({reason(error)})") from None
     return value
+
+
+def whole(name: str, value: object) -> int:
+    """Return a whole number."""
+    try:
+        return operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(f"{name} = {shorten(value)}: give a whole number") from None
+
+
+def strokes(value: object) -> int:
+    """Return 2 or 4."""
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        number = 0
+    if number not in (2, 4):
+        cure = "give 4 for a four-stroke or 2 for a two-stroke"
+        raise InputError(f"strokes = {shorten(value)}: {cure}")
+    return number
 
 
 def flag(name: str, value: object) -> bool:
@@ -200,7 +231,7 @@ def items(name: str, values: object, cure: str) -> list[Any]:
     try:
         listed = list(itertools.islice(values, MOST_ITEMS + 1))
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} = {shorten(values)}: {cure} ({error})") from None
+        raise InputError(f"{name} = {shorten(values)}: {cure} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:
         raise InputError(f"{name} has more than {MOST_ITEMS} entries: {cure}")
     return listed
@@ -226,12 +257,12 @@ def angles(name: str, values: object) -> list[str]:
     return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
 
 
-def firing_order(values: object) -> str:
+def firing_order(name: str, values: object) -> str:
     """Return a firing order as text."""
-    if isinstance(values, str):
-        return values
     cure = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
-    return "-".join(shorten(number) for number in items("firing_order", values, cure))
+    if isinstance(values, str):
+        return text(name, values, cure)
+    return "-".join(shorten(number) for number in items(name, values, cure))
 
 
 def orders(values: object, name: str = "orders") -> list[int] | None:
@@ -247,8 +278,8 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     except TypeError:
         raise InputError(f"{name} = {shorten(values)}: {cure}") from None
     for order in result:
-        if not 1 <= order < 2**32:
-            raise InputError(f"{name} = {shorten(order)}: {cure}")
+        if not 1 <= order <= HIGHEST_ORDER:
+            raise InputError(f"{name} = {shorten(order)}: {cure}, 1 to {HIGHEST_ORDER}")
     return result
 
 
@@ -258,6 +289,16 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     if listed is None:
         raise InputError('orders = "auto": give whole numbers here, such as [1, 2]')
     return listed
+
+
+def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
+    """Return the tolerance by which orders are chosen; an error if orders are given with it."""
+    if rtol is None:
+        return default
+    if orders is not None:
+        cure = 'leave it out, or give orders="auto"'
+        raise InputError(f"rtol = {shorten(rtol)}: rtol is for the choice of orders; {cure}")
+    return number("rtol", rtol)
 
 
 def spectrum(values: object) -> list[tuple[int, complex]] | None:
@@ -271,20 +312,19 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
     try:
         return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"spectrum = {shorten(values)}: {cure} ({error})") from None
+        raise InputError(f"spectrum = {shorten(values)}: {cure} ({reason(error)})") from None
 
 
 # --- messages -----------------------------------------------------------------------------------
 
 
 def warn_of_units(mean_piston_speed: float) -> None:
-    """Warn the caller's caller where a piston would be faster, in m/s, than in any engine."""
+    """Warn of a piston that would be faster, in m/s, than in any engine."""
     if mean_piston_speed > FASTEST_PISTON and math.isfinite(mean_piston_speed):
-        warnings.warn(
+        warn(
             f"mean piston speed is {mean_piston_speed:.0f} m/s, more than any engine's "
             f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
-            "masses kilograms.",
-            stacklevel=3,
+            "masses kilograms."
         )
 
 
@@ -293,9 +333,15 @@ _SHORT.maxother = _SHORT.maxstring = 60
 
 
 def shorten(value: object) -> str:
-    """Return a value as text of readable length, whatever its own repr does."""
+    """Return a value as one line of readable length, whatever its own repr does."""
     try:
-        short = _SHORT.repr(value)
+        short = " ".join(_SHORT.repr(value).split())
     except Exception:
         short = f"<{type(value).__name__}>"
     return short if len(short) <= 80 else short[:79] + "…"
+
+
+def reason(error: Exception) -> str:
+    """Return what an error of Python or NumPy says, cut: it may quote a value in full."""
+    message = " ".join(str(error)[:1000].split())
+    return message if len(message) <= 120 else message[:119] + "…"

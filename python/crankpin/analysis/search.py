@@ -1,4 +1,4 @@
-"""Every crank arrangement of a vee, searched for bank angles that a counterweight can balance."""
+"""Search of all crank arrangements of a vee for bank angles that a counterweight can balance."""
 
 from __future__ import annotations
 
@@ -13,13 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, tables
+from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
-from crankpin.model.engine import Engine, parts
+from crankpin.model.builders import parts
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Angles
@@ -29,12 +31,12 @@ if TYPE_CHECKING:
 
 _WHOLE = (0.0, 180.0)
 _LARGE = 1 << 21
-"""Distinct arrangements beyond which bank angles are worked out window by window."""
+"""Distinct arrangements beyond which bank angles are computed window by window."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Arrangement:
-    """A bank angle at which all first-order moment is forward, and two banks that have it."""
+    """A bank angle at which first-order moment is all forward, and the phases of both banks."""
 
     bank_angle_deg: float
     """Angle between the banks, degrees."""
@@ -43,11 +45,11 @@ class Arrangement:
     second_deg: tuple[float, ...]
     """Phases of the left bank's throws."""
     counterweight: float
-    """First-order moment that a counterweight takes away, over m·r·ω²·spacing."""
+    """First-order moment that a counterweight cancels, over m·r·ω²·spacing."""
     second_order: tuple[float, float]
     """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
     hold: Hold = "firing"
-    """What phases are of: the top dead centres (at minus them), or the crankpins."""
+    """``"firing"`` if phases are minus the TDCs, ``"pins"`` if they are the crankpins."""
 
     def __post_init__(self) -> None:
         for name in ("bank_angle_deg", "counterweight"):
@@ -60,11 +62,11 @@ class Arrangement:
 
     @property
     def near_circular(self) -> bool:
-        """Whether the two second-order moments differ by a tenth of the larger at most."""
+        """True if the two second-order moments differ by at most a tenth of the larger."""
         low, high = sorted(self.second_order)
         return high - low <= 0.1 * high
 
-    def engine(self, cylinder: Cylinder, spacing: float) -> Engine:
+    def engine(self, cylinder: Cylinder, *, spacing: float) -> Engine:
         """Return the vee, numbered along the crank, odd cylinders in the right bank.
 
         Parameters
@@ -79,7 +81,7 @@ class Arrangement:
         >>> import crankpin as cp
         >>> (best,) = cp.search_arrangements(cylinders=14).best(within=(60, 90))
         >>> engine = best.engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
-        >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+        >>> engine.balance(rpm=6000, orders=[1]).moment.backward
         array([0.+0.j])
         """
         angle = inputs.number("bank_angle_deg", self.bank_angle_deg)
@@ -164,7 +166,7 @@ def search_arrangements(
 
 
 class ArrangementSearch(Frozen):
-    """What a search found: counts, and the balanced bank angles with an arrangement for each.
+    """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
     A sequence of :class:`Arrangement`, one for each bank angle, ascending. Made by
     :func:`crankpin.search_arrangements`.
@@ -175,20 +177,20 @@ class ArrangementSearch(Frozen):
     >>> search = cp.search_arrangements(cylinders=6)
     >>> search.bank_angles_deg.round(9)
     array([  0.,  60., 120., 180.])
-    >>> engine = search.engine(2, cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
-    >>> engine.balance(rpm=6000, orders=[1]).backward_moment
+    >>> engine = search[2].engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
+    >>> engine.balance(rpm=6000, orders=[1]).moment.backward
     array([0.+0.j])
     """
 
     cylinders: int
-    """Of the vee."""
+    """Number of cylinders of the vee."""
     alternating: bool
-    """Whether front and rear halves take turns to fire."""
+    """True if front and rear halves take turns to fire."""
     hold: Hold
-    """What phases are of as the bank angle changes."""
+    """What is held as the bank angle changes: top dead centres or crankpins."""
 
     window_deg: tuple[float, float]
-    """Bank angles that are listed: from, to."""
+    """Range of the bank angles listed, degrees."""
 
     def __init__(
         self,
@@ -229,7 +231,7 @@ class ArrangementSearch(Frozen):
 
     @property
     def balanced(self) -> int:
-        """Those of them without any first-order moment: they are balanced at every bank angle."""
+        """Pairs without any first-order moment, balanced at every bank angle."""
         return self._search.balanced
 
     @cached_property
@@ -239,14 +241,14 @@ class ArrangementSearch(Frozen):
 
     @cached_property
     def bank_angles_deg(self) -> NDArray[np.float64]:
-        """All balanced bank angles in the window, ascending: (n_angles,)."""
+        """Balanced bank angles in the window, ascending, degrees: (n_angles,)."""
         return self._angles.degrees()
 
     def within(self, low: float, high: float) -> ArrangementSearch:
         """Return the same search with only the bank angles from ``low`` to ``high``, degrees.
 
-        Nothing is searched again, and angles beyond are not worked out: the way to look into a
-        search with too many of them.
+        The search is not repeated, and angles outside are not computed: for searches with too many
+        angles to list.
 
         Examples
         --------
@@ -274,7 +276,7 @@ class ArrangementSearch(Frozen):
         return (self[k] for k in range(len(self)))
 
     def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
-        """Return the arrangements whose bank angle is this one within a tolerance; maybe none."""
+        """Return the arrangements within a tolerance of a bank angle; empty if there are none."""
         angle = inputs.number("bank_angle_deg", bank_angle_deg)
         tolerance = inputs.number("tolerance_deg", tolerance_deg)
         return tuple(self._from(angle - tolerance, angle + tolerance))
@@ -286,7 +288,7 @@ class ArrangementSearch(Frozen):
         within: tuple[float, float] = (0.0, 180.0),
         count: int = 1,
     ) -> tuple[Arrangement, ...]:
-        """Return the arrangements with the least of something, the best first.
+        """Return the arrangements that minimise an objective, the best first.
 
         Parameters
         ----------
@@ -295,9 +297,9 @@ class ArrangementSearch(Frozen):
             ``"counterweight"``: the first-order moment that a counterweight has to take away;
             or any function of an :class:`Arrangement`.
         within
-            Bank angles to look at, degrees.
+            Range of bank angles, degrees.
         count
-            How many to return.
+            Number of arrangements.
 
         Examples
         --------
@@ -316,13 +318,21 @@ class ArrangementSearch(Frozen):
             raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}")
         return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
-    def engine(self, index: int, cylinder: Cylinder, spacing: float) -> Engine:
-        """Return the vee of an index: :meth:`Arrangement.engine` of it."""
-        return self[index].engine(cylinder, spacing)
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw second-order moments over the balanced bank angles; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        """
+        from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
+
+        return draw(self, ax)  # type: ignore[no-any-return]
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
-        pandas = tables.pandas()
+        pandas = optional.pandas()
         rows = list(self._from(*_window(within)))
         columns = {
             "first_deg": [row.first_deg for row in rows],
@@ -337,7 +347,7 @@ class ArrangementSearch(Frozen):
         return table
 
     def _from(self, low: float, high: float) -> Iterator[Arrangement]:
-        """Yield what is in a window; of a large search nothing else is worked out."""
+        """Yield the arrangements in a window; of a large search nothing else is computed."""
         if self._search.distinct > _LARGE and "_angles" not in self.__dict__:
             yield from self.within(low, high)
             return
@@ -398,7 +408,7 @@ def _window(within: object) -> tuple[float, float]:
 
 
 def _bank_angle(name: str, value: object) -> float:
-    angle = _inputs.number(name, value)
+    angle = inputs.number(name, value)
     if math.isnan(angle):
         raise _core.InputError(f"{name} = nan: give a bank angle in degrees")
     return angle

@@ -2,37 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from crankpin import _core
-from crankpin._support import inputs, tables
+from crankpin._core import InputError
+from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.frozen import Frozen
-from crankpin.analysis.balance import ErrorBound
+from crankpin.analysis import export
+from crankpin.analysis.by_order import AllOrders
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import Request, check_quantities
+from crankpin.analysis.sweep_arrays import SweepArrays
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
     from crankpin._support.progress import Progress
-    from crankpin.analysis.chunks import Chunks
+    from crankpin.analysis.dask import Chunks
     from crankpin.model.engine import Hold
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
-Quantity: TypeAlias = Literal["force", "moment", "torque"]
 
 
-@overload
 def sweep(
     engines: Engines,
     *,
@@ -41,51 +42,17 @@ def sweep(
     hold: Hold | None = None,
     rod_ratio: ArrayLike | None = None,
     pin_offset: ArrayLike | None = None,
-    orders: Orders = (1, 2, 4, 6),
-    rtol: float = 1e-9,
+    orders: Orders = "auto",
+    rtol: float | None = None,
     reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
     progress: Progress = False,
-    chunks: None = None,
-) -> Sweep: ...
-@overload
-def sweep(
-    engines: Engines,
-    *,
-    rpm: ArrayLike,
-    bank_angle_deg: ArrayLike | None = None,
-    hold: Hold | None = None,
-    rod_ratio: ArrayLike | None = None,
-    pin_offset: ArrayLike | None = None,
-    orders: Orders = (1, 2, 4, 6),
-    rtol: float = 1e-9,
-    reference_z: float | None = None,
-    spectrum: Spectrum | None = None,
-    torque: bool = True,
-    progress: Progress = False,
-    chunks: Chunks,
-) -> xr.Dataset: ...
-def sweep(
-    engines: Engines,
-    *,
-    rpm: ArrayLike,
-    bank_angle_deg: ArrayLike | None = None,
-    hold: Hold | None = None,
-    rod_ratio: ArrayLike | None = None,
-    pin_offset: ArrayLike | None = None,
-    orders: Orders = (1, 2, 4, 6),
-    rtol: float = 1e-9,
-    reference_z: float | None = None,
-    spectrum: Spectrum | None = None,
-    torque: bool = True,
-    progress: Progress = False,
-    chunks: Chunks | None = None,
-) -> Sweep | xr.Dataset:
-    """Return how engines shake over any combination of bank angle, rod ratio, offset and speed.
+) -> Sweep:
+    """Return the balance of engines at every combination of the swept arguments.
 
-    No crank angle is sampled: each point is a layout sum times a harmonic. Every array argument is
-    a dimension of the result; a scalar is not. Values are worked out when they are asked for.
+    Crank angle is not sampled: each point is a layout sum times a harmonic. Every array argument is
+    a dimension of the result; a scalar is not. Values are computed when they are first read.
 
     Parameters
     ----------
@@ -96,39 +63,39 @@ def sweep(
     bank_angle_deg
         Angles between the two banks, 0 to 180.
     hold
-        What a change of bank angle leaves as it is; must be said: ``"pins"`` (the crank; firing
-        intervals change) or ``"firing"`` (every top dead centre; pins are split as needed).
+        Quantity that a change of bank angle does not change; required with ``bank_angle_deg``:
+        ``"pins"`` (the crank; firing intervals change) or ``"firing"`` (every top dead centre; pins
+        are split as needed).
     rod_ratio
         Crank radius / rod length; the radius stays, the rod changes.
     pin_offset
         Pin offset of every cylinder, m.
     orders
         Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
-        point, each order counted with its worst point. Choosing takes about the time of a sweep of
-        all orders that may matter, at one speed.
+        point. Choosing takes about the time of a sweep of all candidate orders at one speed.
     rtol, reference_z, spectrum
         As in :meth:`Engine.balance`.
     torque
-        Whether torque will be asked for. If not, it is not counted where orders are chosen.
+        Whether torque is computed. If not, it does not count in the choice of orders.
     progress
-        True for a tqdm bar while values are worked out, or a function of (steps done, steps in all)
-        that is called now and then; what it raises stops the work.
-    chunks
-        Leaves the work to dask (needs dask and xarray): points to a chunk of each swept dimension,
-        or a mapping dimension → points, dimensions that it leaves out staying whole, or ``"auto"``.
-        The result may be larger than memory; each chunk is an ordinary sweep, in any of dask's
-        schedulers, and its values have the same bits as those of one sweep of everything.
+        True for a tqdm bar during computations, or a function of (steps done, steps in all) that is
+        called now and then; an exception that it raises stops the computation.
 
     Returns
     -------
     Sweep
-        Or with ``chunks`` an :class:`xarray.Dataset` of dask arrays: phasors and peaks, named as
-        the attributes of :class:`Sweep`.
 
     Raises
     ------
     InputError
         If an argument is out of range, or an engine does not have the two banks to be swept.
+
+    Notes
+    -----
+    Phasors and peaks of a point have the same bits whatever else is swept with it and however many
+    threads compute it, if the orders are the same ones in the same sequence. Sums over crank angle
+    (:meth:`Sweep.waveform`) may differ in the last bits, since orders that vanish at all points of
+    a sweep are left out of its sums.
 
     Examples
     --------
@@ -137,244 +104,195 @@ def sweep(
     >>> v6 = cp.Engine.preset("v6-60")
     >>> angles = np.arange(10, 180, 10)
     >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=angles, hold="pins", orders=[1, 2])
-    >>> s.dims("moment")
+    >>> s.moment.dims
     ('bank_angle_deg', 'order', 'axis')
     >>> s.moment.shape
     (17, 2, 2)
-    >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], orders="auto", rtol=1e-3, torque=False).orders
+    >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], rtol=1e-3, torque=False).orders
     (1, 2, 4, 6)
     """
     shown = progress_bar.checked(progress)
     listed, names = _listed(engines)
-    given = {
-        "bank_angle_deg": bank_angle_deg,
-        "rod_ratio": rod_ratio,
-        "pin_offset": pin_offset,
-    }
+    given = {"bank_angle_deg": bank_angle_deg, "rod_ratio": rod_ratio, "pin_offset": pin_offset}
     swept = {name: values for name, values in given.items() if values is not None} | {"rpm": rpm}
-    arrays = {name: inputs.array(name, values) for name, values in swept.items()}
-    ranks = {name: values.ndim for name, values in arrays.items()}
-    axes = {name: inputs.vector(name, values) for name, values in arrays.items()}
-    wanted, rtol = inputs.orders(orders), inputs.number("rtol", rtol)
-    torque = inputs.flag("torque", torque)
-    core = _core.Sweep(
-        [engine._core for engine in listed],
-        axes.get("bank_angle_deg"),
-        None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"'),
-        axes.get("rod_ratio"),
-        axes.get("pin_offset"),
-        axes["rpm"],
-        wanted,
-        rtol,
-        inputs.optional_number("reference_z", reference_z),
-        inputs.spectrum(spectrum),
-        torque,
-        [names is not None, *(ranks.get(name, 0) > 0 for name in (*given, "rpm"))],
+    axes: dict[str, NDArray[np.float64] | float] = {}
+    for name, values in swept.items():
+        array = inputs.array(name, values)
+        axes[name] = inputs.vector(name, array) if array.ndim else float(array)
+    held = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
+    request = Request.checked(
+        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum, torque=torque
     )
-    inputs.warn_of_units(core.mean_piston_speed)
-    arguments = {
-        "hold": hold,
-        "orders": "auto" if wanted is None else tuple(wanted),
-        "rtol": rtol,
-        "reference_z": reference_z,
-        "spectrum": spectrum,
-        "torque": torque,
-    }
-    whole = Sweep(core, listed, names, ranks, arguments, shown)
-    if chunks is None:
-        return whole
-    if shown is not False:
-        raise _core.InputError(
-            "progress: dask tells it itself, by dask.diagnostics.ProgressBar; leave it out"
-        )
-    from crankpin.analysis.chunks import dataset  # noqa: PLC0415 - it makes sweeps
-
-    return dataset(whole, chunks)
+    whole = Sweep(tuple(listed), names, axes, held, request, shown)
+    inputs.warn_of_units(whole.mean_piston_speed)
+    return whole
 
 
-class Sweep(Frozen):
-    """How engines shake over swept quantities: labelled arrays, worked out when asked for.
+class Sweep(AllOrders):
+    """Force, moment and torque of engines over swept arguments: labelled arrays.
 
-    Dimensions, where swept, come in the order ``engine``, ``bank_angle_deg``, ``rod_ratio``,
-    ``pin_offset``, ``rpm``, then ``order`` and ``axis``. Made by :func:`crankpin.sweep`.
+    The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
+    ``s.total.force.peak``, ``s[2].torque.peak``. Dimensions, where swept, come in the order
+    ``engine``, ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, then ``order`` and
+    ``axis``. Arrays are computed when they are first read, and kept. Made by
+    :func:`crankpin.sweep`.
 
     Examples
     --------
     >>> import crankpin as cp
     >>> i4, i6 = cp.Engine.preset("i4"), cp.Engine.preset("i6")
     >>> s = cp.sweep([i4, i6], rpm=[3000, 6000], rod_ratio=[0.25, 0.3, 0.35], orders=[2])
-    >>> s.force_peak_xy.shape
+    >>> s.force.peak_xy.shape
     (2, 3, 2, 1, 2)
-    >>> s.force_sum_peak_vector.shape
+    >>> s.total.force.peak.shape
     (2, 3, 2)
+    >>> s[2].torque.dims
+    ('engine', 'rod_ratio', 'rpm')
     """
 
-    engines: tuple[Engine, ...]
-    """The engines."""
+    _fields: ClassVar[tuple[str, ...]] = ("engines", "names", "axes", "hold", "request")
+
+    source: SweepArrays
 
     def __init__(
         self,
-        core: _core.Sweep,
-        engines: list[Engine],
-        names: Sequence[str] | None,
-        ranks: dict[str, int],
-        arguments: dict[str, Any],
-        progress: Progress,
+        engines: tuple[Engine, ...],
+        names: tuple[str, ...] | None,
+        axes: Mapping[str, Any],
+        hold: str | None,
+        request: Request,
+        progress: Progress = False,
     ) -> None:
-        if not isinstance(core, _core.Sweep):
-            raise _core.InputError(f"Sweep({inputs.shorten(core)}): use crankpin.sweep")
-        self._set(
-            _core=core,
-            engines=tuple(engines),
-            _names=names,
-            _ranks=ranks,
-            _arguments=arguments,
-            _progress=progress,
-        )
+        self._set(source=SweepArrays(engines, names, axes, hold, request, progress))
 
-    _core: _core.Sweep
-    _names: Sequence[str] | None
-    """Names of the engines where there may be several."""
-    _ranks: dict[str, int]
-    """Quantity → 1 where it is swept, 0 where it was given as a single value."""
-    _arguments: dict[str, Any]
-    _progress: Progress
+    @property
+    def engines(self) -> tuple[Engine, ...]:
+        """The engines."""
+        return self.source.engines
+
+    @property
+    def names(self) -> tuple[str, ...] | None:
+        """Names of the engines as given; None for a single engine, which is no dimension."""
+        return self.source.names
+
+    @property
+    def axes(self) -> Mapping[str, NDArray[np.float64] | float]:
+        """Values of each argument: an array where it is swept, else a number."""
+        return self.source.axes
 
     @property
     def hold(self) -> Hold | None:
-        """What a change of bank angle leaves as it is."""
-        hold: Hold | None = self._arguments["hold"]
-        return hold
+        """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
+        return self.source.hold
 
-    @cached_property
-    def orders(self) -> tuple[int, ...]:
-        """Multiples of crank speed."""
-        return tuple(self._core.orders)
+    @property
+    def request(self) -> Request:
+        """The options of the sweep, checked."""
+        return self.source.request
 
-    @cached_property
+    @property
+    def spectrum(self) -> Spectrum | None:
+        """Spectrum used in place of the slider-crank's harmonics, kg·m, or None."""
+        return self.request.spectrum
+
+    @property
+    def mean_piston_speed(self) -> float:
+        """Largest mean piston speed of any engine at any point, m/s."""
+        return self.source.core.mean_piston_speed
+
+    @property
     def omitted(self) -> tuple[int, ...]:
-        """With ``orders="auto"``: orders left out that are not zero at some point.
+        """With ``orders="auto"``: orders left out that are not zero at every point.
 
-        Orders above the last one looked at add less than a hundredth of ``rtol``.
+        Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
+        includes them.
         """
-        return tuple(self._core.omitted)
-
-    @cached_property
-    def error_bound(self) -> ErrorBound:
-        """With ``orders="auto"``: what all orders left out can add at any point."""
-        force, moment, torque = self._core.error_bound
-        known = self._arguments["torque"] and self._arguments["spectrum"] is None
-        return ErrorBound(force, moment, torque if known else None)
+        return self.source.omitted
 
     @cached_property
     def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
-        """Swept dimension → its values, in the order of the result's dimensions."""
+        """Swept dimension → its values, in the order of the result's dimensions.
+
+        Engines with the same name, or none, are numbered.
+        """
         coords: dict[str, NDArray[np.float64] | list[str]] = {}
-        if self._names is not None:
-            coords["engine"] = _told_apart(self._names)
-        coords |= {name: self._core.axis(name) for name, rank in self._ranks.items() if rank}
+        if self.names is not None:
+            coords["engine"] = _distinct(self.names)
+        coords |= {name: self.source.core.axis(name) for name in self._swept()}
         return MappingProxyType(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
-        """What was given as a single value."""
-        fixed = {
-            name: float(self._core.axis(name)[0]) for name, rank in self._ranks.items() if not rank
-        }
-        return MappingProxyType(fixed)
+        """Argument that was given as a single value → the value."""
+        swept = self._swept()
+        core = self.source.core
+        return MappingProxyType(
+            {name: float(core.axis(name)[0]) for name in self.source.given if name not in swept}
+        )
 
-    def dims(self, quantity: Quantity = "moment") -> tuple[str, ...]:
-        """Return the names of a quantity's dimensions."""
-        return (*self.coords, *_ORDER_DIMS[inputs.one_of("quantity", quantity, _ORDER_DIMS)])
+    def _swept(self) -> list[str]:
+        return [name for name in self.source.dims if name != "engine"]
 
-    # --- phasors --------------------------------------------------------------------------------
+    def engine_at(self, **selection: Any) -> Engine:  # noqa: ANN401 - a name or numbers
+        """Return the engine of a point of the sweep.
 
-    @cached_property
-    def force(self) -> NDArray[np.complex128]:
-        """Peak phasors of the shaking force along x and y, N: (…, n_orders, 2)."""
-        return self._phasors("force")
+        Parameters
+        ----------
+        **selection
+            A swept value for each swept dimension that changes the engine: ``engine`` (a name),
+            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``. ``rpm`` may be given too.
 
-    @cached_property
-    def moment(self) -> NDArray[np.complex128]:
-        """Peak phasors of the rocking moment about x and y, N·m: (…, n_orders, 2)."""
-        return self._phasors("moment")
+        Raises
+        ------
+        InputError
+            If a dimension is missing, is not swept, or a value is not among the swept ones.
 
-    @cached_property
-    def torque(self) -> NDArray[np.complex128]:
-        """Peak phasors of the roll torque on the block, N·m: (…, n_orders)."""
-        return self._phasors("torque")
-
-    # --- peaks of each order --------------------------------------------------------------------
-
-    @cached_property
-    def force_peak_xy(self) -> NDArray[np.float64]:
-        """Largest force of each order along x and along y, N: (…, n_orders, 2)."""
-        return self._figures("force", "amplitude")
-
-    @cached_property
-    def moment_peak_xy(self) -> NDArray[np.float64]:
-        """Largest moment of each order about x and about y, N·m: (…, n_orders, 2)."""
-        return self._figures("moment", "amplitude")
-
-    @cached_property
-    def torque_peak(self) -> NDArray[np.float64]:
-        """Largest roll torque of each order, N·m: (…, n_orders)."""
-        return self._figures("torque", "amplitude")
-
-    @cached_property
-    def force_peak_vector(self) -> NDArray[np.float64]:
-        """Longest force of each order, N: (…, n_orders)."""
-        return self._figures("force", "length")
-
-    @cached_property
-    def moment_peak_vector(self) -> NDArray[np.float64]:
-        """Longest moment of each order, N·m: (…, n_orders)."""
-        return self._figures("moment", "length")
-
-    # --- peaks of the sum of orders -------------------------------------------------------------
-
-    @cached_property
-    def force_sum_peak_xy(self) -> NDArray[np.float64]:
-        """Largest force along x and along y of all orders together, N: (…, 2); true extrema."""
-        return self._figures("force", "sum")
-
-    @cached_property
-    def moment_sum_peak_xy(self) -> NDArray[np.float64]:
-        """Largest moment about x and y of all orders together, N·m: (…, 2); true extrema."""
-        return self._figures("moment", "sum")
-
-    @cached_property
-    def torque_sum_peak(self) -> NDArray[np.float64]:
-        """Largest roll torque of all orders together, N·m: (…); true extrema."""
-        return self._figures("torque", "sum")
-
-    @cached_property
-    def force_sum_peak_vector(self) -> NDArray[np.float64]:
-        """Longest force of all orders together, N: (…); true extrema."""
-        return self._figures("force", "length of sum")
-
-    @cached_property
-    def moment_sum_peak_vector(self) -> NDArray[np.float64]:
-        """Longest moment of all orders together, N·m: (…); true extrema."""
-        return self._figures("moment", "length of sum")
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=[60, 90], hold="pins", rod_ratio=[0.25, 0.3])
+        >>> engine = s.engine_at(bank_angle_deg=90, rod_ratio=0.3)
+        >>> engine.bank_angle_deg, engine.cylinders[0].rod_ratio
+        (90.0, 0.3)
+        """
+        at: dict[str, Any] = {name: [value] for name, value in self.fixed.items()} | dict(
+            self.coords
+        )
+        for name, value in selection.items():
+            values = at[inputs.one_of("dimension", name, list(at))]
+            at[name] = [values[_place(name, value, values)]]
+        for name, values in at.items():
+            if len(values) > 1 and name != "rpm":
+                raise InputError(f"{name} is swept: give the value at which the engine is wanted")
+        place = list(self.coords["engine"]).index(at["engine"][0]) if "engine" in at else 0
+        engine = self.engines[place]
+        if "bank_angle_deg" in at and self.hold is not None:
+            engine = engine.with_bank_angle(float(at["bank_angle_deg"][0]), hold=self.hold)
+        changes = []
+        for cylinder in engine.cylinders:
+            changed = {}
+            if "rod_ratio" in at:
+                changed["rod_length"] = cylinder.crank_radius / float(at["rod_ratio"][0])
+            if "pin_offset" in at:
+                changed["pin_offset"] = float(at["pin_offset"][0])
+            changes.append(cylinder.replace(**changed))
+        return engine if tuple(changes) == engine.cylinders else engine.replace(cylinder=changes)
 
     # --- over crank angle -----------------------------------------------------------------------
 
-    def waveform(
-        self, theta_deg: ArrayLike | None = None, *, exact: bool | None = None
-    ) -> SweepWaveform:
+    def waveform(self, theta_deg: ArrayLike | None = None, *, exact: bool = False) -> SweepWaveform:
         """Return force, moment and torque over crank angle at every point.
 
         As sums of the sweep's orders, or by exact kinematics. Orders that the layout cancels are
-        not summed, cylinders that move alike are worked out once.
+        not summed; the motion of cylinders that move alike is computed once.
 
         Parameters
         ----------
         theta_deg
             Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
         exact
-            True for exact kinematics, False for the sum of orders. By default the sum, unless its
-            orders were chosen with ``orders="auto"`` and kinematics cost less.
+            True for exact kinematics, False for the sum of the sweep's orders.
 
         Returns
         -------
@@ -383,34 +301,34 @@ class Sweep(Frozen):
         Raises
         ------
         InputError
-            If an argument is out of range, or exact kinematics are asked of a spectrum.
+            If an argument is out of range, or exact kinematics is requested with a spectrum.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> i4, i6 = cp.Engine.preset("i4"), cp.Engine.preset("i6")
-        >>> s = cp.sweep([i4, i6], rpm=[3000, 6000], orders="auto", rtol=1e-9)
+        >>> s = cp.sweep([i4, i6], rpm=[3000, 6000])
         >>> s.waveform(range(360)).torque.shape
         (2, 2, 360)
         """
         theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
-        by_spectrum = self._arguments["spectrum"] is not None
-        if exact is None:
-            exact = self._arguments["orders"] == "auto" and self._core.kinematics_cost_less
-        elif inputs.flag("exact", exact) and by_spectrum:
-            cure = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
-            raise _core.InputError(f"exact = True: {cure}")
-        return SweepWaveform(self, theta, exact=bool(exact))
+        if inputs.flag("exact", exact) and self.request.pairs is not None:
+            remedy = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
+            raise InputError(f"exact = True: {remedy}")
+        return SweepWaveform(self, theta, bool(exact))
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_xarray(self, *quantities: Quantity) -> xr.Dataset:
-        """Return phasors and peaks with named dimensions and units (needs xarray).
+    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
+        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
 
         Parameters
         ----------
         *quantities
-            ``"force"``, ``"moment"``, ``"torque"``; by default force and moment.
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        split_complex
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im". netCDF
+            needs it: ``sweep.to_xarray(split_complex=True).to_netcdf(path)``.
 
         Examples
         --------
@@ -419,103 +337,92 @@ class Sweep(Frozen):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
-        wanted = quantities or ("force", "moment")
-        variables = {
-            variable.name: (
-                self._variable_dims(variable),
-                getattr(self, variable.name),
-                variable.attributes,
+        return export.to_xarray(
+            self.source,
+            self.named(quantities),
+            self.coords,
+            self.attributes,
+            split_complex=split_complex,
+        )
+
+    def to_dask(self, chunks: Chunks, *quantities: str) -> xr.Dataset:
+        """Return the arrays of :meth:`to_xarray`, computed by dask (needs dask and xarray).
+
+        The result may be larger than memory; each chunk is an ordinary sweep, in any of dask's
+        schedulers, and its values have the same bits as those of one sweep of everything.
+
+        Parameters
+        ----------
+        chunks
+            Points to a chunk of each swept dimension; or a mapping dimension → points, the
+            dimensions that it leaves out staying whole; or ``"auto"``.
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=range(1000, 7000), orders=[2])
+        >>> s.to_dask(1000).force_peak.chunks
+        ((1000, 1000, 1000, 1000, 1000, 1000), (1,))
+        """
+        if self.source.progress is not False:
+            raise InputError(
+                "progress cannot be combined with to_dask; use dask.diagnostics.ProgressBar"
             )
-            for variable in variables_of(*wanted)
-            if "vector" not in variable.name
-        }
-        return self._dataset(variables, wanted)
+        from crankpin.analysis.dask import dataset  # noqa: PLC0415 - it makes sweeps
 
-    def _variable_dims(self, variable: Variable) -> tuple[str, ...]:
-        """Return the names of a variable's dimensions."""
-        return (*self.coords, *variable.dims)
+        return dataset(self, chunks, self.named(quantities))
 
-    def _dataset(self, variables: dict[str, Any], quantities: Sequence[Quantity]) -> xr.Dataset:
-        """Return variables with this sweep's coordinates."""
-        coords = tables.coordinates(self.coords)
-        coords["order"] = ("order", list(self.orders), {"units": tables.XARRAY_UNITS["order"]})
-        if any(quantity != "torque" for quantity in quantities):
-            coords["axis"] = ("axis", ["x", "y"])
-        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, self._attributes)
-        return dataset
+    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the quantities named, all that there are if none is named."""
+        return check_quantities(quantities, self.request.quantities)
 
     @property
-    def _attributes(self) -> dict[str, Any]:
-        """What holds for the whole of a dataset."""
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
         return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
 
-    def to_pandas(self, quantity: Quantity = "moment") -> pd.DataFrame:
-        """Return the peaks of each order as a table, one row a swept point (needs pandas).
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a point, order, quantity and component (needs pandas).
 
-        Columns are (order, axis); rows are labelled by the swept values.
+        Columns are the swept dimensions, order, quantity, component, real and imag (the peak
+        phasor), peak and unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[3000, 6000], orders=[2])
-        >>> s.to_pandas("force").shape
-        (2, 2)
+        >>> s.to_pandas("torque").columns.tolist()
+        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
         """
-        pandas = tables.pandas()
-        peaks = self._peaks(quantity)
-        axes = ["z"] if quantity == "torque" else ["x", "y"]
-        columns = pandas.MultiIndex.from_product([self.orders, axes], names=["order", "axis"])
-        if self.coords:
-            index = pandas.MultiIndex.from_product(
-                list(self.coords.values()), names=list(self.coords)
-            )
-            if len(self.coords) == 1:
-                index = index.get_level_values(0)
-        else:
-            index = None
-        table: pd.DataFrame = pandas.DataFrame(
-            peaks.reshape(-1, len(columns)), index=index, columns=columns
-        )
-        return table
+        return export.to_pandas(self.source, self.named(quantities), self.coords)
 
-    def plot(self, *, quantity: Quantity = "moment", x: str | None = None) -> Figure:
-        """Draw the peaks of each order over a swept quantity; return the figure.
+    def plot(self, ax: Any = None, *, quantity: str = "moment", x: str | None = None) -> Any:  # noqa: ANN401
+        """Draw the peaks of each order over a swept dimension; return the axes.
 
         One panel for each order and axis, one curve for each combination of the other dimensions.
 
         Parameters
         ----------
+        ax
+            Axes to draw on, one for each order shown and axis: (n_orders, 2), of torque
+            (n_orders, 1); by default new ones.
         quantity
-            ``"force"``, ``"moment"`` or ``"torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         x
             The dimension along the horizontal axis; by default the longest.
+
+        Returns
+        -------
+        numpy.ndarray of matplotlib axes
         """
-        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
-
-        return figures.sweep(self, quantity, x)
-
-    def _phasors(self, quantity: Quantity) -> NDArray[np.complex128]:
-        with progress_bar.shown(self._progress, f"{quantity}, phasors") as told:
-            return self._core.phasors(quantity, told)
-
-    def _figures(self, quantity: Quantity, which: str) -> NDArray[np.float64]:
-        with progress_bar.shown(self._progress, f"{quantity}, {which}") as told:
-            return self._core.peaks(quantity, which, told)
-
-    def _peaks(self, quantity: Quantity) -> NDArray[np.float64]:
-        inputs.one_of("quantity", quantity, _ORDER_DIMS)
-        name = "torque_peak" if quantity == "torque" else f"{quantity}_peak_xy"
-        return getattr(self, name)  # type: ignore[no-any-return]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        axes = {
-            name: self._core.axis(name) if rank else float(self._core.axis(name)[0])
-            for name, rank in self._ranks.items()
-        }
-        return (
-            _again,
-            (self.engines, self._names, self._arguments | axes),
-        )
+        return draw(self, ax, quantity=quantity, x=x)
 
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
@@ -523,51 +430,22 @@ class Sweep(Frozen):
         return f"<Sweep over ({swept}), orders {list(self.orders)}{held}>"
 
 
-_ORDER_DIMS: dict[str, tuple[str, ...]] = {
-    "force": ("order", "axis"),
-    "moment": ("order", "axis"),
-    "torque": ("order",),
-}
+def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers
+    """Return the place of a value among the swept ones."""
+    if name == "engine":
+        names = list(values)
+        return names.index(inputs.one_of("engine", value, names))
+    number = inputs.number(name, value)
+    found = np.flatnonzero(np.asarray(values) == number)
+    if not found.size:
+        raise InputError(
+            f"{name} = {inputs.shorten(value)}: is not among the {len(values)} swept values, "
+            f"{np.min(values):.10g} to {np.max(values):.10g}"
+        )
+    return int(found[0])
 
 
-class Variable(NamedTuple):
-    """What a sweep tells of a quantity: an attribute and the dimensions after the swept ones."""
-
-    name: str
-    quantity: Quantity
-    dims: tuple[str, ...]
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """What an xarray variable is labelled with."""
-        return {"units": tables.XARRAY_UNITS[self.quantity]}
-
-
-def variables_of(*quantities: Quantity) -> Iterator[Variable]:
-    """Yield phasors and peaks of some quantities."""
-    for quantity in quantities:
-        dims = _ORDER_DIMS[inputs.one_of("quantity", quantity, _ORDER_DIMS)]
-        yield Variable(quantity, quantity, dims)
-        if quantity == "torque":
-            yield Variable("torque_peak", quantity, dims)
-            yield Variable("torque_sum_peak", quantity, ())
-            continue
-        yield Variable(f"{quantity}_peak_xy", quantity, dims)
-        yield Variable(f"{quantity}_sum_peak_xy", quantity, ("axis",))
-        yield Variable(f"{quantity}_peak_vector", quantity, ("order",))
-        yield Variable(f"{quantity}_sum_peak_vector", quantity, ())
-
-
-def _again(
-    engines: tuple[Engine, ...], names: Sequence[str] | None, arguments: dict[str, Any]
-) -> Sweep:
-    again: Sweep = sweep(engines[0] if names is None else engines, **arguments)
-    if names is not None:
-        again._set(_names=names)
-    return again
-
-
-def _listed(engines: Engines) -> tuple[list[Engine], Sequence[str] | None]:
+def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
     """Return the engines, and their names where there may be several."""
     if isinstance(engines, Engine):
         return [engines], None
@@ -578,14 +456,33 @@ def _listed(engines: Engines) -> tuple[list[Engine], Sequence[str] | None]:
         engines = inputs.items("engines", engines, "give crankpin.Engine objects")
     for engine in engines:
         if not isinstance(engine, Engine):
-            raise _core.InputError(
-                f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects"
-            )
-    return list(engines), [engine.name for engine in engines] if names is None else names
+            raise InputError(f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects")
+    if names is None:
+        names = [engine.name for engine in engines]
+    return list(engines), tuple(names)
 
 
-def _told_apart(names: Sequence[str]) -> list[str]:
-    """Return names, numbered where they do not tell the engines apart."""
+def _distinct(names: Sequence[str]) -> list[str]:
+    """Return names, numbered where they do not distinguish the engines."""
     if "" not in names and len(set(names)) == len(names):
         return list(names)
     return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
+
+
+def engine_titles(sweep: Sweep) -> list[str]:
+    """Return names of a sweep's engines for titles and legends.
+
+    Where bank angle is swept, names of engines (not those of a mapping) go without the bank angle
+    that the engine had before, such as in "V6 60°".
+    """
+    given = sweep.coords.get("engine")
+    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
+    if given is not None:
+        names = [str(name) for name in given]
+    own = [engine.name for engine in sweep.engines]
+    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
+        return names
+    pairs = zip(names, sweep.engines, strict=True)
+    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
+    distinct = all(without) and len(set(without)) == len(names)
+    return without if distinct else names

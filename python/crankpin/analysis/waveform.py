@@ -1,24 +1,64 @@
-"""Force, moment and torque over crank angle."""
+"""Force, moment and torque of an engine over crank angle."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, tables
+from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
-from crankpin.analysis.balance import ErrorBound, error_bound, no_torque
+from crankpin.analysis import export
+from crankpin.analysis.balance import error_bound, mean_piston_speed
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
+from crankpin.analysis.source import ErrorBound
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
-    from crankpin import _core
+    from crankpin._support.inputs import Orders, Spectrum
     from crankpin.model.engine import Engine
+
+
+def waveform(
+    engine: Engine,
+    rpm: float,
+    *,
+    theta_deg: ArrayLike | None = None,
+    orders: Orders | None = None,
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+) -> Waveform:
+    """Return the waveform of an engine; :meth:`Engine.waveform` documents the arguments."""
+    theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+    if orders is None and rtol is not None:
+        raise InputError(
+            f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; exact kinematics has no tolerance'
+        )
+    if orders is None and spectrum is not None:
+        raise InputError(
+            "orders = None: exact kinematics needs the slider-crank; "
+            'give orders, or orders="auto", with a spectrum'
+        )
+    request = Request.checked(
+        orders="auto" if orders is None else orders,
+        rtol=rtol,
+        reference_z=reference_z,
+        spectrum=spectrum,
+        torque=torque,
+        default_rtol=1e-6,
+    )
+    found = Waveform(engine, inputs.number("rpm", rpm), theta, orders is not None, request)
+    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
+    return found
 
 
 class Waveform(Frozen):
@@ -36,36 +76,49 @@ class Waveform(Frozen):
     True
     """
 
+    _fields: ClassVar[tuple[str, ...]] = ("engine", "rpm", "theta_deg", "summed", "request")
+
     engine: Engine
     """The engine."""
     rpm: float
-    """Crank speed."""
+    """Crank speed, rpm."""
     theta_deg: NDArray[np.float64]
     """Crank angles, degrees: (n_theta,)."""
+    summed: bool
+    """True if a sum of orders was requested, False for exact kinematics."""
+    request: Request
+    """The options of the waveform, checked."""
     force: NDArray[np.float64]
     """Shaking force along x and y, N: (n_theta, 2)."""
     moment: NDArray[np.float64]
     """Rocking moment about x (pitch) and y (yaw), N·m: (n_theta, 2)."""
     orders: tuple[int, ...] | None
-    """Orders that were summed; None for exact kinematics, which ``orders="auto"`` takes where it
-    costs less."""
+    """Orders that were summed; None for exact kinematics."""
     omitted: tuple[int, ...]
-    """With ``orders="auto"``: orders left out that are not zero; see :attr:`Balance.omitted`."""
+    """With ``orders="auto"``: orders that were left out; see :attr:`Balance.omitted`."""
     error_bound: ErrorBound
-    """With ``orders="auto"``: what all orders left out can add; see :attr:`Balance.error_bound`."""
+    """With ``orders="auto"``: upper bounds on what the omitted orders add, N and N·m."""
 
     def __init__(
         self,
         engine: Engine,
         rpm: float,
         theta_deg: NDArray[np.float64],
-        parts: _core._WaveformParts,
-        *,
-        by_spectrum: bool,
+        summed: bool,
+        request: Request,
     ) -> None:
-        if not isinstance(parts, tuple):
-            raise InputError(f"Waveform({inputs.shorten(parts)}): use Engine.waveform")
-        force, moment, torque, crank_torque, balance = parts
+        check_request(request, "Engine.waveform")
+        force, moment, torque, crank_torque, balance = _core.waveform(
+            engine_core(engine),
+            rpm,
+            theta_deg,
+            summed,
+            request.listed_orders if summed else None,
+            request.rtol,
+            request.reference_z,
+            request.listed_spectrum,
+            request.torque,
+        )
         theta = inputs.copied(theta_deg)
         theta.setflags(write=False)
         known = torque is not None
@@ -74,9 +127,10 @@ class Waveform(Frozen):
             engine=engine,
             rpm=rpm,
             theta_deg=theta,
+            summed=summed,
+            request=request,
             force=force,
             moment=moment,
-            _by_spectrum=by_spectrum,
             _torque=torque,
             _crank_torque=crank_torque,
             orders=None if balance is None else tuple(balance.orders),
@@ -84,59 +138,76 @@ class Waveform(Frozen):
             error_bound=exact if balance is None else error_bound(balance, torque_known=known),
         )
 
-    _by_spectrum: bool
-    _torque: NDArray[np.float64] | None
-    _crank_torque: NDArray[np.float64] | None
+    _torque: NDArray[np.float64]
+    _crank_torque: NDArray[np.float64]
 
     @property
     def torque(self) -> NDArray[np.float64]:
         """Roll torque of the inertia forces on the block about +z, N·m: (n_theta,).
 
-        InputError where it was not asked for, or a spectrum of forces tells nothing of it.
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
-        return self._known(self._torque)
+        self.request.check("torque")
+        return self._torque
 
     @property
     def crank_torque(self) -> NDArray[np.float64]:
-        """Torque of the inertia forces on the crank about +z, N·m: (n_theta,)."""
-        return self._known(self._crank_torque)
+        """Torque of the inertia forces on the crank about +z, N·m: (n_theta,).
 
-    def _known(self, torque: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        if torque is None:
-            raise no_torque(by_spectrum=self._by_spectrum)
-        return torque
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        self.request.check("crank_torque")
+        return self._crank_torque
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a table, one row a crank angle (needs pandas)."""
-        pandas = tables.pandas()
-        columns = {
-            "force_x": self.force[:, 0],
-            "force_y": self.force[:, 1],
-            "moment_x": self.moment[:, 0],
-            "moment_y": self.moment[:, 1],
-        }
-        if self._torque is not None:
-            columns |= {"torque": self._torque, "crank_torque": self.crank_torque}
-        index = pandas.Index(self.theta_deg, name="theta_deg")
-        table: pd.DataFrame = pandas.DataFrame(columns, index=index)
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a crank angle, quantity and component (needs pandas).
+
+        Columns are theta_deg, quantity, component, value and unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        """
+        pandas = optional.pandas()
+        parts = []
+        for name in check_quantities(quantities, self.request.quantities):
+            values = getattr(self, name)
+            by_component = (
+                {"z": values} if values.ndim == 1 else dict(zip("xy", values.T, strict=True))
+            )
+            for component, column in by_component.items():
+                columns = {
+                    "theta_deg": self.theta_deg,
+                    "quantity": name,
+                    "component": component,
+                    "value": column,
+                    "unit": labels.UNITS[name],
+                }
+                parts.append(pandas.DataFrame(columns))
+        table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
         return table
 
-    def to_xarray(self) -> xr.Dataset:
-        """Return arrays with named dimensions and units (needs xarray)."""
-        variables: dict[str, Any] = {
-            "force": (("theta_deg", "axis"), self.force, {"units": "N"}),
-            "moment": (("theta_deg", "axis"), self.moment, {"units": "N m"}),
-        }
-        if self._torque is not None:
-            variables["torque"] = (("theta_deg",), self._torque, {"units": "N m"})
-            variables["crank_torque"] = (("theta_deg",), self.crank_torque, {"units": "N m"})
-        coords = {
-            "theta_deg": ("theta_deg", self.theta_deg, {"units": "degree"}),
-            "axis": ("axis", ["x", "y"]),
-        }
-        attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        dataset: xr.Dataset = tables.xarray().Dataset(variables, coords, attributes)
-        return dataset
+    def to_xarray(self, *quantities: str) -> xr.Dataset:
+        """Return arrays with named dimensions and units (needs xarray).
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        """
+        names = check_quantities(quantities, self.request.quantities)
+        arrays = {}
+        for name in names:
+            values = getattr(self, name)
+            dims = ("theta_deg", "axis")[: values.ndim]
+            arrays[name] = (dims, values, {"units": export.unit(name)})
+        coords: dict[str, Any] = labels.coordinates({"theta_deg": self.theta_deg})
+        if {"force", "moment"} & set(names):
+            coords["axis"] = ("axis", ["x", "y"])
+        return export.made(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
         """Draw a quantity over crank angle; return the axes.
@@ -146,25 +217,11 @@ class Waveform(Frozen):
         ax
             Axes to draw on; by default new ones.
         quantity
-            ``"force"``, ``"moment"`` or ``"torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         """
-        from crankpin.plot import figures  # noqa: PLC0415 - matplotlib is imported when used
-
-        return figures.waveform(self, ax, quantity)
+        return draw(self, ax, quantity=quantity)  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
-        how = "exact kinematics" if self.orders is None else f"orders {list(self.orders)}"
+        how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
         count = len(self.theta_deg)
         return f"<Waveform of {self.engine!r} at {self.rpm:g} rpm, {count} angles, {how}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (_again, (self.__dict__,))
-
-
-def _again(state: dict[str, Any]) -> Waveform:
-    waveform = Waveform.__new__(Waveform)
-    for value in state.values():
-        if isinstance(value, np.ndarray):
-            value.setflags(write=False)
-    waveform._set(**state)
-    return waveform

@@ -95,11 +95,11 @@ class Cylinder:
         0.043
         """
         figures = (
-            _inputs.number("bore", bore),
-            _inputs.number("stroke", stroke),
-            _inputs.number("rod_length", rod_length),
-            _inputs.number("reciprocating_mass", reciprocating_mass),
-            _inputs.number("pin_offset", pin_offset),
+            inputs.number("bore", bore),
+            inputs.number("stroke", stroke),
+            inputs.number("rod_length", rod_length),
+            inputs.number("reciprocating_mass", reciprocating_mass),
+            inputs.number("pin_offset", pin_offset),
         )
         radius = _core.crank_radius_of_stroke(figures)
         return cls(radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess)
@@ -332,7 +332,7 @@ class Rod:
         0.002736
         """
         figures = {"mass": mass, "length": length, "to_crankpin": to_crankpin}
-        numbers = {name: _inputs.number(name, value) for name, value in figures.items()}
+        numbers = {name: inputs.number(name, value) for name, value in figures.items()}
         return cls(inertia=_core.estimated_rod_inertia(*numbers.values()), **numbers)
 
     def __post_init__(self) -> None:

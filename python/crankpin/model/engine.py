@@ -10,59 +10,88 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels, tables
+from crankpin._support.absent import AbsentError
 from crankpin._support.frozen import Frozen
-from crankpin.analysis.balance import Balance
-from crankpin.analysis.exact import ClosedForm, VanishingOrders
-from crankpin.analysis.firing import Firing, stroke_count
-from crankpin.analysis.waveform import Waveform
+from crankpin.model import builders, files, layout
+from crankpin.model import shafts as rotating
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.closed_form import ClosedForm
+    from crankpin.analysis.firing import Firing
+    from crankpin.analysis.vanishing import VanishingOrders
+    from crankpin.analysis.waveform import Waveform
+    from crankpin.model.builders import FiringRule, Numbering, Side
+    from crankpin.model.shafts import Shaft, Unbalance
 
 Hold: TypeAlias = Literal["pins", "firing"]
-Numbering: TypeAlias = Literal["alternating", "by-bank"]
-Side: TypeAlias = Literal["right", "left"]
-FiringRule: TypeAlias = Literal["even", "ijesc"]
-
 
 _CoreEngine: TypeAlias = _core.Engine
+MOST_SHOWN = 24
+"""Cylinders that a table shows."""
 
 
 class Engine(Frozen):
-    """Cylinders at their places on one crankshaft: three lists.
+    """Cylinders at their places on one crankshaft.
 
-    Made by :meth:`from_lists` from when each cylinder is at top dead centre, which way its bore
-    points and where along the crank it is; by :meth:`inline`, :meth:`vee`, :meth:`flat` and
-    :meth:`boxer` from throws; by :meth:`from_firing_order`; by :meth:`preset`; or from a file. An
-    engine does not change; :meth:`replace` returns another. Two engines are equal when all their
-    figures are, and their names.
+    Three lists describe it: the crank angle of each cylinder's top dead centre, the direction of
+    its bore and its place along the crank. Made by :meth:`from_lists` from these; by
+    :meth:`inline`, :meth:`vee`, :meth:`flat` and :meth:`boxer` from throws; by
+    :meth:`from_firing_order`; by :meth:`preset`; or from a file. An engine does not change;
+    :meth:`replace` returns another. Two engines are equal if all their figures, their names and
+    their firing orders are.
 
     Examples
     --------
     >>> import crankpin as cp
     >>> cylinder = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=1.487)
-    >>> v6 = cp.Engine.vee(cylinder, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13)
-    >>> len(v6)
-    6
-    >>> v6.tdc_deg
-    array([  0.,  60., 240., 300., 120., 180.])
+    >>> v6 = cp.Engine.vee(
+    ...     cylinder, bank_angle_deg=60, throws_deg=[0, 120, 240], pin_split_deg=-60, spacing=0.13,
+    ...     firing_order="1-2-3-4-5-6", name="V6",
+    ... )
+    >>> v6
+    V6: 6 cylinders, bank angle 60°
+    throws 0-120-240°, pins split by -60°
+    4-stroke 1-2-3-4-5-6, even, 120°
+    cylinder  bank   bore °  TDC °  crankpin °   z m
+           1  right      60      0          60     0
+           2  left      120    120           0     0
+           3  right      60    240         180  0.13
+           4  left      120      0         120  0.13
+           5  right      60    120         300  0.26
+           6  left      120    240         240  0.26
+    >>> len(v6), v6.firing().even
+    (6, True)
     """
 
     _core: _CoreEngine
 
-    def __init__(self, core: _CoreEngine, name: str = "", source: str = "") -> None:
+    def __init__(
+        self,
+        core: _CoreEngine,
+        name: str = "",
+        source: str = "",
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+    ) -> None:
         if not isinstance(core, _core.Engine):
             raise InputError(
                 f"Engine({inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
                 ".boxer, .from_firing_order, .preset or .load"
             )
-        if name != "" or source != "":
-            core = core.named(inputs.text("name", name), inputs.text("source", source))
-        self._set(_core=core)
+        title, origin = inputs.text("name", name), inputs.text("source", source)
+        count = inputs.strokes(strokes)
+        order = inputs.firing_order("firing_order", firing_order)
+        if order:
+            core = core.firing_as(_core.Firing.named(core, order, count).text, count)
+        elif count != 4:
+            core = core.firing_as("", count)
+        self._set(_core=core.named(title, origin) if title or origin else core)
 
     # --- builders -------------------------------------------------------------------------------
 
@@ -76,12 +105,16 @@ class Engine(Frozen):
         tdc_deg: Angles | None = None,
         pin_deg: Angles | None = None,
         rotating_mass: ArrayLike = 0.0,
+        counterweights: Iterable[Unbalance] = (),
+        shafts: Iterable[Shaft] = (),
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
         name: str = "",
         source: str = "",
     ) -> Engine:
         """Return the engine that these lists describe, one entry for each cylinder.
 
-        Any layout: W, VR, radial, whatever turns one crank.
+        For any layout on one crank: W, VR, radial.
 
         Parameters
         ----------
@@ -94,18 +127,25 @@ class Engine(Frozen):
         tdc_deg
             Crank angles at which each crankpin points along its bore.
         pin_deg
-            In their place, the crankpins' directions from +x at θ = 0.
+            Directions of the crankpins from +x at θ = 0, in place of ``tdc_deg``.
         rotating_mass
-            Mass that turns at crank radius with each cylinder's crankpin, kg; a number stands for
-            all. Cylinders that share a pin share its mass.
+            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+        counterweights, shafts
+            What rotates besides: see :class:`crankpin.Unbalance` and :class:`crankpin.Shaft`.
+        firing_order
+            Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
+            and files keep it.
+        strokes
+            4 or 2: strokes of a cycle.
         name, source
-            What it is called and where its layout is from.
+            Name of the engine, and the source of its layout.
 
         Raises
         ------
         InputError
-            If lists differ in length, both or neither of ``tdc_deg`` and ``pin_deg`` are given, or
-            a figure makes no engine.
+            If lists differ in length, both or neither of ``tdc_deg`` and ``pin_deg`` are given, a
+            figure is out of range, or the crank does not allow the firing order.
 
         Examples
         --------
@@ -117,18 +157,10 @@ class Engine(Frozen):
         >>> abs(i3.balance(rpm=10, orders=[1]).moment).round(3)
         array([[1.33, 0.  ]])
         """
-        banks = inputs.angles("bank_deg", bank_deg)
-        core = _core.Engine.from_lists(
-            _each(cylinder, len(banks)),
-            None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
-            None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
-            banks,
-            inputs.vector("z", z).tolist(),
-            inputs.per_item("rotating_mass", rotating_mass, len(banks)),
-            "",
-            "",
-        )
-        return cls(core, name, source)
+        core = builders.from_lists(cylinder, tdc_deg, pin_deg, bank_deg, z, rotating_mass)
+        core = rotating.with_counterweights(core, counterweights)
+        core = rotating.with_shafts(core, shafts)
+        return cls(core, name, source, firing_order, strokes)
 
     @classmethod
     def inline(
@@ -139,6 +171,8 @@ class Engine(Frozen):
         spacing: float,
         rotating_mass: ArrayLike = 0.0,
         first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
         name: str = "",
         source: str = "",
     ) -> Engine:
@@ -154,11 +188,11 @@ class Engine(Frozen):
         spacing
             Distance between neighbouring cylinders, m.
         rotating_mass
-            Mass that turns with each throw at crank radius, kg; one for all, or one for each.
+            As in :meth:`from_lists`.
         first_tdc_deg
             Crank angle at which cylinder 1 is at top dead centre.
-        name, source
-            What it is called and where its layout is from.
+        firing_order, strokes, name, source
+            As in :meth:`from_lists`.
 
         Examples
         --------
@@ -169,8 +203,8 @@ class Engine(Frozen):
         array([[    0.,     0.],
                [    0., 12359.]])
         """
-        layout = _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg)
-        return cls(_core.Engine.inline(parts(cylinder), layout), name, source)
+        core = builders.inline(cylinder, throws_deg, spacing, rotating_mass, first_tdc_deg)
+        return cls(core, name, source, firing_order, strokes)
 
     @classmethod
     def vee(
@@ -186,6 +220,8 @@ class Engine(Frozen):
         odd_bank: Side = "right",
         rotating_mass: ArrayLike = 0.0,
         first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
         name: str = "",
         source: str = "",
     ) -> Engine:
@@ -212,12 +248,12 @@ class Engine(Frozen):
         odd_bank
             The bank with cylinder 1, seen from the flywheel.
         rotating_mass
-            Mass that turns with each throw at crank radius, half of it in the plane of each of its
-            two cylinders, kg; one for all, or one for each.
+            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
         first_tdc_deg
             Crank angle at which cylinder 1 is at top dead centre.
-        name, source
-            What it is called and where its layout is from.
+        firing_order, strokes, name, source
+            As in :meth:`from_lists`.
 
         Examples
         --------
@@ -226,21 +262,22 @@ class Engine(Frozen):
         >>> v8 = cp.Engine.vee(
         ...     cylinder, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1
         ... )
-        >>> v8.balance(rpm=6000, orders=[1]).backward_moment  # all of it turns with the crank
+        >>> v8.balance(rpm=6000, orders=[1]).moment.backward  # all of it turns with the crank
         array([0.+0.j])
         """
-        layout = _vee_layout(
-            bank_angle_deg=bank_angle_deg,
-            throws_deg=throws_deg,
-            spacing=spacing,
-            pin_split_deg=pin_split_deg,
-            bank_stagger=bank_stagger,
-            numbering=numbering,
-            odd_bank=odd_bank,
-            rotating_mass=rotating_mass,
-            first_tdc_deg=first_tdc_deg,
+        core = builders.vee(
+            cylinder,
+            bank_angle_deg,
+            throws_deg,
+            spacing,
+            pin_split_deg,
+            bank_stagger,
+            numbering,
+            odd_bank,
+            rotating_mass,
+            first_tdc_deg,
         )
-        return cls(_core.Engine.vee(parts(cylinder), layout), name, source)
+        return cls(core, name, source, firing_order, strokes)
 
     @classmethod
     def flat(
@@ -249,22 +286,40 @@ class Engine(Frozen):
         *,
         throws_deg: Angles,
         spacing: float,
-        **options: Any,  # noqa: ANN401
+        bank_stagger: float = 0.0,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
     ) -> Engine:
         """Return a flat engine whose opposed cylinders share a crankpin: a 180° vee.
 
-        Takes what :meth:`vee` takes but ``bank_angle_deg``.
+        Parameters are those of :meth:`vee`.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> flat4 = cp.Engine.flat(cp.Cylinder(1, 2, 9), throws_deg=[0, 180], spacing=0.2)
-        >>> abs(flat4.balance(rpm=10, orders=[1]).moment).round(2)
-        array([[0.  , 3.95]])
+        >>> flat4.tdc_deg
+        array([  0., 180., 180.,   0.])
         """
-        return cls.vee(
-            cylinder, bank_angle_deg=180, throws_deg=throws_deg, spacing=spacing, **options
+        core = builders.vee(
+            cylinder,
+            180,
+            throws_deg,
+            spacing,
+            0.0,
+            bank_stagger,
+            numbering,
+            odd_bank,
+            rotating_mass,
+            first_tdc_deg,
         )
+        return cls(core, name, source, firing_order, strokes)
 
     @classmethod
     def boxer(
@@ -273,12 +328,20 @@ class Engine(Frozen):
         *,
         throws_deg: Angles,
         spacing: float,
-        **options: Any,  # noqa: ANN401
+        bank_stagger: float = 0.0,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
     ) -> Engine:
         """Return a boxer: opposed pistons move in mirror image, on pins half a turn apart.
 
-        Takes what :meth:`vee` takes but ``bank_angle_deg`` and ``pin_split_deg``;
-        ``bank_stagger`` is the distance that a crank web puts between opposed cylinders.
+        Parameters are those of :meth:`vee`; ``bank_stagger`` is the distance that a crank web puts
+        between opposed cylinders, m.
 
         Examples
         --------
@@ -287,14 +350,19 @@ class Engine(Frozen):
         >>> boxer.tdc_deg
         array([  0.,   0., 180., 180.])
         """
-        return cls.vee(
+        core = builders.vee(
             cylinder,
-            bank_angle_deg=180,
-            pin_split_deg=180,
-            throws_deg=throws_deg,
-            spacing=spacing,
-            **options,
+            180,
+            throws_deg,
+            spacing,
+            180,
+            bank_stagger,
+            numbering,
+            odd_bank,
+            rotating_mass,
+            first_tdc_deg,
         )
+        return cls(core, name, source, firing_order, strokes)
 
     @classmethod
     def from_firing_order(
@@ -315,14 +383,15 @@ class Engine(Frozen):
         name: str = "",
         source: str = "",
     ) -> Engine:
-        """Return the engine that fires in this order.
+        """Return an engine that fires in this order, and remembers it.
 
         Parameters
         ----------
         cylinder
             Moving parts of every cylinder.
         firing_order
-            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list.
+            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list. Where ``rule="ijesc"`` gives a
+            crank that cannot fire in this order, the engine's firing order is left empty.
         spacing
             Distance between neighbouring throws, m.
         bank_angle_deg
@@ -359,31 +428,33 @@ class Engine(Frozen):
 
         See :func:`crankpin.throws` for the crank alone.
         """
-        text = inputs.firing_order(firing_order)
-        rule_text = inputs.text("rule", rule, 'give "even" or "ijesc"')
-        listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
-        order = (text, rule_text, listed, stroke_count(strokes))
-        if bank_angle_deg is None:
-            inline = _inline_layout([], spacing, rotating_mass, first_tdc_deg)
-            core = _core.Engine.inline_from_firing_order(parts(cylinder), *order, inline)
-        else:
-            vee = _vee_layout(
-                bank_angle_deg=bank_angle_deg,
-                throws_deg=[],
-                spacing=spacing,
-                pin_split_deg=0.0,
-                bank_stagger=bank_stagger,
-                numbering=numbering,
-                odd_bank=odd_bank,
-                rotating_mass=rotating_mass,
-                first_tdc_deg=first_tdc_deg,
-            )
-            core = _core.Engine.vee_from_firing_order(parts(cylinder), *order, vee)
-        return cls(core, name, source)
+        order = inputs.firing_order("firing_order", firing_order)
+        core = builders.from_firing_order(
+            cylinder,
+            order,
+            spacing,
+            bank_angle_deg,
+            rule,
+            intervals_deg,
+            strokes,
+            numbering,
+            odd_bank,
+            bank_stagger,
+            rotating_mass,
+            first_tdc_deg,
+        )
+        return cls(core, name, source, _allowed(core, order, strokes), strokes)
 
     @classmethod
     def preset(
-        cls, name: str, *, cylinder: Cylinder | None = None, spacing: float | None = None
+        cls,
+        name: str,
+        *,
+        cylinder: Cylinder | None = None,
+        spacing: float | None = None,
+        rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] = (),
+        shafts: Iterable[Shaft] = (),
     ) -> Engine:
         """Return an engine by its name in :func:`crankpin.presets`.
 
@@ -392,10 +463,11 @@ class Engine(Frozen):
         name
             Such as ``"v8-crossplane"``.
         cylinder
-            Moving parts in place of the preset's, for all cylinders.
+            Moving parts of all cylinders, in place of the preset's.
         spacing
-            Distance between neighbouring throws in place of the preset's, m: z and bank stagger are
-            stretched about the front.
+            Distance between neighbouring throws, in place of the preset's, m.
+        rotating_mass, counterweights, shafts
+            As in :meth:`from_lists`, in place of the preset's.
 
         Raises
         ------
@@ -408,21 +480,26 @@ class Engine(Frozen):
         >>> cp.Engine.preset("v8-crossplane").name
         'V8 90°, cross-plane'
         """
-        from crankpin.model import presets  # noqa: PLC0415 - presets are made of engines
+        from crankpin.model import presets
 
-        return presets.preset(name, cylinder=cylinder, spacing=spacing)
+        engine = presets.preset(name, cylinder=cylinder, spacing=spacing)
+        return engine.replace(
+            rotating_mass=rotating_mass,
+            counterweights=counterweights or None,
+            shafts=shafts or None,
+        )
 
     # --- files ----------------------------------------------------------------------------------
 
     @classmethod
     def from_toml(cls, text: str) -> Engine:
         """Return the engine that a TOML text describes; see :meth:`to_toml`."""
-        return cls(_core.Engine.from_toml(text))
+        return cls(files.from_toml(text))
 
     @classmethod
     def from_json(cls, text: str) -> Engine:
         """Return the engine that a JSON text describes; see :meth:`to_json`."""
-        return cls(_core.Engine.from_json(text))
+        return cls(files.from_json(text))
 
     @classmethod
     def load(cls, path: str | Path) -> Engine:
@@ -431,18 +508,11 @@ class Engine(Frozen):
         Raises
         ------
         InputError
-            If the name ends otherwise, or the text describes no engine.
+            If the name ends otherwise, or the text does not describe an engine.
         OSError
             If the file cannot be read.
         """
-        path = Path(path)
-        read = {".toml": cls.from_toml, ".json": cls.from_json}.get(path.suffix.lower())
-        if read is None:
-            raise InputError(f"path = {str(path)!r}: an engine file ends in .toml or .json")
-        try:
-            return read(path.read_text(encoding="utf-8"))
-        except UnicodeDecodeError as error:
-            raise InputError(f"path = {str(path)!r}: {error}; an engine file is UTF-8") from None
+        return cls(files.load(path))
 
     def to_toml(self) -> str:
         """Return the engine as TOML with a schema version; it reads back as an equal engine.
@@ -475,69 +545,150 @@ class Engine(Frozen):
 
     def save(self, path: str | Path) -> None:
         """Write the engine to a ``.toml`` or ``.json`` file."""
-        path = Path(path)
-        write = {".toml": self.to_toml, ".json": self.to_json}.get(path.suffix.lower())
-        if write is None:
-            raise InputError(f"path = {str(path)!r}: an engine file ends in .toml or .json")
-        path.write_text(write(), encoding="utf-8")
+        files.save(path, self._core)
 
     # --- what it is -----------------------------------------------------------------------------
 
     @property
+    def core(self) -> _CoreEngine:
+        """Compiled counterpart of the engine; private to crankpin."""
+        return self._core
+
+    @property
     def name(self) -> str:
-        """What it is called; may be empty."""
+        """Name of the engine; may be empty."""
         return self._core.name
 
     @property
     def source(self) -> str:
-        """Where its layout is from; may be empty."""
+        """Source of the layout; may be empty."""
         return self._core.source
 
     @property
+    def firing_order(self) -> str:
+        """Firing order, such as ``"1-3-4-2"``; empty if it is not known."""
+        return self._core.firing_order
+
+    @property
+    def strokes(self) -> int:
+        """Strokes of a cycle: 4 or 2."""
+        return self._core.strokes
+
+    @property
     def cylinders(self) -> tuple[Cylinder, ...]:
-        """Moving parts, cylinder by cylinder."""
+        """Moving parts of each cylinder."""
         return tuple(Cylinder(*parts) for parts in self._core.cylinders)
 
     @property
     def tdc_deg(self) -> NDArray[np.float64]:
-        """Crank angles at which crankpins point along their bores, in [0, 360): (n_cylinders,)."""
+        """Crank angles at which crankpins point along their bores, degrees in [0, 360).
+
+        Of shape (n_cylinders,).
+        """
         return self._core.tdc_deg
 
     @property
     def bank_deg(self) -> NDArray[np.float64]:
-        """Directions of the bores from +x, in [0, 360): (n_cylinders,)."""
+        """Directions of the bores from +x, degrees in [0, 360): (n_cylinders,)."""
         return self._core.bank_deg
 
     @property
     def pin_deg(self) -> NDArray[np.float64]:
-        """Directions of the crankpins from +x at θ = 0, in [0, 360): (n_cylinders,)."""
+        """Directions of the crankpins from +x at θ = 0, degrees in [0, 360): (n_cylinders,)."""
         return self._core.pin_deg
 
     @property
     def z(self) -> NDArray[np.float64]:
-        """Places along the crank, m: (n_cylinders,)."""
+        """Places along the crank, from the front to the flywheel, m: (n_cylinders,)."""
         return self._core.z
 
     @property
     def rotating_mass(self) -> NDArray[np.float64]:
-        """Mass that turns with each cylinder's crankpin at crank radius, kg: (n_cylinders,)."""
+        """Rotating mass at the crank radius, each cylinder's share of its pin, kg.
+
+        Of shape (n_cylinders,).
+        """
         return self._core.rotating_mass
 
     @property
-    def bank_angle_deg(self) -> float:
-        """Angle between the banks of an engine that has two; InputError for any other."""
-        return self._core.bank_angle_deg
+    def counterweights(self) -> tuple[Unbalance, ...]:
+        """Unbalances on the crankshaft besides ``rotating_mass``: amounts in kg·m, z in m."""
+        return rotating.counterweights(self._core)
+
+    @property
+    def shafts(self) -> tuple[Shaft, ...]:
+        """Balance shafts: axes and z in m, unbalances in kg·m."""
+        return rotating.shafts(self._core)
 
     @property
     def reference_z(self) -> float:
-        """Default reference plane of moments: midway between first and last cylinder, m."""
+        """Default reference plane of moments, midway between first and last cylinder, m."""
         return self._core.middle
+
+    @property
+    def banks(self) -> dict[str, tuple[int, ...]]:
+        """Numbers of the cylinders whose bores have one direction, by the name of the bank.
+
+        Two banks are ``"right"`` and ``"left"``, as seen from the flywheel; others ``"bank 1"``,
+        ``"bank 2"``, ….
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("v8-crossplane").banks
+        {'right': (2, 4, 6, 8), 'left': (1, 3, 5, 7)}
+        """
+        return layout.banks(self._core)
+
+    @property
+    def bank_angle_deg(self) -> float:
+        """Angle between the two banks, degrees; undefined for any other number of banks."""
+        return layout.bank_angle_deg(self._core)
+
+    @property
+    def throws_deg(self) -> NDArray[np.float64]:
+        """Crankpins in the direction of rotation from the front one, degrees in [0, 360).
+
+        Those of the right bank if there are two; undefined for more. Of shape (n_throws,).
+        """
+        return layout.throws_deg(self._core)
+
+    @property
+    def pin_split_deg(self) -> NDArray[np.float64]:
+        """Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,).
+
+        Undefined unless there are two banks of as many cylinders.
+        """
+        return layout.pin_split_deg(self._core)
+
+    @property
+    def firing_intervals_deg(self) -> NDArray[np.float64]:
+        """Crank angles between the firings of ``firing_order``, degrees: (n_cylinders,).
+
+        Undefined if the firing order is not known.
+        """
+        return self._own_firing("firing_intervals_deg").intervals_deg
+
+    @property
+    def fires_evenly(self) -> bool:
+        """True if all intervals of ``firing_order`` are equal; undefined if it is not known."""
+        return self._own_firing("fires_evenly").even
+
+    def _own_firing(self, name: str) -> Firing:
+        if not self.firing_order:
+            raise AbsentError(
+                f"{name} is undefined for this engine: its firing order is not known; give it with "
+                "replace(firing_order=…), or use firing(…)"
+            )
+        return self.firing()
 
     def __len__(self) -> int:
         return len(self._core.z)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Engine) and self._core == other._core
+        if not isinstance(other, Engine):
+            return NotImplemented
+        return self._core == other._core
 
     def __hash__(self) -> int:
         return hash(self._core)
@@ -545,11 +696,44 @@ class Engine(Frozen):
     def __reduce__(self) -> tuple[Any, ...]:
         return (Engine, (self._core,))
 
+    def _lines(self) -> list[str]:
+        """Return what a table of the engine has above it."""
+        count = len(self.banks)
+        if count == 2:
+            banks = f"bank angle {self.bank_angle_deg:.6g}°"
+        else:
+            banks = f"{count} banks" if count > 1 else f"bores at {self.bank_deg[0]:.6g}°"
+        cylinders = f"{len(self)} cylinder" + "s" * (len(self) > 1)
+        name = " ".join(self.name.split()) or "Engine"
+        lines = [f"{labels.cut(name)}: {cylinders}, {banks}"]
+        lines += [text] if (text := layout.text(self._core)) else []
+        return [
+            *(line if len(line) <= 100 else f"{line[:99]}…" for line in lines),
+            *([labels.cut(self.firing().summary, 100)] if self.firing_order else []),
+            *(labels.cut(line, 100) for line in rotating.lines(self._core)),
+        ]
+
+    def _table(self, title: str) -> tables.Table:
+        names = {number: name for name, numbers in self.banks.items() for number in numbers}
+        columns = {
+            "bore °": self.bank_deg,
+            "TDC °": self.tdc_deg,
+            "crankpin °": self.pin_deg,
+            "z m": self.z,
+        }
+        if self.rotating_mass.any():
+            columns["rotating mass kg"] = self.rotating_mass
+        labels = [(number, names[number]) for number in range(1, len(self) + 1)][:MOST_SHOWN]
+        rows = np.stack(list(columns.values()), axis=1)[:MOST_SHOWN]
+        return tables.Table(title, ["cylinder", "bank", *columns], labels, rows)
+
     def __repr__(self) -> str:
-        name = f"{self.name!r}, " if self.name else ""
-        banks = sorted(set(self.bank_deg.tolist()))
-        bores = ", ".join(f"{bank:g}°" for bank in banks[:6]) + ("…" if len(banks) > 6 else "")
-        return f"<Engine {name}{len(self)} cylinders, bores at {bores}>"
+        rest = len(self) - MOST_SHOWN
+        more = [f"and {rest} more cylinders"] if rest > 0 else []
+        return "\n".join([*self._lines(), self._table("").text(), *more])
+
+    def _repr_html_(self) -> str:
+        return self._table("; ".join(self._lines())).html()
 
     def replace(
         self,
@@ -560,10 +744,16 @@ class Engine(Frozen):
         bank_deg: Angles | None = None,
         z: ArrayLike | None = None,
         rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] | None = None,
+        shafts: Iterable[Shaft] | None = None,
+        firing_order: str | Iterable[int] | None = None,
+        strokes: int | None = None,
         name: str | None = None,
         source: str | None = None,
     ) -> Engine:
         """Return a copy with some lists changed; see :meth:`from_lists`.
+
+        A firing order that the changed crank does not allow is dropped, unless it is given.
 
         Examples
         --------
@@ -576,27 +766,79 @@ class Engine(Frozen):
         exact_tdc, exact_bank = self._core.exact_angles
         if tdc_deg is None and pin_deg is None:
             tdc_deg = exact_tdc
-        return Engine.from_lists(
+        core = builders.from_lists(
             self.cylinders if cylinder is None else cylinder,
-            tdc_deg=tdc_deg,
-            pin_deg=pin_deg,
-            bank_deg=exact_bank if bank_deg is None else bank_deg,
-            z=self.z if z is None else z,
-            rotating_mass=self.rotating_mass if rotating_mass is None else rotating_mass,
-            name=self.name if name is None else name,
-            source=self.source if source is None else source,
+            tdc_deg,
+            pin_deg,
+            exact_bank if bank_deg is None else bank_deg,
+            self.z if z is None else z,
+            self.rotating_mass if rotating_mass is None else rotating_mass,
+            self._core.bank if bank_deg is None else None,
         )
+        weights = self.counterweights if counterweights is None else counterweights
+        core = rotating.with_counterweights(core, weights)
+        core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
+        count = self.strokes if strokes is None else inputs.strokes(strokes)
+        kept = _allowed(core, self.firing_order, count)
+        return Engine(
+            core,
+            self.name if name is None else name,
+            self.source if source is None else source,
+            kept if firing_order is None else firing_order,
+            count,
+        )
+
+    def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Engine:
+        """Return the same engine with these counterweights in place of those it has.
+
+        All analyses count them: balances, waveforms, sweeps and proofs.
+
+        Parameters
+        ----------
+        counterweights
+            Unbalances on the crankshaft, each at an angle of its own or at a crankpin.
+
+        Examples
+        --------
+        The couple of the cross-plane V8 turns with the crank: weights at both ends remove it.
+
+        >>> import numpy as np
+        >>> import crankpin as cp
+        >>> v8 = cp.Engine.preset("v8-crossplane")
+        >>> couple = v8.balance(rpm=60)[1].moment.forward / (2 * np.pi) ** 2
+        >>> distance = v8.z.max() - v8.z.min()
+        >>> angle = np.degrees(np.angle(couple)) + 90
+        >>> ends = [
+        ...     cp.Unbalance(abs(couple) / distance, z, side + angle)
+        ...     for z, side in [(v8.z.min(), 180), (v8.z.max(), 0)]
+        ... ]
+        >>> bool(v8.with_counterweights(ends).balance(rpm=60, orders=[1])[1].moment.peak < 1e-9)
+        True
+        """
+        return Engine(rotating.with_counterweights(self._core, counterweights))
+
+    def with_shafts(self, shafts: Iterable[Shaft]) -> Engine:
+        """Return the same engine with these balance shafts in place of those it has.
+
+        Parameters
+        ----------
+        shafts
+            Balance shafts; see :class:`crankpin.Shaft`.
+        """
+        return Engine(rotating.with_shafts(self._core, shafts))
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Engine:
         """Return the same engine with its two banks at another angle about the same bisector.
+
+        A firing order that the changed crank does not allow is dropped.
 
         Parameters
         ----------
         bank_angle_deg
             Angle between the banks, 0 to 180.
         hold
-            ``"pins"``: the crank stays, firing intervals change (the IJESC paper).
-            ``"firing"``: every top dead centre stays, pins are split as needed (Ito and Hattori).
+            ``"pins"``: crankpins are held, firing intervals change (the IJESC paper).
+            ``"firing"``: all top dead centres are held, pins are split as needed (Ito and Hattori).
 
         Examples
         --------
@@ -606,48 +848,55 @@ class Engine(Frozen):
         90.0
         """
         held = inputs.text("hold", hold, 'give "pins" or "firing"')
-        return Engine(
-            self._core.with_bank_angle(inputs.angle("bank_angle_deg", bank_angle_deg), held)
-        )
+        if len(self.banks) != 2:
+            self.bank_angle_deg  # noqa: B018 - raises
+        core = self._core.with_bank_angle(inputs.angle("bank_angle_deg", bank_angle_deg), held)
+        order = _allowed(core, self.firing_order, self.strokes)
+        return Engine(core if order else core.firing_as("", self.strokes))
 
     def with_first_tdc(self, tdc_deg: Angle) -> Engine:
-        """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle."""
+        """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle.
+
+        Parameters
+        ----------
+        tdc_deg
+            Crank angle, degrees.
+        """
         return Engine(self._core.with_first_tdc(inputs.angle("tdc_deg", tdc_deg)))
 
-    # --- how it shakes --------------------------------------------------------------------------
+    # --- analyses -------------------------------------------------------------------------------
 
     def balance(
         self,
         rpm: float,
-        orders: Orders = (1, 2, 4, 6),
         *,
-        rtol: float = 1e-9,
+        orders: Orders = "auto",
+        rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
     ) -> Balance:
-        """Return how the engine shakes, order by order.
+        """Return force, moment and torque at one speed, order by order.
 
         Parameters
         ----------
         rpm
             Crank speed.
         orders
-            Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol``.
+            Whole multiples of crank speed; by default the few that reach ``rtol``.
         rtol
-            For ``"auto"``: what may be left out, relative to the largest m·r·ω² of any cylinder
-            (its reciprocating or its rotating mass), times the longest lever for moments and the
-            crank radius for torque.
+            For ``orders="auto"``: what the omitted orders may add up to, relative to the largest
+            m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the longest lever
+            for moments and the crank radius for torque. By default 1e-9.
         reference_z
             Plane about which moments are taken, m; by default midway between the first and the last
-            cylinder. It matters where a force is left.
+            cylinder. Moments depend on it where a force remains.
         spectrum
             Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
-            slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still turns
-            with the pins; torque is not known then.
+            slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still
+            counts; torque is undefined then.
         torque
-            Whether torque is wanted. If not, it is neither worked out nor counted where orders are
-            chosen.
+            False to leave out torque, in the result and in the choice of orders.
 
         Returns
         -------
@@ -667,24 +916,20 @@ class Engine(Frozen):
         >>> b.force[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
-        rpm = inputs.number("rpm", rpm)
-        wanted = inputs.orders(orders)
-        rtol = inputs.number("rtol", rtol)
-        plane = inputs.optional_number("reference_z", reference_z)
-        pairs = inputs.spectrum(spectrum)
-        torque = inputs.flag("torque", torque)
-        core = _core.balance(self._core, rpm, wanted, rtol, plane, pairs, torque)
-        inputs.warn_of_units(self._mean_piston_speed(rpm))
-        how: dict[str, Any] = ({"rtol": rtol} if wanted is None else {}) | {"torque": torque}
-        return Balance(core, self, rpm, plane, None if pairs is None else dict(pairs), how)
+        from crankpin.analysis.balance import balance
+
+        return balance(
+            self, rpm, orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum,
+            torque=torque,
+        )  # fmt: skip
 
     def waveform(
         self,
         rpm: float,
+        *,
         theta_deg: ArrayLike | None = None,
         orders: Orders | None = None,
-        *,
-        rtol: float = 1e-6,
+        rtol: float | None = None,
         reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
@@ -699,11 +944,11 @@ class Engine(Frozen):
             Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
         orders
             None for exact kinematics; whole numbers for the sum of those orders; ``"auto"`` for the
-            fewest that reach ``rtol``, with what is left out in ``omitted`` and ``error_bound``, or
-            for exact kinematics where that costs less than their sum: ``orders`` of the result is
-            None then, ``omitted`` empty and ``error_bound`` zero.
-        rtol, reference_z, spectrum, torque
-            As in :meth:`balance`; a spectrum asks for orders.
+            few that reach ``rtol``, the rest being in ``omitted`` and ``error_bound``.
+        rtol
+            For ``orders="auto"``, as in :meth:`balance`; by default 1e-6.
+        reference_z, spectrum, torque
+            As in :meth:`balance`; a spectrum needs ``orders``.
 
         Returns
         -------
@@ -721,37 +966,26 @@ class Engine(Frozen):
         >>> w.force.shape
         (3, 2)
         """
-        rpm = inputs.number("rpm", rpm)
-        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
-        if spectrum is not None and orders is None:
-            cure = 'give orders, or orders="auto", with a spectrum'
-            raise InputError(f"orders = None: exact kinematics needs the slider-crank; {cure}")
-        waveform = _core.waveform(
-            self._core,
-            rpm,
-            theta,
-            orders is not None,
-            None if orders is None else inputs.orders(orders),
-            inputs.number("rtol", rtol),
-            inputs.optional_number("reference_z", reference_z),
-            inputs.spectrum(spectrum),
-            inputs.flag("torque", torque),
-        )
-        inputs.warn_of_units(self._mean_piston_speed(rpm))
-        return Waveform(self, rpm, theta, waveform, by_spectrum=spectrum is not None)
+        from crankpin.analysis.waveform import waveform
 
-    # --- when it fires --------------------------------------------------------------------------
+        return waveform(
+            self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, reference_z=reference_z,
+            spectrum=spectrum, torque=torque,
+        )  # fmt: skip
 
-    def firing(self, firing_order: str | Iterable[int], *, strokes: int = 4) -> Firing:
-        """Return how the engine fires in this order; of several ways the most even.
+    def firing(
+        self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
+    ) -> Firing:
+        """Return angles and intervals of firing in an order; of several ways the most even.
 
         Parameters
         ----------
         firing_order
-            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list, from any of them on. In text,
-            ``+`` joins cylinders that fire together: ``"1+4-2+3"``.
+            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list, beginning with any of them. In
+            text, ``+`` joins cylinders that fire together: ``"1+4-2+3"``. By default the engine's
+            ``firing_order``.
         strokes
-            4, or 2 for a cycle in each turn.
+            4, or 2 for a cycle in each turn; by default the engine's ``strokes``.
 
         Returns
         -------
@@ -760,22 +994,26 @@ class Engine(Frozen):
         Raises
         ------
         InputError
-            If the crank does not allow this order; the message says what it does allow.
+            If the crank does not allow this order (the message has those it does allow), or none is
+            given nor known.
 
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("v6-90-odd-fire").firing("1-6-5-4-3-2")
+        >>> cp.Engine.preset("v6-90-odd-fire").firing()
         <Firing 4-stroke 1-6-5-4-3-2, 150-90-150-90-150-90°>
         """
-        text, number = inputs.firing_order(firing_order), stroke_count(strokes)
-        return Firing(_core.Firing.named(self._core, text, number), self)
+        from crankpin.analysis import firing
 
-    def firings(self, firing_order: str | Iterable[int], *, strokes: int = 4) -> tuple[Firing, ...]:
+        return firing.firing(self, firing_order, strokes)
+
+    def firings(
+        self, firing_order: str | Iterable[int] | None = None, *, strokes: int | None = None
+    ) -> tuple[Firing, ...]:
         """Return every way for the engine to fire in this order, the most even first.
 
-        None if its crank does not allow it; several where the order goes through the top dead
-        centres of one turn, so that the next turn may begin after any cylinder.
+        Empty if the crank does not allow the order. There are several where the order follows the
+        top dead centres of one turn, so that the next turn may begin after any cylinder.
 
         Parameters
         ----------
@@ -790,25 +1028,25 @@ class Engine(Frozen):
         <Firing 4-stroke 1-2, 180-540°>
         <Firing 4-stroke 1-2, 540-180°>
         """
-        text, number = inputs.firing_order(firing_order), stroke_count(strokes)
-        found = _core.Firing.all_named(self._core, text, number)
-        return tuple(Firing(each, self) for each in found)
+        from crankpin.analysis import firing
 
-    def firing_orders(self, *, strokes: int = 4) -> tuple[Firing, ...]:
+        return firing.firings(self, firing_order, strokes)
+
+    def firing_orders(self, *, strokes: int | None = None) -> tuple[Firing, ...]:
         """Return every way for the engine to fire, the most even first.
 
-        In a four-stroke each cylinder but the first has a choice of two turns: 2ⁿ⁻¹ ways, for up to
-        16 cylinders. Cylinders at top dead centre together may fire together.
+        In a four-stroke each cylinder but the first fires in either of two turns: 2ⁿ⁻¹ ways, for up
+        to 16 cylinders. Cylinders at top dead centre together may fire together.
 
         Parameters
         ----------
         strokes
-            4, or 2 for a cycle in each turn.
+            4, or 2 for a cycle in each turn; by default the engine's ``strokes``.
 
         Raises
         ------
         InputError
-            If a four-stroke has more than 16 cylinders: name an order.
+            If a four-stroke has more than 16 cylinders; give an order to :meth:`firings` then.
 
         Examples
         --------
@@ -819,15 +1057,14 @@ class Engine(Frozen):
         <Firing 4-stroke 1-3-4-2, even, 180°>
         <Firing 4-stroke 1-2+3-4, 180-0-180-360°>
         """
-        found = _core.Firing.all(self._core, stroke_count(strokes))
-        return tuple(Firing(each, self) for each in found)
+        from crankpin.analysis import firing
 
-    # --- exactly --------------------------------------------------------------------------------
+        return firing.firing_orders(self, strokes)
 
     def vanishing_orders(
         self, orders: Orders = range(1, 13), *, reference_z: float | None = None
     ) -> VanishingOrders:
-        """Return which orders of force, moment and torque vanish, with proof, at any speed.
+        """Return which orders of force, moment and torque vanish at any speed, proved in integers.
 
         Parameters
         ----------
@@ -849,10 +1086,12 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i6").vanishing_orders().of("force")
+        >>> cp.Engine.preset("i6").vanishing_orders().force.vanishing
         (1, 2, 3, 4, 5, 7, 8, 9, 10, 11)
         """
-        return VanishingOrders(self, orders, reference_z)
+        from crankpin.analysis.vanishing import vanishing_orders
+
+        return vanishing_orders(self, orders, reference_z=reference_z)
 
     def closed_form(
         self,
@@ -887,60 +1126,15 @@ class Engine(Frozen):
         Examples
         --------
         >>> import crankpin as cp
-        >>> cp.Engine.preset("i3").closed_form(1).magnitude
+        >>> cp.Engine.preset("i3").closed_form(1).peak
         sqrt(3)*F*a
         """
-        return ClosedForm(self, order, quantity, reference_z)
+        from crankpin.analysis.closed_form import closed_form
 
-    def _mean_piston_speed(self, rpm: float) -> float:
-        return 4.0 * self._core.largest_crank_radius * rpm / 60.0
-
-
-def parts(cylinder: Cylinder) -> tuple[float, float, float, float, float]:
-    """Return the figures of a cylinder, or say that it is none."""
-    if not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
-    return cylinder._parts
+        return closed_form(self, order, quantity, reference_z=reference_z)
 
 
-def _each(
-    cylinder: Cylinder | Sequence[Cylinder], count: int
-) -> list[tuple[float, float, float, float, float]]:
-    if isinstance(cylinder, Cylinder):
-        return [parts(cylinder)] * count
-    listed = inputs.items(
-        "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
-    )
-    return [parts(each) for each in listed]
-
-
-def _inline_layout(
-    throws_deg: Angles, spacing: float, rotating_mass: ArrayLike, first_tdc_deg: Angle
-) -> dict[str, Any]:
-    return {
-        "throws": inputs.angles("throws_deg", throws_deg),
-        "spacing": inputs.number("spacing", spacing),
-        "rotating_mass": inputs.vector("rotating_mass", rotating_mass).tolist(),
-        "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
-    }
-
-
-def _vee_layout(
-    *,
-    bank_angle_deg: Angle,
-    throws_deg: Angles,
-    spacing: float,
-    pin_split_deg: Angle,
-    bank_stagger: float,
-    numbering: str,
-    odd_bank: str,
-    rotating_mass: ArrayLike,
-    first_tdc_deg: Angle,
-) -> dict[str, Any]:
-    return _inline_layout(throws_deg, spacing, rotating_mass, first_tdc_deg) | {
-        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
-        "pin_split": inputs.angle("pin_split_deg", pin_split_deg),
-        "bank_stagger": inputs.number("bank_stagger", bank_stagger),
-        "numbering": inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
-        "odd_bank": inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
-    }
+def _allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
+    """Return a firing order, or an empty text if the crank does not allow it."""
+    allowed = firing_order and _core.Firing.all_named(core, firing_order, strokes)
+    return firing_order if allowed else ""

@@ -6,7 +6,6 @@ use crate::error::Result;
 use crate::harmonics::{self, torque::TorqueHarmonics};
 use crate::load::{Channel, Loads, Source};
 use crate::order::Order;
-use crate::slider_crank::Cylinder;
 use crate::spectrum::Spectrum;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
 
@@ -22,86 +21,92 @@ pub(crate) fn wrenches(
 ) -> Result<Vec<Wrench>> {
     // Pistons and shafts at whole ratios have whole orders only.
     let whole: Vec<u32> = orders.iter().filter_map(|order| order.as_whole()).collect();
-    let mut found = vec![Wrench::default(); whole.len()];
-    add_planar(&mut found, loads, spectrum, &whole, cancel)?;
-    if torque {
-        add_torque(&mut found, loads, &whole, cancel)?;
-    }
-    let mut found = found.into_iter();
-    let none = Wrench::default();
-    Ok(orders.iter().map(|o| o.as_whole().and_then(|_| found.next()).unwrap_or(none)).collect())
-}
-
-fn add_planar(
-    wrenches: &mut [Wrench],
-    loads: &Loads,
-    spectrum: Option<&Spectrum>,
-    orders: &[u32],
-    cancel: &Cancel,
-) -> Result<()> {
-    let of_motion = |motion: &Cylinder| match spectrum {
-        Some(spectrum) => Ok(orders.iter().map(|&n| spectrum.amplitude(n)).collect()),
-        None => harmonics::coefficients(&motion.proportions(), orders, cancel),
-    };
-    let amplitudes: Vec<Vec<Complex64>> =
-        loads.motions.iter().map(of_motion).collect::<Result<_>>()?;
+    let amplitudes = Amplitudes::new(loads, spectrum, torque, &whole, cancel)?;
     let unbalanced = loads.unbalance_orders();
-    for (k, (wrench, &order)) in wrenches.iter_mut().zip(orders).enumerate() {
+    let mut wrenches = vec![Wrench::default(); orders.len()];
+    let found = wrenches.iter_mut().zip(orders).filter(|(_, order)| order.as_whole().is_some());
+    for (k, (wrench, order)) in found.enumerate() {
         cancel.check()?;
-        let amplitude = |channel| match channel {
-            Channel::Masses(motion) => amplitudes[motion][k],
-            _ => Complex64::new(1.0, 0.0),
-        };
         // Odd orders above 1 of pistons without offset are exactly zero.
-        let zero = amplitudes.iter().all(|of_motion| of_motion[k] == Complex64::default());
-        if zero && !unbalanced.contains(&order) {
-            continue;
-        }
-        for sum in loads.planar(order, false) {
-            let amplitude = amplitude(sum.channel);
+        let planar = amplitudes.has_force(k) || unbalanced.contains(&whole[k]);
+        let (planar, roll) = loads.sums(whole[k], false, [planar, torque]);
+        for sum in planar {
+            let amplitude = amplitudes.of_force(sum.channel, k);
             wrench.force.add_scaled(&sum.force, amplitude);
             wrench.moment.add_scaled(&sum.moment, amplitude);
         }
-        let factor = rounding(loads.list.len(), f64::from(order));
-        let snap = |vector: &Planar| vector.snapped(vector.size * factor);
-        (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
-    }
-    Ok(())
-}
-
-fn add_torque(
-    wrenches: &mut [Wrench],
-    loads: &Loads,
-    orders: &[u32],
-    cancel: &Cancel,
-) -> Result<()> {
-    let masses = loads.motions.iter().map(Cylinder::proportions);
-    let masses = masses.map(|motion| harmonics::torque::torque(&motion, orders, cancel));
-    let masses: Vec<TorqueHarmonics> = masses.collect::<Result<_>>()?;
-    let rods = (0..loads.motions.len()).map(|motion| {
-        let of = |motion: &Cylinder| harmonics::rod::torque(&motion.proportions(), orders, cancel);
-        loads.has_rod_inertia(motion).then(|| of(&loads.motions[motion])).transpose()
-    });
-    let rods: Vec<Option<TorqueHarmonics>> = rods.collect::<Result<_>>()?;
-    for (k, (wrench, &order)) in wrenches.iter_mut().zip(orders).enumerate() {
         let torque = &mut wrench.torque;
-        for sum in loads.roll(order, false) {
-            let [roll, crank] = match sum.channel {
-                // A shaft that turns evenly takes no torque of the crank.
-                Channel::Unit => [Complex64::new(1.0, 0.0), Complex64::default()],
-                Channel::Masses(motion) => [masses[motion].roll[k], masses[motion].crank[k]],
-                Channel::Rod(motion) => rods[motion]
-                    .as_ref()
-                    .map_or([Complex64::default(); 2], |rod| [rod.roll[k], rod.crank[k]]),
-            };
+        for sum in roll {
+            let [roll, crank] = amplitudes.of_torque(sum.channel, k);
             torque.roll += sum.sum * roll;
             torque.crank += sum.sum * crank;
             torque.size += sum.size * roll.norm().max(crank.norm());
         }
-        let bound = torque.size * rounding(loads.list.len(), f64::from(order));
-        (torque.roll, torque.crank) = (snapped(torque.roll, bound), snapped(torque.crank, bound));
+        let factor = rounding(loads.list.len(), order.number());
+        let snap = |vector: &Planar| vector.snapped(vector.size * factor);
+        (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
+        let bound = wrench.torque.size * factor;
+        for phasor in [&mut wrench.torque.roll, &mut wrench.torque.crank] {
+            *phasor = snapped(*phasor, bound);
+        }
     }
-    Ok(())
+    Ok(wrenches)
+}
+
+/// Harmonics of every motion at some orders.
+struct Amplitudes {
+    force: Vec<Vec<Complex64>>,
+    /// Torques of the masses, and of rods that have inertia.
+    torque: Vec<(TorqueHarmonics, Option<TorqueHarmonics>)>,
+}
+
+impl Amplitudes {
+    fn new(
+        loads: &Loads,
+        spectrum: Option<&Spectrum>,
+        torque: bool,
+        orders: &[u32],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let (mut force, mut torques) = (Vec::new(), Vec::new());
+        for (k, motion) in loads.motions.iter().enumerate() {
+            let motion = motion.proportions();
+            force.push(match spectrum {
+                Some(spectrum) => orders.iter().map(|&n| spectrum.amplitude(n)).collect(),
+                None => harmonics::coefficients(&motion, orders, cancel)?,
+            });
+            if torque {
+                let rod = || harmonics::rod::torque(&motion, orders, cancel);
+                let rod = loads.has_rod_inertia(k).then(rod).transpose()?;
+                torques.push((harmonics::torque::torque(&motion, orders, cancel)?, rod));
+            }
+        }
+        Ok(Self { force, torque: torques })
+    }
+
+    fn has_force(&self, k: usize) -> bool {
+        self.force.iter().any(|of_motion| of_motion[k] != Complex64::default())
+    }
+
+    fn of_force(&self, channel: Channel, k: usize) -> Complex64 {
+        match channel {
+            Channel::Masses(motion) => self.force[motion][k],
+            Channel::Unit | Channel::Rod(_) => Complex64::new(1.0, 0.0),
+        }
+    }
+
+    /// On the block and on the crank.
+    fn of_torque(&self, channel: Channel, k: usize) -> [Complex64; 2] {
+        let of = |torque: &TorqueHarmonics| [torque.roll[k], torque.crank[k]];
+        match channel {
+            // A shaft that turns evenly takes no torque of the crank.
+            Channel::Unit => [Complex64::new(1.0, 0.0), Complex64::default()],
+            Channel::Masses(motion) => of(&self.torque[motion].0),
+            Channel::Rod(motion) => {
+                self.torque[motion].1.as_ref().map_or_else(Default::default, of)
+            }
+        }
+    }
 }
 
 impl Loads {

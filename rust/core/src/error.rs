@@ -139,6 +139,16 @@ impl Error {
             Self::Value { argument, value, cure } => {
                 Self::Value { argument: format!("{place}{argument}"), value, cure }
             }
+            Self::CannotTurn { crank_radius, rod_length, pin_offset, reach } => Self::Value {
+                argument: format!("{place}crank_radius"),
+                value: format!(
+                    "{crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}"
+                ),
+                cure: format!(
+                    "the crank cannot turn; make crank_radius less than rod_length - |pin_offset| \
+                     = {reach:?}"
+                ),
+            },
             other => other,
         }
     }

@@ -188,42 +188,55 @@ impl Loads {
 
     /// Force and moment of one whole order, by channel, and by bank where `by_bank`.
     pub fn planar(&self, order: u32, by_bank: bool) -> Vec<PlanarSum> {
-        let mut sums: Vec<PlanarSum> = Vec::new();
-        for load in &self.list {
-            let Some((channel, unit)) = load.planar(order) else { continue };
-            let bank = load.bank.filter(|_| by_bank);
-            let known = sums.iter().position(|sum| (sum.channel, sum.bank) == (channel, bank));
-            let known = known.unwrap_or_else(|| {
-                let zero = Planar::default();
-                sums.push(PlanarSum { channel, bank, force: zero, moment: zero });
-                sums.len() - 1
-            });
-            let sum = &mut sums[known];
-            sum.force.add(&unit.scaled(load.weight));
-            let levered = unit.scaled(load.weight * (load.z - self.reference));
-            // Rounding of a lever is relative to what it is the difference of.
-            let size = unit.size * load.weight * (load.z.abs() + self.reference.abs());
-            sum.moment.add(&Planar { size, ..levered.quarter_turned() });
-        }
-        sums
+        self.sums(order, by_bank, [true, false]).0
     }
 
     /// Torque of one whole order, by channel, and by bank where `by_bank`.
     pub fn roll(&self, order: u32, by_bank: bool) -> Vec<RollSum> {
-        let mut sums: Vec<RollSum> = Vec::new();
+        self.sums(order, by_bank, [false, true]).1
+    }
+
+    /// Force and moment, and torque, as far as each is wanted.
+    pub fn sums(
+        &self,
+        order: u32,
+        by_bank: bool,
+        [planar, roll]: [bool; 2],
+    ) -> (Vec<PlanarSum>, Vec<RollSum>) {
+        let (mut planar_sums, mut roll_sums) = (Vec::new(), Vec::new());
         for load in &self.list {
-            for (channel, phasor, size) in load.roll(order) {
-                let bank = load.bank.filter(|_| by_bank);
-                match sums.iter_mut().find(|sum| (sum.channel, sum.bank) == (channel, bank)) {
-                    Some(known) => {
-                        known.sum += phasor;
-                        known.size += size;
-                    }
-                    None => sums.push(RollSum { channel, bank, sum: phasor, size }),
-                }
+            let Some(phase) = load.phasor(order) else { continue };
+            let bank = load.bank.filter(|_| by_bank);
+            if planar {
+                self.add_planar(&mut planar_sums, load, bank, phase);
+            }
+            if roll {
+                load.add_roll(&mut roll_sums, bank, phase);
             }
         }
-        sums
+        (planar_sums, roll_sums)
+    }
+
+    fn add_planar(
+        &self,
+        sums: &mut Vec<PlanarSum>,
+        load: &Load,
+        bank: Option<usize>,
+        phase: Complex64,
+    ) {
+        let (channel, unit) = load.planar(phase);
+        let known = sums.iter().position(|sum| (sum.channel, sum.bank) == (channel, bank));
+        let known = known.unwrap_or_else(|| {
+            let zero = Planar::default();
+            sums.push(PlanarSum { channel, bank, force: zero, moment: zero });
+            sums.len() - 1
+        });
+        let sum = &mut sums[known];
+        sum.force.add(&unit.scaled(load.weight));
+        let levered = unit.scaled(load.weight * (load.z - self.reference));
+        // Rounding of a lever is relative to what it is the difference of.
+        let size = unit.size * load.weight * (load.z.abs() + self.reference.abs());
+        sum.moment.add(&Planar { size, ..levered.quarter_turned() });
     }
 }
 
@@ -241,50 +254,62 @@ impl Load {
         }
     }
 
-    /// Force over ω², weight and the channel's factor.
-    fn planar(&self, order: u32) -> Option<(Channel, Planar)> {
+    /// `e^{−inφ}` of a piston at order n, and of an unbalance at its own order.
+    fn phasor(&self, order: u32) -> Option<Complex64> {
         match self.source {
-            Source::Piston { motion, .. } => {
-                let phase = self.phase.cis(-i64::from(order)) * 0.5;
-                let (forward, backward_conj) = (phase * self.unit, phase * self.unit.conj());
-                Some((Channel::Masses(motion), Planar { forward, backward_conj, size: 1.0 }))
+            Source::Piston { .. } => Some(self.phase.cis(-i64::from(order))),
+            Source::Unbalance { ratio, .. } => {
+                (ratio.unsigned_abs() == order).then(|| self.phase.cis(-1))
             }
-            Source::Unbalance { ratio, .. } if ratio.unsigned_abs() == order => {
-                let size = f64::from(ratio) * f64::from(ratio);
-                let at_start = self.unit * self.phase.cis(-1) * size;
-                let zero = Complex64::default();
-                let (forward, backward_conj) =
-                    if ratio > 0 { (at_start, zero) } else { (zero, at_start.conj()) };
-                Some((Channel::Unit, Planar { forward, backward_conj, size }))
-            }
-            Source::Unbalance { .. } => None,
         }
     }
 
-    /// Roll torque over ω² and the channel's factor, and its size.
-    fn roll(&self, order: u32) -> impl Iterator<Item = (Channel, Complex64, f64)> {
-        let terms = match self.source {
-            Source::Piston { motion, second_moment, rod_inertia, .. } => {
-                let phase = self.phase.cis(-i64::from(order));
-                let of = |channel, weight: f64| {
-                    (weight != 0.0).then_some((channel, phase * weight, weight.abs()))
-                };
-                let masses = Channel::Masses(motion);
-                [of(masses, second_moment), of(Channel::Rod(motion), rod_inertia)]
+    /// Force over ω², weight and the channel's factor.
+    fn planar(&self, phase: Complex64) -> (Channel, Planar) {
+        match self.source {
+            Source::Piston { motion, .. } => {
+                let half = phase * 0.5;
+                let (forward, backward_conj) = (half * self.unit, half * self.unit.conj());
+                (Channel::Masses(motion), Planar { forward, backward_conj, size: 1.0 })
             }
-            Source::Unbalance { axis, .. } if axis == Complex64::default() => [None, None],
+            Source::Unbalance { ratio, .. } => {
+                let size = f64::from(ratio) * f64::from(ratio);
+                let (at_start, zero) = (self.unit * phase * size, Complex64::default());
+                let (forward, backward_conj) =
+                    if ratio > 0 { (at_start, zero) } else { (zero, at_start.conj()) };
+                (Channel::Unit, Planar { forward, backward_conj, size })
+            }
+        }
+    }
+
+    /// Adds the roll torque over ω² and the channel's factor.
+    fn add_roll(&self, sums: &mut Vec<RollSum>, bank: Option<usize>, phase: Complex64) {
+        let mut add = |channel, phasor: Complex64, size: f64| match sums
+            .iter_mut()
+            .find(|sum| (sum.channel, sum.bank) == (channel, bank))
+        {
+            Some(known) => {
+                known.sum += phasor;
+                known.size += size;
+            }
+            None => sums.push(RollSum { channel, bank, sum: phasor, size }),
+        };
+        match self.source {
+            Source::Piston { motion, second_moment, rod_inertia } => {
+                add(Channel::Masses(motion), phase * second_moment, second_moment);
+                if rod_inertia != 0.0 {
+                    add(Channel::Rod(motion), phase * rod_inertia, rod_inertia.abs());
+                }
+            }
+            Source::Unbalance { axis, .. } if axis == Complex64::default() => {}
             Source::Unbalance { axis, .. } => {
                 // Im(ā·F) of F = P·e^{inθ} is Re(−i·ā·P·e^{inθ}), of F = conj(P·e^{inθ}) it is
                 // Re(i·a·P·e^{inθ}).
-                let i = Complex64::i();
-                let torque = self.planar(order).map(|(channel, unit)| {
-                    let phasor = -i * axis.conj() * unit.forward + i * axis * unit.backward_conj;
-                    (channel, phasor * self.weight, unit.size * self.weight * axis.norm())
-                });
-                [torque, None]
+                let (i, (channel, unit)) = (Complex64::i(), self.planar(phase));
+                let phasor = -i * axis.conj() * unit.forward + i * axis * unit.backward_conj;
+                add(channel, phasor * self.weight, unit.size * self.weight * axis.norm());
             }
-        };
-        terms.into_iter().flatten()
+        }
     }
 }
 

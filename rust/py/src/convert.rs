@@ -2,6 +2,7 @@
 
 use crankpin_core as core;
 use crankpin_core::Complex64;
+use crankpin_core::rational::Ratio;
 use ndarray::Dimension;
 use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
@@ -56,6 +57,18 @@ pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
         Degrees::Text(text) => text.parse(),
     };
     angle.map(|angle| angle.to_string()).map_err(|error| error.named(argument)).or_raise()
+}
+
+/// Hint for an angle that nearly is a simple part of a turn: `51.428571 is 4.3e-7° from 360/7`.
+#[pyfunction]
+pub fn near_miss(degrees: &str) -> Option<String> {
+    /// Fractions of more parts lie so close together that many angles are next to one.
+    const MOST_PARTS: i64 = 100;
+    let angle: core::Angle = degrees.parse().ok()?;
+    let (simple, distance) = angle.near_miss()?;
+    let (turns, parts) = simple.turns().filter(|(_, parts)| *parts <= MOST_PARTS)?;
+    let simple = Ratio::new(360 * i128::from(turns), parts.into());
+    Some(format!("{degrees} is {distance:.1e}° from {simple}"))
 }
 
 /// Degrees as people give them.

@@ -396,8 +396,14 @@ impl Engine {
         self.0.firing_order()
     }
 
-    fn firing_as(&self, firing_order: String) -> PyResult<Self> {
-        self.0.firing_as(firing_order).or_raise().map(Self::from)
+    #[getter]
+    fn strokes(&self) -> u32 {
+        self.0.strokes().number()
+    }
+
+    fn firing_as(&self, firing_order: String, strokes: u32) -> PyResult<Self> {
+        let strokes = Strokes::from_number(strokes).or_raise()?;
+        self.0.firing_as(firing_order, strokes).or_raise().map(Self::from)
     }
 
     #[getter]

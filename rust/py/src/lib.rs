@@ -33,6 +33,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<waveform::CrankAngles>()?;
     module.add_class::<firing::Firing>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
+    module.add_function(wrap_pyfunction!(convert::near_miss, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::check_cylinder, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::crank_radius_of_stroke, module)?)?;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::layout::Strokes;
 use super::{Engine, Placement, Shaft, Unbalance, first_equal};
 use crate::angle::Angle;
 use crate::error::{Error, Result, shorten};
@@ -22,6 +23,8 @@ struct EngineFile {
     source: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     firing_order: String,
+    #[serde(default = "four", skip_serializing_if = "is_four")]
+    strokes: u32,
     /// Running gear of every placement that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
@@ -43,6 +46,15 @@ struct Parts {
     pin_offset: f64,
     #[serde(default, skip_serializing_if = "is_zero")]
     rod_inertia_excess: f64,
+}
+
+fn four() -> u32 {
+    4
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_four(strokes: &u32) -> bool {
+    *strokes == 4
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
@@ -195,6 +207,7 @@ impl EngineFile {
             name: engine.name().to_owned(),
             source: engine.source().to_owned(),
             firing_order: engine.firing_order().to_owned(),
+            strokes: engine.strokes().number(),
             cylinder: shared.then(|| Parts::of(&engine.gears()[0])),
             placements: engine.placements().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(Weight::of).collect(),
@@ -242,7 +255,7 @@ impl EngineFile {
         let shafts = self.shafts.iter().enumerate();
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         engine
-            .firing_as(self.firing_order)?
+            .firing_as(self.firing_order, Strokes::from_number(self.strokes)?)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
     }
@@ -273,6 +286,7 @@ pub fn to_json(engine: &Engine) -> Result<String> {
 
 /// Engine from TOML.
 pub fn from_toml(text: &str) -> Result<Engine> {
+    let text = unmarked(text);
     sized("TOML", text)?;
     toml::from_str::<EngineFile>(text)
         .map_err(|error| {
@@ -289,8 +303,16 @@ pub fn from_toml(text: &str) -> Result<Engine> {
 
 /// Engine from JSON.
 pub fn from_json(text: &str) -> Result<Engine> {
+    let text = unmarked(text);
     sized("JSON", text)?;
+    let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
+    check_tables(&value, "the file")?;
     serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+}
+
+/// Without a byte order mark, which some editors put before a text.
+fn unmarked(text: &str) -> &str {
+    text.trim_start_matches('\u{feff}')
 }
 
 fn sized(format: &'static str, text: &str) -> Result<()> {
@@ -299,6 +321,29 @@ fn sized(format: &'static str, text: &str) -> Result<()> {
     }
     let reason = format!("{} bytes long; an engine file has at most {LONGEST_TEXT}", text.len());
     Err(Error::File { format, reason })
+}
+
+/// Rejects arrays in place of objects, which serde would read by position.
+fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
+    const LISTS: [&str; 4] = ["placements", "counterweights", "shafts", "unbalances"];
+    let Some(table) = value.as_object() else {
+        let reason = format!("{place}: give an object, {{ }}");
+        return Err(Error::File { format: "JSON", reason });
+    };
+    for (key, value) in table {
+        if value.is_object() {
+            check_tables(value, key)?;
+        }
+        let Some(list) = value.as_array() else { continue };
+        if !LISTS.contains(&key.as_str()) {
+            let reason = format!("{}: an array is not allowed here", shorten(key));
+            return Err(Error::File { format: "JSON", reason });
+        }
+        for (i, item) in list.iter().enumerate() {
+            check_tables(item, &format!("{key}[{i}]"))?;
+        }
+    }
+    Ok(())
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
@@ -342,7 +387,10 @@ mod tests {
         let shafts = proptest::collection::vec(shaft, 0..3);
         (proptest::collection::vec(place, 1..9), ".*", weights, shafts).prop_map(
             |(placements, name, weights, shafts)| {
-                let engine = Engine::new(name, "", placements).unwrap().firing_as("1").unwrap();
+                let engine = Engine::new(name, "", placements)
+                    .unwrap()
+                    .firing_as("1", Strokes::Two)
+                    .unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )
@@ -420,6 +468,24 @@ mod tests {
         for (length, fits) in [(LONGEST_TEXT, true), (LONGEST_TEXT + 1, false)] {
             assert_eq!(from_toml(&padded(to_toml(&engine).unwrap(), length)).is_ok(), fits);
             assert_eq!(from_json(&padded(to_json(&engine).unwrap(), length)).is_ok(), fits);
+        }
+    }
+
+    #[test]
+    fn json_arrays_are_not_taken_for_objects() {
+        let place = r#"{"tdc_deg": 0, "bank_deg": 90, "z": 0}"#;
+        let parts = r#"{"crank_radius": 0.05, "rod_length": 0.15, "reciprocating_mass": 0.5}"#;
+        let file = |cylinder: &str, place: &str| {
+            format!(r#"{{"schema": 1, "cylinder": {cylinder}, "placements": [{place}]}}"#)
+        };
+        assert!(from_json(&file(parts, place)).is_ok());
+        for bad in [
+            "[1]".to_owned(),
+            file("[0.05, 0.15, 0.5]", place),
+            file(parts, "[0, 90, 0]"),
+            "7".to_owned(),
+        ] {
+            assert!(matches!(from_json(&bad), Err(Error::File { .. })), "{bad}");
         }
     }
 

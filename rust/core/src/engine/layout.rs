@@ -91,7 +91,7 @@ pub struct Inline {
     pub throws: Vec<Angle>,
     /// Distance between neighbouring cylinders, m.
     pub spacing: f64,
-    /// Mass that turns with each throw, kg.
+    /// Mass that turns with each cylinder's pin, kg: none, one for all, or one for each.
     pub rotating_mass: Vec<f64>,
     /// Crank angle at which cylinder 1 is at top dead centre.
     pub first_tdc: Angle,
@@ -102,7 +102,7 @@ impl Inline {
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         limits::finite("spacing", self.spacing)?;
         let upright = Angle::QUARTER_TURN;
-        let masses = per_throw(&self.rotating_mass, self.throws.len())?;
+        let masses = per_cylinder(&self.rotating_mass, self.throws.len())?;
         let placements = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
             let z = i as f64 * self.spacing;
             Placement { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
@@ -124,7 +124,7 @@ pub struct Vee {
     pub pin_split: Angle,
     /// How far the left bank stands behind the right, towards the flywheel, m.
     pub bank_stagger: f64,
-    /// Mass that turns with each throw, half of it with each of its two pins, kg.
+    /// Mass that turns with each cylinder's pin, kg: none, one for all, or one for each.
     pub rotating_mass: Vec<f64>,
     /// How the cylinders are numbered.
     pub numbering: Numbering,
@@ -137,12 +137,12 @@ pub struct Vee {
 impl Vee {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
-        let masses = per_throw(&self.rotating_mass, self.throws.len())?;
         let seats = self.seats(2 * self.throws.len())?;
-        let placements = seats.iter().map(|seat| {
+        let masses = per_cylinder(&self.rotating_mass, seats.len())?;
+        let placements = seats.iter().zip(masses).map(|(seat, mass)| {
             let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
             let pin = self.throws[seat.throw] + split;
-            seat.placement(cylinder, seat.bank - pin, 0.5 * masses[seat.throw])
+            seat.placement(cylinder, seat.bank - pin, mass)
         });
         self.in_banks(&seats, placements.collect())
     }
@@ -291,10 +291,11 @@ impl FiringOrder {
     /// A vee that fires so; `layout.throws` and `layout.pin_split` are not asked.
     pub fn vee(&self, cylinder: Cylinder, rule: &FiringRule, layout: &Vee) -> Result<Engine> {
         let seats = self.vee_seats(rule, layout)?;
-        let masses = per_throw(&layout.rotating_mass, seats.len() / 2)?;
+        let masses = per_cylinder(&layout.rotating_mass, seats.len())?;
         let placements = seats
             .iter()
-            .map(|(seat, tdc)| seat.placement(cylinder, *tdc, 0.5 * masses[seat.throw]));
+            .zip(masses)
+            .map(|((seat, tdc), mass)| seat.placement(cylinder, *tdc, mass));
         let placements = placements.collect();
         let seats: Vec<Seat> = seats.into_iter().map(|(seat, _)| seat).collect();
         layout.in_banks(&seats, placements)
@@ -355,21 +356,21 @@ fn part(index: usize, degrees: i64, count: usize) -> Angle {
     Angle::from_degree_fraction(index * degrees, count.max(1)).unwrap_or(Angle::ZERO)
 }
 
-/// One mass for each throw: a single one stands for all.
-fn per_throw(masses: &[f64], throws: usize) -> Result<Vec<f64>> {
+/// One mass for each cylinder; a single one is for all.
+fn per_cylinder(masses: &[f64], cylinders: usize) -> Result<Vec<f64>> {
     for (i, &mass) in masses.iter().enumerate() {
         limits::not_negative(&format!("rotating_mass[{i}]"), mass)?;
     }
     match masses {
-        [] => Ok(vec![0.0; throws]),
-        [mass] => Ok(vec![*mass; throws]),
-        _ if masses.len() == throws => Ok(masses.to_vec()),
+        [] => Ok(vec![0.0; cylinders]),
+        [mass] => Ok(vec![*mass; cylinders]),
+        _ if masses.len() == cylinders => Ok(masses.to_vec()),
         _ => Err(Error::Length {
             argument: "rotating_mass".into(),
             found: masses.len(),
-            reference: "throws_deg".into(),
-            expected: throws,
-            item: "throw",
+            reference: "the engine".into(),
+            expected: cylinders,
+            item: "cylinder",
         }),
     }
 }
@@ -455,7 +456,7 @@ mod tests {
                 throws: [0.0, 100.0, 240.0].map(angle).to_vec(),
                 pin_split: angle(20.0),
                 bank_stagger: 0.03,
-                rotating_mass: vec![1.0, 2.0, 3.0],
+                rotating_mass: vec![0.5],
                 first_tdc: angle(7.0),
                 ..vee(70.0, numbering, first_bank)
             };
@@ -469,11 +470,11 @@ mod tests {
             };
             engine.placements().iter().map(of).collect::<Vec<_>>()
         };
-        let right = [(55.0, 0.0, 0.5, 0.0), (55.0, 0.1, 1.0, 100.0), (55.0, 0.2, 1.5, 240.0)];
+        let right = [(55.0, 0.0, 0.5, 0.0), (55.0, 0.1, 0.5, 100.0), (55.0, 0.2, 0.5, 240.0)];
         let left = [
             (125.0, 0.03, 0.5, 20.0),
-            (125.0, 0.1 + 0.03, 1.0, 120.0),
-            (125.0, 0.2 + 0.03, 1.5, 260.0),
+            (125.0, 0.1 + 0.03, 0.5, 120.0),
+            (125.0, 0.2 + 0.03, 0.5, 260.0),
         ];
         let [a, b, c] = right;
         let [d, e, f] = left;
@@ -516,9 +517,9 @@ mod tests {
     }
 
     #[test]
-    fn a_vee_by_its_firing_order_has_half_a_throws_mass_on_each_pin() {
+    fn vees_by_firing_order_give_each_cylinder_its_rotating_mass() {
         let layout = Vee {
-            rotating_mass: vec![1.0, 2.0],
+            rotating_mass: vec![0.5, 0.5, 1.0, 1.0],
             first_tdc: Angle::from_turns(1, 12).unwrap(),
             ..vee(90.0, Numbering::Alternating, Side::Right)
         };

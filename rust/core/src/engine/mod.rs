@@ -7,6 +7,7 @@ pub mod file;
 pub mod layout;
 mod shaft;
 
+use self::layout::Strokes;
 pub use self::shaft::{Shaft, Unbalance};
 use crate::angle::Angle;
 use crate::error::{Error, Result};
@@ -74,6 +75,7 @@ pub struct Engine {
     name: String,
     source: String,
     firing_order: String,
+    strokes: Strokes,
     placements: Vec<Placement>,
     /// Running gears that differ, in the order in which cylinders have them.
     gears: Vec<Cylinder>,
@@ -126,6 +128,7 @@ impl Engine {
             name: String::new(),
             source: String::new(),
             firing_order: String::new(),
+            strokes: Strokes::Four,
             right: right_bank(&placements, bank_keys),
             placements,
             gears,
@@ -153,6 +156,12 @@ impl Engine {
     #[must_use]
     pub fn firing_order(&self) -> &str {
         &self.firing_order
+    }
+
+    /// Strokes of a cycle.
+    #[must_use]
+    pub fn strokes(&self) -> Strokes {
+        self.strokes
     }
 
     /// The cylinders, by number.
@@ -310,9 +319,9 @@ impl Engine {
     }
 
     /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
-    pub fn firing_as(&self, firing_order: impl Into<String>) -> Result<Self> {
+    pub fn firing_as(&self, firing_order: impl Into<String>, strokes: Strokes) -> Result<Self> {
         let firing_order = text("firing_order", firing_order.into())?;
-        Ok(Self { firing_order, ..self.clone() })
+        Ok(Self { firing_order, strokes, ..self.clone() })
     }
 
     /// The same engine under another name.
@@ -449,7 +458,7 @@ mod tests {
         assert_eq!((engine.middle(), engine.largest_crank_radius()), (0.05, 0.05));
         assert_eq!((engine.placements().len(), engine.gears().len()), (2, 1));
         assert_eq!([0, 1].map(|i| engine.bank_of(i)), [0, 1]);
-        assert_eq!(engine.firing_as("1-2").unwrap().firing_order(), "1-2");
+        assert_eq!(engine.firing_as("1-2", Strokes::Four).unwrap().firing_order(), "1-2");
         for angle in [0.0, 45.0, 180.0] {
             assert_eq!(bank_angle_in_range(angle), Ok(angle));
         }

@@ -10,7 +10,7 @@ use num_traits::{CheckedAdd, CheckedMul};
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::load::Loads;
-use crate::rational::{Multiples, Ratio, common_multiple};
+use crate::rational::{Multiples, Ratio, common_multiple, decimal};
 
 fn too_long() -> Error {
     Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
@@ -38,21 +38,29 @@ impl Levers {
     /// Levers about a reference plane, by default midway between the first and the last cylinder.
     fn new(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<Self> {
         let places = || engine.placements().iter().map(|place| place.z);
+        let ends = [f64::min, f64::max].map(|end| places().reduce(end).unwrap_or_default());
         let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
-        match reference {
-            Some(plane) => lengths.push(plane),
-            None => lengths.extend([
-                places().fold(f64::INFINITY, f64::min),
-                places().fold(f64::NEG_INFINITY, f64::max),
-            ]),
-        }
+        // A plane that is a decimal is exact; any other is known from the middle of the engine.
+        let exact = reference.filter(|&plane| decimal(plane).is_some());
+        let shares = match (reference, exact) {
+            (_, Some(plane)) => {
+                lengths.push(plane);
+                vec![Ratio::from(-1)]
+            }
+            (plane, None) => {
+                lengths.extend(ends);
+                let half = Ratio::new(-1, 2);
+                let rest = plane.map(|plane| plane - engine.middle());
+                lengths.extend(rest);
+                rest.map_or(vec![half; 2], |_| vec![half, half, Ratio::from(-1)])
+            }
+        };
         let Multiples { units, of } = Multiples::of_lengths(&lengths);
         let (places, planes) = of.split_at(loads.list.len());
-        let share = Ratio::new(-1, planes.len() as i128);
         let lever = |&place: &(usize, Ratio)| {
             let mut lever = vec![place];
-            for (unit, plane) in planes {
-                let part = plane.checked_mul(&share).ok_or_else(too_long)?;
+            for ((unit, plane), share) in planes.iter().zip(&shares) {
+                let part = plane.checked_mul(share).ok_or_else(too_long)?;
                 match lever.iter_mut().find(|(known, _)| known == unit) {
                     Some((_, sum)) => *sum = sum.checked_add(&part).ok_or_else(too_long)?,
                     None => lever.push((*unit, part)),

@@ -24,8 +24,6 @@ use crate::wrench::snapped;
 
 /// Rows evaluated side by side.
 pub(super) const BLOCK: usize = 128;
-/// Rows that one instruction works on, at most.
-const LANES: usize = 8;
 /// Numbers of functions and of constants held at a time.
 const SLAB: usize = 1 << 19;
 /// Most rows of a task.
@@ -253,6 +251,36 @@ struct Sums {
     bound: Column,
 }
 
+impl Sums {
+    /// Functions times constants at `count` rows, of which all may share a bank angle or a point.
+    #[inline(always)]
+    fn combine<const ONE_ANGLE: bool, const ONE_POINT: bool>(
+        &mut self,
+        functions: [&[f64]; FUNCTIONS],
+        constants: [&[f64]; CONSTANTS],
+        count: usize,
+    ) {
+        let count = count.min(BLOCK);
+        let f = functions.map(|column| &column[..if ONE_ANGLE { 1 } else { count }]);
+        let c = constants.map(|column| &column[..if ONE_POINT { 1 } else { count }]);
+        for part in 0..2 {
+            for (i, out) in self.forward[part][..count].iter_mut().enumerate() {
+                let (angle, point) = (if ONE_ANGLE { 0 } else { i }, if ONE_POINT { 0 } else { i });
+                let rest = f[1][angle].mul_add(c[4 + part][point], c[8 + part][point]);
+                *out = f[0][angle].mul_add(c[part][point], rest);
+            }
+            for (i, out) in self.backward_conj[part][..count].iter_mut().enumerate() {
+                let (angle, point) = (if ONE_ANGLE { 0 } else { i }, if ONE_POINT { 0 } else { i });
+                let rest = f[3][angle].mul_add(c[6 + part][point], c[10 + part][point]);
+                *out = f[2][angle].mul_add(c[2 + part][point], rest);
+            }
+        }
+        for (i, out) in self.bound[..count].iter_mut().enumerate() {
+            *out = c[CONSTANTS - 1][if ONE_POINT { 0 } else { i }];
+        }
+    }
+}
+
 impl Block {
     fn new(orders: usize) -> Self {
         let (none, pair) = ([0.0; BLOCK], [[0.0; BLOCK]; 2]);
@@ -268,43 +296,39 @@ impl Block {
     #[inline(always)]
     fn evaluate(&mut self, turning: &Turning, constants: &Constants, rows: Range<usize>) {
         let Self { functions: f, constants: c, orders } = self;
-        let lanes = rows.len().next_multiple_of(LANES).min(BLOCK);
+        let points = constants.points;
         let columns = turning.0.iter().zip(&constants.by_order);
         for (sums, (functions, values)) in orders.iter_mut().zip(columns) {
-            if constants.points == 1 {
+            if points == 1 {
+                let functions = functions.each_ref().map(|column| &column[rows.clone()]);
+                let values = values.each_ref().map(|column| &column[..1]);
+                sums.combine::<false, true>(functions, values, rows.len());
+                continue;
+            }
+            let (angle, point) = (rows.start / points, rows.start % points);
+            if point + rows.len() <= points {
+                let functions = functions.each_ref().map(|column| &column[angle..=angle]);
+                let here = point..point + rows.len();
+                let values = values.each_ref().map(|column| &column[here.clone()]);
+                sums.combine::<true, false>(functions, values, rows.len());
+                continue;
+            }
+            let mut row = rows.start;
+            while row < rows.end {
+                let (angle, point) = (row / points, row % points);
+                let run = (points - point).min(rows.end - row);
+                let here = row - rows.start..row - rows.start + run;
                 for (column, function) in f.iter_mut().zip(functions) {
-                    column[..rows.len()].copy_from_slice(&function[rows.clone()]);
+                    column[here.clone()].fill(function[angle]);
                 }
                 for (column, value) in c.iter_mut().zip(values) {
-                    column[..lanes].fill(value[0]);
+                    column[here.clone()].copy_from_slice(&value[point..point + run]);
                 }
-            } else {
-                let mut row = rows.start;
-                while row < rows.end {
-                    let (angle, point) = (row / constants.points, row % constants.points);
-                    let run = (constants.points - point).min(rows.end - row);
-                    let here = row - rows.start..row - rows.start + run;
-                    for (column, function) in f.iter_mut().zip(functions) {
-                        column[here.clone()].fill(function[angle]);
-                    }
-                    for (column, value) in c.iter_mut().zip(values) {
-                        column[here.clone()].copy_from_slice(&value[point..point + run]);
-                    }
-                    row += run;
-                }
+                row += run;
             }
-            let [a, b, k] = [0, 4, 8];
-            for part in 0..2 {
-                for i in 0..lanes {
-                    let sum = |cos: f64, sin: f64, of: usize| {
-                        let of = of + part;
-                        cos.mul_add(c[a + of][i], sin.mul_add(c[b + of][i], c[k + of][i]))
-                    };
-                    sums.forward[part][i] = sum(f[0][i], f[1][i], 0);
-                    sums.backward_conj[part][i] = sum(f[2][i], f[3][i], 2);
-                }
-            }
-            sums.bound[..lanes].copy_from_slice(&c[CONSTANTS - 1][..lanes]);
+            let functions = f.each_ref().map(|column| &column[..rows.len()]);
+            let values = c.each_ref().map(|column| &column[..rows.len()]);
+            sums.combine::<false, false>(functions, values, rows.len());
         }
     }
 
@@ -348,25 +372,51 @@ impl Block {
     #[inline(always)]
     pub fn magnitudes(&self, components: usize, factor: f64, out: &mut [f64]) {
         let width = self.orders.len() * components;
-        let (mut along, mut across) = ([0.0; BLOCK], [0.0; BLOCK]);
-        let lanes = (out.len() / width).next_multiple_of(LANES).min(BLOCK);
-        for (order, Sums { forward, backward_conj, bound }) in self.orders.iter().enumerate() {
-            for i in 0..lanes {
-                let ([f, g], [u, v]) =
-                    ([forward[0][i], forward[1][i]], [backward_conj[0][i], backward_conj[1][i]]);
-                let square = bound[i] * bound[i];
-                along[i] = factor * magnitude(f + u, g + v, square);
-                across[i] = factor * magnitude(f - u, g - v, square);
-            }
-            let rows = out.chunks_exact_mut(width).zip(along.iter().zip(&across));
-            if components == 2 {
-                for (row, (x, y)) in rows {
-                    row[2 * order..2 * order + 2].copy_from_slice(&[*x, *y]);
+        let rows = out.len() / width;
+        // Two orders at a time, so that a row is written four numbers at once.
+        for (pair, orders) in self.orders.chunks(2).enumerate() {
+            let mut columns = [[0.0; BLOCK]; 4];
+            for (sums, columns) in orders.iter().zip(columns.chunks_exact_mut(2)) {
+                if let [along, across] = columns {
+                    sums.magnitudes(factor, along, across, rows);
                 }
-            } else {
-                rows.for_each(|(row, (x, _))| row[order] = *x);
+            }
+            let [a, b, c, d] = &columns;
+            match (orders.len(), components) {
+                (2, 2) => write_rows(&[a, b, c, d], width, 4 * pair, out),
+                (1, 2) => write_rows(&[a, b], width, 4 * pair, out),
+                (2, _) => write_rows(&[a, c], width, 2 * pair, out),
+                _ => write_rows(&[a], width, 2 * pair, out),
             }
         }
+    }
+}
+
+impl Sums {
+    /// Magnitudes along (about) x and y at `count` rows.
+    #[inline(always)]
+    fn magnitudes(&self, factor: f64, along: &mut Column, across: &mut Column, count: usize) {
+        let Self { forward: [f, g], backward_conj: [u, v], bound } = self;
+        for i in 0..count.min(BLOCK) {
+            let square = bound[i] * bound[i];
+            along[i] = factor * magnitude(f[i] + u[i], g[i] + v[i], square);
+            across[i] = factor * magnitude(f[i] - u[i], g[i] - v[i], square);
+        }
+    }
+}
+
+/// Writes columns to neighbouring places of rows of some width.
+#[inline(always)]
+fn write_rows<const N: usize>(columns: &[&Column; N], width: usize, first: usize, out: &mut [f64]) {
+    if width == N {
+        let (rows, _) = out.as_chunks_mut::<N>();
+        for (i, row) in rows.iter_mut().enumerate().take(BLOCK) {
+            *row = columns.map(|column| column[i]);
+        }
+        return;
+    }
+    for (i, row) in out.chunks_exact_mut(width).enumerate().take(BLOCK) {
+        row[first..first + N].copy_from_slice(&columns.map(|column| column[i]));
     }
 }
 

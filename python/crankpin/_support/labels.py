@@ -1,0 +1,99 @@
+"""Names, symbols and units of quantities and of swept dimensions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+SYMBOLS = {
+    "force": ("|F_x|", "|F_y|"),
+    "moment": ("|M_x|", "|M_y|"),
+    "torque": ("|M_z|",),
+    "crank_torque": ("|T|",),
+}
+"""Quantity → symbols of the peaks of its components."""
+
+UNITS = {"force": "N", "moment": "N·m", "torque": "N·m", "crank_torque": "N·m"}
+"""Quantity → unit."""
+
+NAMES = {
+    "force": "shaking force",
+    "moment": "rocking moment",
+    "torque": "roll torque",
+    "crank_torque": "crank torque",
+}
+"""Quantity → name."""
+
+COMPONENTS = {
+    "force": ("along x", "along y"),
+    "moment": ("about x (pitch)", "about y (yaw)"),
+    "torque": ("about z (roll)",),
+    "crank_torque": ("on the crank",),
+}
+"""Quantity → names of its components."""
+
+XARRAY_UNITS = {
+    "bank_angle_deg": "degree",
+    "rod_ratio": "1",
+    "pin_offset": "m",
+    "rpm": "1/min",
+    "theta_deg": "degree",
+    "order": "1/rev",
+    "force": "N",
+    "moment": "N m",
+    "torque": "N m",
+    "crank_torque": "N m",
+}
+"""Dimension or quantity → unit as xarray's users write it."""
+
+SWEPT = {
+    "bank_angle_deg": ("bank angle", "°"),
+    "rod_ratio": ("rod ratio", ""),
+    "pin_offset": ("pin offset", " m"),
+    "rpm": ("", " rpm"),
+}
+"""Swept dimension → its name, and the text that follows its value."""
+
+HELD = {
+    "pins": "pins held as the bank angle changes",
+    "firing": "top dead centres held as the bank angle changes",
+}
+"""Value of ``hold`` → description."""
+
+NEGLIGIBLE = 1e-6
+"""Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
+
+
+def coordinates(coords: Mapping[str, Any]) -> dict[str, Any]:
+    """Return coordinates with their units, in the form that xarray takes."""
+    return {
+        name: (name, values, {"units": XARRAY_UNITS[name]} if name in XARRAY_UNITS else {})
+        for name, values in coords.items()
+    }
+
+
+def value_text(dimension: str, value: float) -> str:
+    """Return a swept dimension with its value: ``bank angle 60°``, ``5000 rpm``."""
+    name, unit = SWEPT[dimension]
+    return f"{name} {value:.10g}{unit}".strip()
+
+
+def orders_text(orders: tuple[int, ...]) -> str:
+    """Return ``order 2`` or ``orders 2, 4``."""
+    word = "order" if len(orders) == 1 else "orders"
+    return f"{word} {', '.join(map(str, orders)) or 'none'}"
+
+
+def not_shown(orders: tuple[int, ...]) -> str:
+    """Return the line under a table or picture that leaves these orders out; empty for none."""
+    if not orders:
+        return ""
+    peak = "its peak is" if len(orders) == 1 else "their peaks are"
+    return f"Not shown: {orders_text(orders)} ({peak} below {NEGLIGIBLE:g} of the largest)."
+
+
+def cut(text: str, longest: int = 60) -> str:
+    """Return a text that fits a title."""
+    return text if len(text) <= longest else f"{text[: longest - 1]}…"

@@ -1,0 +1,333 @@
+"""Force or moment of one order as exact SymPy expressions."""
+
+from __future__ import annotations
+
+import operator
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.request import engine_core
+
+if TYPE_CHECKING:
+    from crankpin.model.engine import Engine
+
+Expression: TypeAlias = Any
+"""A SymPy expression; SymPy is imported when it is used."""
+
+COMPONENTS = ("x", "y", "forward", "backward")
+"""Phasors of a closed form, as the core counts them."""
+
+
+def closed_form(
+    engine: Engine,
+    order: int,
+    quantity: Literal["force", "moment"] = "moment",
+    *,
+    reference_z: float | None = None,
+) -> ClosedForm:
+    """Return a closed form; :meth:`Engine.closed_form` documents the arguments."""
+    word = inputs.one_of("quantity", quantity, ["force", "moment"])
+    plane = inputs.optional_number("reference_z", reference_z)
+    return ClosedForm(engine, _one_order(order), word, plane)
+
+
+class ClosedForm(Frozen):
+    """Force or moment of one order as SymPy expressions, exact.
+
+    ``F`` stands for m·r·ω²·aₙ of the cylinder ``unit_cylinder`` (in magnitudes, for its size) and
+    ``a`` for ``spacing``, of which all distances between cylinders are whole multiples. Phasors are
+    those of :class:`Balance`: a quantity is ``Re(P exp(inθ))``, and ``x + iy = forward exp(inθ) +
+    backward exp(−inθ)``. With a pin offset aₙ is complex, and ``backward`` goes with its conjugate.
+    Angles of 15° and its multiples, among others, give radicals; the rest stay cosines.
+
+    Made by :meth:`Engine.closed_form`. Jupyter shows the sum over the cylinders and its value.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> couple = cp.Engine.preset("v8-crossplane").closed_form(1)
+    >>> couple.peak, couple.forward_phase
+    (sqrt(10)*F*a, atan(2))
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("engine", "order", "quantity", "plane")
+
+    engine: Engine
+    """The engine."""
+    order: int
+    """Multiple of crank speed."""
+    quantity: str
+    """"force" or "moment"."""
+    plane: float | None
+    """The reference plane that was given, m, or None."""
+    unit_cylinder: int
+    """Number of the cylinder whose force is F: the first that has reciprocating mass."""
+    spacing: float
+    """Distance that ``a`` stands for, m; 0 where no lever enters."""
+    F: Expression
+    """Symbol for m·r·ω²·aₙ of one cylinder."""
+    a: Expression
+    """Symbol for the spacing."""
+    theta: Expression
+    """Symbol for the crank angle."""
+
+    def __init__(self, engine: Engine, order: int, quantity: str, plane: float | None) -> None:
+        core = engine_core(engine)
+        sp = optional.sympy()
+        moment = quantity == "moment"
+        unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
+            core, order, moment, plane
+        )
+        F, a = sp.Symbol("F", positive=True), sp.Symbol("a", positive=True)
+        self._set(
+            engine=engine,
+            order=order,
+            quantity=quantity,
+            plane=plane,
+            unit_cylinder=unit + 1,
+            spacing=spacing,
+            F=F,
+            a=a,
+            theta=sp.Symbol("theta", real=True),
+            _unit=a * F if moment else F,
+            _zero=zero,
+            _parts=parts,
+            _period=period,
+            _denominator=denominator,
+            _phasors=dict(zip(COMPONENTS, phasors, strict=True)),
+        )
+
+    _unit: Expression
+    _zero: bool
+    _parts: list[Any]
+    _period: int
+    _denominator: int
+    _phasors: dict[str, tuple[list[int], list[int], list[int]]]
+
+    @property
+    def reference_z(self) -> float:
+        """Plane about which moments are taken, m."""
+        return self.engine.reference_z if self.plane is None else self.plane
+
+    # --- phasors --------------------------------------------------------------------------------
+
+    @cached_property
+    def x(self) -> Expression:
+        """Peak phasor along (about) x."""
+        return self._phasor("x")
+
+    @cached_property
+    def y(self) -> Expression:
+        """Peak phasor along (about) y."""
+        return self._phasor("y")
+
+    @cached_property
+    def forward(self) -> Expression:
+        """Part that turns with the crank."""
+        return self._phasor("forward")
+
+    @cached_property
+    def backward(self) -> Expression:
+        """Part that turns against the crank."""
+        return self._phasor("backward")
+
+    @cached_property
+    def peak(self) -> Expression:
+        """Length of the longest vector: forward and backward parts aligned."""
+        sp = optional.sympy()
+        return sp.expand(self._size("forward") + self._size("backward")) * self._unit
+
+    @cached_property
+    def peak_xy(self) -> tuple[Expression, Expression]:
+        """Peaks along (about) x and y."""
+        return (self._size("x") * self._unit, self._size("y") * self._unit)
+
+    @cached_property
+    def forward_magnitude(self) -> Expression:
+        """Magnitude of the part that turns with the crank."""
+        return self._size("forward") * self._unit
+
+    @cached_property
+    def backward_magnitude(self) -> Expression:
+        """Magnitude of the part that turns against the crank."""
+        return self._size("backward") * self._unit
+
+    @cached_property
+    def forward_phase(self) -> Expression:
+        """Direction of the forward part from +x at θ = 0; 0 where there is none."""
+        return self._phase("forward")
+
+    @cached_property
+    def backward_phase(self) -> Expression:
+        """Direction of the backward part from +x at θ = 0; 0 where there is none."""
+        return self._phase("backward")
+
+    # --- the sum over the cylinders -------------------------------------------------------------
+
+    @cached_property
+    def x_terms(self) -> tuple[Expression, ...]:
+        """Contribution of each cylinder along (about) x: weight × cos(nθ − phase)."""
+        return self._terms("x")
+
+    @cached_property
+    def y_terms(self) -> tuple[Expression, ...]:
+        """Contribution of each cylinder along (about) y: weight × cos(nθ − phase)."""
+        return self._terms("y")
+
+    @cached_property
+    def x_sum(self) -> Expression:
+        """Sum of ``x_terms``, over the crank angle ``theta``."""
+        return self._sum("x")
+
+    @cached_property
+    def y_sum(self) -> Expression:
+        """Sum of ``y_terms``, over the crank angle ``theta``."""
+        return self._sum("y")
+
+    # --- numbers --------------------------------------------------------------------------------
+
+    def evaluate(self, rpm: float) -> dict[str, complex]:
+        """Return the phasors "x", "y", "forward" and "backward" at a speed, N or N·m."""
+        omega = inputs.angular_speed(rpm)
+        cylinder = self.engine.cylinders[self.unit_cylinder - 1]
+        scale = cylinder.reciprocating_mass * cylinder.crank_radius * omega**2
+        unit = scale * complex(cylinder.harmonics(self.order)[0])
+        if self.quantity == "moment":
+            unit *= self.spacing
+        found = {}
+        for axis in COMPONENTS:
+            real, imaginary = (complex(part.evalf(20)).real for part in self._parts_of(axis))
+            factor = unit.conjugate() if axis == "backward" else unit
+            found[axis] = complex(real, imaginary) * factor
+        return found
+
+    # --- construction -------------------------------------------------------------------------
+
+    def _cosines(self, coefficients: list[int], denominator: int) -> Expression:
+        """Return Σ cₖ 2cos(2πk/N), in radicals where SymPy knows them."""
+        sp = optional.sympy()
+        if self._zero:
+            return sp.Integer(0)
+        terms = [
+            sp.Rational(c, denominator) * (2 * sp.cos(2 * sp.pi * k / self._period) if k else 1)
+            for k, c in enumerate(coefficients)
+            if c
+        ]
+        return sp.expand(sp.Add(*terms))
+
+    def _parts_of(self, axis: str) -> tuple[Expression, Expression]:
+        real, imaginary, _ = self._phasors[axis]
+        return (
+            self._cosines(real, self._denominator),
+            self._cosines(imaginary, self._denominator),
+        )
+
+    def _phasor(self, axis: str) -> Expression:
+        real, imaginary = self._parts_of(axis)
+        return (real + optional.sympy().I * imaginary) * self._unit
+
+    def _size(self, axis: str) -> Expression:
+        sp = optional.sympy()
+        square = self._cosines(self._phasors[axis][2], self._denominator**2)
+        if square.has(sp.cos):
+            return sp.sqrt(square)
+        return sp.sqrtdenest(sp.sqrt(square))
+
+    def _phase(self, axis: str) -> Expression:
+        sp = optional.sympy()
+        real, imaginary = self._parts_of(axis)
+        if real == 0 or imaginary == 0:
+            return sp.atan2(imaginary, real) if real != imaginary else sp.Integer(0)
+        ratio = imaginary / real
+        # Radicals of 2, 3 and 6 alone: dividing by them is cheap, and atan knows some values.
+        if 24 % self._period == 0:
+            ratio = sp.radsimp(ratio)
+        if real.evalf() > 0:
+            return sp.atan(ratio)
+        return sp.atan(ratio) + (sp.pi if imaginary.evalf() > 0 else -sp.pi)
+
+    def _terms(self, axis: str) -> tuple[Expression, ...]:
+        sp = optional.sympy()
+        if self._zero:
+            return ()
+        # The moment of a force about x comes from its part along y, and is negative.
+        moment = self.quantity == "moment"
+        along, sign = ("y" if axis == "x" else "x", -1) if moment else (axis, 1)
+        if axis == "y":
+            sign = 1
+        found = []
+        for weight, lever, sense, direction, phase in self._parts:
+            factor = sign * sp.Rational(*weight) * sp.Rational(*lever) * self._unit
+            lag = self.order * Fraction(*phase)
+            if sense:
+                # What rotates is along y a quarter of a turn after x, or before.
+                start = sense * Fraction(*direction) - lag
+                quarter = Fraction(sense, 4) if along == "y" else Fraction(0)
+                found.append(factor * self._wave(start - quarter))
+                continue
+            bore = 2 * sp.pi * sp.Rational(*direction)
+            component = sp.cos(bore) if along == "x" else sp.sin(bore)
+            found.append(component * factor * self._wave(-lag))
+        return tuple(found)
+
+    def _wave(self, turns: Fraction) -> Expression:
+        """Return cos(nθ + phase) unevaluated: SymPy would turn some into sines."""
+        sp = optional.sympy()
+        lag = -turns % 1
+        phase = 2 * sp.pi * sp.Rational(lag.numerator, lag.denominator)
+        return sp.cos(self.order * self.theta - phase, evaluate=False)
+
+    def _sum(self, axis: str) -> Expression:
+        sp = optional.sympy()
+        real, imaginary = self._parts_of(axis)
+        angle = self.order * self.theta
+        return (real * sp.cos(angle) - imaginary * sp.sin(angle)) * self._unit
+
+    # --- text -----------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        name = self.engine.name or f"{len(self.engine)} cylinders"
+        lines = [f"{name}: {labels.NAMES[self.quantity]} of order {self.order}"]
+        lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
+        lines.append(f"{'longest':>9} {self.peak}")
+        return "\n".join(lines)
+
+    def _repr_latex_(self) -> str:
+        sp = optional.sympy()
+        letter = "F" if self.quantity == "force" else "M"
+        rows = []
+        for axis in ("x", "y"):
+            terms = [term for term in getattr(self, f"{axis}_terms") if term != 0]
+            rows += _rows(f"{letter}_{axis}", [sp.latex(term) for term in terms])
+            if terms:
+                rows.append(f"&= {sp.latex(getattr(self, f'{axis}_sum'))}")
+        rows.append(rf"\max |{letter}| &= {sp.latex(self.peak)}")
+        body = " \\\\ ".join(rows)
+        return rf"$\displaystyle \begin{{aligned}} {body} \end{{aligned}}$"
+
+
+PER_ROW = 4
+"""Cylinders to a row of a derivation, so that rows fit a page."""
+
+
+def _rows(name: str, terms: list[str]) -> list[str]:
+    """Return the lines of an aligned sum."""
+    if not terms:
+        return [f"{name} &= 0"]
+    text = [term if k == 0 or term.startswith("-") else f"+{term}" for k, term in enumerate(terms)]
+    lines = ["".join(text[k : k + PER_ROW]) for k in range(0, len(text), PER_ROW)]
+    return [f"{name} &= {lines[0]}", *(rf"&\quad {line}" for line in lines[1:])]
+
+
+def _one_order(order: object) -> int:
+    """Return a single order."""
+    try:
+        return inputs.explicit_orders([operator.index(order)], "order")[0]  # type: ignore[arg-type]
+    except TypeError:
+        cure = "give one whole multiple of crank speed, such as 1"
+        raise InputError(f"order = {inputs.shorten(order)}: {cure}") from None

@@ -1,0 +1,184 @@
+"""Valves and ports: when they open and close, and which are open at one time."""
+
+from __future__ import annotations
+
+import dataclasses
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Angle
+
+TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
+PORT_TIMES = ("transfer_opens_deg", "exhaust_opens_deg")
+
+
+class Overlap(NamedTuple):
+    """Overlap of the exhaust openings of two cylinders, valves or ports."""
+
+    before: int
+    """Number of the cylinder whose exhaust is open."""
+    after: int
+    """Number of the one that opens into it."""
+    gap_deg: float
+    """Crank angle from one opening to the other, degrees."""
+    overlap_deg: float
+    """Crank angle for which both are open, degrees."""
+
+
+class Valves(NamedTuple):
+    """Crank angles at which valves open and close, degrees, by cylinder number.
+
+    Opening is in [0, 720), closing after it, up to 720 more.
+    """
+
+    intake: NDArray[np.float64]
+    """Intake valves: (n_cylinders, 2)."""
+    exhaust: NDArray[np.float64]
+    """Exhaust valves: (n_cylinders, 2)."""
+
+
+class Ports(NamedTuple):
+    """Crank angles at which ports open and close, degrees, by cylinder number.
+
+    Opening is in [0, 360), closing after it, up to 360 more.
+    """
+
+    transfer: NDArray[np.float64]
+    """Transfer ports: (n_cylinders, 2)."""
+    exhaust: NDArray[np.float64]
+    """Exhaust ports: (n_cylinders, 2)."""
+
+
+@dataclasses.dataclass(frozen=True)
+class ValveTiming:
+    """Opening and closing of the valves of a four-stroke, in degrees of crank angle.
+
+    Parameters
+    ----------
+    intake_opens_deg
+        Before top dead centre.
+    intake_closes_deg
+        After bottom dead centre.
+    exhaust_opens_deg
+        Before bottom dead centre.
+    exhaust_closes_deg
+        After top dead centre.
+
+    Each is above −90 and at most 180; a negative angle is on the other side of the dead centre. The
+    defaults are those of an ordinary car engine.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> racing = cp.types.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
+    >>> racing.exhaust_opens_deg
+    80.0
+    """
+
+    intake_opens_deg: Angle = 10.0
+    intake_closes_deg: Angle = 50.0
+    exhaust_opens_deg: Angle = 50.0
+    exhaust_closes_deg: Angle = 10.0
+
+    def __post_init__(self) -> None:
+        for name in TIMES:
+            value = getattr(self, name)
+            if not isinstance(value, (str, Fraction)):
+                object.__setattr__(self, name, inputs.number(name, value))
+        _core.valve_timing(_valve_texts(self))
+
+
+@dataclasses.dataclass(frozen=True)
+class PortTiming:
+    """Opening of the ports of a two-stroke, in degrees of crank angle.
+
+    The piston opens them on its way down and closes them as far after bottom dead centre.
+
+    Parameters
+    ----------
+    transfer_opens_deg
+        Before bottom dead centre.
+    exhaust_opens_deg
+        Before bottom dead centre.
+
+    Each is above 0 and below 180. The defaults are those of an ordinary road engine. With a pin
+    offset, bottom dead centre is where the piston is lowest; the small difference between opening
+    and closing that a port of some height then has is neglected.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> racing = cp.types.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
+    >>> racing.exhaust_opens_deg
+    98.0
+    """
+
+    transfer_opens_deg: Angle = 60.0
+    exhaust_opens_deg: Angle = 85.0
+
+    def __post_init__(self) -> None:
+        for name in PORT_TIMES:
+            value = getattr(self, name)
+            if not isinstance(value, (str, Fraction)):
+                object.__setattr__(self, name, inputs.number(name, value))
+        _core.port_timing(_port_texts(self))
+
+
+def valves(core: _core.Firing, timing: ValveTiming | None) -> Valves:
+    """Return when valves open and close; see :meth:`Firing.valves`."""
+    return Valves(*core.valves(_valve_texts(valve_timing(timing))))
+
+
+def ports(core: _core.Firing, timing: PortTiming | None) -> Ports:
+    """Return when ports open and close; see :meth:`Firing.ports`."""
+    return Ports(*core.ports(_port_texts(port_timing(timing))))
+
+
+def overlaps(
+    core: _core.Firing, groups: list[list[int]] | None, timing: ValveTiming | PortTiming | None
+) -> tuple[tuple[Overlap, ...], ...]:
+    """Return the overlaps of exhausts in each group; see :meth:`Firing.exhaust_overlaps`."""
+    if core.strokes == 2:
+        found = core.port_overlaps(groups, _port_texts(port_timing(timing)))
+    else:
+        found = core.valve_overlaps(groups, _valve_texts(valve_timing(timing)))
+    return tuple(tuple(Overlap(*each) for each in group) for group in found)
+
+
+def valve_timing(timing: object) -> ValveTiming:
+    """Return a timing of valves, by default the ordinary one."""
+    if timing is None:
+        return ValveTiming()
+    if not isinstance(timing, ValveTiming):
+        cure = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
+        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
+    return timing
+
+
+def port_timing(timing: object) -> PortTiming:
+    """Return a timing of ports, by default the ordinary one."""
+    if timing is None:
+        return PortTiming()
+    if not isinstance(timing, PortTiming):
+        cure = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
+        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
+    return timing
+
+
+def _valve_texts(timing: ValveTiming) -> tuple[str, str, str, str]:
+    """Return the angles as text that reads back exactly, as the core takes them."""
+    first, second, third, fourth = (inputs.angle(name, getattr(timing, name)) for name in TIMES)
+    return first, second, third, fourth
+
+
+def _port_texts(timing: PortTiming) -> tuple[str, str]:
+    transfer, exhaust = (inputs.angle(name, getattr(timing, name)) for name in PORT_TIMES)
+    return transfer, exhaust

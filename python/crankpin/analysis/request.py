@@ -1,0 +1,111 @@
+"""Operating point and options that balances, waveforms and sweeps share."""
+
+from __future__ import annotations
+
+import dataclasses
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.absent import AbsentError
+
+if TYPE_CHECKING:
+    from crankpin._support.inputs import Orders, Spectrum
+
+
+@dataclasses.dataclass(frozen=True)
+class Request:
+    """Orders, tolerance, reference plane, spectrum and whether torque is computed; checked."""
+
+    orders: tuple[int, ...] | None
+    """The orders given, or None for ``"auto"``."""
+    rtol: float
+    """Tolerance by which orders are chosen."""
+    reference_z: float | None
+    """Plane about which moments are taken, m; None for midway between first and last cylinder."""
+    pairs: tuple[tuple[int, complex], ...] | None
+    """Spectrum as pairs of order and amplitude."""
+    torque: bool
+    """Whether torque is computed."""
+
+    @classmethod
+    def checked(
+        cls,
+        *,
+        orders: Orders,
+        rtol: float | None,
+        reference_z: float | None,
+        spectrum: Spectrum | None,
+        torque: bool,
+        default_rtol: float = 1e-9,
+    ) -> Request:
+        """Return a request, or raise an InputError that names the argument at fault."""
+        wanted = inputs.orders(orders)
+        if wanted is not None and rtol is not None:
+            raise InputError(
+                f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; leave out rtol or orders'
+            )
+        pairs = inputs.spectrum(spectrum)
+        return cls(
+            None if wanted is None else tuple(wanted),
+            default_rtol if rtol is None else inputs.number("rtol", rtol),
+            inputs.optional_number("reference_z", reference_z),
+            None if pairs is None else tuple(pairs),
+            inputs.flag("torque", torque),
+        )
+
+    @property
+    def spectrum(self) -> Spectrum | None:
+        """Spectrum as a read-only mapping, or None."""
+        return None if self.pairs is None else MappingProxyType(dict(self.pairs))
+
+    @property
+    def listed_orders(self) -> list[int] | None:
+        """Orders as the core takes them."""
+        return None if self.orders is None else list(self.orders)
+
+    @property
+    def listed_spectrum(self) -> list[tuple[int, complex]] | None:
+        """Spectrum as the core takes it."""
+        return None if self.pairs is None else list(self.pairs)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the quantities that there are."""
+        torques = ("torque", "crank_torque") if self.torque and self.pairs is None else ()
+        return ("force", "moment", *torques)
+
+    def check(self, quantity: str) -> None:
+        """Raise an AbsentError if a quantity is not available."""
+        if quantity in self.quantities:
+            return
+        name = quantity.replace("_", " ")
+        if self.pairs is not None:
+            raise AbsentError(
+                f"{name} is not available: a force spectrum does not determine it; "
+                "leave out `spectrum`"
+            )
+        raise AbsentError(f"{name} is not available: it was not requested; give torque=True")
+
+
+def check_request(request: object, maker: str) -> None:
+    """Raise an InputError that names the function that makes such results."""
+    if not isinstance(request, Request):
+        raise InputError(f"request = {inputs.shorten(request)}: use {maker}")
+
+
+def engine_core(engine: object) -> _core.Engine:
+    """Return the compiled counterpart of an engine, or say that it is none."""
+    core = getattr(engine, "core", None)
+    if not isinstance(core, _core.Engine):
+        raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
+    return core
+
+
+def check_quantities(names: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the quantities named, all that are known if none is named."""
+    for name in names:
+        inputs.one_of("quantity", name, known)
+    return names or known

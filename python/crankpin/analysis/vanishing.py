@@ -1,0 +1,315 @@
+"""Which orders of force, moment and torque vanish, with proof."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frozen import Frozen
+from crankpin._support.tables import Table
+from crankpin.analysis.request import engine_core
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Orders
+    from crankpin.model.engine import Engine
+
+COMPONENTS = ("x", "y", "forward", "backward")
+"""Components of a plane vector."""
+
+SUMS = {
+    ("force", "x"): "F_x",
+    ("force", "y"): "F_y",
+    ("force", "forward"): "F fwd",
+    ("force", "backward"): "F back",
+    ("moment", "x"): "M_x",
+    ("moment", "y"): "M_y",
+    ("moment", "forward"): "M fwd",
+    ("moment", "backward"): "M back",
+    ("torque", "z"): "M_z",
+}
+"""Sums of one order (quantity and component), as the core counts them → heads of columns."""
+
+
+def vanishing_orders(
+    engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
+) -> VanishingOrders:
+    """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
+    listed = tuple(inputs.explicit_orders(orders))
+    return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
+
+
+class Verdicts(Frozen):
+    """Verdicts on one sum, order by order: "vanishes", "remains" or "undecided".
+
+    A read-only sequence, in the sequence of ``orders``; ``np.asarray`` makes an array of text.
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("orders", "words", "within_rounding")
+
+    orders: tuple[int, ...]
+    """Multiples of crank speed."""
+    words: tuple[str, ...]
+    """Verdicts: (n_orders,)."""
+    within_rounding: tuple[bool, ...]
+    """True where floating point finds the sum below its rounding error: (n_orders,)."""
+
+    def __init__(
+        self, orders: tuple[int, ...], words: tuple[str, ...], within_rounding: tuple[bool, ...]
+    ) -> None:
+        self._set(orders=orders, words=words, within_rounding=within_rounding)
+
+    @property
+    def vanishing(self) -> tuple[int, ...]:
+        """Orders in which the sum is proved to vanish."""
+        return self._orders_with("vanishes")
+
+    @property
+    def remaining(self) -> tuple[int, ...]:
+        """Orders in which the sum is proved not to vanish."""
+        return self._orders_with("remains")
+
+    @property
+    def undecided(self) -> tuple[int, ...]:
+        """Orders in which neither is proved."""
+        return self._orders_with("undecided")
+
+    def _orders_with(self, verdict: str) -> tuple[int, ...]:
+        return tuple(n for n, word in zip(self.orders, self.words, strict=True) if word == verdict)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
+        return np.array(self.words, dtype=dtype)
+
+    def __len__(self) -> int:
+        return len(self.words)
+
+    def __getitem__(self, place: int) -> str:
+        return self.words[place]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.words)
+
+    def __repr__(self) -> str:
+        pairs = zip(self.orders, self.words, strict=True)
+        return f"<Verdicts {', '.join(f'{order}: {word}' for order, word in pairs)}>"
+
+
+class VectorVerdicts(Frozen):
+    """Verdicts on a force or moment: along (about) x and y, and on its parts."""
+
+    _fields: ClassVar[tuple[str, ...]] = COMPONENTS
+
+    x: Verdicts
+    """Along (about) x."""
+    y: Verdicts
+    """Along (about) y."""
+    forward: Verdicts
+    """Part that turns with the crank."""
+    backward: Verdicts
+    """Part that turns against the crank."""
+
+    def __init__(self, x: Verdicts, y: Verdicts, forward: Verdicts, backward: Verdicts) -> None:
+        self._set(x=x, y=y, forward=forward, backward=backward)
+
+    @property
+    def vanishing(self) -> tuple[int, ...]:
+        """Orders in which the whole vector is proved to vanish."""
+        return tuple(n for n in self.x.vanishing if n in self.y.vanishing)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{name:>8} {getattr(self, name)!r}" for name in COMPONENTS)
+
+
+class VectorVerdict(NamedTuple):
+    """Verdicts on a force or moment of one order: "vanishes", "remains" or "undecided"."""
+
+    x: str
+    """Along (about) x."""
+    y: str
+    """Along (about) y."""
+    forward: str
+    """Part that turns with the crank."""
+    backward: str
+    """Part that turns against the crank."""
+
+
+class OrderVerdicts(NamedTuple):
+    """Verdicts on one order: "vanishes", "remains" or "undecided"."""
+
+    order: int
+    """Multiple of crank speed."""
+    force: VectorVerdict
+    """Shaking force."""
+    moment: VectorVerdict
+    """Rocking moment."""
+    torque: str
+    """Roll torque."""
+
+
+class VanishingOrders(Frozen):
+    """Orders in which sums are exactly zero, decided in integers.
+
+    Each order has nine sums: force and moment along (about) x and y, their parts that turn with the
+    crank and against it, and torque. Each is a sum of roots of unity with rational weights where
+    angles are rational parts of a turn, and masses and positions rational multiples of each other;
+    it is zero if and only if the cyclotomic polynomial divides it, which integers decide. Positions
+    and masses are taken for such multiples (denominator up to 10 000) within four units in the last
+    place: 0, 0.1, 0.2, 0.3 are equal steps, although 0.3 is not three times 0.1 in binary.
+
+    A quantity with no rational relation to the others (an angle that is not rational, the harmonic
+    of another slider-crank) is treated as an independent symbol: where several such symbols remain,
+    they may cancel or not, and the verdict is "undecided"; ``obstacles`` lists the reasons.
+    ``within_rounding`` is true where floating point finds a sum below its rounding error, as in
+    :class:`Balance`.
+
+    Made by :meth:`Engine.vanishing_orders`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v = cp.Engine.preset("v8-crossplane").vanishing_orders(orders=[1, 2, 4])
+    >>> v.force.vanishing, v.moment.backward.vanishing
+    ((1, 2), (1, 2, 4))
+    >>> v[1].moment.forward
+    'remains'
+    >>> bool(v.undecided.any())
+    False
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("engine", "orders", "plane")
+
+    engine: Engine
+    """The engine."""
+    orders: tuple[int, ...]
+    """Multiples of crank speed."""
+    plane: float | None
+    """The reference plane that was given, m, or None."""
+    sums: tuple[tuple[str, str], ...]
+    """Quantity and component of the nine sums, the columns of the tables below."""
+    vanishes: NDArray[np.bool_]
+    """True where a sum is proved to be zero: (n_orders, 9)."""
+    remains: NDArray[np.bool_]
+    """True where a sum is proved not to be zero: (n_orders, 9)."""
+    undecided: NDArray[np.bool_]
+    """True where neither is proved: (n_orders, 9)."""
+    within_rounding: NDArray[np.bool_]
+    """True where floating point finds a sum below its rounding error: (n_orders, 9)."""
+    obstacles: tuple[str, ...]
+    """Reasons why sums are undecided; empty where none is."""
+
+    def __init__(self, engine: Engine, orders: tuple[int, ...], plane: float | None) -> None:
+        core = engine_core(engine)
+        vanishes, remains, within_rounding, obstacles = _core.vanishing(core, list(orders), plane)
+        undecided = ~(vanishes | remains)
+        undecided.setflags(write=False)
+        self._set(
+            engine=engine,
+            orders=orders,
+            plane=plane,
+            sums=tuple(SUMS),
+            vanishes=vanishes,
+            remains=remains,
+            undecided=undecided,
+            within_rounding=within_rounding,
+            obstacles=tuple(obstacles),
+        )
+
+    @property
+    def reference_z(self) -> float:
+        """Plane about which moments are taken, m."""
+        return self.engine.reference_z if self.plane is None else self.plane
+
+    @property
+    def force(self) -> VectorVerdicts:
+        """Shaking force: verdicts on x, y, forward and backward."""
+        return VectorVerdicts(*(self._verdicts("force", each) for each in COMPONENTS))
+
+    @property
+    def moment(self) -> VectorVerdicts:
+        """Rocking moment: verdicts on x (pitch), y (yaw), forward and backward."""
+        return VectorVerdicts(*(self._verdicts("moment", each) for each in COMPONENTS))
+
+    @property
+    def torque(self) -> Verdicts:
+        """Roll torque: verdicts."""
+        return self._verdicts("torque", "z")
+
+    def _verdicts(self, quantity: str, component: str) -> Verdicts:
+        column = self.sums.index((quantity, component))
+        words = tuple(self._word(k, column) for k in range(len(self.orders)))
+        within = tuple(map(bool, self.within_rounding[:, column]))
+        return Verdicts(self.orders, words, within)
+
+    def __getitem__(self, order: int) -> OrderVerdicts:
+        """Return the verdicts on one order.
+
+        Raises
+        ------
+        InputError
+            If the order is not among ``orders``.
+        """
+        if not isinstance(order, (int, np.integer)) or order not in self.orders:
+            there = labels.orders_text(self.orders)
+            raise InputError(
+                f"order = {inputs.shorten(order)}: is not among the orders of this result ({there})"
+            )
+        k = self.orders.index(int(order))
+        words = [self._word(k, column) for column in range(len(self.sums))]
+        return OrderVerdicts(
+            int(order), VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
+        )
+
+    def __iter__(self) -> Iterator[OrderVerdicts]:
+        return (self[order] for order in self.orders)
+
+    def _word(self, k: int, column: int) -> str:
+        if self.vanishes[k, column]:
+            return "vanishes"
+        return "remains" if self.remains[k, column] else "undecided"
+
+    # --- tables ---------------------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a tidy table, one row an order, quantity and component (needs pandas).
+
+        Columns are order, quantity, component, verdict and within_rounding.
+        """
+        rows = [
+            (order, quantity, component, self._word(k, column), self.within_rounding[k, column])
+            for k, order in enumerate(self.orders)
+            for column, (quantity, component) in enumerate(self.sums)
+        ]
+        columns = ["order", "quantity", "component", "verdict", "within_rounding"]
+        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
+        return table
+
+    def table(self) -> Table:
+        """Return the table that is shown: a verdict for each order and sum."""
+        name = self.engine.name or f"{len(self.engine)} cylinders"
+        title = f"{name}: 0 vanishes, ≠0 remains, both proved"
+        if self.undecided.any():
+            title += "; ?0 and ?≠0 undecided, with the finding of floating point"
+        words = {"vanishes": "0", "remains": "≠0"}
+        cells: list[list[str | float]] = []
+        for k, order in enumerate(self.orders):
+            row: list[str | float] = [str(order)]
+            for column in range(len(self.sums)):
+                guess = "?0" if self.within_rounding[k, column] else "?≠0"
+                row.append(words.get(self._word(k, column), guess))
+            cells.append(row)
+        return Table(title, ["order", *SUMS.values()], cells, np.empty((len(cells), 0)))
+
+    def __repr__(self) -> str:
+        return "\n".join([self.table().text(), *self.obstacles])
+
+    def _repr_html_(self) -> str:
+        reasons = (f"<p>{html.escape(obstacle)}</p>" for obstacle in self.obstacles)
+        return "".join([self.table().html(), *reasons])

@@ -1,0 +1,52 @@
+"""Engine files: the paths and texts that the core reads and writes as TOML and JSON."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+
+
+def from_toml(text: object) -> _core.Engine:
+    """Return the engine that a TOML text describes."""
+    return _core.Engine.from_toml(_text(text))
+
+
+def from_json(text: object) -> _core.Engine:
+    """Return the engine that a JSON text describes."""
+    return _core.Engine.from_json(_text(text))
+
+
+def load(path: object) -> _core.Engine:
+    """Return the engine in a ``.toml`` or ``.json`` file."""
+    file = _path(path)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        cure = f"{error}; an engine file is UTF-8"
+        raise InputError(f"path = {inputs.shorten(str(path))}: {cure}") from None
+    return from_toml(text) if file.suffix.lower() == ".toml" else from_json(text)
+
+
+def save(path: object, core: _core.Engine) -> None:
+    """Write an engine to a ``.toml`` or ``.json`` file."""
+    file = _path(path)
+    text = core.to_toml() if file.suffix.lower() == ".toml" else core.to_json()
+    file.write_text(text, encoding="utf-8")
+
+
+def _text(text: object) -> str:
+    return inputs.text("text", text, "give the text of an engine file")
+
+
+def _path(path: object) -> Path:
+    cure = "an engine file ends in .toml or .json"
+    try:
+        file = Path(path)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(f"path = {inputs.shorten(path)}: give a path; {cure}") from None
+    if file.suffix.lower() not in (".toml", ".json"):
+        raise InputError(f"path = {inputs.shorten(str(path))}: {cure}")
+    return file

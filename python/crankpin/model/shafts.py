@@ -1,0 +1,195 @@
+"""What rotates besides the throws: counterweights on the crankshaft, and balance shafts."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from crankpin._support.inputs import Angle
+
+_Weight: TypeAlias = tuple[float, str, float, int | None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Unbalance:
+    """Mass times eccentricity on a shaft (unbalance, ISO 21940): its force is amount·ω².
+
+    Parameters
+    ----------
+    amount
+        Mass × distance of its centre from the axis, kg·m.
+    z
+        Place along the crank, from the front to the flywheel, m.
+    angle_deg
+        Direction at θ = 0, degrees from +x; with ``pin`` from the direction of that crankpin, in
+        the direction in which the crank turns: 180 is opposite.
+    pin
+        Number of a cylinder whose crankpin it follows wherever the pin moves, such as 1; None for
+        a weight that keeps its direction. On the crankshaft only.
+
+    Examples
+    --------
+    Half of the reciprocating mass opposite the pin leaves no forward part of order 1:
+
+    >>> import crankpin as cp
+    >>> single = cp.Engine.preset("single")
+    >>> half = 0.5 * 0.45 * 0.043
+    >>> weight = cp.Unbalance(amount=half, z=0, angle_deg=180, pin=1)
+    >>> complex(single.with_counterweights([weight]).balance(rpm=3000)[1].force.forward)
+    0j
+    """
+
+    amount: float
+    z: float
+    angle_deg: Angle = 0.0
+    pin: int | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amount", inputs.number("amount", self.amount))
+        object.__setattr__(self, "z", inputs.number("z", self.z))
+        angle = inputs.angle("angle_deg", self.angle_deg)
+        object.__setattr__(self, "angle_deg", _readable(angle))
+        if self.pin is not None:
+            object.__setattr__(self, "pin", inputs.whole("pin", self.pin))
+            if self.pin < 1:
+                raise InputError(f"pin = {self.pin}: give the number of a cylinder, from 1")
+
+
+@dataclasses.dataclass(frozen=True)
+class Shaft:
+    """A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
+
+    An unbalance U on it makes the force U·(ratio·ω)² at order ``|ratio|``: all of it turns with the
+    crank if the ratio is above zero, against it if below. About the crank axis it makes a roll
+    torque, ``x·F_y − y·F_x``.
+
+    Parameters
+    ----------
+    ratio
+        Speed over crank speed, a whole number other than 0: −1 turns against the crank, 2 with it
+        at twice its speed.
+    unbalances
+        What the shaft carries, each without ``pin``.
+    x, y
+        Place of its axis from the crank axis, seen from the flywheel, m.
+    name
+        Name of the shaft; may be empty.
+
+    Examples
+    --------
+    Two shafts remove the second-order force of an inline-4 (Lanchester):
+
+    >>> import crankpin as cp
+    >>> i4 = cp.Engine.preset("i4")
+    >>> needed = abs(i4.balance(rpm=60, orders=[2])[2].force.y) / (2 * 3.141592653589793) ** 2
+    >>> pair = [
+    ...     cp.Shaft(ratio, [cp.Unbalance(needed / 8, z=0.15, angle_deg=-90)], x=x)
+    ...     for ratio, x in [(2, 0.08), (-2, -0.08)]
+    ... ]
+    >>> smooth = i4.with_shafts(pair)
+    >>> bool(smooth.balance(rpm=6000)[2].force.peak < 1e-9 * i4.balance(rpm=6000)[2].force.peak)
+    True
+    """
+
+    ratio: int
+    unbalances: Sequence[Unbalance]
+    x: float = 0.0
+    y: float = 0.0
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ratio", inputs.whole("ratio", self.ratio))
+        object.__setattr__(self, "x", inputs.number("x", self.x))
+        object.__setattr__(self, "y", inputs.number("y", self.y))
+        object.__setattr__(self, "name", inputs.text("name", self.name))
+        object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances))
+
+
+def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
+    """Return an engine with these unbalances on its crankshaft."""
+    given = [_weight(weight) for weight in _listed("counterweights", weights)]
+    return core.with_counterweights(given)
+
+
+def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
+    """Return the unbalances on the crankshaft besides the rotating masses."""
+    return tuple(_unbalance(weight) for weight in core.counterweights)
+
+
+def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
+    """Return an engine with these balance shafts."""
+    listed = inputs.items("shafts", given, "give a list of crankpin.Shaft")
+    for k, each in enumerate(listed):
+        if not isinstance(each, Shaft):
+            raise InputError(f"shafts[{k}] = {inputs.shorten(each)}: give a crankpin.Shaft")
+    return core.with_shafts(
+        [
+            (each.name, each.ratio, each.x, each.y, [_weight(u) for u in each.unbalances])
+            for each in listed
+        ]
+    )
+
+
+def shafts(core: _core.Engine) -> tuple[Shaft, ...]:
+    """Return the balance shafts."""
+    return tuple(
+        Shaft(ratio, tuple(_unbalance(weight) for weight in weights), x, y, name)
+        for name, ratio, x, y, weights in core.shafts
+    )
+
+
+def lines(core: _core.Engine) -> list[str]:
+    """Return counterweights and shafts in words."""
+    found = []
+    if core.counterweights:
+        listed = ", ".join(map(_text, core.counterweights[:4]))
+        found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")
+    for name, ratio, x, y, weights in core.shafts[:4]:
+        total = sum(weight[0] for weight in weights)
+        title = f"balance shaft {name}".strip()
+        found.append(f"{title}: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
+    return found
+
+
+def _listed(name: str, given: Any) -> tuple[Unbalance, ...]:  # noqa: ANN401 - checked here
+    listed = inputs.items(name, given, "give a list of crankpin.Unbalance")
+    for k, each in enumerate(listed):
+        if not isinstance(each, Unbalance):
+            raise InputError(f"{name}[{k}] = {inputs.shorten(each)}: give a crankpin.Unbalance")
+    return tuple(listed)
+
+
+def _weight(unbalance: Unbalance) -> _Weight:
+    pin = None if unbalance.pin is None else unbalance.pin - 1
+    angle = inputs.angle("angle_deg", unbalance.angle_deg)
+    return (unbalance.amount, angle, unbalance.z, pin)
+
+
+def _unbalance(weight: _Weight) -> Unbalance:
+    amount, angle, z, pin = weight
+    return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1)
+
+
+def _readable(angle: str) -> float | str:
+    """Return exact degrees as a number, or as text where no number is exact."""
+    if "/" in angle or _core.exact_angle("angle_deg", float(angle)) != angle:
+        return angle
+    return float(angle)
+
+
+def _text(weight: _Weight) -> str:
+    amount, angle, z, pin = weight
+    place = "" if pin is None else f"pin {pin + 1} + "
+    return f"{amount:.4g} kg·m at {place}{_degrees(angle):.6g}°, z = {z:.4g} m"
+
+
+def _degrees(angle: str) -> float:
+    numerator, _, denominator = angle.partition("/")
+    return float(numerator) / float(denominator or 1)

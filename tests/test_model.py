@@ -1,0 +1,478 @@
+"""Engines as data: throws, banks, firing orders, units, files, presets."""
+
+# ruff: noqa: ANN401 - arguments of any type are the point
+
+from __future__ import annotations
+
+import copy
+import itertools
+import json
+import math
+import pickle
+import warnings
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin.model import presets as presets_module
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+CYLINDER = cp.Cylinder(0.043, 0.145, 0.45)
+I4 = cp.Engine.inline(
+    CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, firing_order="1-3-4-2", name="four"
+)
+TWO_STROKE = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
+V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 240, 120], spacing=0.1)
+
+
+def vee(**changes: Any) -> cp.Engine:
+    given: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 240, 120], "spacing": 0.1}
+    return cp.Engine.vee(CYLINDER, **given | changes)
+
+
+# --- banks and throws ---------------------------------------------------------------------------
+
+
+def test_throws_and_pin_split_of_a_vee() -> None:
+    engine = vee(pin_split_deg=-30, odd_bank="left", first_tdc_deg=77)
+    assert engine.throws_deg.tolist() == [0.0, 240.0, 120.0]
+    assert engine.pin_split_deg.tolist() == [-30.0] * 3
+    assert engine.banks == {"right": (2, 4, 6), "left": (1, 3, 5)}
+    assert vee(numbering="by-bank").banks == {"right": (1, 2, 3), "left": (4, 5, 6)}
+    for array in (engine.throws_deg, engine.pin_split_deg):
+        assert not array.flags.writeable
+
+
+@pytest.mark.parametrize("split", [180, -180, 540])
+def test_pin_split_is_above_minus_180_and_at_most_180(split: int) -> None:
+    assert vee(bank_angle_deg=180, pin_split_deg=split).pin_split_deg.tolist() == [180.0] * 3
+
+
+def test_throws_of_one_bank_are_those_of_its_cylinders_along_the_crank() -> None:
+    assert I4.throws_deg.tolist() == [0.0, 180.0, 180.0, 0.0]
+    backward = I4.replace(z=I4.z[::-1], pin_deg=[10, 20, 30, 40])
+    assert backward.throws_deg.tolist() == [0.0, 350.0, 340.0, 330.0]
+    assert backward.banks == {"bank 1": (1, 2, 3, 4)}
+
+
+def test_right_bank_is_the_core_s() -> None:
+    """The bank that turns clockwise as the bank angle grows."""
+    rng = np.random.default_rng(3)
+    pairs = [tuple(pair) for pair in rng.integers(0, 24, (40, 2)) * 15.0 if pair[0] != pair[1]]
+    for banks in [*pairs, (0.0, 180.0), (180.0, 0.0), (90.0, 270.0), (270.0, 90.0)]:
+        engine = cp.Engine.from_lists(CYLINDER, tdc_deg=[0, 0], bank_deg=banks, z=[0, 0])
+        ((right,), (left,)) = (engine.banks[name] for name in ("right", "left"))
+        narrowed = engine.with_bank_angle(10, hold="pins")
+        turn = (narrowed.bank_deg[left - 1] - narrowed.bank_deg[right - 1]) % 360.0
+        assert turn == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "engine", "needed"),
+    [
+        ("bank_angle_deg", I4, "it has one bank (90°); exactly two are needed"),
+        ("pin_split_deg", I4, "it has one bank (90°); exactly two are needed"),
+        ("throws_deg", cp.Engine.preset("w12"), "it has 4 banks (61.5°, 46.5°, 133.5°, 118.5°);"),
+        ("firing_intervals_deg", V6, "its firing order is not known"),
+        ("fires_evenly", V6, "its firing order is not known"),
+        (
+            "pin_split_deg",
+            cp.Engine.from_lists(CYLINDER, tdc_deg=[0] * 3, bank_deg=[60, 60, 120], z=[0] * 3),
+            "it has 2 cylinders in the right bank and 1 in the left",
+        ),
+    ],
+)
+def test_undefined_properties_are_absent_and_say_why(
+    name: str, engine: cp.Engine, needed: str
+) -> None:
+    assert not hasattr(engine, name)
+    with pytest.raises(cp.InputError) as caught:
+        getattr(engine, name)
+    assert str(caught.value).startswith(f"{name} is undefined for this engine: {needed}")
+    assert isinstance(caught.value, AttributeError)
+
+
+def test_bank_angle_of_one_bank_cannot_be_changed() -> None:
+    with pytest.raises(cp.InputError, match=r"bank_angle_deg is undefined .* one bank"):
+        I4.with_bank_angle(90, hold="pins")
+
+
+# --- firing order -------------------------------------------------------------------------------
+
+
+def test_the_firing_order_is_used_where_none_is_given() -> None:
+    assert I4.firing() == I4.firing("1-3-4-2")
+    assert I4.firings() == I4.firings("1-3-4-2")
+    assert I4.fires_evenly
+    assert I4.firing_intervals_deg.tolist() == [180.0] * 4
+    assert not cp.Engine.preset("v6-90-odd-fire").fires_evenly
+    with pytest.raises(cp.InputError, match=r"firing_order = None: .* is not known; give one"):
+        V6.firing()
+    with pytest.raises(cp.InputError, match="is that of a 4-stroke; give one"):
+        I4.firing(strokes=2)
+
+
+def test_the_firing_order_begins_with_cylinder_1() -> None:
+    assert I4.replace(firing_order=[4, 2, 1, 3]) == I4
+    assert I4.replace(firing_order=(k for k in (1, 3, 4, 2))) == I4
+    made = cp.Engine.from_firing_order(CYLINDER, (k for k in (3, 4, 2, 1)), spacing=0.1)
+    assert made.firing_order == "1-3-4-2"
+
+
+def test_a_firing_order_that_the_crank_does_not_allow_is_rejected() -> None:
+    with pytest.raises(cp.InputError, match="firing_order = 1-2-3-4"):
+        I4.replace(firing_order="1-2-3-4")
+
+
+def test_a_firing_order_is_dropped_where_a_changed_crank_does_not_allow_it() -> None:
+    v6 = cp.Engine.preset("v6-120")
+    assert v6.with_bank_angle(110, hold="pins").firing_order == v6.firing_order
+    assert v6.with_bank_angle(0, hold="pins").firing_order == ""
+    assert v6.with_bank_angle(60, hold="firing").firing_order == v6.firing_order
+    assert I4.with_first_tdc(100).firing_order == I4.firing_order
+    turned = TWO_STROKE.replace(pin_deg=-TWO_STROKE.pin_deg)
+    assert (turned.firing_order, turned.strokes) == ("", 2)
+    assert I4.replace(z=[0, 1, 2, 3]).firing_order == I4.firing_order
+
+
+@pytest.mark.parametrize("engine", [I4, TWO_STROKE, cp.Engine.preset("w16")])
+def test_equality_copies_and_files_carry_the_firing_order(
+    engine: cp.Engine, tmp_path: Path
+) -> None:
+    without = engine.replace(firing_order="")
+    assert without != engine
+    assert hash(without) != hash(engine)
+    engine.save(tmp_path / "engine.toml")
+    engine.save(tmp_path / "engine.json")
+    for back in (
+        copy.copy(engine),
+        pickle.loads(pickle.dumps(engine)),  # noqa: S301 - its own
+        engine.replace(name="x").replace(name=engine.name),
+        cp.Engine.from_toml(engine.to_toml()),
+        cp.Engine.from_json(engine.to_json()),
+        cp.Engine.load(tmp_path / "engine.toml"),
+        cp.Engine.load(tmp_path / "engine.json"),
+    ):
+        assert back == engine
+        assert hash(back) == hash(engine)
+        assert (back.firing_order, back.strokes) == (engine.firing_order, engine.strokes)
+    assert TWO_STROKE.firing().strokes == 2
+
+
+def test_a_file_may_have_the_firing_order_anywhere_above_its_tables() -> None:
+    text = I4.to_toml()
+    moved = text.replace('firing_order = "1-3-4-2"\n', "")
+    moved = moved.replace("\n[cylinder]", 'firing_order="1-3-4-2" # known\n\n[cylinder]')
+    assert moved != text
+    assert cp.Engine.from_toml(moved) == I4
+    for bad in ("firing_order = 7", 'firing_order = "1-2-3-4"', "strokes = 3"):
+        with pytest.raises(cp.InputError, match=bad.partition(" ")[0]):
+            cp.Engine.from_toml(text.replace('firing_order = "1-3-4-2"', bad))
+    document = json.loads(I4.to_json())
+    for key, value in (("firing_order", 7), ("firing_order", "1-2-3-4"), ("strokes", "2")):
+        with pytest.raises(cp.InputError, match=key):
+            cp.Engine.from_json(json.dumps(document | {key: value}))
+
+
+@pytest.mark.parametrize(
+    "name", ['firing_order = "1-2"', 'a\nfiring_order = "1-3-4-2"\nb', '"firing_order": "1",']
+)
+def test_a_name_that_looks_like_a_firing_order_is_a_name(name: str) -> None:
+    for engine in (I4.replace(name=name), I4.replace(name=name, firing_order="")):
+        assert cp.Engine.from_toml(engine.to_toml()) == engine
+        assert cp.Engine.from_json(engine.to_json()) == engine
+
+
+# --- rotating mass ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mass", [0.8, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]])
+def test_rotating_mass_means_the_same_to_every_builder_and_to_replace(mass: Any) -> None:
+    made = (
+        vee(rotating_mass=mass),
+        cp.Engine.flat(CYLINDER, throws_deg=[0, 120, 240], spacing=0.1, rotating_mass=mass),
+        cp.Engine.boxer(CYLINDER, throws_deg=[0, 120, 240], spacing=0.1, rotating_mass=mass),
+        cp.Engine.inline(CYLINDER, throws_deg=[0] * 6, spacing=0.1, rotating_mass=mass),
+        cp.Engine.from_firing_order(CYLINDER, "1-5-3-6-2-4", spacing=0.1, rotating_mass=mass),
+        cp.Engine.from_firing_order(
+            CYLINDER, "1-2-3-4-5-6", bank_angle_deg=60, spacing=0.1, rotating_mass=mass
+        ),
+    )
+    for engine in made:
+        assert engine.rotating_mass.tolist() == np.broadcast_to(mass, 6).tolist()
+        assert engine.replace(rotating_mass=mass) == engine
+        assert engine.replace(rotating_mass=0).replace(rotating_mass=mass) == engine
+
+
+# --- tables -------------------------------------------------------------------------------------
+
+
+def test_an_engine_is_shown_as_a_table() -> None:
+    title, throws, firing, head, *rows = repr(cp.Engine.preset("v6-90")).splitlines()
+    assert title == "V6 90°, split pins: 6 cylinders, bank angle 90°"
+    assert throws == "throws 0-240-120°, pins split by -30°"
+    assert firing == "4-stroke 1-6-5-4-3-2, even, 120°"
+    assert head.split()[:2] == ["cylinder", "bank"]
+    assert [row.split()[:3] for row in rows[:2]] == [["1", "left", "135"], ["2", "right", "45"]]
+    assert len(rows) == 6
+    html = I4.replace(name="<b>")._repr_html_()
+    assert "&lt;b&gt;: 4 cylinders, bores at 90°; throws 0-180-180-0°; 4-stroke 1-3-4-2" in html
+
+
+def test_a_table_of_many_cylinders_is_cut() -> None:
+    engine = cp.Engine.inline(CYLINDER, throws_deg=range(1000), spacing=0.1, name="a\n" * 90)
+    assert repr(engine).endswith("\nand 976 more cylinders")
+    assert len(repr(engine)) < 2000
+    assert repr(engine).count("\n") == 27
+
+
+# --- mistakes -----------------------------------------------------------------------------------
+
+MILLIMETRES = cp.Cylinder(43, 145, 0.45)
+GRAMS = CYLINDER.replace(reciprocating_mass=450)
+MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
+    "all lengths in mm": (
+        lambda: cp.Engine.inline(MILLIMETRES, throws_deg=[0], spacing=100),
+        "crank_radius = 43 m: was it given in millimetres",
+    ),
+    "spacing in mm": (
+        lambda: vee(spacing=100),
+        "spacing. = 100 m apart at a crank radius of 0.043 m: were they given in millimetres",
+    ),
+    "z in mm": (lambda: I4.replace(z=[0, 100, 200, 300]), "= 100 m apart"),
+    "grams": (
+        lambda: cp.Engine.inline(GRAMS, throws_deg=[0], spacing=0.1),
+        "^reciprocating_mass = 450 kg .* was it given in grams",
+    ),
+    "rotating grams": (lambda: vee(rotating_mass=300), "^rotating_mass = 300 kg"),
+    "throws in radians": (
+        lambda: vee(throws_deg=[0.0, 2.0944, 4.18879]),
+        r"throws_deg = \[0\.0, 2\.0944, 4\.18879\]: was it given in radians.* 120°, 240°",
+    ),
+    "bank angle in radians": (lambda: vee(bank_angle_deg=math.pi / 3), "bank_angle_deg = 1.0472?"),
+    "tdc in radians": (lambda: I4.replace(tdc_deg=np.radians([0, 180, 180, 0])), "tdc_deg"),
+    "split to the wrong side": (
+        lambda: vee(pin_split_deg=30, odd_bank="left"),
+        "pin_split_deg = 30: .* unevenly; with pin_split_deg = -30 it would fire evenly",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_likely_mistakes_are_warned_of_once_by_name(name: str) -> None:
+    call, words = MISTAKES[name]
+    with pytest.warns(UserWarning, match=words) as caught:
+        call()
+    assert [warning.filename for warning in caught] == [__file__]
+
+
+SOUND: dict[str, Callable[[], Any]] = {
+    "large two-stroke": lambda: cp.Engine.inline(  # RT-flex96C
+        cp.Cylinder(1.25, 2.5, 15_000), throws_deg=range(0, 360, 30), spacing=1.67
+    ),
+    "largest stroke": lambda: cp.Engine.inline(
+        cp.Cylinder(1.73, 3.5, 20_000), throws_deg=[0, 120, 240], spacing=1.7, rotating_mass=9_000
+    ),
+    "Formula 1": lambda: cp.Engine.vee(
+        cp.Cylinder(0.0199, 0.102, 0.35),
+        bank_angle_deg=90,
+        throws_deg=[0, 90, 270, 180],
+        spacing=0.11,
+        rotating_mass=0.25,
+    ),
+    "model": lambda: cp.Engine.inline(cp.Cylinder(0.005, 0.02, 0.002), throws_deg=[0], spacing=0.1),
+    "small angles": lambda: vee(bank_angle_deg=5, throws_deg=[0, 1.5, 3], pin_split_deg=-2.25),
+    "exact small angles": lambda: vee(bank_angle_deg="1.0472"),
+    "even by its split": lambda: vee(pin_split_deg=-30),
+    "even by the other split of a 60° V6": lambda: vee(bank_angle_deg=60, pin_split_deg=60),
+    "uneven either way": lambda: vee(bank_angle_deg=80, pin_split_deg=10),
+    "one place": lambda: I4.replace(z=[0, 0, 0, 0]),
+}
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_sound_figures_are_not_warned_of(name: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        SOUND[name]()
+
+
+def test_presets_are_not_warned_of_and_alike_builders_name_their_own_arguments() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for name in cp.presets():
+            cp.Engine.preset(name)
+    for builder in (cp.Engine.flat, cp.Engine.boxer):
+        with pytest.raises(TypeError, match=rf"{builder.__name__}\(\).*'stagger'"):
+            builder(CYLINDER, throws_deg=[0], spacing=0.1, stagger=0)  # type: ignore[call-arg]
+
+
+# --- arguments of all kinds ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda bad: vee(name=bad),
+        lambda bad: vee(source=bad),
+        cp.Engine.from_toml,
+        cp.Engine.from_json,
+    ],
+)
+@pytest.mark.parametrize("bad", [np.array(["a", "b"]), None, b"text", 7, "\ud800", [""]])
+def test_texts_that_are_none_are_rejected_by_name(call: Callable[[Any], Any], bad: Any) -> None:
+    with pytest.raises(cp.InputError, match=r"^(name|source|text) = "):
+        call(bad)
+
+
+@pytest.mark.parametrize("path", [None, 7, b"\xff.toml", ["engine.toml"], "x" * 10**6])
+def test_paths_that_are_none_are_rejected_in_few_words(path: Any) -> None:
+    for call in (cp.Engine.load, I4.save):
+        with pytest.raises(cp.InputError, match=r"^path = ") as caught:
+            call(path)
+        assert len(str(caught.value)) < 300
+
+
+def test_byte_order_marks_are_ignored(tmp_path: Path) -> None:
+    for suffix, text in ((".toml", I4.to_toml()), (".json", I4.to_json())):
+        file = tmp_path / f"engine{suffix}"
+        file.write_text(text, encoding="utf-8-sig")
+        assert cp.Engine.load(file) == I4
+    assert cp.Engine.from_json("\ufeff" + I4.to_json()) == I4
+    assert cp.Engine.from_toml("\ufeff" + I4.to_toml()) == I4
+
+
+def test_misaligned_arrays_are_taken() -> None:
+    data = bytearray(8 * 4 + 1)
+    z = np.frombuffer(data, dtype=np.float64, offset=1)
+    z[:] = [0.0, 0.1, 0.2, 0.3]
+    assert not z.flags.aligned
+    assert I4.replace(z=z).z.tolist() == [0.0, 0.1, 0.2, 0.3]
+    assert CYLINDER.position(z).shape == (4,)
+
+
+LONG = "x" * 10**6
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: vee(spacing=LONG),
+        lambda: vee(throws_deg=[LONG]),
+        lambda: vee(numbering=LONG),
+        lambda: vee(rotating_mass=[LONG]),
+        lambda: vee(firing_order=LONG),
+        lambda: I4.replace(z=[LONG] * 4),
+        lambda: I4.replace(name=LONG),
+        lambda: I4.firing("1-" * 10**6),
+        lambda: cp.Engine.preset(LONG),
+        lambda: cp.Engine.from_toml(LONG),
+        lambda: cp.Engine.from_json(f'{{"{LONG[: 10**5]}": 1}}'),
+        lambda: cp.Cylinder(LONG, 1, 1),  # type: ignore[arg-type]
+        lambda: cp.throws(LONG),
+    ],
+)
+def test_messages_are_short_whatever_is_given(call: Callable[[], Any]) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        call()
+    assert len(str(caught.value)) < 500
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("values", [range(10**12), range(10**30), itertools.repeat(0.0)])
+def test_what_has_no_end_is_rejected_at_once(values: Any) -> None:
+    for call in (
+        lambda: I4.replace(z=values),
+        lambda: vee(throws_deg=values),
+        lambda: vee(rotating_mass=values),
+        lambda: vee(firing_order=values),
+        lambda: CYLINDER.position(values),
+    ):
+        with pytest.raises(cp.InputError):
+            call()
+
+
+def test_a_file_says_which_cylinder_cannot_turn() -> None:
+    parts = [CYLINDER, CYLINDER.replace(rod_length=0.2), CYLINDER, CYLINDER]
+    text = I4.replace(cylinder=parts).to_json().replace("0.2", "0.02", 1)
+    with pytest.raises(cp.InputError, match=r"^placements\[1\]\.cylinder\.crank_radius = 0\.043"):
+        cp.Engine.from_json(text)
+    with pytest.raises(cp.InputError, match=r"^cylinder\.crank_radius = 0\.043.* cannot turn"):
+        cp.Engine.from_toml(I4.to_toml().replace("0.145", "0.02"))
+
+
+# --- presets ------------------------------------------------------------------------------------
+
+
+def test_presets_are_a_mapping_to_engines() -> None:
+    presets = cp.presets()
+    assert len(presets) == len(list(presets)) > 40
+    assert presets["i4"] == cp.Engine.preset("i4")
+    assert presets.get("nothing") is None
+    assert "v8-crossplane" in presets
+    assert 8 not in presets
+    with pytest.raises(KeyError):
+        presets["v8-crosplane"]
+    with pytest.raises(cp.InputError, match=r'^name = "v8-crosplane": .* "v8-crossplane"'):
+        presets["v8-crosplane"]
+
+
+def test_presets_are_shown_as_a_table() -> None:
+    head, *rows = repr(cp.presets()).splitlines()[1:]
+    assert head.split() == ["name", "cylinders", "bank", "angle", "°", "firing", "order", "source"]
+    assert [row.split()[0] for row in rows] == list(cp.presets())
+    (v8,) = (row for row in rows if row.startswith("v8-crossplane "))
+    assert v8.split()[1:4] == ["8", "90", "1-8-4-3-6-5-7-2"]
+    html = cp.presets()._repr_html_()
+    for engine in cp.presets().values():
+        assert engine.source.split('"')[0] in html
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("inline-4", '"i4"'),
+        ("Straight-6", '"i6"'),
+        ("v8-cross-plane", '"v8-crossplane"'),
+        ("boxer-5", '"boxer-6"'),
+        ("v10", '"v10-72" or "v10-90" or "v10-90-even"'),
+        ("rotary", None),
+    ],
+)
+def test_unknown_presets_suggest_near_names_only(typed: str, meant: str | None) -> None:
+    with pytest.raises(cp.InputError) as caught:
+        cp.Engine.preset(typed)
+    hint = f"did you mean {meant}? " if meant else ""
+    expected = f'name = "{typed}": no such preset; {hint}crankpin.presets() lists all'
+    assert str(caught.value) == expected
+
+
+def test_presets_of_a_family_have_comparable_parts() -> None:
+    assert presets_module.family("v6") == ["v6-60", "v6-90", "v6-90-odd-fire", "v6-120"]
+    assert presets_module.family("v6-60") == ["v6-60"]
+    assert presets_module.family("v6-60-ebook") == ["v6-60-ebook"]
+
+
+def test_presets_whose_firing_order_is_known_fire_in_it() -> None:
+    for name, engine in cp.presets().items():
+        if engine.firing_order:
+            assert engine.firing().engine == engine, name
+    assert sum(bool(engine.firing_order) for engine in cp.presets().values()) >= 30
+
+
+def test_rows_of_vr_and_w_engines_follow_from_their_offset() -> None:
+    """Right rows are at TDC 2 asin(|e|/(l + r)) after they fire, left rows as they fire."""
+    for name in ("vr6", "w12", "w16"):
+        engine = cp.Engine.preset(name)
+        order = [int(number) for number in engine.firing_order.split("-")]
+        for number, part in enumerate(engine.cylinders, start=1):
+            reach = part.rod_length + part.crank_radius
+            late = 2.0 * math.degrees(math.asin(max(-part.pin_offset, 0.0) / reach))
+            fires = Fraction(720 * order.index(number), len(order))
+            expected = (float(fires) + late) % 360.0
+            assert engine.tdc_deg[number - 1] == pytest.approx(expected, abs=1e-12)

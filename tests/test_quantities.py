@@ -1,0 +1,251 @@
+"""Quantities: arrays of phasors of balances, single orders and sweeps; totals and exports."""
+
+# ruff: noqa: ANN401, S301 - results of any kind; pickles of our own
+
+from __future__ import annotations
+
+import copy
+import io
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from matplotlib import pyplot as plt
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+V6 = cp.Engine.preset("v6-60")
+PLANAR = ("xy", "x", "y", "forward", "backward", "peak", "peak_xy", "zero_bound")
+SCALAR = ("phasor", "peak", "zero_bound")
+NAMES = ("force", "moment", "torque", "crank_torque")
+
+
+@pytest.mark.parametrize("name", cp.presets())
+def test_default_peaks_are_those_of_the_waveform(name: str) -> None:
+    """Sampled exactly at 0.05°, within the bound of omitted orders and the step's effect."""
+    engine = cp.Engine.preset(name)
+    rpm = 100 if name.endswith("ebook") else 5000
+    b, w = engine.balance(rpm), engine.waveform(rpm, theta_deg=np.arange(0.0, 360.0, 0.05))
+    for quantity in NAMES:
+        values = getattr(w, quantity)
+        length = np.abs(values) if values.ndim == 1 else np.hypot(*values.T)
+        total = getattr(b.total, quantity)
+        largest = float(np.abs(getattr(b, quantity).peak).sum())
+        # Half a step at the highest order that matters; then rounding.
+        step = largest * 0.5 * (20 * np.deg2rad(0.025)) ** 2
+        rounding = 1e-9 * float(np.abs(engine.balance(rpm, orders=[1, 2]).force.zero_bound).max())
+        missing = total.error_bound + rounding + 1e-12 * largest + 1e-9
+        assert length.max() <= total.peak + missing, quantity
+        assert total.peak <= length.max() + step + missing, quantity
+
+
+def test_points_of_a_sweep_are_balances() -> None:
+    given: dict[str, Any] = {
+        "bank_angle_deg": [60.0, 90.0],
+        "hold": "pins",
+        "rod_ratio": [0.2, 0.3],
+    }
+    s = cp.sweep({"a": V6, "b": cp.Engine.preset("v6-90")}, rpm=[1000.0, 6000.0], **given)
+    for place in np.ndindex(2, 2, 2, 2):
+        at = [values[k] for values, k in zip(s.coords.values(), place, strict=True)]
+        engine = s.engine_at(engine=at[0], bank_angle_deg=at[1], rod_ratio=at[2])
+        b = engine.balance(float(at[3]), orders=s.orders)
+        for name in NAMES:
+            swept, one = getattr(s, name), getattr(b, name)
+            scale = float(np.abs(one).max()) or 1.0
+            for part in PLANAR if name in ("force", "moment") else SCALAR:
+                found, expected = getattr(swept, part)[place], getattr(one, part)
+                np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-13 * scale)
+                single = getattr(getattr(s[2], name), part)[place]
+                np.testing.assert_array_equal(single, found[s.orders.index(2)])
+            total = getattr(s.total, name).peak[place]
+            assert total == pytest.approx(getattr(b.total, name).peak, rel=1e-12, abs=1e-12 * scale)
+    for part in s.moment.ellipse:
+        assert part.shape == (2, 2, 2, 2, len(s.orders))
+
+
+def test_engine_at_names_what_is_wrong() -> None:
+    s = cp.sweep(V6, rpm=[1000, 2000], bank_angle_deg=[60, 90], hold="firing")
+    with pytest.raises(cp.InputError, match="bank_angle_deg = 61: is not among the 2 swept values"):
+        s.engine_at(bank_angle_deg=61)
+    with pytest.raises(cp.InputError, match="bank_angle_deg is swept"):
+        s.engine_at(rpm=1000)
+    with pytest.raises(cp.InputError, match="dimension = 'speed'"):
+        s.engine_at(speed=1)
+
+
+def test_quantities_are_read_only_arrays() -> None:
+    b = V6.balance(5000, orders=[1, 2])
+    np.testing.assert_array_equal(abs(b.moment), b.moment.peak_xy)
+    np.testing.assert_array_equal(2 * b.moment - b.moment, b.moment.xy)
+    assert b.moment.shape == (2, 2)
+    assert len(b.torque) == 2
+    assert not np.asarray(b.moment.xy).flags.writeable
+    with pytest.raises(ValueError, match="read-only"):
+        b.moment.xy[0] = 0
+    for made in (
+        copy.copy(b.moment),
+        copy.deepcopy(b.moment),
+        pickle.loads(pickle.dumps(b.moment)),
+    ):
+        np.testing.assert_array_equal(made, b.moment)
+
+
+def test_absent_torque_is_no_attribute() -> None:
+    """It was an error of its own under hasattr."""
+    b, s = V6.balance(5000, torque=False), cp.sweep(V6, rpm=[1.0], spectrum={1: 1.0}, orders=[1])
+    for result in (b, s, b.total, s[1], V6.waveform(5000, torque=False), s.waveform([0.0])):
+        assert not hasattr(result, "torque")
+        assert not hasattr(result, "crank_torque")
+        assert hasattr(result, "force")
+    with pytest.raises(cp.InputError, match="torque is not available: it was not requested"):
+        _ = b.torque
+    with pytest.raises(cp.InputError, match="a force spectrum does not determine it"):
+        _ = s.crank_torque
+
+
+def test_an_order_that_is_not_there_is_named() -> None:
+    b = V6.balance(5000, orders=[1, 2])
+    with pytest.raises(cp.InputError, match=r"order = 3: is not among .*orders 1, 2"):
+        _ = b[3]
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda **given: V6.balance(5000, **given),
+        lambda **given: V6.waveform(5000, **given),
+        lambda **given: cp.sweep(V6, rpm=5000, **given),
+        lambda **given: cp.rank(V6, rpm=5000, by="total.moment.peak", **given),
+    ],
+)
+def test_rtol_with_given_orders_is_refused(call: Any) -> None:
+    with pytest.raises(cp.InputError, match=r"rtol = 0\.1: needs orders"):
+        call(orders=[1, 2], rtol=0.1)
+
+
+def test_a_spectrum_is_copied() -> None:
+    spectrum = {1: 1.0, 2: 0.5}
+    s = cp.sweep(V6, rpm=[1000.0], spectrum=spectrum, orders=[1, 2])
+    before = s.force.xy
+    spectrum[1] = 99.0
+    assert s.spectrum == {1: 1.0, 2: 0.5}
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(s)).force, before)
+    np.testing.assert_array_equal(s.to_dask(1).force.compute(scheduler="synchronous"), before)
+
+
+def test_a_sweep_without_orders_is_as_a_balance() -> None:
+    """An I6 has no shaking within a coarse tolerance: neither keeps an order."""
+    i6 = cp.Engine.preset("i6")
+    b, s = (
+        i6.balance(5000, rtol=0.5, torque=False),
+        cp.sweep(i6, rpm=[5000], rtol=0.5, torque=False),
+    )
+    assert b.orders == s.orders == ()
+    assert s.force.shape == (1, 0, 2)
+    assert s.force.forward.shape == (1, 0)
+    assert s.total.force.peak_xy.tolist() == [[0.0, 0.0]]
+    assert not s.waveform([0.0, 1.0], exact=False).force.any()
+    assert s.to_dask(1).force.compute(scheduler="synchronous").shape == (1, 0, 2)
+
+
+def test_progress_of_many_speeds_advances() -> None:
+    told: list[tuple[int, int]] = []
+    s = cp.sweep(
+        V6,
+        rpm=np.linspace(1.0, 6000.0, 400_000),
+        orders=[1, 2],
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert s.moment.any()
+    assert told[-1][0] == told[-1][1] > 10
+
+
+def test_negligible_orders_are_left_out_and_named() -> None:
+    b = V6.balance(5000)
+    assert "Not shown: order" in repr(b)
+    assert "Not shown" not in repr(V6.balance(5000, orders=b.orders))
+    assert "of the orders given" in repr(V6.balance(5000, orders=b.orders))
+    shown = b.plot(quantity="moment").get_xticklabels()
+    assert len(shown) < len(b.orders)
+    plt.close("all")
+
+
+@pytest.mark.parametrize("result", [V6.balance(5000), cp.sweep(V6, rpm=[1000.0, 2000.0])])
+def test_phasors_survive_csv(result: Any) -> None:
+    table = result.to_pandas()
+    again = pd.read_csv(io.StringIO(table.to_csv(index=False)))
+    for column in ("real", "imag", "peak"):
+        np.testing.assert_array_equal(again[column], table[column])
+    x = table[(table.quantity == "moment") & (table.component == "x")]
+    np.testing.assert_array_equal(x.real + 1j * x.imag, np.asarray(result.moment.x).ravel())
+    assert set(table.unit) == {"N", "N·m"}
+
+
+@pytest.mark.parametrize("result", [V6.balance(5000), cp.sweep({"a b": V6}, rpm=[1000.0, 2000.0])])
+def test_datasets_survive_netcdf(result: Any, tmp_path: Path) -> None:
+    dataset = result.to_xarray(split_complex=True)
+    dataset.to_netcdf(tmp_path / "result.nc", engine="scipy")
+    with xr.open_dataset(tmp_path / "result.nc", engine="scipy") as found:
+        moment = found.moment.sel(part="re") + 1j * found.moment.sel(part="im")
+        np.testing.assert_array_equal(moment, result.moment)
+        assert found.moment.attrs["units"] == "N m"
+
+
+def test_names_with_dollar_signs_are_drawn() -> None:
+    engine = V6.replace(name=r"V6 $\foo$")
+    s = cp.sweep([engine, V6], rpm=[1000.0], bank_angle_deg=[60.0, 90.0], hold="pins")
+    ranking = cp.rank(
+        [engine, V6], rpm=1000, by="total.moment.peak", bank_angle_deg=[60, 90], hold="pins"
+    )
+    for result in (
+        engine.balance(1000),
+        engine.waveform(1000),
+        s,
+        s.waveform(),
+        ranking,
+        cp.rank([engine, V6], rpm=1000, by="total.torque.peak"),
+        engine.firing_orders()[0],
+        cp.sweep([engine, V6], rpm=1000),
+    ):
+        axes = result.plot()
+        np.ravel(axes)[0].get_figure(root=True).canvas.draw()
+    plt.close("all")
+
+
+# --- ranking ------------------------------------------------------------------------------------
+
+
+def test_a_dip_between_tied_angles_at_the_end_is_found() -> None:
+    given: dict[str, Any] = {"rpm": 3000, "by": "[1].moment.backward", "refine": True}
+    (best,) = cp.rank(V6, bank_angle_deg=np.arange(55, 180, 10), hold="firing", **given)
+    assert best.bank_angles_deg == (60.0,)
+    assert best.value == 0.0
+
+
+def test_names_stay_as_typed() -> None:
+    ranking = cp.rank(
+        {"V6 60° mine": V6}, rpm=3000, by="total.moment.peak", bank_angle_deg=[90], hold="pins"
+    )
+    assert ranking.names == ("V6 60° mine",)
+    assert ranking[0].name == "V6 60° mine"
+
+
+def test_engines_among_arrangements_are_refused() -> None:
+    search = cp.search_arrangements(6)
+    given: dict[str, Any] = {"rpm": 1000, "by": "total.moment.peak"}
+    given |= {"cylinder": V6.cylinders[0], "spacing": 0.1}
+    with pytest.raises(cp.InputError, match="engines = 'rubbish': give arrangements alone"):
+        cp.rank([search[0], "rubbish", None], **given)
+    with pytest.raises(cp.InputError, match="the search has no bank angle in its window"):
+        cp.rank(search.within(1, 2), **given)
+
+
+def test_the_objective_is_required() -> None:
+    with pytest.raises(cp.InputError, match=r"by = None: .*total\.moment\.peak"):
+        cp.rank(V6, rpm=1000)
