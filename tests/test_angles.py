@@ -9,7 +9,7 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from crankpin import _inputs
+from crankpin._support import inputs
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,7 +18,7 @@ CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.15, reciprocating_mass=0
 
 def text(value: object) -> str:
     """The text of this angle that the core reads."""
-    return _inputs.angle("angle", value)
+    return inputs.angle("angle", value)
 
 
 @pytest.mark.parametrize(
@@ -87,6 +87,7 @@ def test_text_of_a_float_reads_back(degrees: float) -> None:
     assert text(text(degrees)) == text(degrees)
 
 
+@pytest.mark.filterwarnings("ignore:.* was it given in radians:UserWarning")
 def test_a_vee_has_the_banks_that_are_typed() -> None:
     """Each bank angle of whole hundredths, computed by the builder and typed in a list."""
     different = []

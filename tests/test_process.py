@@ -113,11 +113,11 @@ except MemoryError as error:
     ("megabytes", "before", "call"),
     [
         (1000, "", "cp.search_arrangements(26)"),
-        (250, "angles = np.linspace(0, 720, 20_000_000)", "v6.waveform(3000, angles)"),
+        (250, "angles = np.linspace(0, 720, 20_000_000)", "v6.waveform(3000, theta_deg=angles)"),
         (
             250,
             "angles = np.linspace(0, 720, 20_000_000)",
-            "v6.waveform(3000, angles, orders=[1, 2])",
+            "v6.waveform(3000, theta_deg=angles, orders=[1, 2])",
         ),
         (
             60,
@@ -147,7 +147,7 @@ def test_memory_that_is_not_there_raises_memory_error(
 def test_length_of_a_range_is_checked_before_it_is_converted(length: int) -> None:
     v6 = cp.Engine.preset("v6-60")
     with pytest.raises(cp.InputError, match=r"theta_deg has .* numbers, more than the limit"):
-        v6.waveform(3000, range(length))
+        v6.waveform(3000, theta_deg=range(length))
 
 
 def python(program: str, environment: dict[str, str] | None = None) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import long_calls
@@ -11,6 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
+
+if TYPE_CHECKING:
+    from crankpin.model.engine import Hold
 
 CYLINDER = cp.Cylinder(0.045, 0.158, 1.487, pin_offset=0.001)
 V6 = cp.Engine.vee(
@@ -67,7 +70,7 @@ QUANTITIES = ("force", "moment", "torque")
 
 @pytest.mark.parametrize("hold", ["pins", "firing"])
 @pytest.mark.parametrize("how", [None, (1, 2, 3, 4, 6, 8)], ids=["exact", "orders"])
-def test_every_point_is_that_engine(hold: cp._engine.Hold, how: tuple[int, ...] | None) -> None:
+def test_every_point_is_that_engine(hold: Hold, how: tuple[int, ...] | None) -> None:
     angles, ratios, offsets, speeds = [60.0, 71.3], [0.2, 0.35, 0.3], [0.0, 0.002], [1e3, 5e3]
     s = cp.sweep(
         [V6, UNLIKE],
@@ -166,19 +169,23 @@ def test_what_cancels_is_zero() -> None:
     assert not w.moment.any()
 
 
-def test_kinematics_where_they_cost_less() -> None:
-    single_cylinder = cp.Engine.preset("single")
-    slow = cp.sweep(single_cylinder, rpm=1000, rod_ratio=[0.95], orders="auto", rtol=1e-12)
-    assert slow.waveform(THETA).orders is None
-    assert slow.waveform(THETA, exact=False).orders == slow.orders
-    assert slow.waveform(THETA).error_bound.force == 0.0
-    v8 = cp.Engine.preset("v8-crossplane")
-    few = cp.sweep(v8, rpm=1000, rod_ratio=[0.3], orders="auto", rtol=1e-6, torque=False)
-    assert few.waveform(THETA).orders == few.orders
-    assert few.waveform(THETA).omitted == few.omitted
-    # orders that were asked for are summed, whatever they cost
-    many = cp.sweep(single_cylinder, rpm=1000, orders=range(1, 100))
-    assert many.waveform(THETA).orders == many.orders
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("single", {"rod_ratio": [0.95], "rtol": 1e-12}),
+        ("v8-crossplane", {"rod_ratio": [0.3], "rtol": 1e-6, "torque": False}),
+        ("single", {"orders": range(1, 100)}),
+    ],
+)
+def test_waveform_sums_the_orders_of_the_sweep_unless_exact_is_given(
+    name: str, options: dict[str, Any]
+) -> None:
+    s = cp.sweep(cp.Engine.preset(name), rpm=1000, **options)
+    summed, exact = s.waveform(THETA), s.waveform(THETA, exact=True)
+    assert (summed.orders, summed.omitted) == (s.orders, s.omitted)
+    assert summed.error_bound == s.error_bound
+    assert (exact.orders, exact.omitted) == (None, ())
+    assert (exact.error_bound.force, exact.error_bound.moment) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("exact", [True, False])

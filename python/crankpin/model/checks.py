@@ -17,7 +17,6 @@ from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
-    
     from numpy.typing import NDArray
 
 LARGEST_CRANK_RADIUS = 5.0
@@ -92,10 +91,8 @@ def angles(**given: object) -> None:
 
 
 def _near_miss(value: object) -> str | None:
-    """Return "51.428571 is 4.3e-7° from 360/7" or the like for a decimal beside a part of a turn."""
-    if not isinstance(value, (float, str)):
-        return None
-    return _core.near_miss(repr(float(value)) if isinstance(value, float) else value)
+    """Return "51.428571 is 4.3e-7° from 360/7" or the like for a float beside a part of a turn."""
+    return _core.near_miss(repr(float(value))) if isinstance(value, float) else None
 
 
 def _radians(value: float) -> bool:

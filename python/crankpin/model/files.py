@@ -11,12 +11,12 @@ from crankpin._support import inputs
 
 def from_toml(text: object) -> _core.Engine:
     """Return the engine that a TOML text describes."""
-    return _core.Engine.from_toml(_text(text))
+    return _checked(_core.Engine.from_toml(_text(text)))
 
 
 def from_json(text: object) -> _core.Engine:
     """Return the engine that a JSON text describes."""
-    return _core.Engine.from_json(_text(text))
+    return _checked(_core.Engine.from_json(_text(text)))
 
 
 def load(path: object) -> _core.Engine:
@@ -35,6 +35,14 @@ def save(path: object, core: _core.Engine) -> None:
     file = _path(path)
     text = core.to_toml() if file.suffix.lower() == ".toml" else core.to_json()
     file.write_text(text, encoding="utf-8")
+
+
+def _checked(core: _core.Engine) -> _core.Engine:
+    """Return the engine of a file, or reject a firing order that its crank does not allow."""
+    if not core.firing_order:
+        return core
+    order = _core.Firing.named(core, core.firing_order, core.strokes)
+    return core.firing_as(order.text, core.strokes)
 
 
 def _text(text: object) -> str:
