@@ -55,7 +55,7 @@ pub fn run<T: Send>(cancel: &Cancel, work: impl FnOnce() -> T + Send) -> T {
             match receiver.recv_timeout(PERIOD) {
                 Ok(result) => break Some(result),
                 // The flag that this may raise is read by the work, which then returns.
-                Err(RecvTimeoutError::Timeout) => drop(cancel.check()),
+                Err(RecvTimeoutError::Timeout) => drop(cancel.poll()),
                 Err(RecvTimeoutError::Disconnected) => break None,
             }
         }

@@ -12,8 +12,8 @@ use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Hold, Orders, Placement,
-    Request, Shaft, Sweep, Unbalance, waveform,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Hold, Order, Orders,
+    Placement, Request, Shaft, Sweep, Unbalance, waveform,
 };
 use proptest::prelude::*;
 
@@ -536,4 +536,32 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
     same(left, Complex64::new(-0.1 * amount * square(), 0.0), size(&engine));
     // On the crank axis none.
     assert_eq!(roll(&of(&with([0.0; 2]))), roll(&of(&single)));
+}
+
+#[test]
+fn half_orders_of_inertia_are_zero() {
+    let engine = common::weighted();
+    let half = |halves| Order::from_halves(halves).unwrap();
+    let orders = vec![half(1), half(4), half(3)];
+    let given = Orders::Given(orders.clone());
+    let found = balance(&engine, &REQUEST, &given, &Cancel::new()).unwrap();
+    assert_eq!([found.wrenches[0], found.wrenches[2]], [Wrench::default(); 2]);
+    assert_eq!(found.wrenches[1], by_orders(&engine, &REQUEST, &[2]).wrenches[0]);
+    let axes = Axes {
+        bank_angle: Some((vec![72.0, 90.0], Hold::Pins)),
+        rpm: vec![3000.0],
+        ..Axes::default()
+    };
+    let sweep = |orders| Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), None);
+    let (all, second) = (sweep(orders).unwrap(), sweep(whole(&[2])).unwrap());
+    for quantity in [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque] {
+        let lengths =
+            |sweep: &Sweep| sweep.peaks(quantity, Figure::Length, &Cancel::new()).unwrap();
+        let (all, second) = (lengths(&all), lengths(&second));
+        for angle in 0..2 {
+            let row = [0, 1, 2].map(|order| all[[0, angle, 0, 0, 0, order]]);
+            assert_eq!(row, [0.0, second[[0, angle, 0, 0, 0, 0]], 0.0]);
+            assert!(row[1] > 0.0);
+        }
+    }
 }

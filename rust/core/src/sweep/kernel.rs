@@ -170,21 +170,23 @@ impl<F> Job<'_, F> {
 }
 
 /// Functions of half the bank angle, by order, at some bank angles.
-struct Turning(Vec<[Vec<f64>; FUNCTIONS]>);
+///
+/// Columns one after the other.
+struct Turning(Vec<Vec<f64>>);
 
 impl Turning {
     fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Self {
         let count = angles.len();
         let Some((bank_angles, hold)) = &sweep.axes.bank_angle else {
             // No bank turns: cosines of zero.
-            let functions = || [1.0, 0.0, 1.0, 0.0].map(|value| vec![value; count]);
-            return Self(sweep.orders.iter().map(|_| functions()).collect());
+            let none = [vec![1.0; count], vec![0.0; count]].concat().repeat(2);
+            return Self(vec![none; sweep.orders.len()]);
         };
         let of_order = |&order: &crate::Order| {
             let multiples = quantity.turn(order, *hold);
-            let mut functions = [(); FUNCTIONS].map(|()| vec![0.0; count]);
-            for (multiple, pair) in multiples.into_iter().zip(functions.chunks_exact_mut(2)) {
-                let [cos, sin] = pair else { continue };
+            let mut functions = vec![0.0; FUNCTIONS * count];
+            for (multiple, pair) in multiples.into_iter().zip(functions.chunks_mut(2 * count)) {
+                let (cos, sin) = pair.split_at_mut(count);
                 let half = 0.5 * multiple as f64;
                 let degrees: Vec<f64> =
                     bank_angles[angles.clone()].iter().map(|angle| half * angle).collect();
@@ -201,7 +203,8 @@ impl Turning {
 
 /// A, B, K and the bound of rounding errors, by order, of one engine at some points.
 struct Constants {
-    by_order: Vec<[Vec<f64>; CONSTANTS]>,
+    /// Columns one after the other.
+    by_order: Vec<Vec<f64>>,
     points: usize,
 }
 
@@ -211,12 +214,12 @@ impl Constants {
         let amplitudes = Amplitudes::new(job.sweep, layout, job.quantity, points, job.cancel)?;
         let mut by_order = Vec::with_capacity(layout.by_order.len());
         for (k, sums) in layout.by_order.iter().enumerate() {
-            let mut columns = [(); CONSTANTS].map(|()| vec![0.0; count]);
+            let mut columns = vec![0.0; CONSTANTS * count];
             for sum in sums {
                 let [re, im] = amplitudes.of(sum.channel, k, count);
-                let (constants, bounds) = columns.split_at_mut(CONSTANTS - 1);
-                for (constant, pair) in sum.constants.iter().zip(constants.chunks_exact_mut(2)) {
-                    let [out_re, out_im] = pair else { continue };
+                let (constants, bounds) = columns.split_at_mut((CONSTANTS - 1) * count);
+                for (constant, pair) in sum.constants.iter().zip(constants.chunks_mut(2 * count)) {
+                    let (out_re, out_im) = pair.split_at_mut(count);
                     if *constant == Complex64::default() {
                         continue;
                     }
@@ -225,7 +228,7 @@ impl Constants {
                         out_im[i] += constant.re * im[i] + constant.im * re[i];
                     }
                 }
-                for ((bound, re), im) in bounds[0].iter_mut().zip(re.iter()).zip(im.iter()) {
+                for ((bound, re), im) in bounds.iter_mut().zip(re.iter()).zip(im.iter()) {
                     let length = if *im == 0.0 { re.abs() } else { re.hypot(*im) };
                     *bound += sum.bound * length;
                 }
@@ -299,17 +302,19 @@ impl Block {
         let points = constants.points;
         let columns = turning.0.iter().zip(&constants.by_order);
         for (sums, (functions, values)) in orders.iter_mut().zip(columns) {
+            let functions: [&[f64]; FUNCTIONS] = columns_of(functions);
+            let values: [&[f64]; CONSTANTS] = columns_of(values);
             if points == 1 {
-                let functions = functions.each_ref().map(|column| &column[rows.clone()]);
-                let values = values.each_ref().map(|column| &column[..1]);
+                let functions = functions.map(|column| &column[rows.clone()]);
+                let values = values.map(|column| &column[..1]);
                 sums.combine::<false, true>(functions, values, rows.len());
                 continue;
             }
             let (angle, point) = (rows.start / points, rows.start % points);
             if point + rows.len() <= points {
-                let functions = functions.each_ref().map(|column| &column[angle..=angle]);
+                let functions = functions.map(|column| &column[angle..=angle]);
                 let here = point..point + rows.len();
-                let values = values.each_ref().map(|column| &column[here.clone()]);
+                let values = values.map(|column| &column[here.clone()]);
                 sums.combine::<true, false>(functions, values, rows.len());
                 continue;
             }
@@ -403,6 +408,13 @@ impl Sums {
             across[i] = factor * magnitude(f[i] - u[i], g[i] - v[i], square);
         }
     }
+}
+
+/// Columns that stand one after the other.
+#[inline(always)]
+fn columns_of<const N: usize>(values: &[f64]) -> [&[f64]; N] {
+    let length = values.len() / N;
+    std::array::from_fn(|k| &values[k * length..(k + 1) * length])
 }
 
 /// Writes columns to neighbouring places of rows of some width.

@@ -243,6 +243,34 @@ proptest! {
 }
 
 #[test]
+fn roll_torques_of_shafts_cancel_where_one_leads_by_a_quarter() {
+    let cancel = crate::Cancel::new();
+    for ratio in [1, -1, 2, -2, 3, -3] {
+        // Torques of the two pistons are opposite at this order.
+        let apart = 180.0 / f64::from(ratio).abs();
+        let twin = engine(&[0.0, apart].map(|tdc| (tdc, 90.0, 0.0, 0.5, 0.0)));
+        let torque = |beside: f64, above: f64| {
+            let shaft = |axis, degrees: f64| {
+                let angle = Angle::from_degrees(degrees).unwrap();
+                let unbalance = Unbalance { amount: 0.004, angle, z: 0.1, pin: None };
+                Shaft { name: String::new(), ratio, axis, unbalances: vec![unbalance] }
+            };
+            let shafts = vec![shaft([0.1, 0.0], beside), shaft([0.0, 0.1], above)];
+            let engine = twin.with_shafts(shafts).unwrap();
+            let found = vanishing(&engine, &[ratio.unsigned_abs()], None, &cancel).unwrap();
+            assert_eq!(found.verdicts[0][8] == V, found.within_rounding[0][8], "{ratio}");
+            found.verdicts[0][8]
+        };
+        // x·sin(α + ρθ) − y·cos(β + ρθ) with x = y is zero for α = β + 90°.
+        for above in [0.0, 37.0, 61.234_567_891_2] {
+            assert_eq!(torque(above + 90.0, above), V, "{ratio} {above}");
+            assert_eq!(torque(above - 90.0, above), R, "{ratio} {above}");
+            assert_eq!(torque(above, above), R, "{ratio} {above}");
+        }
+    }
+}
+
+#[test]
 fn far_reference_planes_neither_prove_nor_undo_zeros() {
     let i4 = |last: f64| {
         let tdc_z = [(0.0, 0.0), (180.0, 0.1), (180.0, 0.2), (0.0, last)];

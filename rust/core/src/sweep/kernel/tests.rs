@@ -74,14 +74,15 @@ fn numbers(count: usize, seed: usize) -> Vec<f64> {
 fn rows_combine_functions_of_their_angle_with_constants_of_their_point() {
     let orders = 3;
     for (angles, points) in [(300, 1), (1, 300), (7, 40), (40, 7), (3, 128), (2, 129)] {
-        let functions = |order| [0, 1, 2, 3].map(|k| numbers(angles, 7 * order + k));
+        let functions = |order| [0, 1, 2, 3].map(|k| numbers(angles, 7 * order + k)).concat();
         let turning = Turning((0..orders).map(functions).collect());
         let columns = |order| {
             let mut seed = 100 * (order + 1);
-            [(); CONSTANTS].map(|()| {
+            let columns = [(); CONSTANTS].map(|()| {
                 seed += 1;
                 numbers(points, seed)
-            })
+            });
+            columns.concat()
         };
         let constants = Constants { by_order: (0..orders).map(columns).collect(), points };
         let mut block = Block::new(orders);
@@ -90,8 +91,10 @@ fn rows_combine_functions_of_their_angle_with_constants_of_their_point() {
             block.evaluate(&turning, &constants, rows.clone());
             for (i, row) in rows.enumerate() {
                 for order in 0..orders {
-                    let f = turning.0[order].each_ref().map(|f| f[row / points]);
-                    let c = constants.by_order[order].each_ref().map(|c| c[row % points]);
+                    let f: [&[f64]; FUNCTIONS] = columns_of(&turning.0[order]);
+                    let f = f.map(|f| f[row / points]);
+                    let c: [&[f64]; CONSTANTS] = columns_of(&constants.by_order[order]);
+                    let c = c.map(|c| c[row % points]);
                     let part = |cos: f64, sin: f64, at: usize| {
                         let complex = |k: usize| Complex64::new(c[k], c[k + 1]);
                         complex(at) * cos + complex(4 + at) * sin + complex(8 + at)
