@@ -6,10 +6,12 @@ import copy
 import pickle
 from typing import TYPE_CHECKING, Any
 
+import conftest
 import crankpin as cp
 import numpy as np
 import pytest
 import sympy as sp
+from conftest import CYLINDER
 from crankpin import Shaft, Unbalance
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -19,7 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-CYLINDER = cp.Cylinder(0.043, 0.145, 0.45)
+    from crankpin.model.engine import Hold
+
 I4 = cp.Engine.preset("i4")
 V6 = cp.Engine.preset("v6-60")
 RPM = 500.0
@@ -315,7 +318,7 @@ def test_sweep_counts_what_rotates() -> None:
 
 
 @pytest.mark.parametrize("hold", ["pins", "firing"])
-def test_sweep_of_bank_angles_moves_weights_at_pins_and_no_others(hold: Any) -> None:
+def test_sweep_of_bank_angles_moves_weights_at_pins_and_no_others(hold: Hold) -> None:
     angles = [40.0, 60.0, 110.0]
     s = cp.sweep(EQUIPPED, rpm=RPM, bank_angle_deg=angles, hold=hold, orders=[1, 2])
     for place, angle in enumerate(angles):
@@ -344,9 +347,9 @@ def test_spectrum_replaces_pistons_and_leaves_what_rotates() -> None:
     spectrum, orders = {1: 0.01, 2: 0.003}, [1, 2, 3]
     found = EQUIPPED.balance(RPM, orders=orders, spectrum=spectrum).force.xy
     without = bare.balance(RPM, orders=orders, spectrum=spectrum).force.xy
-    equipment = EQUIPPED.balance(RPM, orders=orders).force.xy - bare.balance(
-        RPM, orders=orders
-    ).force.xy
+    equipment = (
+        EQUIPPED.balance(RPM, orders=orders).force.xy - bare.balance(RPM, orders=orders).force.xy
+    )
     # Forces are some kg·m times ω².
     np.testing.assert_allclose(found - without, equipment, rtol=0, atol=ROUNDING * 0.1 * OMEGA**2)
 
@@ -461,9 +464,8 @@ def test_closed_form_evaluates_to_the_balance() -> None:
 
 
 def test_lanchester_shafts_remove_the_second_order_of_an_inline_four() -> None:
-    amplitude = float(CYLINDER.harmonics([2])[0].real) * 0.45 * 0.043
-    i4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1)
-    middle = i4.reference_z
+    amplitude = float(CYLINDER.harmonics([2])[0].real) * 0.5 * 0.045
+    i4, middle = conftest.I4, conftest.I4.reference_z
     # Each shaft has half of four pistons' amplitude, over the square of its ratio.
     pair = [
         Shaft(ratio, [Unbalance(4 * amplitude / 2 / 4, z=middle, angle_deg=-90)], x=x)

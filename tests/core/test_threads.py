@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pickle
-from operator import attrgetter
 import threading
+from operator import attrgetter
 from pathlib import Path
 
 import crankpin as cp

@@ -6,10 +6,11 @@ values in place of one to three arguments: each call must return finite figures 
 ValueError (InputError is one), OSError or ImportError, within seconds. A panic of the compiled core
 is none of these, nor is MemoryError.
 
-By default that takes a few seconds, the same calls each time. ``CRANKPIN_FUZZ_SECONDS=600 pytest
-tests/test_robustness.py -k fuzz_for_a_while`` goes on with other calls, a seed after the other, for
-as long with each of engine files, builders, harmonics and everything; ``-k "fuzz_for_a_while and
-builders"`` is one of them. A failure prints the call, which fails by itself.
+By default that takes a few seconds, the same calls each time. With ``CRANKPIN_FUZZ_SECONDS=600`` in
+the environment, ``pytest tests/promises/test_robustness.py -k fuzz_for_a_while`` goes on with other
+calls, a seed after the other, for as long with each of engine files, builders, harmonics and
+everything; ``-k "fuzz_for_a_while and builders"`` is one of them. A failure prints the call, which
+fails by itself.
 """
 
 # ruff: noqa: ANN401 - arguments of any type are the point

@@ -269,7 +269,9 @@ def test_torque_counts_only_when_asked() -> None:
 # --- waveforms ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "rod_ratio", "rtol"), [("i4", 0.99, 1e-12), ("v12-60", 0.3, 1e-6)])
+@pytest.mark.parametrize(
+    ("name", "rod_ratio", "rtol"), [("i4", 0.99, 1e-12), ("v12-60", 0.3, 1e-6)]
+)
 def test_waveform_sums_the_orders_of_a_balance(name: str, rod_ratio: float, rtol: float) -> None:
     engine, theta = with_rod(cp.Engine.preset(name), rod_ratio, 0.0), np.arange(0.0, 360.0, 7.0)
     w = engine.waveform(RPM, theta_deg=theta, orders="auto", rtol=rtol)

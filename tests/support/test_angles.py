@@ -9,11 +9,10 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import CYLINDER
 from crankpin._support import inputs
 from hypothesis import given
 from hypothesis import strategies as st
-
-CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.15, reciprocating_mass=0.5, pin_offset=0.0)
 
 
 def text(value: object) -> str:
