@@ -59,7 +59,7 @@ pub fn exact_angle(argument: &str, degrees: Degrees) -> PyResult<String> {
     angle.map(|angle| angle.to_string()).map_err(|error| error.named(argument)).or_raise()
 }
 
-/// Hint for an angle that nearly is a simple part of a turn: `51.428571 is 4.3e-7° from 360/7`.
+/// Hint for an angle beside a part of a turn that no decimal is: `51.428571 is 4.3e-7° from 360/7`.
 #[pyfunction]
 pub fn near_miss(degrees: &str) -> Option<String> {
     /// Fractions of more parts lie so close together that many angles are next to one.
@@ -68,6 +68,16 @@ pub fn near_miss(degrees: &str) -> Option<String> {
     let (simple, distance) = angle.near_miss()?;
     let (turns, parts) = simple.turns().filter(|(_, parts)| *parts <= MOST_PARTS)?;
     let simple = Ratio::new(360 * i128::from(turns), parts.into());
+    // A decimal can be typed as it is: only others are rounded.
+    let rest = [2, 5].into_iter().fold(*simple.denom(), |mut rest, factor| {
+        while rest % factor == 0 {
+            rest /= factor;
+        }
+        rest
+    });
+    if rest == 1 {
+        return None;
+    }
     Some(format!("{degrees} is {distance:.1e}° from {simple}"))
 }
 
