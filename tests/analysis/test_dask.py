@@ -87,6 +87,7 @@ def test_sweeps_of_other_engines_keep_apart() -> None:
         assert np.array_equal(found, cp.sweep(engines, rpm=[1000, 2000], orders=[1]).moment)
 
 
+@pytest.mark.slow
 def test_other_processes() -> None:
     arguments = AXES["every axis"]
     moment = in_chunks(arguments).moment
@@ -94,6 +95,7 @@ def test_other_processes() -> None:
     assert moment.compute(scheduler="processes", num_workers=2).identical(alone)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="ports")
 def test_a_cluster() -> None:
     distributed = pytest.importorskip("distributed")
@@ -106,6 +108,7 @@ def test_a_cluster() -> None:
     assert found.identical(moment.compute(scheduler="synchronous"))
 
 
+@pytest.mark.slow
 def test_more_than_one_call_takes() -> None:
     """Some ten gigabytes of phasors, of which one number is wanted."""
     ratios, speeds = np.linspace(0.2, 0.4, 40_000), np.linspace(1000, 6000, 4000)

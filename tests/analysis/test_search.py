@@ -203,6 +203,7 @@ def test_count_of_a_v22() -> None:
     assert found.qualifying == numpy_search.qualifying(keys, banks.multiplicity) == 1_854_562_160
 
 
+@pytest.mark.slow
 def test_classes_crowd_until_no_tolerance_serves() -> None:
     """The least gap between different |2Z|, and how far rounding parts equal ones."""
     gaps, double, single = [], [], []

@@ -12,6 +12,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+pytestmark = pytest.mark.slow
+
 V22 = cp.search_arrangements(22)
 """(11!)² pairs."""
 

@@ -15,6 +15,8 @@ import crankpin as cp
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 LONG_CALLS = {
     "sum of orders over bank angle, rod ratio and speed": (
         "cp.sweep(v6, rpm=np.linspace(1, 9000, 100), bank_angle_deg=np.linspace(0, 180, 400), "

@@ -14,6 +14,8 @@ import long_calls
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 linux = pytest.mark.skipif(sys.platform != "linux", reason="fork and limits as on Linux")
 
 

@@ -12,6 +12,8 @@ import long_calls
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 def hashes(threads: str) -> str:
     return long_calls.printed(threads, str(Path(long_calls.__file__)))

@@ -215,6 +215,7 @@ HARMONIC_ERROR = 1e-14
 PANEL_ERROR = 1e-15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("rod_ratio", "share"),
     [

@@ -21,6 +21,8 @@ import harmonics
 import orders
 import peaks
 
+pytestmark = pytest.mark.slow
+
 FOLDER = Path(charts.__file__).parent
 
 

@@ -516,6 +516,7 @@ TOO_LARGE: dict[str, tuple[Callable[[], Any], str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TOO_LARGE)
 def test_what_no_memory_holds_is_refused(name: str) -> None:
     call, argument = TOO_LARGE[name]
@@ -560,6 +561,7 @@ except cp.InputError as error:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="limits memory by resource.setrlimit")
 @pytest.mark.parametrize("name", WITHOUT_END)
 def test_what_has_no_end_is_refused(name: str) -> None:
@@ -1079,12 +1081,14 @@ def test_results_cannot_be_made_of_anything(name: str, value: Any) -> None:
         kind(*[value] * count)
 
 
+@pytest.mark.slow
 @hostile(1200)
 @given(calls(TARGETS))
 def test_fuzz_calls(call: Call) -> None:
     call_hostile(call)
 
 
+@pytest.mark.slow
 @hostile(40)
 @given(calls(PICTURES or TARGETS))
 def test_fuzz_pictures(call: Call) -> None:
@@ -1093,6 +1097,7 @@ def test_fuzz_pictures(call: Call) -> None:
     assert not found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("each", TARGETS, ids=lambda each: each.label)
 def test_fuzz_one_argument_at_a_time(each: Target) -> None:
     """Each argument in turn is each of the hostile values, the others being good."""
@@ -1150,6 +1155,7 @@ def read_damaged(texts: tuple[str, str]) -> None:
         assert read(engine.to_toml() if read == cp.Engine.from_toml else engine.to_json()) == engine
 
 
+@pytest.mark.slow
 @hostile(400)
 @given(DAMAGED)
 @example(("\ufeff" + TOML, "\ufeff" + JSON))

@@ -22,7 +22,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 # Engines of any size on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore:.*Lengths are metres here:UserWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore:.*Lengths are metres here:UserWarning"),
+]
 
 NAMED = {method.name: method for method in methods.HARMONICS}
 
