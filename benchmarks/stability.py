@@ -3,7 +3,8 @@
 ``python benchmarks/stability.py`` prints the map and writes it to ``benchmarks/out`` (``--out``
 another folder): ``stability.csv``, ``stability.png``, and ``stability.md``, the tables of
 ``docs/stability.md``, each with what ran it. Methods with a knob are shown at the best of its
-settings. ``tests/test_stability.py`` holds crankpin to the promises, and the methods to failing.
+settings. ``tests/promises/test_stability.py`` asserts that crankpin meets every bound and that the
+other methods miss it.
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ a sum (phase lags, three lists, cosine sums), that way is kept, slips corrected 
 
 ``kinematics``    how one slider-crank moves, and what its forces do to the block
 ``time_domain``   what a whole engine does at each crank angle, and its orders by Fourier transform
+``rotors``        what turns with the crankshaft and on balance shafts
 ``ijesc``         the V6 tables of peak moments over V-angle and firing order
 ``ebook``         the e-book's engines as three lists, with its tables
 ``crossplane``    the page on the cross-plane V8's inertia forces and couples

@@ -453,8 +453,8 @@ class Engine(Frozen):
         cylinder: Cylinder | None = None,
         spacing: float | None = None,
         rotating_mass: ArrayLike | None = None,
-        counterweights: Iterable[Unbalance] = (),
-        shafts: Iterable[Shaft] = (),
+        counterweights: Iterable[Unbalance] | None = None,
+        shafts: Iterable[Shaft] | None = None,
     ) -> Engine:
         """Return an engine by its name in :func:`crankpin.presets`.
 
@@ -485,8 +485,8 @@ class Engine(Frozen):
         engine = presets.preset(name, cylinder=cylinder, spacing=spacing)
         return engine.replace(
             rotating_mass=rotating_mass,
-            counterweights=counterweights or None,
-            shafts=shafts or None,
+            counterweights=counterweights,
+            shafts=shafts,
         )
 
     # --- files ----------------------------------------------------------------------------------

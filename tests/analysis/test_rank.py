@@ -11,24 +11,24 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
+from conftest import IJESC
 from matplotlib import pyplot as plt
 from rederivation import ijesc
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-CYLINDER = cp.Cylinder(ijesc.CRANK_RADIUS, ijesc.ROD_LENGTH, ijesc.MASS)
 MASS_RADIUS = ijesc.MASS * ijesc.CRANK_RADIUS
 AS_PRINTED = {1: MASS_RADIUS, 2: MASS_RADIUS * ijesc.ROD_RATIO}  # a_2 = lambda, kg m
 NAMES = ["-".join(map(str, order)) for order in ijesc.FIRING_ORDERS]
 V6 = {
     name: cp.Engine.from_firing_order(
-        CYLINDER, name, bank_angle_deg=60, rule="ijesc", spacing=ijesc.SPACING
+        IJESC, name, bank_angle_deg=60, rule="ijesc", spacing=ijesc.SPACING
     )
     for name in NAMES
 }
-SHARED = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13)
-I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="I4")
+SHARED = cp.Engine.vee(IJESC, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13)
+I4 = cp.Engine.inline(IJESC, throws_deg=[0, 180, 180, 0], spacing=0.1, name="I4")
 
 # A few dozen roundings of 1.1e-16, relative to the largest value.
 ROUNDING = 1e-13
@@ -155,7 +155,7 @@ SAME: dict[str, Any] = {
     "unevenness_deg": lambda b: b.engine.firing_orders()[0].unevenness_deg,
 }
 ODD = SHARED.replace(
-    cylinder=[CYLINDER.replace(reciprocating_mass=mass) for mass in (1, 1.1, 1.2, 1.3, 1.4, 1.5)]
+    cylinder=[IJESC.replace(reciprocating_mass=mass) for mass in (1, 1.1, 1.2, 1.3, 1.4, 1.5)]
 )
 
 
@@ -384,12 +384,12 @@ def test_dips_beside_what_is_unwanted() -> None:
 
 def test_a_search_is_ranked_arrangement_by_arrangement() -> None:
     search = cp.search_arrangements(14, alternating=True)
-    given: dict[str, Any] = {"cylinder": CYLINDER, "spacing": 0.1, "rpm": 3000}
+    given: dict[str, Any] = {"cylinder": IJESC, "spacing": 0.1, "rpm": 3000}
     ranking = cp.rank(search, by="[2].moment.peak", **given)
     assert ranking.engines == tuple(
-        search[k].engine(CYLINDER, spacing=0.1) for k in range(len(search))
+        search[k].engine(IJESC, spacing=0.1) for k in range(len(search))
     )
-    scale = MASS_RADIUS * (2 * np.pi * 3000 / 60) ** 2 * 0.1 * CYLINDER.harmonics(2)[0]
+    scale = MASS_RADIUS * (2 * np.pi * 3000 / 60) ** 2 * 0.1 * IJESC.harmonics(2)[0]
     # The longest second-order moment of each, in its units, at least the longer of two axes.
     longer = np.array([max(each.second_order) for each in search])
     assert (ranking.values[:, 0] / scale >= longer * (1.0 - 1e-12) - 1e-12).all()
@@ -398,14 +398,14 @@ def test_a_search_is_ranked_arrangement_by_arrangement() -> None:
     after = cp.rank(search, by="[1].moment.backward", **given)
     assert {choice.place for choice in after} == {1}
     # Angles of the search are rounded to 1.4e-14 of a degree or so.
-    assert after.values.max() < 1e-12 * scale / CYLINDER.harmonics(2)[0] * 10.0
+    assert after.values.max() < 1e-12 * scale / IJESC.harmonics(2)[0] * 10.0
 
 
 def test_a_search_with_too_many_angles_is_refused() -> None:
     with pytest.raises(cp.InputError, match="engines is a search with"):
         cp.rank(
             cp.search_arrangements(18),
-            cylinder=CYLINDER,
+            cylinder=IJESC,
             spacing=0.1,
             rpm=3000,
             by="total.moment.peak",
@@ -435,7 +435,7 @@ def test_what_is_shown() -> None:
 
 def test_a_long_ranking_is_cut_in_text() -> None:
     search = cp.search_arrangements(14, alternating=True)
-    ranking = cp.rank(search, cylinder=CYLINDER, spacing=0.1, rpm=3000, by="total.moment.peak")
+    ranking = cp.rank(search, cylinder=IJESC, spacing=0.1, rpm=3000, by="total.moment.peak")
     assert "10 of 218" in repr(ranking)
     assert len(repr(ranking).splitlines()) == 12
     assert ranking._repr_html_().count("<tr>") == 51
@@ -476,7 +476,7 @@ def test_curves_and_rings() -> None:
 
 def test_engines_as_they_are_are_dots() -> None:
     search = cp.search_arrangements(8)
-    ranking = cp.rank(search, cylinder=CYLINDER, spacing=0.1, rpm=3000, by="total.moment.peak")
+    ranking = cp.rank(search, cylinder=IJESC, spacing=0.1, rpm=3000, by="total.moment.peak")
     dots, rings = ranking.plot().lines
     assert len(dots.get_xdata()) == len(search)
     first = [choice for choice in ranking if choice.place == 1]

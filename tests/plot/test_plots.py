@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import CYLINDER, I4, V6
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -18,11 +19,6 @@ from matplotlib.figure import Figure
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=1.487)
-V6 = cp.Engine.vee(
-    CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13, name="V6 60°, shared pins"
-)
-I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="Inline-4")
 UNNAMED = cp.Engine.inline(CYLINDER, throws_deg=[0, 120, 240], spacing=0.1)
 ORDERS = ("1-3-5-2-4-6", "1-4-5-2-3-6", "1-6-5-4-3-2", "1-5-3-6-2-4")
 FAMILY = [

@@ -11,17 +11,16 @@ from __future__ import annotations
 
 import csv
 from fractions import Fraction
-from pathlib import Path
 
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import DATA
 from numpy.typing import NDArray
 from rederivation import ebook
 
 Array = NDArray[np.float64]
 
-DATA = Path(__file__).parent / "data"
 ORDERS = (1, 2, 3, 4)
 A2, A4, A6 = (float(a) for a in cp.slider_crank_harmonics(0.5, [2, 4, 6]))
 AS_PRINTED = {1: ebook.MASS_AT_FIRST_ORDER, 2: ebook.MASS_ABOVE * A2, 4: ebook.MASS_ABOVE * A4}

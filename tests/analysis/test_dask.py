@@ -109,7 +109,7 @@ def test_a_cluster() -> None:
 def test_more_than_one_call_takes() -> None:
     """Some ten gigabytes of phasors, of which one number is wanted."""
     ratios, speeds = np.linspace(0.2, 0.4, 40_000), np.linspace(1000, 6000, 4000)
-    with pytest.raises(cp.InputError, match=r"more than .* in parts, or give chunks"):
+    with pytest.raises(cp.InputError, match=r"more than .* in parts, or use to_dask"):
         _ = cp.sweep(V6, rpm=speeds, rod_ratio=ratios, orders=[1, 2]).moment.xy
     swept = cp.sweep(V6, rpm=speeds, rod_ratio=ratios, orders=[1, 2])
     chunked = swept.to_dask({"rod_ratio": 4000})

@@ -12,11 +12,11 @@ from typing import Literal
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import CYLINDER
 from rederivation import crossplane, ebook
 
 RPM = 3000.0
 SPACING = 0.1  # m, the page's a
-CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=0.6)
 MASS_RADIUS = CYLINDER.reciprocating_mass * CYLINDER.crank_radius
 ONE = MASS_RADIUS * (2.0 * np.pi * RPM / 60.0) ** 2  # N, first-order force of one cylinder
 THETA = np.arange(0.0, 720.0, 1.0)

@@ -8,19 +8,17 @@ import itertools
 import pickle
 from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
 from typing import Literal
 
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import CYLINDER, DATA
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rederivation import ito
 from rederivation import search as numpy_search
 
-DATA = Path(__file__).parent / "data"
-CYLINDER = cp.Cylinder(0.045, 0.158, 0.5)
 MOMENT = 0.5 * 0.045 * (2 * np.pi * 3000 / 60) ** 2
 """m·r·ω² at 3000 rpm; with a spacing of 1 m moments are in units of it."""
 

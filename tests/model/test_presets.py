@@ -11,19 +11,19 @@ import csv
 import math
 import subprocess
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
 import pytest
+from built_engines import EVEN, UNEVEN
+from conftest import DATA
 from crankpin.model import presets as presets_module
 from rederivation import crossplane, ebook, ijesc
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-DATA = Path(__file__).parent / "data"
 NAMES = list(cp.presets())
 RPM = 10.0  # slow enough for the e-book's crank of 1 m radius; nothing here depends on it
 OMEGA = 2.0 * math.pi * RPM / 60.0
@@ -126,36 +126,6 @@ def test_importing_keeps_no_engine() -> None:
 
 
 # --- when they fire -------------------------------------------------------------------------------
-
-EVEN = {
-    "i2-360": "1-2",
-    "i3": "1-2-3",
-    "i4": "1-3-4-2",
-    "i5": "1-2-4-5-3",
-    "i6": "1-5-3-6-2-4",
-    "boxer-4": "1-3-2-4",
-    "boxer-6": "1-6-3-2-5-4",
-    "v4-narrow": "1-3-4-2",
-    "v6-60": "1-2-3-4-5-6",
-    "v6-90": "1-6-5-4-3-2",
-    "v6-120": "1-2-3-4-5-6",
-    "vr6": "1-5-3-6-2-4",
-    "v8-flatplane": "1-2-5-6-7-8-3-4",
-    "v8-crossplane": "1-8-4-3-6-5-7-2",
-    "v8-60": "1-2-7-8-4-5-6-3",
-    "v10-72": "1-6-5-10-2-7-3-8-4-9",
-    "v10-90-even": "1-6-5-10-2-7-3-8-4-9",
-    "v12-60": "1-7-5-11-3-9-6-12-2-8-4-10",
-    "v16-45": "1-8-9-14-3-6-11-2-15-10-7-4-13-12-5-16",
-    "w12": "1-12-5-8-3-10-6-7-2-11-4-9",
-    "w16": "1-14-9-4-7-12-15-6-13-8-3-16-11-2-5-10",
-}
-UNEVEN = {
-    "v4-90-180": ("1-3-2-4", (180, 270, 180, 90)),  # Honda's road V4s
-    "v4-90-360": ("1-2-3-4", (90, 270, 90, 270)),
-    "v6-90-odd-fire": ("1-6-5-4-3-2", (150, 90) * 3),
-    "v10-90": ("1-10-9-4-3-6-5-8-7-2", (54, 90) * 5),
-}
 
 
 def intervals(name: str, order: str) -> NDArray[np.float64]:

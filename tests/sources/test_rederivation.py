@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import csv
 from fractions import Fraction
-from pathlib import Path
 
 import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
+from conftest import DATA
 from rederivation import (
     crossplane,
     ebook,
@@ -23,7 +23,6 @@ from rederivation import (
     time_domain,
 )
 
-DATA = Path(__file__).parent / "data"
 TURN = np.linspace(0.0, 2.0 * np.pi, 721)
 
 # Sums of a few dozen terms of order one, each rounded to 1.1e-16.

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import crankpin as cp
 import mpmath
 import numpy as np
 import pytest
+from conftest import DATA
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import harmonics_mp, kinematics
 
-TABLE = harmonics_mp.reference_table(Path(__file__).parent / "data" / "harmonics_50_digits.csv")
+TABLE = harmonics_mp.reference_table(DATA / "harmonics_50_digits.csv")
 ORDERS = list(range(1, 41))
 
 

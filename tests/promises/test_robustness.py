@@ -6,10 +6,11 @@ values in place of one to three arguments: each call must return finite figures 
 ValueError (InputError is one), OSError or ImportError, within seconds. A panic of the compiled core
 is none of these, nor is MemoryError.
 
-By default that takes a few seconds, the same calls each time. ``CRANKPIN_FUZZ_SECONDS=600 pytest
-tests/test_robustness.py -k fuzz_for_a_while`` goes on with other calls, a seed after the other, for
-as long with each of engine files, builders, harmonics and everything; ``-k "fuzz_for_a_while and
-builders"`` is one of them. A failure prints the call, which fails by itself.
+By default that takes a few seconds, the same calls each time. With ``CRANKPIN_FUZZ_SECONDS=600`` in
+the environment, ``pytest tests/promises/test_robustness.py -k fuzz_for_a_while`` goes on with other
+calls, a seed after the other, for as long with each of engine files, builders, harmonics and
+everything; ``-k "fuzz_for_a_while and builders"`` is one of them. A failure prints the call, which
+fails by itself.
 """
 
 # ruff: noqa: ANN401 - arguments of any type are the point
@@ -751,6 +752,12 @@ VALUES: st.SearchStrategy[Any] = st.one_of(
 )
 
 SOUND: dict[str, list[Any]] = {
+    "amount": [0.01],
+    "counterweights": [[cp.Unbalance(0.01, 0.1, 180, pin=1)]],
+    "pin": [1, None],
+    "ratio": [-1, 2],
+    "shafts": [[cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1)]],
+    "unbalances": [[cp.Unbalance(0.01, 0.1)]],
     "ax": [None],
     "backward_force": [1j],
     "bore": [0.086],
@@ -827,7 +834,7 @@ SUBJECTS: dict[str, Any] = {
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
     "ranking, as they are": cp.rank(
-        [V6, I4], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
+        [V6, vee()], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
     ),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),

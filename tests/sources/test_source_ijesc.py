@@ -9,11 +9,11 @@ first order and m r times lambda at the second, as a spectrum.
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import DATA, IJESC
 from numpy.typing import NDArray
 from rederivation import ijesc
 
@@ -22,11 +22,6 @@ Place = tuple[str, float, str]
 
 COLUMNS = ("m_px", "m_py", "m_sx", "m_sy")
 ORDERS = (1, 2)
-CYLINDER = cp.Cylinder(
-    crank_radius=ijesc.CRANK_RADIUS,
-    rod_length=ijesc.ROD_LENGTH,
-    reciprocating_mass=ijesc.MASS,
-)
 MASS_RADIUS = ijesc.MASS * ijesc.CRANK_RADIUS
 AS_PRINTED = {1: MASS_RADIUS, 2: MASS_RADIUS * ijesc.ROD_RATIO}  # a_2 = lambda, kg m
 FINE_ANGLES = np.linspace(0.0, 180.0, 721)
@@ -57,7 +52,7 @@ def engine(
 ) -> cp.Engine:
     """The paper's V6 of one firing order."""
     return cp.Engine.from_firing_order(
-        CYLINDER,
+        IJESC,
         firing_order,
         bank_angle_deg=bank_angle_deg,
         rule="ijesc",
@@ -90,7 +85,7 @@ def peaks(angles_deg: Array, *, exact: bool = False) -> Array:
 
 def printed() -> dict[Place, float]:
     """All 272 entries of Tables I to IV."""
-    path = Path(__file__).parent / "data" / "v6_moment_tables.csv"
+    path = DATA / "v6_moment_tables.csv"
     with path.open(newline="") as file:
         return {
             (row["firing_order"], float(row["bank_angle_deg"]), name): float(row[name])
@@ -231,7 +226,7 @@ def test_the_lags_entered_as_throws_are_another_engine() -> None:
     banks = [85.0, 95.0] * 3
     for sign, agrees in ((-1.0, True), (1.0, False)):
         v6 = cp.Engine.from_lists(
-            CYLINDER,
+            IJESC,
             pin_deg=90.0 + sign * lags,
             bank_deg=banks,
             z=ijesc.SPACING * np.repeat(np.arange(3.0), 2),

@@ -20,23 +20,23 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
+from built_engines import EVEN, UNEVEN
+from conftest import CYLINDER
 from crankpin.cli import main
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
 from rederivation import firing, ijesc
-from test_presets import EVEN, UNEVEN
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-PART = cp.Cylinder(0.045, 0.158, 0.5)
 V8 = cp.Engine.preset("v8-crossplane")
 PAGE = V8.firing(firing.CROSSPLANE)
 BOXER = cp.Engine.preset("boxer-4")
-OFFSET = cp.Cylinder(0.045, 0.158, 0.5, pin_offset=0.01)
+OFFSET = CYLINDER.replace(pin_offset=0.01)
 
 # Angles below 720 degrees, rounded a few times to half a unit in the last place, 5.7e-14.
 ROUNDING = 1e-12
@@ -53,7 +53,9 @@ def inline(tdc: Sequence[Any], **options: Any) -> cp.Engine:  # noqa: ANN401 - o
     """An engine with these top dead centres."""
     n = len(tdc)
     banks = options.pop("bank_deg", [90] * n)
-    return cp.Engine.from_lists(PART, tdc_deg=tdc, bank_deg=banks, z=np.arange(n) * 0.1, **options)
+    return cp.Engine.from_lists(
+        CYLINDER, tdc_deg=tdc, bank_deg=banks, z=np.arange(n) * 0.1, **options
+    )
 
 
 def intervals(ways: Sequence[cp.types.Firing]) -> list[tuple[float, ...]]:
@@ -71,7 +73,7 @@ def floats(ways: Sequence[Sequence[Fraction]]) -> list[tuple[float, ...]]:
 
 def test_the_cross_plane_v8_fires_evenly_in_the_page_s_order() -> None:
     v8 = cp.Engine.vee(
-        PART, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1, odd_bank="left"
+        CYLINDER, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1, odd_bank="left"
     )
     fires = v8.firing(firing.CROSSPLANE)
     assert fires.even
@@ -233,7 +235,7 @@ def test_a_v14_fires_at_parts_of_a_turn() -> None:
 
 
 def test_two_strokes() -> None:
-    i3 = cp.Engine.from_firing_order(PART, "1-3-2", strokes=2, spacing=0.1)
+    i3 = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
     (only,) = i3.firing_orders(strokes=2)
     assert only == i3.firing("1-3-2", strokes=2)
     assert only.strokes == 2
@@ -260,7 +262,7 @@ def test_two_strokes() -> None:
 
 
 def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
-    i3 = cp.Engine.from_firing_order(PART, "1-3-2", strokes=2, spacing=0.1)
+    i3 = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
     timing = cp.types.PortTiming(transfer_opens_deg=62, exhaust_opens_deg="94.5")
     fires = i3.firing("1-3-2", strokes=2)
     for periods, half in zip(fires.ports(timing), (62.0, 94.5), strict=True):
@@ -269,7 +271,7 @@ def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
         for tdc, (opens, closes) in zip(fires.angles_deg, periods, strict=True):
             lowest = opens + half - tdc
             assert lowest % 360 == 180
-            up, down = PART.position([opens - tdc, closes - tdc])
+            up, down = CYLINDER.position([opens - tdc, closes - tdc])
             assert up == pytest.approx(down, rel=1e-14)  # a few roundings of a cosine
     # With a pin offset they are timed from where the piston is lowest.
     single = inline([0]).replace(cylinder=OFFSET).firing("1", strokes=2)
@@ -282,7 +284,7 @@ def test_exhaust_overlaps_of_a_two_stroke(opens: int) -> None:
     timing = cp.types.PortTiming(exhaust_opens_deg=opens)
     for order, tdc in (("1-3-2", [0, 240, 120]), ("1-2-3-4", [0, 90, 180, 270])):
         engine = cp.Engine.from_lists(
-            PART, tdc_deg=tdc, bank_deg=[90] * len(tdc), z=[0.1 * k for k in range(len(tdc))]
+            CYLINDER, tdc_deg=tdc, bank_deg=[90] * len(tdc), z=[0.1 * k for k in range(len(tdc))]
         )
         fires = engine.firing(order, strokes=2)
         (way,) = firing.ways(tdc, strokes=2)
@@ -390,7 +392,7 @@ def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, sp
     assert found.pin_split_deg.tolist() == [split] * 3
     assert found.throws_deg.tolist() == [0.0, 120.0, 240.0]
     engine = cp.Engine.vee(
-        PART,
+        CYLINDER,
         bank_angle_deg=bank_angle,
         throws_deg=found.throws_deg,
         pin_split_deg=split,
@@ -405,7 +407,7 @@ def test_odd_fire_needs_no_split() -> None:
     )
     assert found.shared_pins
     engine = cp.Engine.from_firing_order(
-        PART,
+        CYLINDER,
         "1-6-5-4-3-2",
         bank_angle_deg=90,
         odd_bank="left",
@@ -462,7 +464,7 @@ def test_a_crank_made_for_an_order_fires_in_it(
         "numbering": numbering,
         "intervals_deg": wanted,
     }
-    engine = cp.Engine.from_firing_order(PART, order, spacing=0.1, **options)
+    engine = cp.Engine.from_firing_order(CYLINDER, order, spacing=0.1, **options)
     # Rotated to cylinder 1, as the result has it.
     first = order.index(1)
     rotated = wanted[first:] + wanted[:first]
@@ -490,14 +492,14 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
 ) -> None:
     wanted = data.draw(interval_lists(5, 180 * strokes))
     given_: dict[str, Any] = {"intervals_deg": wanted, "strokes": strokes}
-    engine = cp.Engine.from_firing_order(PART, order, spacing=0.1, **given_)
+    engine = cp.Engine.from_firing_order(CYLINDER, order, spacing=0.1, **given_)
     first = order.index(1)
     rotated = wanted[first:] + wanted[:first]
     ways = engine.firings(order, strokes=strokes)
     assert rotated in [way.intervals_deg.tolist() for way in ways]
     throws = cp.throws(order, **given_).throws_deg
     known = {"firing_order": engine.firing_order, "strokes": strokes}
-    assert engine == cp.Engine.inline(PART, throws_deg=throws, spacing=0.1, **known)
+    assert engine == cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1, **known)
 
 
 @pytest.mark.parametrize(
@@ -516,7 +518,7 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
 )
 def test_intervals_that_make_no_crank(given_: dict[str, Any], words: str) -> None:
     for call in (
-        lambda: cp.Engine.from_firing_order(PART, "1-3-4-2", spacing=0.1, **given_),
+        lambda: cp.Engine.from_firing_order(CYLINDER, "1-3-4-2", spacing=0.1, **given_),
         lambda: cp.throws("1-3-4-2", **given_),
     ):
         with pytest.raises(cp.InputError, match=words):
@@ -526,7 +528,7 @@ def test_intervals_that_make_no_crank(given_: dict[str, Any], words: str) -> Non
 def test_the_ijesc_rule_has_its_own_intervals() -> None:
     def build(**given_: Any) -> cp.Engine:  # noqa: ANN401 - of from_firing_order
         return cp.Engine.from_firing_order(
-            PART, "1-2-3-4-5-6", bank_angle_deg=60, spacing=0.1, rule="ijesc", **given_
+            CYLINDER, "1-2-3-4-5-6", bank_angle_deg=60, spacing=0.1, rule="ijesc", **given_
         )
 
     with pytest.raises(cp.InputError, match='intervals_deg = 6 given: the rule "ijesc"'):
@@ -695,7 +697,7 @@ def test_too_many_cylinders_to_list_can_still_be_named() -> None:
     with pytest.raises(cp.InputError, match="this crank cannot fire in this order"):
         engine.firing(range(1, 18))
     even = "-".join(map(str, range(1, 1001)))
-    thousand = cp.Engine.from_firing_order(PART, even, spacing=0.1)
+    thousand = cp.Engine.from_firing_order(CYLINDER, even, spacing=0.1)
     assert thousand.firing(even).even
 
 

@@ -9,12 +9,12 @@ yaw M_x is our yaw M_y with the other sign. Moments are in units of M_0 = m r s 
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 
 import crankpin as cp
 import mpmath
 import numpy as np
 import pytest
+from conftest import DATA
 from numpy.typing import NDArray
 from rederivation import ito
 
@@ -36,7 +36,7 @@ ROUNDING = 2e-14
 
 def read_cases() -> list[Row]:
     """The worked cases."""
-    path = Path(__file__).parent / "data" / "ito_cases.csv"
+    path = DATA / "ito_cases.csv"
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
 

@@ -17,11 +17,11 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
+from conftest import DATA
 from crankpin import cli
 from crankpin.cli import main
 from matplotlib import pyplot as plt
 
-DATA = Path(__file__).parent / "data"
 IJESC = [
     "ijesc-v6-1-3-5-2-4-6",
     "ijesc-v6-1-4-5-2-3-6",
@@ -694,7 +694,7 @@ def test_firing_of_the_engine_s_own_order(capsys: CAPTURE) -> None:
 def test_crankpin_is_a_command() -> None:
     (entry,) = (
         line
-        for line in (Path(__file__).parents[1] / "pyproject.toml").read_text().splitlines()
+        for line in (Path(__file__).parents[2] / "pyproject.toml").read_text().splitlines()
         if line.startswith("crankpin = ")
     )
     module, _, function = entry.split('"')[1].partition(":")

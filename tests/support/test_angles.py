@@ -9,11 +9,10 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
+from conftest import CYLINDER
 from crankpin._support import inputs
 from hypothesis import given
 from hypothesis import strategies as st
-
-CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.15, reciprocating_mass=0.5, pin_offset=0.0)
 
 
 def text(value: object) -> str:
@@ -87,7 +86,6 @@ def test_text_of_a_float_reads_back(degrees: float) -> None:
     assert text(text(degrees)) == text(degrees)
 
 
-@pytest.mark.filterwarnings("ignore:.* was it given in radians:UserWarning")
 def test_a_vee_has_the_banks_that_are_typed() -> None:
     """Each bank angle of whole hundredths, computed by the builder and typed in a list."""
     different = []

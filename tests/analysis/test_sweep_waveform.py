@@ -8,6 +8,7 @@ import crankpin as cp
 import long_calls
 import numpy as np
 import pytest
+from conftest import OFFSET
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
@@ -15,9 +16,8 @@ from rederivation import time_domain
 if TYPE_CHECKING:
     from crankpin.model.engine import Hold
 
-CYLINDER = cp.Cylinder(0.045, 0.158, 1.487, pin_offset=0.001)
 V6 = cp.Engine.vee(
-    CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13, rotating_mass=0.8
+    OFFSET, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13, rotating_mass=0.8
 )
 UNLIKE = cp.Engine.from_lists(
     [

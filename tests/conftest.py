@@ -1,0 +1,21 @@
+"""What tests share: the folder of tables, the cylinders and the plainest engines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import crankpin as cp
+from rederivation import ijesc
+
+DATA = Path(__file__).parent / "data"
+"""Tables of the sources, and reference values."""
+
+CYLINDER = cp.Cylinder(crank_radius=0.045, rod_length=0.158, reciprocating_mass=0.5)
+OFFSET = CYLINDER.replace(pin_offset=0.001)
+IJESC = cp.Cylinder(ijesc.CRANK_RADIUS, ijesc.ROD_LENGTH, ijesc.MASS)
+"""The cylinder of the IJESC paper."""
+
+I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="Inline-4")
+V6 = cp.Engine.vee(
+    CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.13, name="V6 60°, shared pins"
+)
