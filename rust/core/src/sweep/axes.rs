@@ -1,13 +1,14 @@
 //! What a sweep varies, and the checks of its values.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::harmonics::proportions;
 use crate::balance::angular_speed;
+use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::error::{Error, Result};
 use crate::limits;
+use crate::memory;
 
 /// What is swept; `None` keeps the values of each engine.
 #[derive(Debug, Clone, Default)]
@@ -26,8 +27,11 @@ impl Axes {
     /// ω² of each speed.
     pub(super) fn squares(&self) -> Result<Vec<f64>> {
         length("rpm", self.rpm.len())?;
-        let square = |&rpm: &f64| angular_speed(rpm).map(|omega| omega * omega);
-        self.rpm.iter().map(square).collect()
+        let mut squares = memory::room(self.rpm.len())?;
+        for &rpm in &self.rpm {
+            squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
+        }
+        Ok(squares)
     }
 
     /// Rejects values out of range, and axes that engines or a spectrum do not allow.
@@ -79,28 +83,38 @@ impl Axes {
 }
 
 impl Axes {
-    /// The same axes in two parts, the longest but for speed divided, if their points are too many.
-    pub(super) fn halves(&self, most: usize) -> Option<(Self, Self)> {
+    /// The same axes but for speed in parts along the longest, if their points are too many.
+    pub(super) fn parts(
+        &self,
+        most: usize,
+        cancel: &Cancel,
+    ) -> Option<impl Iterator<Item = Result<Self>>> {
         let angles = self.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len());
         let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
         let lengths = [angles, length(&self.rod_ratio), length(&self.pin_offset)];
+        let points = lengths.iter().fold(1, |size: usize, &n| size.saturating_mul(n));
         let longest = lengths.into_iter().max().unwrap_or(1);
-        let divided = lengths.iter().position(|&length| length == longest);
-        if longest < 2 || lengths.iter().fold(1, |size: usize, &n| size.saturating_mul(n)) <= most {
+        if longest < 2 || points <= most {
             return None;
         }
-        let part = |range: Range<usize>| {
-            let cut = |values: &[f64], axis: usize| {
-                if divided == Some(axis) { values[range.clone()].to_vec() } else { values.to_vec() }
+        let divided = lengths.iter().position(|&length| length == longest);
+        let step = (most / (points / longest)).max(1);
+        let part = move |first: usize| {
+            let range = first..longest.min(first + step);
+            let cut = |values: &Vec<f64>, axis: usize| {
+                let all = divided != Some(axis);
+                memory::copied(if all { &values[..] } else { &values[range.clone()] }, cancel)
             };
-            Self {
-                bank_angle: self.bank_angle.as_ref().map(|(angles, hold)| (cut(angles, 0), *hold)),
-                rod_ratio: self.rod_ratio.as_ref().map(|ratios| cut(ratios, 1)),
-                pin_offset: self.pin_offset.as_ref().map(|offsets| cut(offsets, 2)),
+            let angles = self.bank_angle.as_ref();
+            let angles = angles.map(|(angles, hold)| Ok((cut(angles, 0)?, *hold))).transpose()?;
+            Ok(Self {
+                bank_angle: angles,
+                rod_ratio: self.rod_ratio.as_ref().map(|ratios| cut(ratios, 1)).transpose()?,
+                pin_offset: self.pin_offset.as_ref().map(|offsets| cut(offsets, 2)).transpose()?,
                 rpm: Vec::new(),
-            }
+            })
         };
-        Some((part(0..longest / 2), part(longest / 2..longest)))
+        Some((0..longest).step_by(step).map(part))
     }
 }
 

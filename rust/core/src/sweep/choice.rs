@@ -15,6 +15,7 @@ use crate::engine::Engine;
 use crate::error::Result;
 use crate::limits;
 use crate::load::{Alike, Loads};
+use crate::memory;
 use crate::order::Order;
 use crate::slider_crank::{Cylinder, Proportions};
 use crate::spectrum::Spectrum;
@@ -54,8 +55,7 @@ impl Sweep {
             let rest = sweep.rest(loads, last)?;
             for &quantity in &quantities {
                 let sum = quantity.bound();
-                let worst =
-                    sweep.worst(index, quantity, &candidates, sweep.axes.clone(), cancel)?;
+                let worst = sweep.worst(index, quantity, &candidates, &sweep.axes, cancel)?;
                 sizes.iter_mut().zip(worst).for_each(|(sizes, size)| sizes.push(size));
                 lost.push(rest[sum]);
                 allowed.push(scales[sum]);
@@ -127,7 +127,7 @@ impl Sweep {
         engine: usize,
         quantity: Quantity,
         candidates: &[u32],
-        mut axes: Axes,
+        axes: &Axes,
         cancel: &Cancel,
     ) -> Result<Vec<f64>> {
         let planar = matches!(quantity, Quantity::Force | Quantity::Moment);
@@ -135,15 +135,32 @@ impl Sweep {
             Some(offsets) => offsets.iter().all(|&offset| offset == 0.0),
             None => self.engines[engine].gears().iter().all(|gear| gear.pin_offset() == 0.0),
         };
-        if let (Some(ratios), true, true) = (&mut axes.rod_ratio, planar, centred) {
-            *ratios = vec![ratios.iter().copied().fold(0.0, f64::max)];
+        let ratios = axes.rod_ratio.as_ref().filter(|ratios| ratios.len() > 1);
+        if let (Some(ratios), true, true) = (ratios, planar, centred) {
+            let largest = ratios.iter().copied().fold(0.0, f64::max);
+            let angles = axes.bank_angle.as_ref();
+            let angles = angles.map(|(angles, hold)| Ok((memory::copied(angles, cancel)?, *hold)));
+            let bank_angle = angles.transpose()?;
+            // Offsets that are all zero are as one.
+            let pin_offset = axes.pin_offset.as_ref().map(|_| vec![0.0]);
+            let largest = Some(vec![largest]);
+            let axes = Axes { bank_angle, rod_ratio: largest, pin_offset, rpm: Vec::new() };
+            return self.worst(engine, quantity, candidates, &axes, cancel);
         }
-        if let Some((first, second)) = axes.halves(MOST_SIZES / candidates.len()) {
-            let first = self.worst(engine, quantity, candidates, first, cancel)?;
-            let second = self.worst(engine, quantity, candidates, second, cancel)?;
-            return Ok(first.into_iter().zip(second).map(|(a, b)| a.max(b)).collect());
+        let mut worst = vec![0.0_f64; candidates.len()];
+        if let Some(parts) = axes.parts(MOST_SIZES / candidates.len(), cancel) {
+            for part in parts {
+                let here = self.worst(engine, quantity, candidates, &part?, cancel)?;
+                worst.iter_mut().zip(here).for_each(|(worst, here)| *worst = worst.max(here));
+            }
+            return Ok(worst);
         }
-        axes.rpm = Vec::new();
+        let axes = Axes {
+            bank_angle: axes.bank_angle.clone(),
+            rod_ratio: axes.rod_ratio.clone(),
+            pin_offset: axes.pin_offset.clone(),
+            rpm: Vec::new(),
+        };
         let part = Self {
             engines: vec![Arc::clone(&self.engines[engine])],
             axes,
@@ -157,7 +174,6 @@ impl Sweep {
             error_bound: [0.0; 3],
         };
         let figure = if planar { Figure::Length } else { Figure::Amplitude };
-        let mut worst = vec![0.0_f64; candidates.len()];
         for (k, size) in part.peaks(quantity, figure, cancel)?.iter().enumerate() {
             let worst = &mut worst[k % candidates.len()];
             *worst = worst.max(*size);
