@@ -21,6 +21,7 @@ AXES: dict[str, dict[str, Any]] = {
         # Both sides of 0.9, where the series ends, and no multiple of the lanes.
         "rod_ratio": np.linspace(0.1, 0.95, 70),
         "rpm": [1000, 2000, 7000],
+        "orders": [1, 2, 3, 4, 6, 12],
         "chunks": {"engine": 1, "bank_angle_deg": 3, "rod_ratio": 69, "rpm": 2},
     },
     "bank angle alone, some blocks": {

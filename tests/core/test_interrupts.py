@@ -46,7 +46,9 @@ LONG_CALLS = {
         "[cp.sweep(v6, rpm=1000, rod_ratio=np.linspace(0.1, 0.5, 100_000), orders=[1, 2, 4, 6])"
         ".waveform(np.linspace(0, 720, 2000), exact=True).force for _ in range(100)]"
     ),
-    "balance of ten thousand orders": "near(0.999, 1e-6).balance(1000, orders=range(1, 10_001))",
+    "balance of ten thousand orders": (
+        "[near(0.999, 1e-6).balance(1000, orders=range(1, 10_001)) for _ in range(100)]"
+    ),
     "orders chosen for a balance": "near(0.99999, 1e-9).balance(1000, orders='auto', rtol=1e-3)",
     "waveform of chosen orders": (
         "near(0.99999, 1e-9).waveform(1000, theta_deg=[0.0], orders='auto', rtol=1e-3)"

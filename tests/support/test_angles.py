@@ -86,6 +86,7 @@ def test_text_of_a_float_reads_back(degrees: float) -> None:
     assert text(text(degrees)) == text(degrees)
 
 
+@pytest.mark.slow
 def test_a_vee_has_the_banks_that_are_typed() -> None:
     """Each bank angle of whole hundredths, computed by the builder and typed in a list."""
     different = []
