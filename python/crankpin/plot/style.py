@@ -152,7 +152,8 @@ def number(value: float) -> str:
 def note_below(figure: Figure, text: str) -> None:
     """Write a line under a picture."""
     if text:
-        figure.text(0.012, 0.004, text, fontsize=8, color=GREY, ha="left", va="bottom")
+        # A label of the whole figure, for which the layout keeps room.
+        figure.supxlabel(text, fontsize=8, color=GREY, x=0.012, ha="left")
 
 
 def panels_of(ax: Any, shape: tuple[int, ...]) -> NDArray[Any]:  # noqa: ANN401 - axes
