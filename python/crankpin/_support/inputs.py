@@ -140,7 +140,7 @@ def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> ND
 
 def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return a float."""
-    if type(value) is float or type(value) is int and abs(value) < 2**53:
+    if type(value) is float or (type(value) is int and abs(value) < 2**53):
         return float(value)
     try:
         return _real(value)
