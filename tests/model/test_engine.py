@@ -267,6 +267,10 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         r"throws_deg = \[0\.0, 2\.0944, 4\.18879\]: was it given in radians.* 120°, 240°",
     ),
     "bank angle in radians": (lambda: vee(bank_angle_deg=math.pi / 3), "bank_angle_deg = 1.0472?"),
+    "sevenths of a turn cut off": (
+        lambda: I4.replace(tdc_deg=[0, 51.428571, 180, 180]),
+        r"^tdc_deg = .*: 51\.428571 is 4\.3e-7° from 360/7; if that is meant, give it as text",
+    ),
     "tdc in radians": (lambda: I4.replace(tdc_deg=np.radians([0, 180, 180, 0])), "tdc_deg"),
     "split to the wrong side": (
         lambda: vee(pin_split_deg=30, odd_bank="left"),
@@ -299,6 +303,7 @@ SOUND: dict[str, Callable[[], Any]] = {
     ),
     "model": lambda: cp.Engine.inline(cp.Cylinder(0.005, 0.02, 0.002), throws_deg=[0], spacing=0.1),
     "small angles": lambda: vee(bank_angle_deg=5, throws_deg=[0, 1.5, 3], pin_split_deg=-2.25),
+    "sevenths of a turn cut off, as text": lambda: I4.replace(tdc_deg=[0, "51.428571", 90, 90]),
     "exact small angles": lambda: vee(bank_angle_deg="1.0472"),
     "even by its split": lambda: vee(pin_split_deg=-30),
     "even by the other split of a 60° V6": lambda: vee(bank_angle_deg=60, pin_split_deg=60),

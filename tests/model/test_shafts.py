@@ -143,6 +143,8 @@ def test_with_counterweights_means_what_the_builders_and_replace_mean() -> None:
     given: dict[str, Any] = {"counterweights": WEIGHTS, "shafts": SHAFTS}
     assert cp.Engine.preset("v6-60", rotating_mass=0.3, **given) == EQUIPPED
     assert V6.replace(rotating_mass=0.3, **given) == EQUIPPED
+    arrays = {name: np.array(each) for name, each in given.items()}
+    assert cp.Engine.preset("v6-60", rotating_mass=0.3, **arrays) == EQUIPPED
     lists: dict[str, Any] = {"tdc_deg": V6.tdc_deg, "bank_deg": V6.bank_deg, "z": V6.z}
     made = cp.Engine.from_lists(V6.cylinders, rotating_mass=0.3, **lists, **given)
     assert made.counterweights == EQUIPPED.counterweights
