@@ -238,6 +238,8 @@ class Ranking(Frozen):
     def description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
         least = ", then ".join(each.words for each in self.objectives[:objectives])
+        if self.sweep.request.orders is not None:
+            least = least.replace("all orders", "all of the orders given")
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
     def table_of_choices(self, shown: int | None = None) -> Table:
