@@ -110,7 +110,8 @@ impl Planar {
     /// Coefficient of `e^{−inθ}`: what turns against the crank.
     #[must_use]
     pub fn backward(&self) -> Complex64 {
-        self.backward_conj.conj()
+        // Adding zero makes −0 of the conjugate 0.
+        self.backward_conj.conj() + Complex64::default()
     }
 
     /// Longest vector over a turn.

@@ -70,9 +70,9 @@ impl Shaft {
         check_count(&format!("{place}.unbalances"), self.unbalances.len())?;
         for (i, unbalance) in self.unbalances.iter_mut().enumerate() {
             let place = format!("{place}.unbalances[{i}]");
-            if unbalance.pin.is_some() {
+            if let Some(pin) = unbalance.pin {
                 let hint = "leave it out: only the crankshaft has crankpins";
-                return Err(Error::value(format!("{place}.pin"), "given", hint));
+                return Err(Error::value(format!("{place}.pin"), pin + 1, hint));
             }
             *unbalance = unbalance.checked(&place, 0)?;
         }

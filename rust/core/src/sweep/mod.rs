@@ -220,7 +220,7 @@ impl Sweep {
                     for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
                         let values = if figure == Figure::Turning {
                             let [forward, backward_conj] = block.turning(order, i);
-                            [forward, backward_conj.conj()]
+                            [forward, backward_conj.conj() + Complex64::default()]
                         } else {
                             block.phasors(order, i)
                         };
