@@ -116,6 +116,15 @@ impl Engine {
             let cure = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
             return Err(Error::value("number of cylinders", count, cure));
         }
+        if bank_keys.len() != count {
+            return Err(Error::Length {
+                argument: "bank".into(),
+                found: bank_keys.len(),
+                reference: "the engine".into(),
+                expected: count,
+                item: "cylinder",
+            });
+        }
         let mut gears = Vec::new();
         let mut gear_of = Vec::with_capacity(count);
         for (i, placement) in placements.iter_mut().enumerate() {
@@ -459,6 +468,8 @@ mod tests {
         assert_eq!((engine.placements().len(), engine.gears().len()), (2, 1));
         assert_eq!([0, 1].map(|i| engine.bank_of(i)), [0, 1]);
         assert_eq!(engine.firing_as("1-2", Strokes::Four).unwrap().firing_order(), "1-2");
+        let both = engine.placements().to_vec();
+        assert!(matches!(Engine::in_banks("", "", both, &[0]), Err(Error::Length { .. })));
         for angle in [0.0, 45.0, 180.0] {
             assert_eq!(bank_angle_in_range(angle), Ok(angle));
         }

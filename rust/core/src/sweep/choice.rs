@@ -14,7 +14,7 @@ use crate::choice::{few, highest, of_spectrum, rod_share, scales, tail};
 use crate::engine::Engine;
 use crate::error::Result;
 use crate::limits;
-use crate::load::{Alike, Loads};
+use crate::load::Loads;
 use crate::memory;
 use crate::order::Order;
 use crate::slider_crank::{Cylinder, Proportions};
@@ -77,12 +77,6 @@ impl Sweep {
             }
         }
         Ok(sweep)
-    }
-
-    /// Loads of an engine.
-    pub(super) fn loads(&self, engine: usize) -> Loads {
-        let alike = if self.spectrum.is_some() { Alike::All } else { Alike::Dimensions };
-        Loads::new(&self.engines[engine], self.references[engine], alike)
     }
 
     /// Orders that may matter anywhere in the sweep.

@@ -25,12 +25,8 @@ pub(super) struct Layout {
 
 impl Layout {
     pub fn new(sweep: &Sweep, engine: usize, quantity: Quantity) -> Result<Self> {
-        let (reference, engine) = (sweep.references[engine], &sweep.engines[engine]);
-        let alike = match sweep.spectrum {
-            Some(_) => Alike::All,
-            None => Alike::Dimensions,
-        };
-        let loads = Loads::new(engine, reference, alike);
+        let loads = sweep.loads(engine);
+        let engine = &sweep.engines[engine];
         let vee = match &sweep.axes.bank_angle {
             Some((_, hold)) => Some((engine.banks()?, *hold)),
             None => None,
@@ -99,6 +95,14 @@ fn parts(
                 .map(|sum| (sum.channel, sum.bank, [sum.sum, Complex64::default()], sum.size));
             sums.collect()
         }
+    }
+}
+
+impl Sweep {
+    /// Loads of an engine.
+    pub(super) fn loads(&self, engine: usize) -> Loads {
+        let alike = if self.spectrum.is_some() { Alike::All } else { Alike::Dimensions };
+        Loads::new(&self.engines[engine], self.references[engine], alike)
     }
 }
 
