@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -150,7 +150,7 @@ class Sweep(AllOrders):
     ('engine', 'rod_ratio', 'rpm')
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("engines", "names", "axes", "hold", "request")
+    _fields = SweepArrays._fields
 
     source: SweepArrays
 

@@ -99,12 +99,11 @@ class SweepArrays(Source):
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
             if what == "phasors":
                 return self.core.phasors(quantity, report)
-            if what == "zero_bound":
-                return self.core.zero_bound(quantity, report)
             figures = {
                 "peak": "length" if quantity in PLANE_VECTORS else "amplitude",
                 "peak_xy": "amplitude",
                 "total_peak": "length of sum" if quantity in PLANE_VECTORS else "sum",
                 "total_peak_xy": "sum",
+                "zero_bound": "zero bound",
             }
             return np.asarray(self.core.peaks(quantity, figures[what], report))

@@ -40,8 +40,10 @@ fn figure(name: &str) -> PyResult<Figure> {
         "length" => Ok(Figure::Length),
         "sum" => Ok(Figure::Sum),
         "length of sum" => Ok(Figure::LengthOfSum),
+        "zero bound" => Ok(Figure::ZeroBound),
         other => {
-            let cure = "give \"amplitude\", \"length\", \"sum\" or \"length of sum\"";
+            let cure =
+                "give \"amplitude\", \"length\", \"sum\", \"length of sum\" or \"zero bound\"";
             Err(python_error(Error::value("figure", other, cure)))
         }
     }
@@ -199,19 +201,7 @@ impl Sweep {
         })
     }
 
-    /// Bound of the rounding error of each order: (…, `n_orders`).
-    fn zero_bound<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, (quantity, Figure::ZeroBound), progress.as_ref(), |out, cancel| {
-            self.sweep.write_peaks(quantity, Figure::ZeroBound, out, cancel)
-        })
-    }
-
+    /// Real values of each order (…, `n_orders`) or of their sum (…,).
     fn peaks<'py>(
         &self,
         py: Python<'py>,
