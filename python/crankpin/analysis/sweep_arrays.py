@@ -38,8 +38,10 @@ class SweepArrays(Source):
         progress: Progress = False,
     ) -> None:
         check_request(request, "crankpin.sweep")
-        by_name = {name: np.atleast_1d(values) for name, values in axes.items()}
-        swept = [name for name in AXES if np.ndim(axes.get(name, 0.0))]
+        swept = [name for name in AXES if isinstance(axes.get(name), np.ndarray)]
+        by_name = {
+            name: values if name in swept else np.array([values]) for name, values in axes.items()
+        }
         core = _core.Sweep(
             [engine_core(engine) for engine in engines],
             by_name.get("bank_angle_deg"),
