@@ -4,7 +4,9 @@
 //! engine's loads with its banks turned.
 
 mod axes;
+mod block;
 mod choice;
+mod factors;
 mod harmonics;
 mod kernel;
 mod layout;
@@ -17,7 +19,8 @@ use std::sync::Arc;
 use ndarray::{Array, IxDyn};
 
 pub use self::axes::Axes;
-use self::kernel::{Block, Job, Number};
+use self::block::Block;
+use self::kernel::{Job, Number};
 use crate::Complex64;
 use crate::cancel::Cancel;
 use crate::engine::Engine;
