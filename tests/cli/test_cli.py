@@ -18,8 +18,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from conftest import DATA
-from crankpin import cli
-from crankpin.cli import main
+from crankpin.cli import inputs, main
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -310,9 +309,9 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
 def test_ranges(text: str, values: float | list[float] | None) -> None:
     if values is None:
         with pytest.raises(cp.InputError, match=r"^--x = "):
-            cli._range("--x", text)
+            inputs.number_or_range("--x", text)
     else:
-        result = cli._range("--x", text)
+        result = inputs.number_or_range("--x", text)
         assert np.ndim(result) == np.ndim(values)
         np.testing.assert_array_equal(result, values)
 
