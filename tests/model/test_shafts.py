@@ -42,6 +42,7 @@ SHAFTS = [
     Shaft(-2, [Unbalance(0.004, 0.0, 10)], y=0.03),
     Shaft(1, [Unbalance(0.005, 0.25, 200)], x=0.1),
 ]
+FAST = Shaft(3, [Unbalance(0.002, 0.1, 40)], x=-0.1, y=0.05)
 EQUIPPED = V6.replace(rotating_mass=0.3).with_counterweights(WEIGHTS).with_shafts(SHAFTS)
 
 
@@ -271,7 +272,7 @@ def agree(found: np.ndarray, expected: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("reference_z", [None, 0.0, -1.3])
-@pytest.mark.parametrize("engine", [EQUIPPED, I4.with_shafts(SHAFTS), V6.replace(rotating_mass=1)])
+@pytest.mark.parametrize("engine", [EQUIPPED, I4.with_shafts([*SHAFTS, FAST]), V6.replace(rotating_mass=1)])
 def test_waveform_counts_what_rotates(engine: cp.Engine, reference_z: float | None) -> None:
     theta = np.degrees(time_domain.crank_angles(256))
     expected = rederived(engine, reference_z)
@@ -352,12 +353,18 @@ def test_spectrum_replaces_pistons_and_leaves_what_rotates() -> None:
     np.testing.assert_allclose(found - without, equipment, rtol=0, atol=ROUNDING * 0.1 * OMEGA**2)
 
 
-def test_auto_orders_count_shafts_of_high_ratio() -> None:
-    odd = I4.with_shafts([Shaft(-7, [Unbalance(0.001, 0.1)], x=0.1)])
-    assert 7 in odd.balance(RPM).orders
-    assert 7 not in I4.balance(RPM).orders
+@pytest.mark.parametrize("ratio", [3, -7, 20, -20])
+def test_auto_orders_count_shafts_of_any_ratio(ratio: int) -> None:
+    # At orders 19 and above pistons add less than any tolerance.
+    shaft = Shaft(ratio, [Unbalance(0.001, 0.1)], x=0.1)
+    odd, order = I4.with_shafts([shaft]), abs(ratio)
+    b = odd.balance(RPM)
+    assert order in b.orders
+    assert order not in I4.balance(RPM).orders
+    part = b[order].force.forward if ratio > 0 else b[order].force.backward
+    np.testing.assert_allclose(abs(part), 0.001 * (ratio * OMEGA) ** 2, rtol=1e-13)
     s = cp.sweep(odd, rpm=[1000, 2000], rod_ratio=[0.2, 0.3])
-    assert 7 in s.orders
+    assert order in s.orders
 
 
 # --- the forward theorem --------------------------------------------------------------------------
