@@ -9,8 +9,7 @@ import numpy as np
 from crankpin._support import labels
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.source import PLANE_VECTORS, shown_orders
-from crankpin.plot.dispatch import draw
-from crankpin.plot.style import (
+from crankpin.plot._old import (
     COLOURS,
     FEW_BARS,
     GREY,
@@ -23,6 +22,7 @@ from crankpin.plot.style import (
     name_of,
     number,
 )
+from crankpin.plot.dispatch import draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._support import labels
 from crankpin.analysis.sweep import engine_titles
-from crankpin.plot.style import COLOURS, DASHES, GREY, number, plain_text, viridis
+from crankpin.plot._old import COLOURS, DASHES, GREY, number, plain_text, viridis
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

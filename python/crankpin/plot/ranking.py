@@ -8,9 +8,7 @@ import numpy as np
 
 from crankpin._support import labels
 from crankpin.analysis.ranking import Ranking
-from crankpin.plot.curves import short_names
-from crankpin.plot.dispatch import draw
-from crankpin.plot.style import (
+from crankpin.plot._old import (
     COLOURS,
     DASHES,
     FEW_POINTS,
@@ -21,6 +19,8 @@ from crankpin.plot.style import (
     plain_text,
     viridis,
 )
+from crankpin.plot.curves import short_names
+from crankpin.plot.dispatch import draw
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

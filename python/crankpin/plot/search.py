@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin.analysis.search import ArrangementSearch
+from crankpin.plot._old import COLOURS, degrees, dress, entitle, from_zero, given_or_new
 from crankpin.plot.dispatch import draw
-from crankpin.plot.style import COLOURS, degrees, dress, entitle, from_zero, given_or_new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

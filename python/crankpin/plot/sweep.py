@@ -13,9 +13,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.source import PLANE_VECTORS, shown_orders
 from crankpin.analysis.sweep import Sweep
-from crankpin.plot.curves import Curve, curves_of, dimension, explain, words_of
-from crankpin.plot.dispatch import draw
-from crankpin.plot.style import (
+from crankpin.plot._old import (
     COLOURS,
     FEW_POINTS,
     GREY,
@@ -32,6 +30,8 @@ from crankpin.plot.style import (
     say_zero,
     span,
 )
+from crankpin.plot.curves import Curve, curves_of, dimension, explain, words_of
+from crankpin.plot.dispatch import draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,9 +11,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from crankpin._support import labels
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.curves import curves_of, explain, words_of
-from crankpin.plot.dispatch import draw
-from crankpin.plot.style import (
+from crankpin.plot._old import (
     COLOURS,
     GREY,
     by_component,
@@ -28,6 +26,8 @@ from crankpin.plot.style import (
     plain_text,
     say_zero,
 )
+from crankpin.plot.curves import curves_of, explain, words_of
+from crankpin.plot.dispatch import draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
