@@ -79,8 +79,11 @@ def inches_of(place: Axes | FigureBase) -> float:
 # --- titles and notes ---------------------------------------------------------------------------
 
 
-def entitle(ax: Axes, *lines: str) -> None:
-    """Put lines above axes on the left; of several results, the lines that all have."""
+def entitle(ax: Axes, *lines: str, pad: float | None = None) -> None:
+    """Put lines above axes on the left; of several results, the lines that all have.
+
+    ``pad`` is the distance in points, where the drawing has labels above the axes.
+    """
     before = " ".join(ax.get_title(loc="left").split())
     if before and count_series(ax):
         lines = tuple(line for line in lines if plain_text(line) in before)
@@ -96,9 +99,9 @@ def entitle_figure(figure: FigureBase, *lines: str) -> None:
     figure.suptitle(text, x=0.012, ha="left", fontsize=font.get_size())
 
 
-def head(ax: Axes, text: str) -> None:
-    """Put the name of a panel above it on the left."""
-    ax.set_title(plain_text(text), loc="left", fontsize="medium", color=muted(ax))
+def head(ax: Axes, text: str, pad: float | None = None) -> None:
+    """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`."""
+    ax.set_title(plain_text(text), loc="left", fontsize="medium", color=muted(ax), pad=pad)
 
 
 def say_zero(ax: Axes) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.transforms import Bbox
 
 from crankpin.analysis.crankshaft import Crankpin, throws
 from crankpin.analysis.geometry import (
@@ -14,6 +16,7 @@ from crankpin.analysis.geometry import (
     weights_on_crank,
     weights_on_shafts,
 )
+from crankpin.plot.axes import inches_of
 from crankpin.plot.section import shaft_text
 from crankpin.plot.shapes import (
     JOURNAL,
@@ -30,11 +33,14 @@ from crankpin.plot.shapes import (
     outside,
     radius_of_amounts,
     rotating_masses,
+    text_corner,
     wedge,
 )
-from crankpin.plot.words import plain_text
+from crankpin.plot.words import plain_text, width_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
@@ -79,10 +85,12 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
     arrow_round(ax, largest, _widest_gap([*pins]), ink)
     reach = max(1.25 * largest, *radii) if radii else largest + half
-    for at, cylinders in pins.items():
-        outside(ax, max(reach, abs(at)) * at / abs(at), listed(sorted(cylinders)), fontsize="small")
-    ax.set_aspect("equal")
     limit = 1.25 * reach
+    # The layout may make the axes smaller yet.
+    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
+    for at, cylinders in _numbers(pins, scale * reach).items():
+        outside(ax, reach * at, listed(sorted(cylinders)), fontsize="small")
+    ax.set_aspect("equal")
     ax.set_xlim(-limit, limit)
     ax.set_ylim(-limit, limit)
     ax.set_axis_off()
@@ -94,6 +102,33 @@ def _star_pins(engine: Engine, turn: complex) -> dict[complex, list[int]]:
     for pin in (pin for throw in throws(engine) for pin in throw):
         pins.setdefault(complex(np.round(pin.at * turn, 9)), []).extend(pin.cylinders)
     return pins
+
+
+def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
+    """Join the cylinders of pins whose numbers would overlap, so many points from the axis."""
+    font = FontProperties(size="small")
+    labels = [
+        (at / abs(at), cylinders)
+        for at, cylinders in sorted(pins.items(), key=lambda each: float(np.angle(each[0])))
+    ]
+
+    def place(towards: complex, cylinders: list[int]) -> Bbox:
+        anchor = radius * towards
+        left, bottom = text_corner(towards)
+        width, height = width_of(listed(sorted(cylinders)), font), font.get_size_in_points()
+        x0, y0 = anchor.real + left * width, anchor.imag + bottom * height
+        return Bbox.from_bounds(x0, y0, width, height)
+
+    k = 0
+    while len(labels) > 1 and k < len(labels):
+        (a, first), (b, second) = labels[k - 1], labels[k]
+        if place(a, first).padded(1.0).overlaps(place(b, second).padded(1.0)):
+            labels[k] = ((a + b) / abs(a + b), first + second)
+            del labels[k - 1]
+            k = 0
+        else:
+            k += 1
+    return dict(labels)
 
 
 def _widest_gap(places: list[complex]) -> float:
@@ -125,12 +160,18 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     thick = 0.09 * pitch
     half = JOURNAL * crank_radius(engine)
     front, back = drawn[0][0].low - 2.0 * thick, drawn[-1][-1].high + 4.0 * thick
+    per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
     journals, webs = [_rectangle(front, back, -half, half)], []
     for throw in drawn:
         heights = [(stretch.pin.at * turn).imag for stretch in throw]
-        for (pin, low, high), height in zip(throw, heights, strict=True):
+        for (_, low, high), height in zip(throw, heights, strict=True):
             journals.append(_rectangle(low, high, height - half, height + half))
-            _number(ax, 0.5 * (low + high), height, 1.2 * half, listed(pin.cylinders))
+        middle = 0.5 * (throw[0].low + throw[-1].high)
+        room = pitch / len(throw)
+        for k, (stretch, height) in enumerate(zip(throw, heights, strict=True)):
+            # Numbers of pins side by side have the room between throws too.
+            z = middle + (k - 0.5 * (len(throw) - 1)) * room
+            _number(ax, z, height, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre)
         # Webs: from the main journal to a pin, from pin to pin, and back to the main journal.
         joined = zip([0.0, *heights], [*heights, 0.0], strict=True)
         edges = [throw[0].low, *(stretch.high for stretch in throw)]
@@ -169,14 +210,20 @@ def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
     drawn = []
     for middle, throw in zip(middles, found, strict=True):
         edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
-        drawn.append(
-            [Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)]
-        )
+        drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
     return drawn, pitch
 
 
-def _number(ax: Axes, z: float, y: float, clear: float, text: str) -> None:
-    """Write the numbers of a pin's cylinders on the side of it that is away from the axis."""
+def _number(
+    ax: Axes, z: float, y: float, clear: float, cylinders: Sequence[int], room: float
+) -> None:
+    """Write the numbers of a pin's cylinders on the side of it that is away from the axis.
+
+    They are below each other where they are wider than ``room``, points.
+    """
+    text = listed(cylinders)
+    if width_of(text, FontProperties(size="small")) > room:
+        text = text.replace(", ", "\n")
     up = 1.0 if y > -1e-9 * clear else -1.0
     ax.annotate(
         text,
@@ -192,9 +239,7 @@ def _number(ax: Axes, z: float, y: float, clear: float, text: str) -> None:
 def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) -> None:
     weights = weights_on_crank(engine, theta)
     radii = radius_of_amounts(engine, [each.amount for each in weights])
-    plates = [
-        _plate(each, radius, 0.0, thick) for each, radius in zip(weights, radii, strict=True)
-    ]
+    plates = [_plate(each, radius, 0.0, thick) for each, radius in zip(weights, radii, strict=True)]
     add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4)
 
 

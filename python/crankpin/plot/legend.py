@@ -22,14 +22,18 @@ GAP = 4.0
 """Points between the labels of an axis and the legend."""
 
 
-def legend_below(ax: Axes, title: str = "") -> None:
-    """Put the legend of all series below axes and their label, in as many columns as fit.
+def legend_below(ax: Axes, title: str = "", handles: Sequence[Any] | None = None) -> None:
+    """Put a legend below axes and their label, in as many columns as fit.
 
-    Axes with a single series have none.
+    Of the handles given, or of all series; axes with a single series have none.
     """
-    handles, names = ax.get_legend_handles_labels()
-    if len(handles) < 2:
+    if handles is None:
+        handles = ax.get_legend_handles_labels()[0]
+        if len(handles) < 2:
+            return
+    elif not handles:
         return
+    names = [str(handle.get_label()) for handle in handles]
     occupied = ax.xaxis.get_tightbbox()
     frame, dpi = ax.get_window_extent(), ax.get_figure(root=True).dpi  # type: ignore[union-attr]
     down = 0.0 if occupied is None else max(0.0, frame.y0 - occupied.y0) / dpi

@@ -59,9 +59,7 @@ def section(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  
     _scale_bar(engine, ax, ink)
 
 
-def _walls(
-    engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], ink: Inks
-) -> None:
+def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], ink: Inks) -> None:
     """Draw each bore once, with its head and the numbers of its cylinders."""
     seen: dict[tuple[float, ...], list[int]] = {}
     heads = at.highest + (CROWN + 0.04) * bores
@@ -136,8 +134,7 @@ def _shafts(engine: Engine, ax: Axes, theta_deg: float, ink: Inks) -> None:
     sectors, discs = [], []
     for shaft, carried in zip(engine.shafts, weights, strict=True):
         place = complex(shaft.x, shaft.y)
-        for each in carried:
-            sectors.append(wedge(place, 0.7 * next(radii), each.angle_deg))
+        sectors += [wedge(place, 0.7 * next(radii), each.angle_deg) for each in carried]
         discs.append(disc(place, 0.5 * JOURNAL * crank_radius(engine)))
         names.setdefault(place, []).append(shaft_text(shaft.name, shaft.ratio))
     add(ax, sectors, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.6, zorder=5)
@@ -166,7 +163,9 @@ def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:
     stroke = 2.0 * crank_radius(engine)
     decade = 10.0 ** np.floor(np.log10(stroke))
     length = max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= stroke)
-    left, (low, _) = ax.get_xlim()[0], ax.get_ylim()
+    left, (low, high) = ax.get_xlim()[0], ax.get_ylim()
+    low -= 0.16 * (high - low)  # below the numbers of hanging cylinders
+    ax.set_ylim(low, high)
     ax.plot([left, left + length], [low, low], color=ink.line, linewidth=1.5, linestyle="-")
     ax.annotate(
         f"{number(length)} m",

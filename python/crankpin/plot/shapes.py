@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -131,7 +132,9 @@ def points(outline: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 
 def add(
-    ax: Axes, outlines: Iterable[NDArray[np.complex128]], **style: Any  # noqa: ANN401
+    ax: Axes,
+    outlines: Iterable[NDArray[np.complex128]],
+    **style: Any,  # noqa: ANN401
 ) -> None:
     """Draw outlines, each over the ones before it."""
     if "color" in style:  # of faces and edges; matplotlib warns of both
@@ -177,7 +180,7 @@ def by_direction(weights: Iterable[Weight]) -> dict[complex, float]:
 
 def listed(numbers: Sequence[int]) -> str:
     """Write cylinder numbers, even steps of many in short: ``1, 3, …, 15``."""
-    steps = {b - a for a, b in zip(numbers, numbers[1:], strict=False)}
+    steps = {b - a for a, b in itertools.pairwise(numbers)}
     if len(numbers) >= 3 and steps == {1}:
         return f"{numbers[0]}–{numbers[-1]}"
     if len(numbers) >= 5 and len(steps) == 1:
@@ -188,15 +191,24 @@ def listed(numbers: Sequence[int]) -> str:
 def outside(ax: Axes, place: complex, text: str, **style: Any) -> None:  # noqa: ANN401
     """Write beyond a point, as seen from the origin."""
     towards = place / abs(place)
+    left, bottom = text_corner(towards)
     ax.annotate(
         text,
         (place.real, place.imag),
         (6.0 * towards.real, 6.0 * towards.imag),
         textcoords="offset points",
-        ha="left" if towards.real > 0.1 else "right" if towards.real < -0.1 else "center",
-        va="bottom" if towards.imag > 0.4 else "top" if towards.imag < -0.4 else "center",
+        ha={0.0: "left", -0.5: "center", -1.0: "right"}[left],
+        va={0.0: "bottom", -0.5: "center", -1.0: "top"}[bottom],
         **style,
     )
+
+
+def text_corner(towards: complex) -> tuple[float, float]:
+    """Return the lower left corner of text beyond a point: parts of its width and height."""
+    x, y = towards.real, towards.imag
+    left = 0.0 if x > 0.02 else -1.0 if x < -0.02 else -0.5
+    bottom = 0.0 if y > 0.4 else -1.0 if y < -0.4 else -0.5
+    return left, bottom
 
 
 def arrow_round(ax: Axes, radius: float, at_deg: float, ink: Inks) -> None:
