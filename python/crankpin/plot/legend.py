@@ -22,12 +22,14 @@ GAP = 4.0
 """Points between the labels of an axis and the legend."""
 
 
-def legend_below(ax: Axes, title: str = "") -> None:
+def legend_below(ax: Axes, title: str = "", *, last: str = "") -> None:
     """Put the legend of all series below axes and their label, in as many columns as fit.
 
-    Axes with a single series have none.
+    Axes with a single series have none. The entry named ``last`` comes after the others.
     """
-    handles, names = ax.get_legend_handles_labels()
+    named = list(zip(*ax.get_legend_handles_labels(), strict=True))
+    named.sort(key=lambda entry: entry[1] == last)
+    handles, names = [handle for handle, _ in named], [name for _, name in named]
     if len(handles) < 2:
         return
     occupied = ax.xaxis.get_tightbbox()
