@@ -4,7 +4,7 @@ Pictures are drawn on given axes, or on a new pyplot figure, which notebooks sho
 imported when a picture is drawn, and matplotlib with it.
 """
 
-from crankpin.plot import balance, engine, firing, ranking, search, sweep, waveform
+from crankpin.plot import balance, engine, firing, ranking, search, sweep, sweep_waveform, waveform
 from crankpin.plot.dispatch import draw
 from crankpin.plot.svg import inline_svg
 
@@ -17,5 +17,6 @@ __all__ = [
     "ranking",
     "search",
     "sweep",
+    "sweep_waveform",
     "waveform",
 ]

@@ -8,6 +8,7 @@ import matplotlib as mpl
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
+from matplotlib.font_manager import FontProperties
 
 from crankpin._core import InputError
 from crankpin._support import inputs
@@ -17,7 +18,6 @@ from crankpin.plot.words import plain_text, wrapped
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from matplotlib.font_manager import FontProperties
     from numpy.typing import NDArray
 
 
@@ -69,6 +69,13 @@ def check_one_place(ax: object, figure: object) -> None:
         raise InputError("ax and figure cannot be combined; give one of them")
 
 
+def refuse_figure(figure: object, kind: str) -> None:
+    """Raise an InputError if a figure is given to a kind of picture with one panel."""
+    if figure is not None:
+        shown = inputs.shorten(figure)
+        raise InputError(f"figure = {shown}: kind={kind!r} has one panel; give ax")
+
+
 def inches_of(place: Axes | FigureBase) -> float:
     """Return the width of axes, or of a figure, in inches."""
     figure: Any = place.get_figure(root=True)
@@ -101,7 +108,18 @@ def entitle_figure(figure: FigureBase, *lines: str) -> None:
 
 def head(ax: Axes, text: str, pad: float | None = None) -> None:
     """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`."""
-    ax.set_title(plain_text(text), loc="left", fontsize="medium", color=muted(ax), pad=pad)
+    font = FontProperties(size="medium")
+    block = _block([text], inches_of(ax), font)
+    ax.set_title(block, loc="left", fontsize="medium", color=muted(ax), pad=pad)
+
+
+def label_y(ax: Axes, text: str) -> None:
+    """Label the vertical axis, on several lines where it is short."""
+    font = FontProperties(size=mpl.rcParams["axes.labelsize"])
+    figure: Any = ax.get_figure(root=True)
+    # Titles and a legend will leave no more than about half of the height.
+    points = 0.5 * 72.0 * ax.get_window_extent().height / figure.dpi
+    ax.set_ylabel(plain_text(wrapped(text, points, font)))
 
 
 def say_zero(ax: Axes) -> None:

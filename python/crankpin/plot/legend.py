@@ -22,16 +22,18 @@ GAP = 4.0
 """Points between the labels of an axis and the legend."""
 
 
-def legend_below(ax: Axes, title: str = "", handles: Sequence[Any] | None = None) -> None:
+def legend_below(
+    ax: Axes, title: str = "", *, last: str = "", handles: Sequence[Any] | None = None
+) -> None:
     """Put a legend below axes and their label, in as many columns as fit.
 
-    Of the handles given, or of all series; axes with a single series have none.
+    Of the handles given, or of all series: axes with a single series have none then. The entry
+    named ``last`` comes after the others.
     """
-    if handles is None:
-        handles = ax.get_legend_handles_labels()[0]
-        if len(handles) < 2:
-            return
-    elif not handles:
+    fewest = 2 if handles is None else 1
+    handles = [*(ax.get_legend_handles_labels()[0] if handles is None else handles)]
+    handles.sort(key=lambda handle: handle.get_label() == last)
+    if len(handles) < fewest:
         return
     names = [str(handle.get_label()) for handle in handles]
     occupied = ax.xaxis.get_tightbbox()

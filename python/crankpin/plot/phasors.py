@@ -11,11 +11,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
+from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.plot import ticks
-from crankpin.plot.axes import entitle_figure, head, many_panels, say_zero
+from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
 from crankpin.plot.legend import figure_legend
 from crankpin.plot.style import colours, foreground, muted
 from crankpin.plot.words import name_of, number, rounded, width_of
@@ -41,31 +42,20 @@ NOTHING = 1e-9
 
 def phasors(
     result: Balance,
+    ax: object = None,
     figure: FigureBase | None = None,
     *,
     quantity: str = "moment",
     orders: Orders | None = None,
+    **style: Any,  # noqa: ANN401 - of arrows
 ) -> NDArray[Any]:
     """Draw the phasors of cylinders, counterweights and shafts head to tail, with their sum.
 
     A column for each order; a row for the forward and one for the backward parts of force or
     moment, one row for a torque. Arrows that cover each other are moved apart.
-
-    Parameters
-    ----------
-    result
-        The balance.
-    figure
-        Figure or SubFigure to draw in; by default a new one.
-    quantity
-        ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
-    orders
-        Orders to draw; by default those given to the balance, or else 1 and 2.
-
-    Returns
-    -------
-    Axes, by part and order: (n_parts, n_orders).
     """
+    if ax is not None:
+        raise InputError('ax: kind="phasors" has several panels; give figure=')
     kind = inputs.one_of("quantity", quantity, labels.UNITS)
     result.request.check(kind)
     shown = inputs.explicit_orders(
@@ -84,16 +74,16 @@ def phasors(
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
     for column, order in enumerate(shown):
         for row, part in enumerate(rows):
-            ax, total = axes[row, column], complex(sums[row, column])
+            panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
-            room = _polygon(ax, arms, chain, total, inks)
-            _frame(ax, chain, room)
+            room = _polygon(panel, arms, chain, total, inks, style)
+            _frame(panel, chain, room)
             length = f"{rounded(abs(total), 4)} {labels.UNITS[kind]}" if total else "0"
-            head(ax, f"order {order} {part}".strip() + f"\n{length}")
+            head(panel, f"order {order} {part}".strip() + f"\n{length}")
     axes[-1, 0].set_xlabel(_axis_label(kind, 0))
-    for ax in axes[:, 0]:
-        ax.set_ylabel(_axis_label(kind, 1))
+    for panel in axes[:, 0]:
+        label_y(panel, _axis_label(kind, 1))
     entitle_figure(
         figure, name_of(result.engine), f"{labels.NAMES[kind]}, {number(result.rpm)} rpm, θ = 0"
     )
@@ -109,6 +99,7 @@ def _polygon(
     chain: NDArray[np.complex128],
     total: complex,
     inks: dict[str, Any],
+    style: dict[str, Any],
 ) -> float:
     """Draw arms and sum; return the room that arrows moved aside need, points."""
     lengths = abs(np.diff(chain))
@@ -127,7 +118,8 @@ def _polygon(
         # Outside of the polygon, or on the side of the arrow that has no other.
         outwards = ((0.5 * (start + end) - middle) * across.conjugate()).real
         out = across if aside or outwards >= -1e-9 * longest else -across
-        _arrow(ax, start, end, aside * lane * across, color=inks[arms[k].group], linewidth=1.5)
+        looks = {"color": inks[arms[k].group], "linewidth": 1.5} | style
+        _arrow(ax, start, end, aside * lane * across, **looks)
         place = aside * lane * across + 0.5 * lane * out
         ax.annotate(
             arms[k].part,

@@ -68,11 +68,10 @@ def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
 
 def font_of(parameter: str, relative: str) -> FontProperties:
     """Return the font of an rcParam, of a ``relative`` size where that is matplotlib's own."""
-    size, own = (parameters[parameter] for parameters in _PARAMETERS)
-    return FontProperties(size=relative if size == own else size)
-
-
-_PARAMETERS: tuple[Mapping[str, Any], ...] = (mpl.rcParams, mpl.rcParamsDefault)
+    now: Any = mpl.rcParams
+    own: Any = mpl.rcParamsDefault
+    size = now[parameter]
+    return FontProperties(size=relative if size == own[parameter] else size)
 
 
 # --- series -------------------------------------------------------------------------------------

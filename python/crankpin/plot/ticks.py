@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axis import XAxis
 from matplotlib.ticker import FuncFormatter, Locator, MaxNLocator
 
-from crankpin.plot.words import number
+from crankpin.plot.words import in_degrees, number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,13 +75,13 @@ class DegreeLocator(RoundLocator):
 def degrees(axis: Axis) -> None:
     """Write degrees along an axis."""
     axis.set_major_locator(DegreeLocator())
-    axis.set_major_formatter(FuncFormatter(in_degrees))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: in_degrees(value)))
 
 
 def numeric(axis: Axis, *, whole: bool = False) -> None:
     """Write plain numbers along an axis."""
     axis.set_major_locator(RoundLocator(7 if isinstance(axis, XAxis) else 5, whole=whole))
-    axis.set_major_formatter(FuncFormatter(plain))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
 
 
 def span(ax: Axes, values: ArrayLike) -> None:
@@ -97,13 +97,3 @@ def from_zero(ax: Axes, largest: float) -> None:
     ax.set_ylim(0.0, 1.08 * largest or 1.0)
     if not largest:  # a scale of nothing would mislead
         ax.set_yticks([0.0])
-
-
-def plain(value: float, _: object = None) -> str:
-    """Format a tick."""
-    return number(value)
-
-
-def in_degrees(value: float, _: object = None) -> str:
-    """Format a tick in degrees."""
-    return f"{number(value)}°"

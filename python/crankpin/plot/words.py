@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import textwrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.textpath import TextPath
+
+from crankpin._support import labels
+from crankpin.analysis.source import PLANE_VECTORS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.font_manager import FontProperties
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.analysis.sweep_waveform import SweepWaveform
+    from crankpin.analysis.waveform import Waveform
     from crankpin.model.engine import Engine
 
 
@@ -31,6 +36,11 @@ def number(value: float) -> str:
     """Write 12000.0 as 12 000, and minus as minus."""
     text = f"{value:,.10g}" if abs(value) >= 1e4 else f"{value:.10g}"
     return text.replace(",", "\N{NO-BREAK SPACE}").replace("-", "−")
+
+
+def in_degrees(value: float) -> str:
+    """Write an angle with its unit."""
+    return f"{number(value)}°"
 
 
 def rounded(value: float, digits: int = 3) -> str:
@@ -96,3 +106,34 @@ def shortened(text: str, width: float, font: FontProperties) -> str:
     if whole <= width:
         return text
     return f"{text[: max(1, int(len(text) * width / whole) - 1)].rstrip(' ,;:')}…"
+
+
+# --- quantities ---------------------------------------------------------------------------------
+
+
+def with_unit(quantity: str, *, peak: bool = False) -> str:
+    """Return the name of a quantity with its unit, for an axis."""
+    name = labels.NAMES[quantity]
+    return f"{'peak ' if peak else ''}{name}, {labels.UNITS[quantity]}"
+
+
+def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:
+    """Return values whose last dimension is the component: x and y, or z alone."""
+    return values if quantity in PLANE_VECTORS else values[..., np.newaxis]
+
+
+def series_names(quantity: str, label: str | None) -> list[str]:
+    """Return names of the components of a quantity for a legend, with a label before them."""
+    names = list(labels.COMPONENTS[quantity])
+    if not label:
+        return names
+    return [label] if len(names) == 1 else [f"{label}, {name}" for name in names]
+
+
+def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
+    """Return how a waveform was computed: exact, or which orders and what the rest can add."""
+    if result.orders is None:
+        return "exact kinematics"
+    text = labels.orders_text(result.orders)
+    bound = getattr(result.error_bound, "torque" if quantity == "crank_torque" else quantity)
+    return f"{text} (the rest ≤ {rounded(bound, 2)} {labels.UNITS[quantity]})" if bound else text
