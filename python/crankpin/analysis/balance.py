@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -45,6 +46,12 @@ def balance(
     found = Balance(engine, inputs.number("rpm", rpm), request)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
+
+
+def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:
+    """Return the same balance at the orders given."""
+    request = dataclasses.replace(whole.request, orders=tuple(orders))
+    return Balance(whole.engine, whole.rpm, request)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:

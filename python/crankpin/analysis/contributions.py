@@ -13,7 +13,7 @@ from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
@@ -76,9 +76,3 @@ def _parts(engine: Engine) -> Iterator[tuple[str, str, Engine]]:
         yield f"W{k}", "counterweights", bare.with_counterweights([weight])
     for k, shaft in enumerate(engine.shafts, start=1):
         yield f"S{k}", "balance shafts", bare.with_shafts([shaft])
-
-
-def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:
-    """Return the same balance at the orders given."""
-    request = dataclasses.replace(whole.request, orders=tuple(orders))
-    return Balance(whole.engine, whole.rpm, request)

@@ -96,7 +96,7 @@ def entitle(ax: Axes, *lines: str, pad: float | None = None) -> None:
         lines = tuple(line for line in lines if plain_text(line) in before)
     font = font_of("axes.titlesize", "medium")
     text = _block(lines, inches_of(ax), font)
-    ax.set_title(text, loc="left", fontsize=font.get_size())
+    ax.set_title(text, loc="left", fontsize=font.get_size(), pad=pad)
 
 
 def entitle_figure(figure: FigureBase, *lines: str) -> None:

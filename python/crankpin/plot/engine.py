@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.geometry import crank_angle
 from crankpin.model.engine import Engine
@@ -18,6 +17,7 @@ from crankpin.plot.axes import (
     head,
     many_panels,
     one_panel,
+    refuse_figure,
 )
 from crankpin.plot.crank import side, star
 from crankpin.plot.dispatch import draw
@@ -50,8 +50,7 @@ def _engine(
     theta = crank_angle(theta_deg)
     if kind is not None:
         inputs.one_of("kind", kind, PANELS)
-        if figure is not None:
-            raise InputError(f'figure: kind="{kind}" has one panel; give ax=')
+        refuse_figure(figure, kind)
     elif ax is not None:
         kind = "section"
     if kind is not None:

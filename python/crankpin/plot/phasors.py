@@ -14,6 +14,7 @@ from matplotlib.transforms import ScaledTranslation
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis import contributions as adding
+from crankpin.analysis.balance import at_orders
 from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.plot import ticks
 from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
@@ -61,7 +62,7 @@ def phasors(
     shown = inputs.explicit_orders(
         orders if orders is not None else result.request.orders or ORDERS
     )
-    whole = adding.at_orders(result, shown)
+    whole = at_orders(result, shown)
     arms = adding.contributions(whole, kind)
     sums = adding.phasors(whole, kind)
     rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)
