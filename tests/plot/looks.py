@@ -68,13 +68,13 @@ def seen(look: str, plot: Callable[..., Any]) -> Figure:
         width, height = mpl.rcParams["figure.figsize"]
         mpl.rcParams["figure.figsize"] = (COLUMN, height * COLUMN / width)
         mpl.rcParams["font.size"] = 8
-    made = np.ravel(plot())[0].get_figure(root=True)
+    drawn = plot()
+    made = np.ravel(drawn)[0].get_figure(root=True)
     if look != "grid":
         return made
-    several = len(made.axes) > 1
     plt.close(made)
     figure = plt.figure(figsize=(7.0, 5.0), layout="constrained")
-    if several:
+    if isinstance(drawn, np.ndarray):
         for part in figure.subfigures(1, 2):
             plot(figure=part)
     else:

@@ -113,13 +113,19 @@ def head(ax: Axes, text: str, pad: float | None = None) -> None:
     ax.set_title(block, loc="left", fontsize="medium", color=muted(ax), pad=pad)
 
 
-def label_y(ax: Axes, text: str) -> None:
-    """Label the vertical axis, on several lines where it is short."""
+def label_x(ax: Axes, text: str) -> None:
+    """Label the horizontal axis, on several lines where it is short."""
+    font = FontProperties(size=mpl.rcParams["axes.labelsize"])
+    ax.set_xlabel(_block([text], inches_of(ax), font))
+
+
+def label_y(ax: Axes, *lines: str) -> None:
+    """Label the vertical axis, on more lines where it is short."""
     font = FontProperties(size=mpl.rcParams["axes.labelsize"])
     figure: Any = ax.get_figure(root=True)
     # Titles and a legend will leave no more than about half of the height.
-    points = 0.5 * 72.0 * ax.get_window_extent().height / figure.dpi
-    ax.set_ylabel(plain_text(wrapped(text, points, font)))
+    inches = 0.5 * ax.get_window_extent().height / figure.dpi
+    ax.set_ylabel(_block(lines, inches, font))
 
 
 def say_zero(ax: Axes) -> None:

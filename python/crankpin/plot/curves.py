@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
@@ -14,6 +13,7 @@ from crankpin.plot.axes import (
     entitle,
     entitle_figure,
     head,
+    label_x,
     label_y,
     many_panels,
     one_panel,
@@ -58,8 +58,7 @@ def curves(
     along, words = along_x(sweep, x), words_of(sweep)
     if ax is not None:
         ax = one_panel(ax)
-        what = f"{rows.rows[0].name}, {rows.columns[0]}"
-        entitle(ax, words.title, words.subtitle(name), what)
+        entitle(ax, words.title, words.subtitle(name), rows.columns[0])
         _draw(np.array([[ax]]), sweep, name, along, rows, style)
         legend_below(ax, words.common)
         return ax
@@ -67,10 +66,8 @@ def curves(
     if along == "engine":
         shared = {"sharex": "row", "sharey": "all"}
     made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
-    for panel, (each, axis) in zip(
-        made.axes.flat, itertools.product(rows.rows, rows.columns), strict=True
-    ):
-        head(panel, f"{each.name}, {axis}")
+    for panel, axis in zip(made.axes[0], rows.columns, strict=True):
+        head(panel, axis)
     bundle = _draw(made.axes, sweep, name, along, rows, style)
     entitle_figure(made.figure, words.title, words.subtitle(name), rows.note)
     marks = [_entry(made.axes, text) for text in (ZERO, LEAST)]
@@ -100,16 +97,16 @@ def _draw(
             _dots(panel, words.names, heights, bundle.curves)
             continue
         values = np.asarray(sweep.coords[along], dtype=np.float64)
+        span(panel, values)
         _lines(panel, values, heights, bundle.curves)
         if along != "rpm":  # every peak grows with the square of speed
             _mark(panel, along, values, heights, bundle.curves, least=row == 0)
-    for of_row, heights in zip(panels, peaks, strict=True):
-        _scale(of_row, float(heights.max(initial=0.0)), quantity, along)
+    for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
+        _scale(of_row, float(heights.max(initial=0.0)), quantity, along, row_of_picture.name)
     if along != "engine":
         for panel in panels[-1]:
-            panel.set_xlabel(dimension(along))
+            label_x(panel, dimension(along))
             (degrees if along.endswith("_deg") else numeric)(panel.xaxis)
-            span(panel, np.asarray(sweep.coords[along], dtype=np.float64))
     if bundle.scale:
         colour_scale(panels, sweep, bundle.scale)
     return bundle
@@ -143,18 +140,18 @@ def _dots(
     ax.set_ylim(len(names) - 0.5, -0.5)
 
 
-def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str) -> None:
-    """Let the axis of the peaks begin at zero, and label it."""
+def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str, name: str) -> None:
+    """Let the axis of the peaks begin at zero; label it with the row's name."""
+    unit = f"peak, {labels.UNITS[quantity]}"
     for panel in panels:
         if along == "engine":
             numeric(panel.xaxis)
             panel.set_xlim(0.0, 1.08 * largest or 1.0)
-            panel.set_xlabel(f"peak, {labels.UNITS[quantity]}")
+            label_x(panel, unit)
         else:
             numeric(panel.yaxis)
             from_zero(panel, largest)
-    if along != "engine":
-        label_y(panels[0], f"peak, {labels.UNITS[quantity]}")
+    label_y(panels[0], name, *([] if along == "engine" else [unit]))
 
 
 # --- marks --------------------------------------------------------------------------------------

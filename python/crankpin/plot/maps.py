@@ -9,7 +9,15 @@ from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.plot.axes import entitle, entitle_figure, head, label_y, many_panels, one_panel
+from crankpin.plot.axes import (
+    entitle,
+    entitle_figure,
+    head,
+    label_x,
+    label_y,
+    many_panels,
+    one_panel,
+)
 from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
@@ -50,18 +58,19 @@ def heat_map(
     coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
     if ax is not None:
         ax = one_panel(ax)
-        entitle(ax, words.title, words.subtitle(name), f"{rows.rows[0].name}, {rows.columns[0]}")
+        what = f"{rows.rows[0].name}, {rows.columns[0]}"
+        entitle(ax, words.title, words.subtitle(name), what)
         _heat(np.array([ax]), coords, grids[0], name, style)
         _label(ax, along, up)
         return ax
     made = many_panels(figure, len(grids), len(rows.columns), sharex=True, sharey=True)
-    for row, grid, panels in zip(rows.rows, grids, made.axes, strict=True):
-        for axis, panel in zip(rows.columns, panels, strict=True):
-            head(panel, f"{row.name}, {axis}")
-            _label(panel, along, up)
-            panel.label_outer()
+    vanishes = [
         _heat(panels, coords, grid, name, style)
-    entitle_figure(made.figure, words.title, words.subtitle(name), note)
+        for grid, panels in zip(grids, made.axes, strict=True)
+    ]
+    _label_all(made.axes, along, up, rows)
+    dots = "white dots: exactly zero" if any(vanishes) else ""
+    entitle_figure(made.figure, words.title, words.subtitle(name), dots, note)
     return made.axes
 
 
@@ -92,11 +101,8 @@ def order_map(
         return ax
     made = many_panels(figure, len(rows.rows), len(rows.columns), sharex=True, sharey=True)
     for row, panels in zip(rows.rows, made.axes, strict=True):
-        for axis, panel in zip(rows.columns, panels, strict=True):
-            head(panel, ", ".join(filter(None, [row.name, axis])))
-            _label(panel, along, "order")
-            panel.label_outer()
         _cells(panels, values, sweep.orders, row.peaks, name, style)
+    _label_all(made.axes, along, "order", rows)
     entitle_figure(made.figure, words.title, words.subtitle(name), note)
     return made.axes
 
@@ -147,8 +153,12 @@ def _heat(
     peaks: NDArray[np.float64],
     quantity: str,
     style: dict[str, Any],
-) -> None:
-    """Draw a row of panels with one scale of colours; mark where a quantity vanishes."""
+) -> bool:
+    """Draw a row of panels with one scale of colours, white dots where a quantity vanishes.
+
+    Return True if there are such dots.
+    """
+    dotted = False
     x, y = coords
     columns, lines = np.argsort(x, kind="stable"), np.argsort(y, kind="stable")
     largest = float(peaks.max(initial=0.0))
@@ -158,20 +168,12 @@ def _heat(
         cells = of_panel[np.ix_(lines, columns)]
         mesh = panel.pcolormesh(x[columns], y[lines], cells, **(options | style))
         up, across = np.nonzero(of_panel == 0.0)
-        if up.size > MOST_ZEROS:
-            continue
-        panel.plot(
-            x[across],
-            y[up],
-            linestyle="",
-            marker="o",
-            markersize=4.5,
-            markerfacecolor="none",
-            markeredgecolor="white",  # the colour map is dark at zero
-            clip_on=False,
-            label="exactly zero",
-        )
+        if 0 < up.size <= MOST_ZEROS:
+            dotted = True
+            # The scale of colours is dark at zero, whatever the background.
+            panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
     _colour_bar(panels, mesh, quantity)
+    return dotted
 
 
 def _cells(
@@ -225,11 +227,21 @@ def _colour_bar(
         numeric(bar.ax.yaxis)
 
 
-def _label(ax: Axes, along: str, up: str) -> None:
-    ax.set_xlabel(dimension(along))
-    label_y(ax, "order" if up == "order" else dimension(up))
+def _label(ax: Axes, along: str, up: str, name: str = "") -> None:
+    label_x(ax, dimension(along))
+    label_y(ax, *filter(None, [name, dimension(up)]))
     for axis, dim in ((ax.xaxis, along), (ax.yaxis, up)):
         if dim.endswith("_deg"):
             degrees(axis)
         else:
             numeric(axis, whole=dim == "order")
+
+
+def _label_all(panels: NDArray[Any], along: str, up: str, rows: Rows) -> None:
+    """Name the columns above them, the rows and axes on the left and below."""
+    for row, of_row in zip(rows.rows, panels, strict=True):
+        for panel in of_row:
+            _label(panel, along, up, row.name)
+            panel.label_outer()
+    for panel, axis in zip(panels[0], rows.columns, strict=True):
+        head(panel, axis)

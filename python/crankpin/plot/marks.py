@@ -45,12 +45,15 @@ def ring(
 
 def write(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
     """Write above a mark, or beside it on the right."""
+    low, high = ax.get_xlim()
+    part = (x - low) / (high - low)
+    within = "left" if part < 0.06 else "right" if part > 0.94 else "center"
     written = ax.annotate(
         text,
         (x, y),
         (8.0, 0.0) if beside else (0.0, 7.0),
         textcoords="offset points",
-        ha="left" if beside else "center",
+        ha="left" if beside else within,
         va="center" if beside else "bottom",
         fontsize="small",
         color=foreground(ax),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
-from crankpin.plot.axes import label_y, say_zero
+from crankpin.plot.axes import label_x, label_y, say_zero
 from crankpin.plot.style import muted
 from crankpin.plot.ticks import numeric
 
@@ -38,7 +38,7 @@ def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15) -> None:
     """Label both axes, with one scale about zero, ``reach`` times as long as the curves need."""
     along_x, along_y = labels.COMPONENTS[quantity]
     unit = labels.UNITS[quantity]
-    ax.set_xlabel(f"{along_x}, {unit}")
+    label_x(ax, f"{along_x}, {unit}")
     label_y(ax, f"{along_y}, {unit}")
     ends = np.concatenate([np.abs(line.get_xydata()).ravel() for line in ax.lines] or [np.zeros(1)])
     largest = float(ends.max(initial=0.0))

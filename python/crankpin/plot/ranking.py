@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import labels
 from crankpin.analysis.ranking import Ranking
-from crankpin.plot.axes import entitle, label_y, one_panel
+from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.bundle import engine_looks
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
@@ -51,16 +51,16 @@ def _ranking(
     quantity = f"{ranking.by[0]}, {ranking.unit}".rstrip(", ")
     if ranking.bank_angles_deg is None:
         _listed(ax, ranking, dict(zip(ranking.names, names, strict=True)), of_lines)
-        ax.set_xlabel(quantity)
+        label_x(ax, quantity)
         return ax
     heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
+    span(ax, ranking.bank_angles_deg)
     _curves(ax, ranking, ranking.bank_angles_deg, heights, names, of_lines)
     degrees(ax.xaxis)
-    span(ax, ranking.bank_angles_deg)
     numeric(ax.yaxis)
     if not (heights < 0.0).any():
         from_zero(ax, max(_largest(heights), ax.get_ylim()[1] / 1.08 if ax.lines else 0.0))
-    ax.set_xlabel("bank angle")
+    label_x(ax, "bank angle")
     label_y(ax, quantity)
     legend_below(ax, plain_text(common) if common else "", last=BEST)
     return ax

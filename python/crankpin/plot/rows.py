@@ -119,8 +119,8 @@ def values_of(sweep: Sweep, dim: str, words: Words) -> list[str]:
 
 def dimension(dim: str) -> str:
     """Return the name of a swept dimension, with its unit, for an axis."""
-    if dim == "engine":
-        return "engine"
+    if dim in ("engine", "order"):
+        return dim
     name, symbol = labels.SWEPT[dim]
     # Degrees stand at the numbers.
     return ", ".join(part for part in (name or "crank speed", symbol.strip(" °")) if part)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin.analysis.search import ArrangementSearch
-from crankpin.plot.axes import entitle, label_y, one_panel
+from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, series
@@ -38,7 +38,7 @@ def _search(
     span(ax, result.window_deg)
     numeric(ax.yaxis)
     from_zero(ax, float(ax.dataLim.y1) if found else 0.0)
-    ax.set_xlabel("bank angle")
+    label_x(ax, "bank angle")
     label_y(ax, "larger second-order moment, over m·r·ω²·aₙ·spacing")
     legend_below(ax)
     return ax

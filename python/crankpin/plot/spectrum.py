@@ -9,7 +9,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
 from crankpin.analysis.source import PLANE_VECTORS
-from crankpin.plot.axes import entitle, label_y, one_panel, refuse_figure
+from crankpin.plot.axes import entitle, label_x, label_y, one_panel, refuse_figure
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, background, count_series, series
 from crankpin.plot.ticks import from_zero, numeric
@@ -57,7 +57,7 @@ def spectrum(
         _stems(ax, orders, peaks[:, k], text, styles[k])
     _beside_each_other(ax)
     _scale(ax, logarithmic=logarithmic)
-    ax.set_xlabel("order (multiples of crank speed)")
+    label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
     legend_below(ax, last=ZERO)
     return ax

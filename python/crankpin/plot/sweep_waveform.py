@@ -17,6 +17,7 @@ from crankpin.plot.axes import (
     entitle,
     entitle_figure,
     head,
+    label_x,
     label_y,
     many_panels,
     one_panel,
@@ -141,7 +142,7 @@ def _dress(ax: Axes, result: SweepWaveform, values: NDArray[np.float64]) -> None
     degrees(ax.xaxis)
     span(ax, result.theta_deg)
     numeric(ax.yaxis)
-    ax.set_xlabel("crank angle θ")
+    label_x(ax, "crank angle θ")
     if not values.any():
         ax.set_ylim(-1.0, 1.0)
         ax.set_yticks([0.0])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, labels
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.axes import entitle, label_y, one_panel, say_zero
+from crankpin.plot.axes import entitle, label_x, label_y, one_panel, say_zero
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
 from crankpin.plot.orbit import orbit
@@ -55,7 +55,7 @@ def curves(
     if first:
         span(ax, result.theta_deg)
     numeric(ax.yaxis)
-    ax.set_xlabel("crank angle θ")
+    label_x(ax, "crank angle θ")
     label_y(ax, with_unit(name))
     if first and not values.any():
         ax.set_ylim(-1.0, 1.0)
