@@ -12,6 +12,7 @@ from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, at_orders, balance
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,6 +65,8 @@ def compare(
     >>> c.change("moment").round(3)
     array([0.153, 0.424])
     """
+    for name, engine in (("before", before), ("after", after)):
+        engine_core(engine, name)
     options: dict[str, Any] = {
         "rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque,
     }  # fmt: skip
@@ -161,7 +164,7 @@ class Comparison(Frozen):
 
         Returns
         -------
-        The axes; without ``ax`` an array of them: (2,).
+        The axes; without ``ax`` an array of them: (1, 2), or (2, 1) in a narrow figure.
         """
         return draw(self, ax, figure=figure, quantity=quantity, **style)
 

@@ -57,6 +57,24 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
     ]
 
 
+def directions(engine: Engine) -> list[Crankpin]:
+    """Return the crankpins that are seen from the flywheel, those in line with one another as one.
+
+    Each is at the place of the first of them, with the cylinders of all.
+    """
+    pins = [pin for throw in throws(engine) for pin in throw]
+
+    def in_line(k: int, other: int) -> bool:
+        return bool(abs(pins[k].at - pins[other].at) <= SAME_PIN * abs(pins[k].at))
+
+    return [
+        pins[group[0]]._replace(
+            cylinders=tuple(sorted(n for k in group for n in pins[k].cylinders))
+        )
+        for group in _grouped(range(len(pins)), in_line)
+    ]
+
+
 def _grouped(cylinders: Iterable[int], alike: Callable[[int, int], bool]) -> list[list[int]]:
     """Put each cylinder into the first group to whose every member it is alike."""
     groups: list[list[int]] = []

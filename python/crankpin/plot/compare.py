@@ -70,7 +70,7 @@ def _comparison(
     _curves(curves, result, name)
     entitle_figure(made.figure, *lines)
     figure_legend(made.figure, bars.get_legend_handles_labels()[0])
-    return np.array([bars, curves])
+    return made.axes
 
 
 def _total(result: Comparison, name: str) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.transforms import Bbox
 
-from crankpin.analysis.crankshaft import Crankpin, throws
+from crankpin.analysis.crankshaft import Crankpin, directions, throws
 from crankpin.analysis.geometry import (
     assumed_bores,
     crank_angle,
@@ -47,6 +47,13 @@ if TYPE_CHECKING:
     from crankpin.analysis.geometry import Weight
     from crankpin.model.engine import Engine
 
+PINS = "crankpin pins"
+"""Marks the main journal, then the crankpins."""
+UNBALANCES = "crankpin unbalances"
+"""Marks the sectors of the star, the largest first."""
+WEIGHTS = "crankpin counterweights"
+"""Marks the counterweights of the side view."""
+
 # --- star ---------------------------------------------------------------------------------------
 
 
@@ -58,7 +65,8 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     theta = crank_angle(theta_deg)
     ink = inks_of(ax)
     largest = crank_radius(engine)
-    pins = _star_pins(engine, complex(direction(theta)))
+    turn = complex(direction(theta))
+    pins = {pin.at * turn: [*pin.cylinders] for pin in directions(engine)}
     half = 0.65 * JOURNAL * largest
     sums = [
         (amount, towards, colour)
@@ -75,12 +83,12 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
         for radius, (_, towards, _) in zip(radii, sums, strict=True)
     ]
     faces = [colour for _, _, colour in sums]
-    add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2)
+    add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
     looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
     add(ax, [bar(0.0, at, 2.6 * half, 1.3 * half) for at in pins], **(looks | style))
     rounds = [disc(0.0, 1.5 * half), *(disc(at, half) for at in pins)]
     faces = [ink.paper] + [ink.journal] * len(pins)
-    add(ax, rounds, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4)
+    add(ax, rounds, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
     circle = largest * direction(np.linspace(0.0, 360.0, 181))
     ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
     arrow_round(ax, largest, _widest_gap([*pins]), ink)
@@ -89,19 +97,11 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     # The layout may make the axes smaller yet.
     scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
     for at, cylinders in _numbers(pins, scale * reach).items():
-        outside(ax, reach * at, listed(sorted(cylinders)), fontsize="small")
+        outside(ax, reach * at, listed(cylinders), fontsize="small")
     ax.set_aspect("equal")
     ax.set_xlim(-limit, limit)
     ax.set_ylim(-limit, limit)
     ax.set_axis_off()
-
-
-def _star_pins(engine: Engine, turn: complex) -> dict[complex, list[int]]:
-    """Return the cylinders at each place of the star."""
-    pins: dict[complex, list[int]] = {}
-    for pin in (pin for throw in throws(engine) for pin in throw):
-        pins.setdefault(complex(np.round(pin.at * turn, 9)), []).extend(pin.cylinders)
-    return pins
 
 
 def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
@@ -115,7 +115,7 @@ def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, lis
     def place(towards: complex, cylinders: list[int]) -> Bbox:
         anchor = radius * towards
         left, bottom = text_corner(towards)
-        width, height = width_of(listed(sorted(cylinders)), font), font.get_size_in_points()
+        width, height = width_of(listed(cylinders), font), font.get_size_in_points()
         x0, y0 = anchor.real + left * width, anchor.imag + bottom * height
         return Bbox.from_bounds(x0, y0, width, height)
 
@@ -123,7 +123,7 @@ def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, lis
     while len(labels) > 1 and k < len(labels):
         (a, first), (b, second) = labels[k - 1], labels[k]
         if place(a, first).padded(1.0).overlaps(place(b, second).padded(1.0)):
-            labels[k] = ((a + b) / abs(a + b), first + second)
+            labels[k] = ((a + b) / abs(a + b), sorted(first + second))
             del labels[k - 1]
             k = 0
         else:
@@ -179,7 +179,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
             low, high = min(a, b) - 1.2 * half, max(a, b) + 1.2 * half
             webs.append(_rectangle(z - 0.5 * thick, z + 0.5 * thick, low, high))
     looks = {"facecolor": ink.journal, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
-    add(ax, journals, **looks)
+    add(ax, journals, gid=PINS, **looks)
     add(ax, webs, **(looks | {"facecolor": ink.web} | style))
     flywheel = 1.5 * crank_radius(engine)
     wheel = _rectangle(back, back + 2.0 * thick, -flywheel, flywheel)
@@ -191,6 +191,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     to_scale = pitch > 0.5 * crank_radius(engine)
     ax.set_aspect("equal" if to_scale else "auto")
     ax.autoscale_view()
+    ax.set_ylabel("y, m")
     ax.set_xlabel("z, m" if to_scale else "z, m (not to the scale of y)")
 
 
@@ -240,7 +241,7 @@ def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) ->
     weights = weights_on_crank(engine, theta)
     radii = radius_of_amounts(engine, [each.amount for each in weights])
     plates = [_plate(each, radius, 0.0, thick) for each, radius in zip(weights, radii, strict=True)]
-    add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4)
+    add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=WEIGHTS)
 
 
 def _shafts(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin.analysis.crankshaft import directions
 from crankpin.analysis.geometry import (
     assumed_bores,
     direction,
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
     from crankpin.analysis.geometry import Geometry
     from crankpin.model.engine import Engine
 
+MOVING = "crankpin moving parts"
+"""Marks pistons, rods, piston pins and crankpins, in turn for each cylinder from the front."""
 CROWN = 0.32
 """Top of a piston above its pin, over the bore."""
 SKIRT = 0.26
@@ -90,8 +93,8 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
         if radius
     ]
     add(ax, sectors, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.6, zorder=2.5)
-    pins = np.unique(at.crankpin.round(9))
-    webs = [bar(0.0, pin, 1.3 * width, width) for pin in pins]
+    turn = complex(direction(at.theta_deg))
+    webs = [bar(0.0, pin.at * turn, 1.3 * width, width) for pin in directions(engine)]
     add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
     add(ax, [disc(0.0, 0.5 * width)], facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
     arc = 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
@@ -121,7 +124,13 @@ def _moving_parts(
             disc(pin, 0.5 * width),
         ]
         faces += [ink.metal, ink.metal, ink.paper, ink.journal]
-    looks = {"facecolor": faces, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 4}
+    looks = {
+        "facecolor": faces,
+        "edgecolor": ink.line,
+        "linewidth": 0.8,
+        "zorder": 4,
+        "gid": MOVING,
+    }
     add(ax, outlines, **(looks | style))
 
 
