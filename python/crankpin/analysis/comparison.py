@@ -63,7 +63,7 @@ def compare(
     >>> v6 = cp.Engine.preset("v6-60")
     >>> c = cp.compare(v6, v6.with_bank_angle(90, hold="pins"), rpm=6000, orders=[1, 2])
     >>> c.change("moment").round(3)
-    array([0.153, 0.424])
+    array([0.577, 0.414])
     """
     for name, engine in (("before", before), ("after", after)):
         engine_core(engine, name)
@@ -92,7 +92,7 @@ class Comparison(Frozen):
     >>> cp.compare(i4, i4.with_shafts(shafts), rpm=6000, orders=[2, 4])
     Inline-4 at 6000 rpm: peaks
     quantity          order  before   after  change %
-    shaking force, N  2      9269.4  110.38   -98.809
+    shaking force, N  2      9269.4  110.41   -98.809
     shaking force, N  4      213.27  213.27         0
     roll torque, N·m  2      657.31  657.31         0
     roll torque, N·m  4      30.216  30.216         0
