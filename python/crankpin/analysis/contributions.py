@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from crankpin import _core
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.source import PLANE_VECTORS
@@ -57,21 +58,21 @@ def phasors(result: Balance, quantity: str) -> NDArray[np.complex128]:
 def _parts(engine: Engine) -> Iterator[tuple[str, str, Engine]]:
     """Yield each part's name and group, and an engine with it alone."""
     banks = {number: name for name, numbers in engine.banks.items() for number in numbers}
-    tdc, bore = engine_core(engine).exact_angles
-    for k, cylinder in enumerate(engine.cylinders):
-        alone = Engine.from_lists(
-            cylinder,
-            tdc_deg=[tdc[k]],
-            bank_deg=[bore[k]],
-            z=[engine.z[k]],
-            rotating_mass=engine.rotating_mass[k],
+    core = engine_core(engine)
+    tdc, bore = core.exact_angles
+    z, rotating = core.z.tolist(), core.rotating_mass.tolist()
+    # Made of the core's own lists: they were checked, and warned of, when the engine was made.
+    for k, parts in enumerate(core.cylinders):
+        alone = _core.Engine.from_lists(
+            [parts], [tdc[k]], None, [bore[k]], None, [z[k]], [rotating[k]], "", ""
         )
-        yield str(k + 1), banks[k + 1], alone
+        yield str(k + 1), banks[k + 1], Engine(alone)
     # Counterweights follow crankpins: those of cylinders without masses.
     massless = [
-        each.replace(reciprocating_mass=0.0, rod_inertia_excess=0.0) for each in engine.cylinders
+        (radius, length, 0.0, offset, 0.0) for radius, length, _, offset, _ in core.cylinders
     ]
-    bare = engine.replace(cylinder=massless, rotating_mass=0.0, counterweights=(), shafts=())
+    zeros = [0.0] * len(massless)
+    bare = Engine(_core.Engine.from_lists(massless, tdc, None, bore, core.bank, z, zeros, "", ""))
     for k, weight in enumerate(engine.counterweights, start=1):
         yield f"W{k}", "counterweights", bare.with_counterweights([weight])
     for k, shaft in enumerate(engine.shafts, start=1):

@@ -89,7 +89,7 @@ def legend_handles(engine: Engine, ink: Inks) -> list[Patch]:
             label=f"{name}, up to {rounded(max(each.amount for each in weights))} kg·m each",
         )
         for weights, colour, name in kinds
-        if weights
+        if any(each.amount for each in weights)
     ]
 
 
