@@ -71,7 +71,7 @@ def test_engines_get_a_row_each() -> None:
     s = cp.sweep([V6, I4], rpm=[1000, 2000], rod_ratio=[0.2, 0.3], orders=[2])
     panels = s.plot(kind="map", quantity="force")
     np.testing.assert_array_equal(cells(panels[1, 1]), s.force.peak_xy[1, :, :, 0, 1].T)
-    assert panels[1, 0].get_ylabel().startswith("Inline-4, order 2")
+    assert panels[1, 0].get_ylabel().split()[:3] == ["Inline-4,", "order", "2"]
     with pytest.raises(cp.InputError, match="give figure"):
         s.plot(plt.subplots()[1], kind="map")
 

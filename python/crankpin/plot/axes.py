@@ -139,7 +139,7 @@ def head(ax: Axes, text: str) -> None:
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
     font = FontProperties(size=mpl.rcParams["axes.labelsize"])
-    ax.set_xlabel(_block([text], IN_A_ROW * inches_of(ax), font))
+    ax.set_xlabel(_block([text], 0.85 * inches_of(ax), font))
 
 
 def label_y(ax: Axes, *lines: str) -> None:

@@ -49,8 +49,9 @@ class RoundLocator(Locator):
             return self.most
         space = self.axis.get_tick_space()
         if isinstance(self.axis, XAxis):
-            # Matplotlib counts labels of three sizes of type; a digit is 0.6 wide.
-            space = int(3 * space / (0.6 * characters + 1.2))
+            # Matplotlib counts labels of three sizes of type; a digit is 0.6 wide. The labels at
+            # the ends stick out by half of their width.
+            space = int(3 * space / (0.6 * characters + 1.2) - 0.5)
         return max(1, min(self.most, space))
 
 
