@@ -263,10 +263,10 @@ class Balance(AllOrders):
         Examples
         --------
         >>> import crankpin as cp
-        >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000)
+        >>> b = cp.Engine.preset("v6-60").balance(rpm=6000)
         >>> ax = b.plot(quantity="torque", log=True, color="black")
         >>> b.plot(kind="ellipses").shape
-        (1, 2)
+        (2, 2)
         """
         return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
 

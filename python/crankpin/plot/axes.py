@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import matplotlib as mpl
 from matplotlib import pyplot as plt
@@ -12,13 +12,21 @@ from matplotlib.font_manager import FontProperties
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.plot.style import count_series, font_of, muted
-from crankpin.plot.words import plain_text, wrapped
+from crankpin.plot.style import font_of, muted
+from crankpin.plot.words import plain_text, shortened, wrapped
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
+
+
+SHORT = 1.9
+"""Inches of height below which axes get a short title."""
+IN_A_ROW = 0.65
+"""Part of the width of axes that the layout leaves them beside others."""
+TICK_LABELS = 0.12
+"""Part of a figure's width that is beside axes; longer labels of ticks take width from them."""
 
 
 class Panels(NamedTuple):
@@ -49,11 +57,13 @@ def many_panels(
     """Make panels in the figure given, or in a new pyplot figure.
 
     A new figure is as wide as ``rcParams["figure.figsize"]`` says; a row takes ``row_height`` of
-    its height. An empty figure without a layout engine gets a constrained layout.
+    its height, and title and legend stand beside them. An
+    empty figure without a layout engine gets a constrained layout.
     """
     if figure is None:
         width, height = mpl.rcParams["figure.figsize"]
-        extent = (width, max(height * (row_height * rows + 0.25), 0.6 * height))
+        for_texts = 0.11 * mpl.rcParams["font.size"]
+        extent = (width, height * row_height * rows + for_texts)
         figure = plt.figure(figsize=extent, layout="constrained")
     elif not isinstance(figure, FigureBase):
         shown = inputs.shorten(figure)
@@ -76,11 +86,19 @@ def refuse_figure(figure: object, kind: str) -> None:
         raise InputError(f"figure = {shown}: kind={kind!r} has one panel; give ax")
 
 
-def inches_of(place: Axes | FigureBase) -> float:
-    """Return the width of axes, or of a figure, in inches."""
+def inches_of(place: Axes | FigureBase, extent: Literal["width", "height"] = "width") -> float:
+    """Return the width or height of axes, or of a figure, in inches.
+
+    Axes get their final extent when the figure is drawn: this is an estimate from their labels.
+    """
     figure: Any = place.get_figure(root=True)
     framed: Any = place if isinstance(place, Axes) else place.patch  # type: ignore[attr-defined]
-    return float(framed.get_window_extent().width / figure.dpi)
+    inches = float(getattr(framed.get_window_extent(), extent) / figure.dpi)
+    if extent == "width" and isinstance(place, Axes):
+        names = place.yaxis.get_tightbbox()
+        beside = TICK_LABELS * figure.get_figwidth()
+        inches -= 0.0 if names is None else max(0.0, names.width / figure.dpi - beside)
+    return max(inches, 0.5)
 
 
 # --- titles and notes ---------------------------------------------------------------------------
@@ -89,13 +107,18 @@ def inches_of(place: Axes | FigureBase) -> float:
 def entitle(ax: Axes, *lines: str, pad: float | None = None) -> None:
     """Put lines above axes on the left; of several results, the lines that all have.
 
-    ``pad`` is the distance in points, where the drawing has labels above the axes.
+    Above short axes two lines, cut to their width. Call it after names are put on the vertical
+    axis, which make axes narrower. ``pad`` is the distance in points, where the drawing has labels
+    above the axes.
     """
     before = " ".join(ax.get_title(loc="left").split())
-    if before and count_series(ax):
+    if before:
         lines = tuple(line for line in lines if plain_text(line) in before)
-    font = font_of("axes.titlesize", "medium")
-    text = _block(lines, inches_of(ax), font)
+    font, inches = font_of("axes.titlesize", "medium"), inches_of(ax)
+    text = _block(lines, inches, font)
+    if inches_of(ax, "height") < SHORT:
+        kept = (shortened(line, 72.0 * inches, font) for line in lines[:2])
+        text = plain_text("\n".join(kept))
     ax.set_title(text, loc="left", fontsize=font.get_size(), pad=pad)
 
 
@@ -116,16 +139,14 @@ def head(ax: Axes, text: str, pad: float | None = None) -> None:
 def label_x(ax: Axes, text: str) -> None:
     """Label the horizontal axis, on several lines where it is short."""
     font = FontProperties(size=mpl.rcParams["axes.labelsize"])
-    ax.set_xlabel(_block([text], inches_of(ax), font))
+    ax.set_xlabel(_block([text], 0.85 * inches_of(ax), font))
 
 
 def label_y(ax: Axes, *lines: str) -> None:
     """Label the vertical axis, on more lines where it is short."""
     font = FontProperties(size=mpl.rcParams["axes.labelsize"])
-    figure: Any = ax.get_figure(root=True)
     # Titles and a legend will leave no more than about half of the height.
-    inches = 0.5 * ax.get_window_extent().height / figure.dpi
-    ax.set_ylabel(_block(lines, inches, font))
+    ax.set_ylabel(_block(lines, 0.5 * inches_of(ax, "height"), font))
 
 
 def say_zero(ax: Axes) -> None:

@@ -60,8 +60,8 @@ def bars(
     note = _note(sweep, chosen)
     if ax is not None:
         ax = one_panel(ax)
-        entitle(ax, words.title, where, note)
         _panel(ax, words.names, peaks[0], chosen, names[0], style)
+        entitle(ax, words.title, where, note)
         _class(ax, classes)
         legend_below(ax)
         return ax
@@ -69,7 +69,7 @@ def bars(
     height = max(0.45, engines * (0.04 + 0.03 * len(chosen)))
     made = many_panels(figure, 1, len(names), row_height=height, sharey=True)
     for panel, name, values in zip(made.axes.flat, names, peaks, strict=True):
-        head(panel, labels.NAMES[name])
+        head(panel, name.replace("_", " "))
         _panel(panel, words.names, values, chosen, name, style)
     _class(made.axes[0, -1], classes)
     entitle_figure(made.figure, words.title, where, note)

@@ -123,11 +123,11 @@ def engine_looks(
     handles = [Line2D([], [], **curve.style, label=curve.name) for curve in curves]
     rest = [k for k in range(len(names)) if k not in kept]
     if rest:
-        grey: dict[str, Any] = {"color": muted(ax, 0.35), **THIN}
+        grey: dict[str, Any] = {"color": muted(ax, 0.35), "zorder": 1.9, **THIN}
         text = f"{len(rest)} others"
         handles.append(Line2D([], [], **grey, label=text))
         thin = [Curve((k,), grey, text if k == rest[0] else "") for k in rest]
-        curves = [*thin, *curves]
+        curves += thin
     return curves, handles
 
 

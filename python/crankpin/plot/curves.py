@@ -99,8 +99,9 @@ def _draw(
         values = np.asarray(sweep.coords[along], dtype=np.float64)
         span(panel, values)
         _lines(panel, values, heights, bundle.curves)
-        if along != "rpm":  # every peak grows with the square of speed
-            _mark(panel, along, values, heights, bundle.curves, least=row == 0)
+        # Every peak grows with the square of speed: the least is at the lowest.
+        least = row == 0 and "rpm" not in sweep.coords
+        _mark(panel, along, values, heights, bundle.curves, least=least)
     for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
         _scale(of_row, float(heights.max(initial=0.0)), quantity, along, row_of_picture.name)
     if along != "engine":

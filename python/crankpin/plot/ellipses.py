@@ -58,7 +58,10 @@ def ellipses(
         head(panel, f"order {order}\n{_direction(curve, name)}")
         dress_plane(panel, name)
         panel.set(xlabel="", ylabel="")
-    for panel in panels[len(shown) :]:
+    if not shown:
+        dress_plane(panels[0], name)
+        panels[0].set(xlabel="", ylabel="")
+    for panel in panels[max(1, len(shown)) :]:
         panel.set_visible(False)
     along_x, along_y = labels.COMPONENTS[name]
     made.figure.supxlabel(f"{along_x}, {labels.UNITS[name]}", fontsize="medium")

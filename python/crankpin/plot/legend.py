@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 GAP = 4.0
 """Points between the labels of an axis and the legend."""
+HANDLE, BETWEEN = 2.2, 1.2
+"""Length of a line in a legend, and distance of its columns, in sizes of type."""
 
 
 def legend_below(
@@ -66,8 +68,8 @@ def _layout(names: Sequence[str], title: str, inches: float) -> dict[str, Any]:
     """Return labels, title and number of columns of a legend so many inches wide."""
     font = font_of("legend.fontsize", "small")
     em, width = font.get_size_in_points(), 72.0 * inches
-    of_handle = (mpl.rcParams["legend.handlelength"] + mpl.rcParams["legend.handletextpad"]) * em
-    spacing = mpl.rcParams["legend.columnspacing"] * em
+    of_handle = (HANDLE + mpl.rcParams["legend.handletextpad"]) * em
+    spacing = BETWEEN * em
     pad = 2.0 * mpl.rcParams["legend.borderpad"] * em
     texts = [shortened(name, width - of_handle - pad, font) for name in names]
     widths = [width_of(text, font) + of_handle for text in texts]
@@ -82,5 +84,8 @@ def _layout(names: Sequence[str], title: str, inches: float) -> dict[str, Any]:
         "title": plain_text(title) or None,
         "title_fontproperties": font,
         "alignment": "left",
+        "handlelength": HANDLE,
+        "columnspacing": BETWEEN,
+        "labelspacing": 0.3,
         "frameon": False,
     }

@@ -99,7 +99,9 @@ def order_map(
         _cells(np.array([ax]), values, sweep.orders, rows.rows[0].peaks, name, style)
         _label(ax, along, "order")
         return ax
-    made = many_panels(figure, len(rows.rows), len(rows.columns), sharex=True, sharey=True)
+    height = 0.7 if len(rows.rows) == 1 else 0.45
+    shared = {"sharex": True, "sharey": True, "row_height": height}
+    made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
     for row, panels in zip(rows.rows, made.axes, strict=True):
         _cells(panels, values, sweep.orders, row.peaks, name, style)
     _label_all(made.axes, along, "order", rows)
@@ -202,7 +204,7 @@ def _cells(
                     "zero",
                     ha="center",
                     va="center",
-                    fontsize="small",
+                    fontsize="x-small",
                     color=foreground(panel),
                 )
         cells[cells == 0.0] = np.nan

@@ -45,14 +45,15 @@ def _ranking(
     names, shared = short_names(list(ranking.names))
     title, _, common = shared.rpartition(", ")
     title = ranking.names[0] if len(names) == 1 else title or f"{len(names)} engines"
-    entitle(ax, title, ranking.description(1), labels.HELD.get(ranking.hold or "", ""))
     if label:
         names = [f"{label}, {name}" if len(names) > 1 else label for name in names]
     quantity = f"{ranking.by[0]}, {ranking.unit}".rstrip(", ")
     if ranking.bank_angles_deg is None:
-        _listed(ax, ranking, dict(zip(ranking.names, names, strict=True)), of_lines)
+        note = _listed(ax, ranking, dict(zip(ranking.names, names, strict=True)), of_lines)
         label_x(ax, quantity)
+        entitle(ax, title, ranking.description(1), note)
         return ax
+    entitle(ax, title, ranking.description(1), labels.HELD.get(ranking.hold or "", ""))
     heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
     span(ax, ranking.bank_angles_deg)
     _curves(ax, ranking, ranking.bank_angles_deg, heights, names, of_lines)
@@ -113,8 +114,11 @@ def _with_best(
     return x[in_order], y[in_order]
 
 
-def _listed(ax: Axes, ranking: Ranking, names: dict[str, str], style: dict[str, Any]) -> None:
-    """Draw engines below each other, the best first; those of the first place ringed."""
+def _listed(ax: Axes, ranking: Ranking, names: dict[str, str], style: dict[str, Any]) -> str:
+    """Draw engines below each other, the best first; those of the first place ringed.
+
+    Return a note of the engines left out.
+    """
     best = ranking.best(min(len(ranking), MOST_ENGINES))
     rows = np.arange(len(best))
     values = np.array([choice.value for choice in best])
@@ -131,7 +135,6 @@ def _listed(ax: Axes, ranking: Ranking, names: dict[str, str], style: dict[str, 
     ax.set_ylim(len(best) - 0.5, -0.5)
     numeric(ax.xaxis)
     if not (values < 0.0).any():
-        ax.set_xlim(0.0, 1.15 * _largest(values) or 1.0)
+        ax.set_xlim(0.0, 1.3 * _largest(values) or 1.0)
     rest = len(ranking) - len(best)
-    if rest:
-        write(ax, 1.0, 0.0, f"{rest} more engines not shown")
+    return f"{rest} more engines not shown" if rest else ""

@@ -33,7 +33,9 @@ def _search(
     entitle(ax, f"V{result.cylinders}", without)
     (look,) = series(ax, 1, style)
     dots: dict[str, Any] = {"marker": "o", "markersize": 3.2} | look | {"linestyle": ""}
-    ax.plot(angles, heights, gid=SERIES, label=label or f"V{result.cylinders}", **dots)
+    ax.plot(
+        angles, heights, gid=SERIES, clip_on=False, label=label or f"V{result.cylinders}", **dots
+    )
     degrees(ax.xaxis)
     span(ax, result.window_deg)
     numeric(ax.yaxis)

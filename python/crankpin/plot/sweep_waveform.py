@@ -74,7 +74,7 @@ def _sweep_waveform(
         label_y(ax, with_unit(name))
         legend_below(ax, words.common if chosen == "curves" else "")
         return ax
-    made = many_panels(figure, 1, len(columns), row_height=0.6, sharey=True)
+    made = many_panels(figure, 1, len(columns), row_height=0.75, sharey=True)
     for panel, axis in zip(made.axes.flat, columns, strict=True):
         head(panel, axis)
     handles = draw_panels(made.axes, result, values, of_lines)

@@ -49,8 +49,9 @@ class RoundLocator(Locator):
             return self.most
         space = self.axis.get_tick_space()
         if isinstance(self.axis, XAxis):
-            # Matplotlib counts labels of three sizes of type; a digit is 0.6 wide.
-            space = int(3 * space / (0.6 * characters + 1.2))
+            # Matplotlib counts labels of three sizes of type; a digit is 0.6 wide. The labels at
+            # the ends stick out by half of their width.
+            space = int(3 * space / (0.6 * characters + 1.2) - 0.5)
         return max(1, min(self.most, space))
 
 
@@ -66,7 +67,10 @@ class DegreeLocator(RoundLocator):
         room = self._room(4)
         step = next((s for s in DEGREE_STEPS if high - low <= s * room), DEGREE_STEPS[-1])
         if high - low < 2 * step:
-            return super().tick_values(vmin, vmax)
+            places_between: Sequence[float] = MaxNLocator(room, steps=[1, 2, 5, 10]).tick_values(
+                low, high
+            )
+            return places_between
         first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
         places: list[int] = (step * np.arange(int(first), int(last) + 1)).tolist()
         return places
@@ -75,13 +79,13 @@ class DegreeLocator(RoundLocator):
 def degrees(axis: Axis) -> None:
     """Write degrees along an axis."""
     axis.set_major_locator(DegreeLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: in_degrees(value)))
+    axis.set_major_formatter(FuncFormatter(_degrees))
 
 
 def numeric(axis: Axis, *, whole: bool = False) -> None:
     """Write plain numbers along an axis."""
     axis.set_major_locator(RoundLocator(7 if isinstance(axis, XAxis) else 5, whole=whole))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
+    axis.set_major_formatter(FuncFormatter(_plain))
 
 
 def span(ax: Axes, values: ArrayLike) -> None:
@@ -97,3 +101,14 @@ def from_zero(ax: Axes, largest: float) -> None:
     ax.set_ylim(0.0, 1.08 * largest or 1.0)
     if not largest:  # a scale of nothing would mislead
         ax.set_yticks([0.0])
+
+
+# Functions of the module, so that figures pickle.
+
+
+def _plain(value: float, _: object) -> str:
+    return number(value)
+
+
+def _degrees(value: float, _: object) -> str:
+    return in_degrees(value)

@@ -78,13 +78,16 @@ def short_names(names: Sequence[str]) -> tuple[list[str], str]:
 
 # --- text that fits -----------------------------------------------------------------------------
 
+HINTED = 1.06
+"""Text drawn with few dots per inch, relative to its outlines: hinting moves letters apart."""
+
 
 def width_of(text: str, font: FontProperties) -> float:
-    """Return the width of a line of text, points."""
+    """Return the width of a line of text at screen resolution, points."""
     if not text.strip():
         return 0.0
     path = TextPath((0.0, 0.0), text, size=font.get_size_in_points(), prop=font)
-    return float(path.get_extents().x1)
+    return HINTED * float(path.get_extents().x1)
 
 
 def wrapped(text: str, width: float, font: FontProperties) -> str:
