@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.font_manager import FontProperties
@@ -31,6 +32,12 @@ STROKES = (-0.44, 0.5)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
 INLETS = (0.1, 0.15)
 EXHAUSTS = (0.28, 0.15)
+SMALL_LEGEND: dict[Any, Any] = {
+    "legend.fontsize": "x-small",
+    "legend.handlelength": 1.2,
+    "legend.columnspacing": 1.0,
+}
+"""Of charts whose rows have no room for letters: the legend must not take theirs."""
 ROW = 0.24
 """Inches of a row that suffice for letters."""
 
@@ -92,7 +99,8 @@ def _firing(
     handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1])
     _dress(ax, result, rows, row_height)
     entitle(ax, name_of(result.engine), labels.cut(result.summary))
-    legend_below(ax, handles=handles)
+    with mpl.rc_context({} if lettered else SMALL_LEGEND):
+        legend_below(ax, handles=handles)
     return ax
 
 
@@ -197,7 +205,11 @@ def _dress(ax: Axes, result: Firing, rows: list[int], row_height: float) -> None
     ax.set_yticks(range(len(rows)), [str(cylinder) for cylinder in rows])
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("crank angle θ")
-    ax.set_ylabel("cylinder, bank by bank" if len(result.banks) > 1 else "cylinder")
+    if row_height < ROW:
+        size = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
+        ax.tick_params(axis="y", labelsize=min(size, max(5.0, 65.0 * row_height)))
+    spacious = len(result.banks) > 1 and row_height >= ROW
+    ax.set_ylabel("cylinder, bank by bank" if spacious else "cylinder")
     first = 0
     names = {numbers: name for name, numbers in result.engine.banks.items()}
     for bank in result.banks:
