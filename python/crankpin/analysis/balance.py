@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -45,6 +46,12 @@ def balance(
     found = Balance(engine, inputs.number("rpm", rpm), request)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
+
+
+def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:
+    """Return the same balance at the orders given."""
+    request = dataclasses.replace(whole.request, orders=tuple(orders))
+    return Balance(whole.engine, whole.rpm, request)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
@@ -229,21 +236,24 @@ class Balance(AllOrders):
         ax
             Axes to draw on; by default new ones. ``"ellipses"`` draws all orders on them.
         figure
-            Figure or SubFigure for the panels of ``"ellipses"``; by default a new one.
+            Figure or SubFigure for the panels of ``"ellipses"`` or ``"phasors"``; by default a new
+            one.
         kind
             ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles;
             ``"ellipses"``: the ellipse that force or moment traces in each of the four largest
-            orders, with its direction and, as a dot, the place at θ = 0.
+            orders, with its direction and, as a dot, the place at θ = 0; ``"phasors"``: what
+            cylinders, counterweights and shafts add to each order, head to tail, and their sum.
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         **options
-            ``log=True`` for a logarithmic spectrum; ``label``, for a legend of several results on
+            ``log=True`` for a logarithmic spectrum; ``orders=`` of phasors, by default those given
+            to the balance, or else 1 and 2; ``label``, for a legend of several results on
             the same axes; colour, line width and other properties of matplotlib lines.
 
         Returns
         -------
         matplotlib.axes.Axes, or numpy.ndarray of them
-            The axes; of ``"ellipses"`` without ``ax`` an array of panels.
+            The axes; of ``"ellipses"`` without ``ax``, and of ``"phasors"``, an array of panels.
 
         Raises
         ------

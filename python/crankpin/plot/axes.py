@@ -104,11 +104,12 @@ def inches_of(place: Axes | FigureBase, extent: Literal["width", "height"] = "wi
 # --- titles and notes ---------------------------------------------------------------------------
 
 
-def entitle(ax: Axes, *lines: str) -> None:
+def entitle(ax: Axes, *lines: str, pad: float | None = None) -> None:
     """Put lines above axes on the left; of several results, the lines that all have.
 
     Above short axes two lines, cut to their width. Call it after names are put on the vertical
-    axis, which make axes narrower.
+    axis, which make axes narrower. ``pad`` is the distance in points, where the drawing has labels
+    above the axes.
     """
     before = " ".join(ax.get_title(loc="left").split())
     if before:
@@ -118,7 +119,7 @@ def entitle(ax: Axes, *lines: str) -> None:
     if inches_of(ax, "height") < SHORT:
         kept = (shortened(line, 72.0 * inches, font) for line in lines[:2])
         text = plain_text("\n".join(kept))
-    ax.set_title(text, loc="left", fontsize=font.get_size())
+    ax.set_title(text, loc="left", fontsize=font.get_size(), pad=pad)
 
 
 def entitle_figure(figure: FigureBase, *lines: str) -> None:
@@ -128,12 +129,11 @@ def entitle_figure(figure: FigureBase, *lines: str) -> None:
     figure.suptitle(text, x=0.012, ha="left", fontsize=font.get_size())
 
 
-def head(ax: Axes, text: str) -> None:
-    """Put the name of a panel above it on the left."""
+def head(ax: Axes, text: str, pad: float | None = None) -> None:
+    """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`."""
     font = FontProperties(size="medium")
-    ax.set_title(
-        _block([text], inches_of(ax), font), loc="left", fontsize="medium", color=muted(ax)
-    )
+    block = _block([text], inches_of(ax), font)
+    ax.set_title(block, loc="left", fontsize="medium", color=muted(ax), pad=pad)
 
 
 def label_x(ax: Axes, text: str) -> None:

@@ -9,9 +9,10 @@ from crankpin.analysis.balance import Balance
 from crankpin.plot.axes import check_one_place
 from crankpin.plot.dispatch import draw
 from crankpin.plot.ellipses import ellipses
+from crankpin.plot.phasors import phasors
 from crankpin.plot.spectrum import spectrum
 
-KINDS = {"spectrum": spectrum, "ellipses": ellipses}
+KINDS = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
 
 @draw.register(Balance)

@@ -24,16 +24,20 @@ HANDLE, BETWEEN = 2.2, 1.2
 """Length of a line in a legend, and distance of its columns, in sizes of type."""
 
 
-def legend_below(ax: Axes, title: str = "", *, last: str = "") -> None:
-    """Put the legend of all series below axes and their label, in as many columns as fit.
+def legend_below(
+    ax: Axes, title: str = "", *, last: str = "", handles: Sequence[Any] | None = None
+) -> None:
+    """Put a legend below axes and their label, in as many columns as fit.
 
-    Axes with a single series have none. The entry named ``last`` comes after the others.
+    Of the handles given, or of all series: axes with a single series have none then. The entry
+    named ``last`` comes after the others.
     """
-    named = list(zip(*ax.get_legend_handles_labels(), strict=True))
-    named.sort(key=lambda entry: entry[1] == last)
-    handles, names = [handle for handle, _ in named], [name for _, name in named]
-    if len(handles) < 2:
+    fewest = 2 if handles is None else 1
+    handles = [*(ax.get_legend_handles_labels()[0] if handles is None else handles)]
+    handles.sort(key=lambda handle: handle.get_label() == last)
+    if len(handles) < fewest:
         return
+    names = [str(handle.get_label()) for handle in handles]
     occupied = ax.xaxis.get_tightbbox()
     frame, dpi = ax.get_window_extent(), ax.get_figure(root=True).dpi  # type: ignore[union-attr]
     down = 0.0 if occupied is None else max(0.0, frame.y0 - occupied.y0) / dpi
