@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.view.settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
     from crankpin.analysis.quantities import PlaneVector
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
-    from crankpin.view.settings import Settings
 
 HIGHEST_ORDER = 24
 """Highest order of the pistons whose phasors a page has."""
+CURVE_STEP = 2.0
+"""Degrees between the samples of a curve."""
 
 
 def figures(
@@ -34,8 +36,8 @@ def figures(
     InputError
         If an argument is out of range.
     """
-    inputs.angular_speed(rpm)
-    inputs.warn_of_units(mean_piston_speed(engine, inputs.number("rpm", rpm)))
+    Settings.of(engine, rpm).check(engine)
+    inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
     plane = inputs.optional_number("reference_z", reference_z)
     pairs = inputs.spectrum(spectrum)
     angle = getattr(engine, "bank_angle_deg", None)
@@ -80,13 +82,14 @@ def core_numbers(
     )
     waveform = changed.waveform(
         settings.rpm,
-        theta_deg=np.arange(361.0),
+        theta_deg=np.arange(0.0, 361.0, CURVE_STEP),
         orders=None if spectrum is None else orders,
         reference_z=reference_z,
         spectrum=spectrum,
         torque=spectrum is None,
     )
     planar = {"force": balance.force, "moment": balance.moment}
+    none = [None] * len(waveform.theta_deg)
     return {
         "settings": dataclasses.asdict(settings),
         "orders": [
@@ -96,7 +99,7 @@ def core_numbers(
         "curve": {
             "force": np.asarray(waveform.force).tolist(),
             "moment": np.asarray(waveform.moment).tolist(),
-            "torque": [None] * 361 if spectrum is not None else np.asarray(waveform.torque).tolist(),
+            "torque": none if spectrum is not None else np.asarray(waveform.torque).tolist(),
         },
     }
 

@@ -34,6 +34,11 @@ class Settings:
             rod_ratio=ratios.pop() if len(ratios) == 1 else None,
         )
 
+    def check(self, engine: Engine) -> None:
+        """Raise an InputError if the engine does not allow these settings."""
+        inputs.angular_speed(self.rpm)
+        self.applied(engine)
+
     def applied(self, engine: Engine) -> Engine:
         """Return the engine at these settings.
 

@@ -1,13 +1,11 @@
-"""The widget in which an engine turns in a notebook; imports anywidget."""
+"""The widget in which an engine turns in a notebook; importing this needs anywidget."""
 
 from __future__ import annotations
 
 import dataclasses
 from typing import TYPE_CHECKING, Any
 
-import anywidget
-import traitlets
-
+from crankpin._support import optional
 from crankpin.view import page
 from crankpin.view.figures import core_numbers, figures
 from crankpin.view.settings import Settings
@@ -16,14 +14,19 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
     from crankpin.model.engine import Engine
 
+optional.anywidget()  # says what to install, as the imports would not
+
+import anywidget  # noqa: E402
+import traitlets  # noqa: E402
+
 SETTINGS = tuple(field.name for field in dataclasses.fields(Settings))
 
 
-class EngineWidget(anywidget.AnyWidget):  # type: ignore[misc]
+class EngineWidget(anywidget.AnyWidget):
     """An engine that turns; made by :meth:`Engine.view`.
 
-    Changing a trait moves the page, and the reader's changes arrive in the traits. The phasors and
-    the curves of the page are the core's, computed anew whenever a setting changes.
+    Setting a trait moves the page, and the reader's changes arrive in the traits. Phasors and
+    curves of the page are the core's, computed anew whenever a setting changes.
     """
 
     _esm = page.module("widget.mjs")
@@ -42,7 +45,7 @@ class EngineWidget(anywidget.AnyWidget):  # type: ignore[misc]
     rod_ratio = traitlets.Float(None, allow_none=True).tag(sync=True)
     """Crank radius over rod length of all cylinders; None while they differ."""
     hold = traitlets.Enum(["pins", "firing"], "pins").tag(sync=True)
-    """What is held as the banks turn."""
+    """What is held as the banks turn: ``"pins"`` or ``"firing"``."""
 
     def __init__(
         self,
@@ -55,11 +58,10 @@ class EngineWidget(anywidget.AnyWidget):  # type: ignore[misc]
         self._engine = engine
         self._loads: dict[str, Any] = {"reference_z": reference_z, "spectrum": spectrum}
         known = figures(engine, rpm, **self._loads)
-        settings = Settings.of(engine, rpm)
-        super().__init__(**dataclasses.asdict(settings))
+        super().__init__(**dataclasses.asdict(Settings.of(engine, rpm)))
         self.set_trait("figures", known)
-        self.observe(lambda _: self._recompute(), names=list(SETTINGS))
         self._recompute()
+        self.observe(lambda _: self._recompute(), names=list(SETTINGS))
 
     @property
     def engine(self) -> Engine:
@@ -69,9 +71,9 @@ class EngineWidget(anywidget.AnyWidget):  # type: ignore[misc]
     @traitlets.validate(*SETTINGS)
     def _check(self, proposal: dict[str, Any]) -> Any:  # noqa: ANN401 - of any trait
         """Reject a setting that the engine does not allow, with the library's own message."""
-        settings = self._settings(**{proposal["trait"].name: proposal["value"]})
-        core_numbers(self._engine, settings, **self._loads)
-        return proposal["value"]
+        name, value = proposal["trait"].name, proposal["value"]
+        self._settings(**{name: value}).check(self._engine)
+        return value
 
     def _settings(self, **changes: Any) -> Settings:  # noqa: ANN401 - of any trait
         return Settings(**{name: getattr(self, name) for name in SETTINGS} | changes)

@@ -48,8 +48,9 @@ export class Transport {
         button("stepBack", () => view.step(-1)), button("stepForward", () => view.step(1)),
         this.step, this.reverse),
       html("div", { class: "pace" }, html("span", {}, STRINGS.paceShort), this.pace, this.paceShown),
-      html("label", { class: "angle" },
-        html("span", {}, STRINGS.angle), this.angle, html("i", {}, STRINGS.degrees)),
+      html("div", { class: "angle" },
+        html("label", {}, html("span", {}, STRINGS.angle), this.angle),
+        html("i", {}, STRINGS.degrees)),
       this.slider,
     );
   }

@@ -22,7 +22,8 @@ function filled(element, attributes, children) {
 
 /** Show a number: text for people, its value in SI units with all digits for scripts. */
 export function show(element, value, text) {
-  element.setAttribute("data-value", value);
+  const full = `${value}`;
+  if (element.getAttribute("data-value") !== full) element.setAttribute("data-value", full);
   if (element.textContent !== text) element.textContent = text;
 }
 

@@ -55,8 +55,9 @@ function cylinderAt(figures, settings, given) {
     ? given.rod_length
     : r / settings.rod_ratio;
   let [bankDeg, tdcDeg] = [given.bank_deg, given.tdc_deg];
-  if (settings.bank_angle_deg !== figures.bank_angle_deg) {
-    const half = 0.5 * settings.bank_angle_deg;
+  const { bank_angle_deg: bankAngle } = settings;
+  if (bankAngle !== null && bankAngle !== figures.bank_angle_deg) {
+    const half = 0.5 * bankAngle;
     bankDeg = figures.bisector_deg + (bank === 0 ? -half : half);
     if (settings.hold === "pins") tdcDeg = reduced(bankDeg - (given.bank_deg - given.tdc_deg));
   }

@@ -45,10 +45,10 @@ export function phasors(engine, highest) {
 export function shown(all, most) {
   const largest = { force: 0, moment: 0 };
   for (const quantity of ["force", "moment"]) {
-    largest[quantity] = Math.max(0, ...all.map((each) => peak(each[quantity])));
+    largest[quantity] = Math.max(0, ...all.map((each) => longest(each[quantity])));
   }
   const share = (each) => Math.max(
-    ...["force", "moment"].map((q) => (largest[q] ? peak(each[q]) / largest[q] : 0)),
+    ...["force", "moment"].map((q) => (largest[q] ? longest(each[q]) / largest[q] : 0)),
   );
   return all
     .filter((each) => share(each) > NEGLIGIBLE)
@@ -58,7 +58,7 @@ export function shown(all, most) {
 }
 
 /** Longest vector of an order. */
-export const peak = ({ forward, backward }) => magnitude(forward) + magnitude(backward);
+export const longest = ({ forward, backward }) => magnitude(forward) + magnitude(backward);
 
 /** Amplitudes of each cylinder over ω², kg·m: m·r·aₙ, or the spectrum that replaces them. */
 function pistons({ cylinders, spectrum }, highest) {

@@ -3,7 +3,7 @@
 import { add, magnitude, multiply } from "./complex.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
 import { scaleFor } from "./format.mjs";
-import { peak } from "./orders.mjs";
+import { longest } from "./orders.mjs";
 import { turnedBy } from "./pose.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Dial } from "./vectors.mjs";
@@ -69,15 +69,15 @@ class Picture {
 
   layout({ forward, backward }) {
     this.parts = [forward, backward];
-    const longest = peak({ forward, backward });
-    const scale = scaleFor(longest, STRINGS.units[this.quantity]);
-    this.dial.reach(longest);
+    const reach = longest({ forward, backward });
+    const scale = scaleFor(reach, STRINGS.units[this.quantity]);
+    this.dial.reach(reach);
     const points = Array.from({ length: 73 }, (_, k) => {
       const [cos, sin] = [Math.cos((k * Math.PI) / 36), Math.sin((k * Math.PI) / 36)];
       return add(multiply(forward, [cos, sin]), multiply(backward, [cos, -sin]));
     });
     this.ellipse.setAttribute("d", this.dial.curve(points));
-    this.element.hidden = !longest;
+    this.element.hidden = !reach;
     this.values.forEach((element, k) => {
       const size = magnitude(this.parts[k]);
       show(element, size, size ? `${scale.text(size)} ${scale.unit}` : "0");

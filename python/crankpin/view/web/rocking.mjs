@@ -30,16 +30,17 @@ export function rocking({ cylinders, reference, settings }, orders) {
   return { parts, reference };
 }
 
-/** Displacement x + iy of the crank axis at z for e^{iθ}, m. */
-export function displacement({ parts, reference }, crank, z) {
-  let sum = [0, 0];
+/** Displacement x + iy of the crank axis for e^{iθ}, m: a function of z. */
+export function displacement({ parts, reference }, crank) {
+  let [shift, tilt] = [[0, 0], [0, 0]];
   for (const { order, forward, backward } of parts) {
-    for (const [{ shift, tilt }, n] of [[forward, order], [backward, -order]]) {
-      const phasor = add(shift, scale(tilt, z - reference));
-      sum = add(sum, multiply(phasor, turnedBy(crank, n)));
+    for (const [part, n] of [[forward, order], [backward, -order]]) {
+      const turned = turnedBy(crank, n);
+      shift = add(shift, multiply(part.shift, turned));
+      tilt = add(tilt, multiply(part.tilt, turned));
     }
   }
-  return sum;
+  return (z) => [shift[0] + (z - reference) * tilt[0], shift[1] + (z - reference) * tilt[1]];
 }
 
 /** Bound of the displacement at z, m. */

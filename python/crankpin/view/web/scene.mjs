@@ -61,6 +61,7 @@ export class Scene {
     projection.fit(extremes(engine, this.dimensions), this.size, this.margin,
       this.dimensions.stretch);
     this.items ??= this.parts(engine);
+    this.shapes = new Map();
     const ranks = projection.name === "cross" ? RANKS.end : RANKS.other;
     for (const item of this.items) item.depth = item.layout(engine);
     const order = [...this.items].sort(
@@ -125,23 +126,17 @@ export class Scene {
       layout: ({ cylinders }) => {
         const { projection } = this;
         const { crank_radius: r, direction, rod_length: l, number: name } = cylinders[k];
-        const radius = (BORE / 2) * r;
-        const outline = (from, to) =>
-          path(projection.tube(direction, from * r, to * r, radius), true);
-        const [cx, cy] = projection.vector([...direction.map((part) => part * CROWN * r), 0]);
-        const crown = projection.ellipse(direction, radius).arc(0, 2 * Math.PI, 28)
-          .map(([x, y]) => [x + cx, y + cy]);
-        const facing = projection.depth([...direction, 0]) > 0;
+        const shape = this.pistonShape(direction, r);
         z = cylinders[k].z;
-        body.setAttribute("d", outline(-SKIRT, CROWN));
-        band.setAttribute("d", outline(CROWN - BAND, CROWN));
-        top.setAttribute("d", facing ? path(crown, true) : "");
+        body.setAttribute("d", shape.body);
+        band.setAttribute("d", shape.band);
+        top.setAttribute("d", shape.crown);
         if (projection.name !== "cross") {
           if (!number) {
             number = fixed(svg, "text", "cylinder", name, `${name}`, { class: "on-piston" });
             element.append(number);
           }
-          place(number, facing ? [cx, cy] : [0, 0]);
+          place(number, shape.middle);
           number.setAttribute("font-size", Math.min(Math.max(0.8 * r * projection.scale, 7), 15));
         }
         return projection.depth([...direction.map((part) => part * l), z]);
@@ -154,6 +149,26 @@ export class Scene {
         }
       },
     };
+  }
+
+  /** Outlines of a piston about its pin, and where its number stands: once for all that are alike. */
+  pistonShape(direction, r) {
+    const key = `${direction} ${r}`;
+    if (!this.shapes.has(key)) {
+      const { projection } = this;
+      const radius = (BORE / 2) * r;
+      const outline = (from, to) => path(projection.tube(direction, from * r, to * r, radius), true);
+      const [cx, cy] = projection.vector([...direction.map((part) => part * CROWN * r), 0]);
+      const facing = projection.depth([...direction, 0]) > 0;
+      const crown = projection.ellipse(direction, radius).arc(0, 2 * Math.PI, 28);
+      this.shapes.set(key, {
+        body: outline(-SKIRT, CROWN),
+        band: outline(CROWN - BAND, CROWN),
+        crown: facing ? path(crown.map(([x, y]) => [x + cx, y + cy]), true) : "",
+        middle: facing ? [cx, cy] : [0, 0],
+      });
+    }
+    return this.shapes.get(key);
   }
 
   rod(k) {
@@ -270,12 +285,16 @@ class Bar {
 
   set width(pixels) {
     const width = Math.max(pixels, 2);
+    if (width === this.drawnWidth) return;
+    this.drawnWidth = width;
     this.casing.setAttribute("stroke-width", (width + 2).toFixed(2));
     this.core.setAttribute("stroke-width", width.toFixed(2));
   }
 
   draw(points) {
     const d = path(points);
+    if (d === this.drawn) return;
+    this.drawn = d;
     this.casing.setAttribute("d", d);
     this.core.setAttribute("d", d);
   }

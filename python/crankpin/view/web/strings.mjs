@@ -55,7 +55,7 @@ export const STRINGS = {
   orders: "Order by order: phasors",
   noOrders: "All orders of force and moment are balanced.",
   timeline: "Over the crank angle",
-  timelineDescribed: "Force, moment and torque over the crank angle, and the strokes of each cylinder",
+  timelineDescribed: "Force, moment and torque over a cycle, and the strokes of each cylinder",
   strokes: {
     power: "power", exhaust: "exhaust", intake: "intake", compression: "compression",
   },

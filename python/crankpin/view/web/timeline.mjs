@@ -9,7 +9,6 @@ const GAP = 24;
 const ROW = 17;
 const AXIS = 22;
 const NARROW = 560;
-const STEP = 2; // degrees between points of a curve
 
 export class Timeline {
   /** `turnTo` is told of the angle within the cycle that the reader points at. */
@@ -83,8 +82,9 @@ export class Timeline {
     }
     parts.push(svg("text", { class: "tick", x: this.left - 5, y: middle + 4 }, scale.unit));
     for (const { name, label, samples, value } of curves) {
-      const points = Array.from({ length: this.cycle / STEP + 1 }, (_, k) =>
-        [this.x(STEP * k), y(samples[(STEP * k) % 360])]);
+      const turn = samples.length - 1;
+      const points = Array.from({ length: (turn * this.cycle) / 360 + 1 }, (_, k) =>
+        [this.x((360 * k) / turn), y(samples[k % turn])]);
       parts.push(svg("path", { class: `curve ${name}`, d: path(points) }));
       this.dots.push({ dot: svg("circle", { class: `dot ${name}`, r: 3.2 }), value, y });
       if (label) {

@@ -22,8 +22,11 @@ import { Arrow, Orbits, Twist } from "./vectors.mjs";
 /** Orders that are shown at most. */
 const MOST_ORDERS = 6;
 
-/** The state's entries that change the engine; the others change how it is looked at. */
+/** The state's entries that change the engine. */
 const SETTINGS = ["rpm", "bank_angle_deg", "rod_ratio", "hold"];
+
+/** Those that change what it looks like. */
+const GEOMETRY = ["bank_angle_deg", "rod_ratio", "hold", "side", "space"];
 
 /** Where an engine is looked at from: from above if its bores lie rather than stand. */
 function frames({ cylinders }) {
@@ -82,7 +85,8 @@ export class View {
       this.frames[k].value = this.state[key];
       this.scenes[k + 1].look(this.state[key]);
     });
-    if (changed.some((key) => [...SETTINGS, "side", "space"].includes(key))) this.configure();
+    const geometry = changed.some((key) => GEOMETRY.includes(key));
+    if (geometry || changed.includes("rpm")) this.configure(!geometry);
     else if (changed.some((key) => ["exaggeration", "still"].includes(key))) this.layoutRocking();
     if (changed.includes("playing")) this.player.set(this.state.playing);
     if (changed.some((key) => key !== "angle_deg")) this.transport.showSettings(this.state);
@@ -93,7 +97,7 @@ export class View {
   /** Take orders and curves from the library in place of the page's own, for these settings. */
   useCore(core) {
     this.core = core;
-    this.configure();
+    this.configure(true);
     this.pose();
   }
 
@@ -205,14 +209,15 @@ export class View {
 
   // --- what changes with the settings -----------------------------------------------------------
 
-  configure() {
+  /** Follow new settings; the engine looks the same where nothing but its speed changes. */
+  configure(looksTheSame = false) {
     const { state } = this;
     this.engine = configure(this.figures, state);
     const core = this.core && SETTINGS.every((key) => this.core.settings[key] === state[key])
       ? this.core : null;
     this.orders = core ? core.orders : phasors(this.engine, this.figures.highest_order);
     this.curve = core ? core.curve : turn(this.engine, this.orders);
-    this.peaks = peaks(this.engine, this.curve);
+    this.peaks = peaks(this.engine, this.orders, this.curve);
     this.scales = {};
     for (const [quantity, largest] of Object.entries(this.peaks)) {
       this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
@@ -220,8 +225,10 @@ export class View {
       show(this.longest[quantity], largest, `${text(largest)} ${name}`);
     }
     this.shown = shown(this.orders, MOST_ORDERS);
-    this.scenes.forEach((scene) => scene.layout(this.engine));
-    this.handle.layout(this.engine);
+    if (!looksTheSame) {
+      this.scenes.forEach((scene) => scene.layout(this.engine));
+      this.handle.layout(this.engine);
+    }
     const { stretch } = this.scenes[0].dimensions;
     show(this.stretched, stretch, short(stretch, 1));
     this.stretchedLine.hidden = stretch === 1;
@@ -248,7 +255,8 @@ export class View {
       state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
     }
     const turned = Array.from({ length: 91 }, (_, k) => unit(4 * k));
-    const traced = ends.map((z) => turned.map((crank) => displacement(this.rocking, crank, z)));
+    const moved = turned.map((crank) => displacement(this.rocking, crank));
+    const traced = ends.map((z) => moved.map((at) => at(z)));
     this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
     const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
     this.orbits.layout(traced, reach);
@@ -295,16 +303,15 @@ export class View {
     this.last = pose;
     const strokes = strokesAt(engine, angle);
     const still = () => [0, 0];
-    const rocks = exaggeration && this.rocking.parts.length
-      ? (z) => scale(displacement(this.rocking, pose.crank, z), exaggeration) : still;
+    const moved = displacement(this.rocking, pose.crank);
+    const rocks = (z) => scale(moved(z), exaggeration);
     this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : still));
     this.handle.pose(pose);
     this.ends.pose(rocks);
     this.force.pose(pose.force);
     this.moment.pose(pose.moment);
     this.twist.pose(pose.torque);
-    this.orbits.pose(this.scenes[2].dimensions.ends.map((z) =>
-      displacement(this.rocking, pose.crank, z)));
+    this.orbits.pose(this.scenes[2].dimensions.ends.map(moved));
     this.phasors.pose(pose.crank);
     this.timeline.pose(pose);
     this.transport.show(state, reduced(angle, engine.cycle));
