@@ -272,7 +272,9 @@ def agree(found: np.ndarray, expected: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("reference_z", [None, 0.0, -1.3])
-@pytest.mark.parametrize("engine", [EQUIPPED, I4.with_shafts([*SHAFTS, FAST]), V6.replace(rotating_mass=1)])
+@pytest.mark.parametrize(
+    "engine", [EQUIPPED, I4.with_shafts([*SHAFTS, FAST]), V6.replace(rotating_mass=1)]
+)
 def test_waveform_counts_what_rotates(engine: cp.Engine, reference_z: float | None) -> None:
     theta = np.degrees(time_domain.crank_angles(256))
     expected = rederived(engine, reference_z)
