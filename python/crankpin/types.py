@@ -1,11 +1,15 @@
 """Classes of results, for annotations and ``isinstance``; functions and engines make them."""
 
 from crankpin.analysis.balance import Balance
+from crankpin.analysis.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.fitted_shaft import FittedShaft
+from crankpin.analysis.fitted_shafts import BalanceShafts
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
+from crankpin.analysis.lanchester import PairHeights
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
@@ -26,15 +30,20 @@ __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "BalanceShafts",
+    "BalancerOption",
+    "BalancerOptions",
     "Choice",
     "ClosedForm",
     "Ellipse",
     "ErrorBound",
     "Firing",
+    "FittedShaft",
     "Gap",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
+    "PairHeights",
     "PlaneVector",
     "PortTiming",
     "Ports",
