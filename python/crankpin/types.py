@@ -10,6 +10,7 @@ from crankpin.analysis.fitted_shaft import FittedShaft
 from crankpin.analysis.fitted_shafts import BalanceShafts
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.lanchester import PairHeights
+from crankpin.analysis.planes import Turning
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
@@ -56,6 +57,7 @@ __all__ = [
     "Total",
     "TotalQuantity",
     "TotalVector",
+    "Turning",
     "ValveTiming",
     "Valves",
     "VanishingOrders",

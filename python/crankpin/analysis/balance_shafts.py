@@ -66,7 +66,7 @@ def balance_shafts(
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
         the roll torque of their order, or come closest to it, as near the crank axis as that
-        allows.
+        allows: far away where the torque is large beside the forces.
     planes
         Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a
         list of these, one for each shaft. None is free: a single plane where that is enough, the
@@ -120,7 +120,7 @@ def balance_shafts(
     >>> i4 = cp.Engine.preset("i4")
     >>> pair = cp.balance_shafts(i4, [2, -2], x=[0.08, -0.08])
     >>> [round(each.shaft.y, 4) for each in pair]
-    [0.0656, -0.0656]
+    [0.0709, -0.0709]
     >>> second = pair.balance(rpm=6000, orders=[2])[2]
     >>> float(round(second.force.peak, 6)), float(round(second.torque.peak, 6))
     (0.0, 0.0)

@@ -65,7 +65,7 @@ class BalancerOptions(Frozen):
     >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
     >>> [(each.name, len(each.shafts)) for each in options.front]
     [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
-    >>> options[-1].engine.balance(rpm=6000, orders=[2])[2].force.peak
+    >>> float(options[-1].engine.balance(rpm=6000, orders=[2])[2].force.peak)
     0.0
     """
 

@@ -92,7 +92,7 @@ class FittedShaft:
         >>> import crankpin as cp
         >>> fit = cp.balance_shafts(cp.Engine.preset("i3"), -1, bearings=(0.0, 0.3))
         >>> abs(fit[0].bearing_loads(rpm=6000)).round(1)
-        array([1990.7, 1990.7])
+        array([2205.2, 2205.2])
         """
         if self.bearings is None:
             raise InputError("bearings = None: give bearings=(z_front, z_rear) to balance_shafts")

@@ -43,8 +43,8 @@ class BalanceShafts(Frozen):
     >>> v6 = cp.Engine.preset("v6-60")
     >>> fit = cp.balance_shafts(v6, -2, x=0.1, y=0.05)
     >>> fit[0].order, fit[0].part, round(fit[0].removed_moment, 6)
-    (2, 'backward', 0.001223)
-    >>> fit.balance(rpm=6000, orders=[2])[2].moment.peak
+    (2, 'backward', 0.00088)
+    >>> float(fit.balance(rpm=6000, orders=[2])[2].moment.peak)
     0.0
     >>> fit.engine.with_shafts(v6.shafts) == v6
     True
@@ -103,8 +103,8 @@ class BalanceShafts(Frozen):
         --------
         >>> import crankpin as cp
         >>> (pair,) = cp.balance_shafts(cp.Engine.preset("i4"), [2, -2], x=0, y=0).heights
-        >>> pair.order, round(pair.difference, 4), round(pair.right_sum, 9), pair.up_deg
-        (2, 0.1312, 0.0, 90.0)
+        >>> pair.order, round(pair.difference, 4), pair.right_sum, pair.up_deg
+        (2, 0.1418, 0.0, 90.0)
         """
         found = []
         for order in self.orders:

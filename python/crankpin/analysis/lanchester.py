@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin.analysis.planes import without_rounding
+from crankpin.analysis.planes import DECIMALS, without_rounding
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +56,8 @@ def pair_heights(order: int, forward: complex, backward: complex, torque: comple
     gamma = cmath.phase(forward) - up
     needed = -torque / (abs(forward) * cmath.exp(1j * gamma))
     difference, right_sum = without_rounding(np.array([-needed.imag, needed.real])).tolist()
-    return PairHeights(order, difference, right_sum, math.degrees(up))
+    up_deg = round(math.degrees(up), DECIMALS)
+    return PairHeights(order, difference, right_sum, up_deg)
 
 
 def makes_a_pair(forces: Sequence[tuple[int, complex]]) -> bool:

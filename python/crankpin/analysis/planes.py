@@ -97,8 +97,7 @@ def without_rounding(values: NDArray[Any], largest: float | None = None) -> NDAr
 
 def unbalances(vectors: NDArray[np.complex128], z: Sequence[float]) -> tuple[Unbalance, ...]:
     """Return vectors x + iy, kg·m, in planes as unbalances; those that are zero are left out."""
-    angles = np.round(np.degrees(np.angle(vectors)), DECIMALS) + 0.0
-    angles[angles == -180.0] = 180.0
+    angles = np.round(np.degrees(np.angle(vectors)), DECIMALS) % 360.0
     listed = zip(np.abs(vectors).tolist(), z, angles.tolist(), strict=True)
     return tuple(Unbalance(amount, place, angle) for amount, place, angle in listed if amount)
 
