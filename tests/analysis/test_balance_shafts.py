@@ -435,7 +435,7 @@ def test_pair_of_a_lying_engine_has_its_heights_along_its_force() -> None:
     assert pair.difference == pytest.approx(upright.difference)
     # No pair: without a force, of unequal forces, of three shafts.
     assert cp.balance_shafts(V6_60, [2, -2]).heights == ()
-    twin = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0], spacing=0.1)
+    twin = cp.Engine.vee(CYLINDER, bank_angle_deg=45, throws_deg=[0], spacing=0.1)
     assert cp.balance_shafts(twin, [2, -2]).heights == ()
     assert cp.balance_shafts(I4, [2, -2, -2]).heights == ()
 

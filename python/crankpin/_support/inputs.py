@@ -287,7 +287,7 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     """Return a list of orders where none can be chosen."""
     listed = orders(values, name)
     if listed is None:
-        raise InputError('orders = "auto": give whole numbers here, such as [1, 2]')
+        raise InputError(f'{name} = "auto": give whole numbers here, such as [1, 2]')
     return listed
 
 

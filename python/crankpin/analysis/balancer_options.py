@@ -124,14 +124,10 @@ def balancer_options(
     most = inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise InputError(f"most_shafts = {most}: give 0 or more")
-    sets = balancer_sets(
-        engine,
-        end_counterweights(engine, z, plane) if with_weights else (),
-        _ratios(inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights),
-        _checked(places),
-        most,
-        plane,
-    )
+    listed = inputs.explicit_orders(shaft_orders, "shaft_orders")
+    ratios = _ratios(listed, with_weights=with_weights)
+    weights = end_counterweights(engine, z, plane) if with_weights else ()
+    sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most, plane)
     engines = [each.fitted_to(engine) for each in sets]
     speed = inputs.number("rpm", rpm)
     swept = sweep(engines, rpm=speed, orders=orders, rtol=rtol, reference_z=plane)
@@ -202,7 +198,9 @@ def _limit(name: str, value: object) -> float:
     return number
 
 
-def _checked(places: object) -> Mapping[int, tuple[float | None, float | None]]:
+def _checked(
+    places: object, ratios: Sequence[int]
+) -> Mapping[int, tuple[float | None, float | None]]:
     """Return ratio → x and y."""
     remedy = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:
@@ -216,5 +214,7 @@ def _checked(places: object) -> Mapping[int, tuple[float | None, float | None]]:
         if len(x_and_y) != 2:
             raise InputError(f"{name} = {inputs.shorten(place)}: {remedy}")
         x, y = (inputs.optional_number(name, each) for each in x_and_y)
-        found[inputs.whole("places", ratio)] = (x, y)
+        if ratio not in ratios:
+            raise InputError(f"{name}: shafts are compared of ratio {', '.join(map(str, ratios))}")
+        found[ratio] = (x, y)
     return found
