@@ -6,7 +6,7 @@ import io
 import pickle
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import crankpin as cp
 import numpy as np
@@ -15,9 +15,6 @@ from conftest import CYLINDER, I4, V6
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 UNNAMED = cp.Engine.inline(CYLINDER, throws_deg=[0, 120, 240], spacing=0.1)
 ORDERS = ("1-3-5-2-4-6", "1-4-5-2-3-6", "1-6-5-4-3-2", "1-5-3-6-2-4")
@@ -33,21 +30,6 @@ FAMILY = [
     for order in ORDERS
 ]
 BANK_ANGLES = np.arange(10.0, 171.0, 10.0)
-
-
-@pytest.fixture(autouse=True)
-def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """No display, no figures from elsewhere, and a failure for whoever shows one."""
-
-    def show(*_: object, **__: object) -> None:
-        pytest.fail("a plot was shown")
-
-    plt.switch_backend("agg")
-    plt.close("all")
-    monkeypatch.setattr(plt, "show", show)
-    monkeypatch.setattr(Figure, "show", show)
-    yield
-    plt.close("all")
 
 
 def legend_texts(ax: Axes) -> list[str]:
