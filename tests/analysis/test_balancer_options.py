@@ -292,5 +292,5 @@ def test_errors_name_the_argument(given: dict[str, Any], words: str) -> None:
 
 
 def test_too_many_sets() -> None:
-    with pytest.raises(cp.InputError, match="^shaft_orders make .* sets of shafts: give fewer"):
+    with pytest.raises(cp.InputError, match=r"^shaft_orders make .* sets of shafts: give fewer"):
         cp.balancer_options(V6_90, rpm=RPM, shaft_orders=range(1, 30), most_shafts=1)
