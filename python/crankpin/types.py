@@ -7,7 +7,7 @@ from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.fitted_shaft import FittedShaft
-from crankpin.analysis.fitted_shafts import BalanceShafts
+from crankpin.analysis.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.lanchester import PairHeights
 from crankpin.analysis.planes import Turning
@@ -45,6 +45,7 @@ __all__ = [
     "OrderVerdicts",
     "Overlap",
     "PairHeights",
+    "PartLeft",
     "PlaneVector",
     "PortTiming",
     "Ports",

@@ -182,7 +182,7 @@ class BalancerOptions(Frozen):
         ax
             Axes to draw on; by default new ones.
         **style
-            Passed on to the markers.
+            Passed on to the markers; ``label`` names the result in a legend.
         """
         return draw(self, ax, **style)  # type: ignore[no-any-return]
 

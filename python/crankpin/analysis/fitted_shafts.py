@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -29,6 +30,29 @@ if TYPE_CHECKING:
 
 OVER_SPEED = {"force": "kg·m", "moment": "kg·m²", "torque": "kg·m²"}
 """Quantity → its unit over ω²."""
+
+
+PARTS = {
+    "force": (("forward", "forward"), ("backward", "backward")),
+    "moment": (("forward", "forward"), ("backward", "backward")),
+    "torque": (("", "phasor"),),
+}
+"""Quantity → name of each part and the attribute that reads it."""
+
+
+class PartLeft(NamedTuple):
+    """A part of a quantity of one order before shafts are fitted and after, over ω²."""
+
+    order: int
+    """Order."""
+    quantity: str
+    """``"force"``, ``"moment"`` or ``"torque"``."""
+    part: str
+    """``"forward"`` or ``"backward"``; empty for torque."""
+    before: float
+    """Size without the shafts, kg·m or kg·m²."""
+    after: float
+    """Size with them, kg·m or kg·m²."""
 
 
 class BalanceShafts(Frozen):
@@ -161,7 +185,7 @@ class BalanceShafts(Frozen):
         return table
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
-        """Draw the quantity before and after, forward and backward parts apart; return the axes.
+        """Draw a quantity with and without the shafts, part by part; return the axes.
 
         Parameters
         ----------
@@ -170,7 +194,7 @@ class BalanceShafts(Frozen):
         quantity
             ``"force"``, ``"moment"`` or ``"torque"``, all over ω².
         **style
-            Passed on to the bars.
+            Passed on to the markers; ``label`` names the result in a legend.
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
@@ -208,25 +232,33 @@ class BalanceShafts(Frozen):
             _array(rows, len(head) - 3))  # fmt: skip
 
     def _stays(self) -> Table:
+        parts = self.parts()
+        names: list[Label] = [
+            [
+                str(each.order),
+                f"{labels.NAMES[each.quantity]}, {OVER_SPEED[each.quantity]}",
+                each.part,
+            ]
+            for each in parts
+        ]
+        rows = [[each.before, each.after] for each in parts]
+        head = ["order", "quantity", "part", "before", "after"]
+        return Table("What stays, over ω²", head, names, _array(rows, 2))
+
+    def parts(self) -> tuple[PartLeft, ...]:
+        """Return the parts of force, moment and torque of the shafts' orders, before and after."""
         before, after = (
             balance(each, UNIT_RPM, orders=self.orders, reference_z=self.plane)
             for each in (self.before, self.engine)
         )
-        names: list[Label] = []
-        rows = []
-        for order in self.orders:
-            for quantity, unit in OVER_SPEED.items():
-                pair = [getattr(each[order], quantity) for each in (before, after)]
-                title = f"{labels.NAMES[quantity]}, {unit}"
-                if quantity == "torque":
-                    names.append([str(order), title, ""])
-                    rows.append([each.peak for each in pair])
-                    continue
-                for part in ("forward", "backward"):
-                    names.append([str(order), title, part])
-                    rows.append([abs(getattr(each, part)) for each in pair])
-        head = ["order", "quantity", "part", "before", "after"]
-        return Table("What stays, over ω²", head, names, _array(rows, 2))
+        over = inputs.angular_speed(UNIT_RPM) ** 2
+        found = []
+        for order, quantity in itertools.product(self.orders, OVER_SPEED):
+            pair = [getattr(each[order], quantity) for each in (before, after)]
+            for part, name in PARTS[quantity]:
+                sizes = [float(abs(getattr(each, name))) / over for each in pair]
+                found.append(PartLeft(order, quantity, part, *sizes))
+        return tuple(found)
 
     def __repr__(self) -> str:
         return "\n\n".join(each.text() for each in self.tables())
