@@ -233,23 +233,23 @@ def test_result_is_frozen_and_copies() -> None:
         cp.types.BalancerOptions(V6_90, RPM, None, (), (), ())
 
 
-def test_table_shows_the_front_and_marks_the_least() -> None:
+def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     table = OPTIONS.table()
-    assert [str(label[0]).removesuffix(" *") for label in table.labels] == [
-        each.name for each in OPTIONS.front
+    words = {True: "reached", False: "missed"}
+    assert table.labels == [
+        (each.name, str(len(each.shafts)), words[each.reaches]) for each in OPTIONS.front
     ]
     np.testing.assert_array_equal(
         table.rows, [(each.unbalance, *each.values) for each in OPTIONS.front]
     )
-    starred = [str(label[0]) for label in table.labels if str(label[0]).endswith(" *")]
-    assert starred == ["counterweights + shaft −1 *"]
     last = repr(OPTIONS).splitlines()[-1]
-    assert last == "Target: [1].moment.peak ≤ 0 N·m; * counterweights + shaft −1."
+    assert last == "Target: [1].moment.peak ≤ 0 N·m; least counterweights + shaft −1."
+    assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
     assert OPTIONS._repr_html_().startswith("<table>")
     assert "no set reaches it" in repr(
         cp.balancer_options(I4, rpm=RPM, target={"[4].force.peak": 0.0})
     )
-    assert "Target" not in repr(cp.balancer_options(I4, rpm=RPM))
+    assert "arget" not in repr(cp.balancer_options(I4, rpm=RPM))
 
 
 def test_to_pandas_has_all_sets() -> None:

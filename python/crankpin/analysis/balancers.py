@@ -190,16 +190,19 @@ class BalancerOptions(Frozen):
         """Return the table that is shown: the Pareto front."""
         engine = self.before.name or f"{len(self.before)} cylinders"
         front = self.front[:SHOWN]
-        least = self.least
+        columns = {
+            "set": [each.name for each in front],
+            "shafts": [str(len(each.shafts)) for each in front],
+        }
+        if self.targets:
+            columns["target"] = ["reached" if each.reaches else "missed" for each in front]
         heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
-        names = [(f"{each.name}{' *' * (each is least)}", len(each.shafts)) for each in front]
-        rows = np.array([(each.unbalance, *each.values) for each in front])
         return Table(
-            f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, the "
-            f"{len(self.front)} best of {len(self)} sets",
-            ["set", "shafts", "unbalance kg·m", *heads],
-            names,
-            rows,
+            f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, "
+            f"{len(self.front)} of {len(self)} sets on the Pareto front",
+            [*columns, "unbalance kg·m", *heads],
+            list(zip(*columns.values(), strict=True)),
+            np.array([(each.unbalance, *each.values) for each in front]),
             note=self._note(),
         )
 
@@ -210,7 +213,7 @@ class BalancerOptions(Frozen):
         wanted = ", ".join(
             f"{label} ≤ {value:.5g} {units[label]}".strip() for label, value in self.targets
         )
-        found = "no set reaches it" if self.least is None else f"* {self.least.name}"
+        found = "no set reaches it" if self.least is None else f"least {self.least.name}"
         return f"Target: {wanted}; {found}."
 
     def __repr__(self) -> str:
