@@ -49,6 +49,11 @@ def test_least_hardware_of_known_engines() -> None:
     assert least(cp.Engine.preset("v-twin-90"), f1=0) == "counterweights"
     assert least(SINGLE, f1=0) == "counterweights + shaft −1"
     assert least(cp.Engine.preset("i5"), m1=0, m2=0) == "counterweights + shafts −1, −2, +2"
+    assert least(cp.Engine.preset("v12-60"), f1=0, m1=0, f2=0, m2=0) == "nothing"
+    for name in ("i3", "v6-90"):
+        assert least(cp.Engine.preset(name), m2=0) == "shafts −2, +2"
+    for name in ("single", "v-twin-90"):
+        assert least(cp.Engine.preset(name), f2=0) == "shafts −2, +2"
     assert least(cp.Engine.preset("vr6"), m1=0) == "counterweights + shaft −1"
     assert least(cp.Engine.preset("i4"), f4=0) is None
 

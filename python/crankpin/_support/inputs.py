@@ -155,6 +155,14 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     return float(value)
 
 
+def finite(name: str, value: Any) -> float:  # noqa: ANN401 - as above
+    """Return a finite float."""
+    found = number(name, value)
+    if not math.isfinite(found):
+        raise InputError(f"{name} = {found}: give a finite number")
+    return found
+
+
 def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as above
     """Return a float, or None for None."""
     return None if value is None else number(name, value)

@@ -133,7 +133,7 @@ def _each(name: str, given: object, count: int) -> list[Any]:
 
 def _coordinates(name: str, given: object, count: int) -> list[float | None]:
     listed = _each(name, given, count) if isinstance(given, Iterable) else [given] * count
-    return [None if each is None else _finite(name, each) for each in listed]
+    return [None if each is None else inputs.finite(name, each) for each in listed]
 
 
 def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | None]:
@@ -150,7 +150,9 @@ def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | No
         if each is None:
             found.append(None)
             continue
-        numbers = [_finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, remedy)]
+        numbers = [
+            inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, remedy)
+        ]
         places = tuple(sorted(numbers))
         if not places or len(set(places)) < len(places):
             raise InputError(f"{name}[{k}] = {inputs.shorten(each)}: give different places")
@@ -165,10 +167,3 @@ def _bearings(given: object, count: int) -> list[tuple[float, float] | None]:
             raise InputError(f"bearings[{k}] = {list(each)}: give the places of two bearings")
         found.append(None if each is None else (each[0], each[1]))
     return found
-
-
-def _finite(name: str, value: object) -> float:
-    number = inputs.number(name, value)
-    if not math.isfinite(number):
-        raise InputError(f"{name} = {number}: give a finite number")
-    return number
