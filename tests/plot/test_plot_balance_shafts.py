@@ -41,7 +41,7 @@ def test_fit_is_drawn_with_and_without_shafts(quantity: str) -> None:
         assert drawn[name].get_ydata().tolist() == list(range(len(parts)))
     rows = [text.get_text() for text in ax.get_yticklabels()]
     assert rows == [f"order {each.order} {each.part}".strip() for each in parts]
-    (paths,) = (each for each in ax.collections if each.get_gid() == balance_shafts.STAYS)
+    (paths,) = (each for each in ax.collections if each.get_gid() == balance_shafts.CHANGE)
     ends = [segment[:, 0].tolist() for segment in paths.get_segments()]
     assert ends == [[each.after, each.before] for each in parts]
     assert ax.get_xlim()[1] > max(each.before for each in parts)
@@ -85,6 +85,34 @@ def test_sets_that_do_not_fit_are_counted() -> None:
     assert title.endswith(f"; {len(OPTIONS.front) - rows} more")
     (size,) = {text.get_fontsize() for text in ax.get_yticklabels()}
     assert size >= balancers.SMALLEST
+
+
+def test_several_fits_share_rows_of_the_same_name() -> None:
+    other = cp.balance_shafts(cp.Engine.preset("i3"), [2, -4])
+    ax = other.plot(FIT.plot())
+    rows = [text.get_text() for text in ax.get_yticklabels()]
+    assert rows == [f"order {n} {part}" for n in (1, 2, 4) for part in ("forward", "backward")]
+    drawn = lines(ax)
+    assert drawn["Inline-3, with shafts"].get_ydata().tolist() == [2, 3, 4, 5]
+    assert len({line.get_color() for line in drawn.values()}) == 4
+    assert ax.get_title(loc="left") == "with and without balance shafts"
+
+
+def test_several_comparisons_share_rows_of_the_same_name() -> None:
+    ax = UNTARGETED.plot(OPTIONS.plot())
+    rows = [text.get_text() for text in ax.get_yticklabels()]
+    assert len(set(rows)) == len(rows)
+    line = lines(ax)["Inline-4, total.force.peak"]
+    at = {rows[row]: value for row, value in zip(line.get_ydata(), line.get_xdata(), strict=True)}
+    assert set(at) == {"nothing", "+2", "−2", "−2, +2"}
+    assert at["nothing"] == 100.0
+    assert not any(child.get_visible() for child in ax.child_axes)
+
+
+def test_nothing_to_remove_is_said() -> None:
+    ax = cp.balancer_options(cp.Engine.preset("i6"), rpm=6000, by="[1].force.peak").plot()
+    assert [text.get_text() for text in ax.texts] == ["zero throughout"]
+    assert not OPTIONS.plot().texts
 
 
 def test_no_target_has_no_ring() -> None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
-INSIDE = 1e-9
+INSIDE = 1e-12
 """Rounding, relative to the engine's length, in the place of a single plane."""
 
 
