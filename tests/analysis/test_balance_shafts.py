@@ -607,6 +607,8 @@ def test_to_pandas() -> None:
         ({"extra_torque": {1: 1.0}, "rpm": 0}, "^rpm = 0"),
         ({"extra_torque": {2: 1.0}, "rpm": 100}, r"^extra_torque\[2\]: shafts act on order 1"),
         ({"extra_torque": {1: "x"}, "rpm": 100}, r"^extra_torque\[1\] = 'x': give a mapping"),
+        ({"extra_torque": {1: np.nan}, "rpm": 1}, r"^extra_torque\[1\] = \(nan"),
+        ({"extra_torque": {1: 1e20}, "rpm": 1}, r"^extra_torque\[1\] = \(1e\+20"),
         ({"extra_torque": {1: np.inf}, "rpm": 100}, r"^extra_torque\[1\] = \(inf"),
         ({"reference_z": "x"}, "^reference_z = 'x': give a number"),
         ({"engine": "i4"}, "^engine = 'i4': give a crankpin.Engine"),

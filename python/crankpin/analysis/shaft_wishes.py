@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, TypeAlias, cast
 
@@ -15,6 +14,9 @@ REMOVE: tuple[Remove, ...] = ("both", "force", "moment")
 
 MOST_SHAFTS = 100
 """Largest number of shafts fitted at once."""
+
+LARGEST = 1e20
+"""Largest torque over ω², kg·m²."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,8 +96,11 @@ def extra_torques(given: object, rpm: object, orders: set[int]) -> dict[int, com
             raise InputError(
                 f"extra_torque[{order}] = {value}: {remedy} ({inputs.reason(error)})"
             ) from None
-        if not (math.isfinite(phasor.real) and math.isfinite(phasor.imag)):
-            raise InputError(f"extra_torque[{order}] = {phasor}: give a finite number")
+        # A NaN is not below the limit either.
+        if not abs(phasor) <= LARGEST * over:
+            raise InputError(
+                f"extra_torque[{order}] = {phasor}: give at most {LARGEST:g} kg·m² over ω²"
+            )
         found[order] = phasor / over
     return found
 
