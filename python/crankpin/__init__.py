@@ -11,6 +11,8 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin.analysis.balance_shafts import balance_shafts
+from crankpin.analysis.balancer_options import balancer_options
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
@@ -29,6 +31,8 @@ __all__ = [
     "Shaft",
     "Unbalance",
     "__version__",
+    "balance_shafts",
+    "balancer_options",
     "compare",
     "presets",
     "rank",

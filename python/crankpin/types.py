@@ -1,12 +1,17 @@
 """Classes of results, for annotations and ``isinstance``; functions and engines make them."""
 
 from crankpin.analysis.balance import Balance
+from crankpin.analysis.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.fitted_shaft import FittedShaft
+from crankpin.analysis.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
+from crankpin.analysis.lanchester import PairHeights
+from crankpin.analysis.planes import Turning
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
@@ -27,16 +32,22 @@ __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "BalanceShafts",
+    "BalancerOption",
+    "BalancerOptions",
     "Choice",
     "ClosedForm",
     "Comparison",
     "Ellipse",
     "ErrorBound",
     "Firing",
+    "FittedShaft",
     "Gap",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
+    "PairHeights",
+    "PartLeft",
     "PlaneVector",
     "PortTiming",
     "Ports",
@@ -49,6 +60,7 @@ __all__ = [
     "Total",
     "TotalQuantity",
     "TotalVector",
+    "Turning",
     "ValveTiming",
     "Valves",
     "VanishingOrders",

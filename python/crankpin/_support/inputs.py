@@ -155,6 +155,14 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     return float(value)
 
 
+def finite(name: str, value: Any) -> float:  # noqa: ANN401 - as above
+    """Return a finite float."""
+    found = number(name, value)
+    if not math.isfinite(found):
+        raise InputError(f"{name} = {found}: give a finite number")
+    return found
+
+
 def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as above
     """Return a float, or None for None."""
     return None if value is None else number(name, value)
@@ -287,7 +295,7 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     """Return a list of orders where none can be chosen."""
     listed = orders(values, name)
     if listed is None:
-        raise InputError('orders = "auto": give whole numbers here, such as [1, 2]')
+        raise InputError(f'{name} = "auto": give whole numbers here, such as [1, 2]')
     return listed
 
 

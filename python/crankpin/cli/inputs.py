@@ -89,6 +89,20 @@ def number_or_range(name: str, text: str) -> float | NDArray[np.float64]:
     return np.array([float(start + k * step) for k in range(int(steps) + 1)])
 
 
+def numbers(name: str, text: str | None) -> list[float] | None:
+    """Return a list of numbers, if it is given."""
+    return None if text is None else [number(name, part) for part in text.split(",")]
+
+
+def whole_numbers(name: str, text: str) -> list[int]:
+    """Return a list of whole numbers."""
+    try:
+        return [int(part) for part in text.split(",")]
+    except ValueError:
+        cure = "give whole numbers, such as 1,2"
+        raise InputError(f"{name} = {labels.cut(text)}: {cure}") from None
+
+
 def orders(text: str) -> Orders:
     """Return the orders of ``--orders``, or "auto"."""
     if text == "auto":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from crankpin import _core
@@ -53,8 +52,8 @@ class Unbalance:
     pin: int | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "amount", _finite("amount", self.amount))
-        object.__setattr__(self, "z", _finite("z", self.z))
+        object.__setattr__(self, "amount", inputs.finite("amount", self.amount))
+        object.__setattr__(self, "z", inputs.finite("z", self.z))
         if self.amount < 0.0:
             raise InputError(f"amount = {self.amount}: give zero or more; angle_deg turns it round")
         angle = inputs.angle("angle_deg", self.angle_deg)
@@ -111,8 +110,8 @@ class Shaft:
         object.__setattr__(self, "ratio", inputs.whole("ratio", self.ratio))
         if self.ratio == 0:
             raise InputError("ratio = 0: give a whole number other than 0, such as -1 or 2")
-        object.__setattr__(self, "x", _finite("x", self.x))
-        object.__setattr__(self, "y", _finite("y", self.y))
+        object.__setattr__(self, "x", inputs.finite("x", self.x))
+        object.__setattr__(self, "y", inputs.finite("y", self.y))
         object.__setattr__(self, "name", inputs.text("name", self.name))
         object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances))
         for k, each in enumerate(self.unbalances):
@@ -165,13 +164,6 @@ def lines(core: _core.Engine) -> list[str]:
         title = f"balance shaft {name}".strip()
         found.append(f"{title}: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
     return found
-
-
-def _finite(name: str, value: object) -> float:
-    number = inputs.number(name, value)
-    if not math.isfinite(number):
-        raise InputError(f"{name} = {number}: give a finite number")
-    return number
 
 
 def _listed(name: str, given: Any) -> tuple[Unbalance, ...]:  # noqa: ANN401 - checked here

@@ -6,6 +6,8 @@ imported when a picture is drawn, and matplotlib with it.
 
 from crankpin.plot import (
     balance,
+    balance_shafts,
+    balancers,
     compare,
     engine,
     firing,
@@ -20,6 +22,8 @@ from crankpin.plot.svg import inline_svg
 
 __all__ = [
     "balance",
+    "balance_shafts",
+    "balancers",
     "compare",
     "draw",
     "engine",

@@ -1,0 +1,623 @@
+"""Do fitted balance shafts remove what they should, and nothing else?
+
+Figures are those of ``balancing-and-torque.md``, recomputed from first principles.
+"""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import conftest
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import Shaft, Unbalance
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rederivation import balance_shafts as rederived
+from rederivation import rotors, time_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+RPM = 600.0
+OMEGA = 2 * np.pi * RPM / 60
+CYLINDER = conftest.CYLINDER
+MR = CYLINDER.reciprocating_mass * CYLINDER.crank_radius
+A2 = float(CYLINDER.harmonics([2])[0].real)
+"""Second-order harmonic of the piston's acceleration over r·ω²."""
+
+# Sums of some tens of terms, each rounded a few times to 1.1e-16.
+ROUNDING = 1e-13
+# Differentiating 256 samples twice lifts rounding by up to 128².
+SAMPLED = 1e-11
+
+I4 = conftest.I4
+I3 = cp.Engine.inline(CYLINDER, throws_deg=[0, 240, 120], spacing=1.0)
+SINGLE = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1)
+V6_90 = cp.Engine.vee(
+    CYLINDER, bank_angle_deg=90, throws_deg=[0, 120, 240], pin_split_deg=-30, spacing=1.0
+)
+V6_60 = cp.Engine.vee(
+    CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], pin_split_deg=-60, spacing=1.0
+)
+HEAVIER = I4.replace(
+    cylinder=[CYLINDER, CYLINDER.replace(reciprocating_mass=0.53), CYLINDER, CYLINDER]
+)
+FORK_AND_BLADE = cp.Engine.vee(
+    CYLINDER, bank_angle_deg=45, throws_deg=[0, 90, 270, 180], spacing=0.1, bank_stagger=0.02
+)
+UNLIKE = {
+    "vr6": cp.Engine.preset("vr6"),
+    "w12": cp.Engine.preset("w12"),
+    "fork and blade": FORK_AND_BLADE,
+    "staggered twin": cp.Engine.vee(
+        CYLINDER, bank_angle_deg=45, throws_deg=[0], spacing=0.1, bank_stagger=0.03
+    ),
+    "one heavier piston": HEAVIER,
+    "pin offset": I4.replace(cylinder=CYLINDER.replace(pin_offset=0.002)),
+}
+
+
+def bob_weights(engine: cp.Engine, part: float = 0.5) -> list[Unbalance]:
+    """A part of each reciprocating mass opposite its crankpin."""
+    return [
+        Unbalance(part * c.reciprocating_mass * c.crank_radius, float(z), 180, pin=number)
+        for number, (c, z) in enumerate(zip(engine.cylinders, engine.z, strict=True), start=1)
+    ]
+
+
+def halved(engine: cp.Engine) -> cp.Engine:
+    """The engine with half of each reciprocating mass as bob weight."""
+    return engine.with_counterweights(bob_weights(engine))
+
+
+def turned(vector: complex, degrees: float) -> complex:
+    return vector * np.exp(1j * np.deg2rad(degrees))
+
+
+def vector(weight: Unbalance) -> complex:
+    return turned(weight.amount, float(weight.angle_deg))
+
+
+def rotors_of(shaft: Shaft) -> list[rotors.Rotor]:
+    """The unbalances of a shaft, each as a mass at 0.1 m from its axis."""
+    axis = complex(shaft.x, shaft.y)
+    return [
+        rotors.Rotor(w.amount / 0.1, 0.1, float(w.angle_deg), w.z, shaft.ratio, axis)
+        for w in shaft.unbalances
+    ]
+
+
+def sampled(
+    engine: cp.Engine, plane: float | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Force, moment and roll torque of the pistons at 256 crank angles, in plain NumPy."""
+    parts, theta = engine.cylinders, time_domain.crank_angles(256)
+    lists = time_domain.EngineLists(
+        crank_radius=[c.crank_radius for c in parts],
+        rod_length=[c.rod_length for c in parts],
+        reciprocating_mass=[c.reciprocating_mass for c in parts],
+        pin_offset=[c.pin_offset for c in parts],
+        tdc_deg=engine.tdc_deg,
+        bank_deg=engine.bank_deg,
+        z=engine.z,
+        rotating_mass=engine.rotating_mass,
+    )
+    return (
+        time_domain.force(lists, RPM, theta),
+        time_domain.moment(lists, RPM, theta, plane),
+        time_domain.roll_torque(lists, RPM, theta),
+    )
+
+
+def turning(engine: cp.Engine, ratio: int, quantity: str) -> complex:
+    """What turns with a shaft of this ratio: of force or moment, N or N·m."""
+    found = getattr(engine.balance(RPM, orders=[abs(ratio)])[abs(ratio)], quantity)
+    return complex(found.forward if ratio > 0 else found.backward)
+
+
+# --- figures --------------------------------------------------------------------------------------
+
+
+def test_lanchester_pair_at_equal_height_leaves_the_roll_torque() -> None:
+    fit = cp.balance_shafts(I4, [2, -2], x=[0.08, -0.08], y=0.05)
+    before, after = (e.balance(RPM, orders=[2])[2] for e in (I4, fit.engine))
+    assert after.force.peak == 0.0
+    assert after.moment.peak == 0.0
+    assert after.torque.peak == pytest.approx(before.torque.peak, rel=ROUNDING)
+    # U = m·r·a₂/2 each, at the middle, straight down at top dead centre.
+    for each in fit:
+        (weight,) = each.shaft.unbalances
+        assert weight.amount == pytest.approx(MR * A2 / 2, rel=ROUNDING)
+        assert (weight.z, weight.angle_deg) == (I4.reference_z, 270.0)
+        assert (each.shaft.y, each.removed_moment) == (0.05, 0.0)
+        assert each.removed_force == pytest.approx(2 * MR * A2, rel=ROUNDING)
+
+
+def test_lanchester_pair_at_the_right_heights_cancels_the_roll_torque() -> None:
+    _, _, torque = sampled(I4)
+    b2 = time_domain.peak_phasors(torque, [2])[0] / (4 * MR * CYLINDER.crank_radius * OMEGA**2)
+    height = 2 * abs(b2) * CYLINDER.crank_radius / A2
+    assert 0.9 * CYLINDER.rod_length < height < CYLINDER.rod_length
+    fit = cp.balance_shafts(I4, [2, -2], x=[0.08, -0.08])
+    a, b = (each.shaft for each in fit)
+    assert a.y - b.y == pytest.approx(height, rel=1e-9)
+    (pair,) = fit.heights
+    assert pair == cp.types.PairHeights(2, pytest.approx(height, rel=1e-9), 0.0, 90.0)
+    before, after = (e.balance(RPM, orders=[2])[2] for e in (I4, fit.engine))
+    assert after.force.peak == 0.0
+    assert after.torque.peak <= ROUNDING * before.torque.peak
+    exchanged = cp.balance_shafts(I4, [2, -2], x=[0.08, -0.08], y=[b.y, a.y])
+    doubled = exchanged.balance(RPM, orders=[2])[2]
+    assert doubled.force.peak == 0.0
+    assert doubled.torque.peak == pytest.approx(2 * before.torque.peak, rel=ROUNDING)
+
+
+def test_free_coordinates_make_up_for_those_given() -> None:
+    fit = cp.balance_shafts(I4, [2, -2], x=[0.2, None], y=[0.3, None])
+    a, b = (each.shaft for each in fit)
+    (pair,) = fit.heights
+    assert (a.x, a.y) == (0.2, 0.3)
+    assert b.x == pytest.approx(-0.2, rel=1e-12)
+    assert a.y - b.y == pytest.approx(pair.difference, rel=1e-12)
+    before, after = (e.balance(RPM, orders=[2])[2] for e in (I4, fit.engine))
+    assert after.torque.peak <= 10 * ROUNDING * before.torque.peak
+
+
+def test_heights_with_gas_torque() -> None:
+    gas, rpm = 90.0 - 40.0j, 3000.0
+    fit = cp.balance_shafts(I4, [-2, 2], extra_torque={2: gas}, rpm=rpm)
+    over = (2 * np.pi * rpm / 60) ** 2
+    sine, cosine = rederived.sine_and_cosine(sampled(I4)[2] / OMEGA**2, 2)
+    # Re(g e^{2iθ}) = Re(g) cos 2θ − Im(g) sin 2θ.
+    sine, cosine = sine - gas.imag / over, cosine + gas.real / over
+    half = 2 * MR * A2
+    (pair,) = fit.heights
+    assert pair.difference == pytest.approx(sine / half, rel=1e-9)
+    assert pair.right_sum == pytest.approx(cosine / half, rel=1e-9)
+    against, along = (each.shaft for each in fit)
+    assert along.y - against.y == pytest.approx(sine / half, rel=1e-9)
+    assert along.x + against.x == pytest.approx(cosine / half, rel=1e-9)
+    left = complex(fit.balance(rpm, orders=[2])[2].torque.phasor) + gas
+    assert abs(left) < 1e-10 * abs(gas)
+
+
+def test_one_shaft_removes_the_backward_couple_of_an_inline_3() -> None:
+    fit = cp.balance_shafts(I3, -1)
+    assert turning(fit.engine, -1, "moment") == 0.0
+    assert turning(fit.engine, 1, "moment") == turning(I3, 1, "moment")
+    both = cp.balance_shafts(halved(I3), -1).balance(RPM, orders=[1])[1]
+    assert both.moment.peak <= ROUNDING * MR * OMEGA**2
+    assert both.force.peak <= ROUNDING * MR * OMEGA**2
+    front, rear = fit[0].shaft.unbalances
+    # |Σ z e^{i·tdc}| = √3 spacings, half of it backward; two opposite unbalances 2 spacings apart.
+    for each in (front, rear):
+        assert each.amount == pytest.approx(MR * np.sqrt(3) / 2 / 2, rel=ROUNDING)
+    assert abs(float(front.angle_deg) - float(rear.angle_deg)) == 180.0
+    assert fit[0].removed_force == 0.0
+
+
+def test_even_firing_90_degree_v6_takes_counterweights_and_one_shaft() -> None:
+    size = MR * OMEGA**2
+    assert abs(turning(V6_90, 1, "moment")) / size == pytest.approx(1.673033, abs=1e-6)
+    assert abs(turning(V6_90, -1, "moment")) / size == pytest.approx(0.448288, abs=1e-6)
+    fit = cp.balance_shafts(halved(V6_90), -1)
+    assert fit[0].removed_moment / MR == pytest.approx(0.448288, abs=1e-6)
+    after = fit.balance(RPM, orders=[1])[1]
+    assert max(after.force.peak, after.moment.peak) <= ROUNDING * size
+
+
+def test_even_firing_60_degree_v6_takes_counterweights_and_one_shaft_at_twice_the_speed() -> None:
+    size = MR * OMEGA**2
+    assert abs(turning(V6_60, 1, "moment")) / size == pytest.approx(1.5, rel=ROUNDING)
+    assert abs(turning(V6_60, -2, "moment")) / size == pytest.approx(1.5 * A2, rel=ROUNDING)
+    nothing, fitted = cp.balance_shafts(halved(V6_60), [-1, -2])
+    assert nothing.shaft.unbalances == ()
+    assert (nothing.removed_force, nothing.removed_moment) == (0.0, 0.0)
+    assert fitted.removed_moment / MR == pytest.approx(1.5 * A2, rel=ROUNDING)
+    after = cp.balance_shafts(halved(V6_60), -2).balance(RPM, orders=[1, 2])
+    assert max(after.total.force.peak, after.total.moment.peak) <= ROUNDING * size
+
+
+@pytest.mark.parametrize(
+    ("times", "first", "second"), [(1, 0.449028, 4.979797), (2, 4.979797, 0.449028)]
+)
+def test_couples_of_both_inline_5_cranks(times: int, first: float, second: float) -> None:
+    throws = [float(times * each % 360) for each in (0, 216, 144, 72, 288)]
+    i5 = cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=1.0)
+    before = i5.balance(RPM, orders=[1, 2])
+    size = MR * OMEGA**2
+    np.testing.assert_allclose(before.moment.peak / size, [first, second * A2], atol=1e-6)
+    # Upright cylinders: as much forward as backward.
+    fit = cp.balance_shafts(halved(i5), [-1, 2, -2])
+    expected = [first / 2, second * A2 / 2, second * A2 / 2]
+    np.testing.assert_allclose([each.removed_moment / MR for each in fit], expected, atol=1e-6)
+    after = fit.balance(RPM, orders=[1, 2]).total
+    assert max(after.force.peak, after.moment.peak) <= 10 * ROUNDING * size
+
+
+def test_90_degree_v_twin_at_half_needs_no_shaft_at_order_1() -> None:
+    twin = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0], spacing=0.1)
+    fit = cp.balance_shafts(halved(twin), -1)
+    assert fit.unbalance == 0.0
+    assert fit.balance(RPM, orders=[1])[1].force.peak <= ROUNDING * MR * OMEGA**2
+
+
+def test_single_at_half_with_one_shaft_is_free_of_first_order_force() -> None:
+    fit = cp.balance_shafts(halved(SINGLE), -1, x=0.0, y=0.0)
+    (weight,) = fit[0].shaft.unbalances
+    assert weight == Unbalance(MR / 2, 0.0, 270.0)
+    assert fit.balance(RPM, orders=[1])[1].force.peak == 0.0
+    verdicts = fit.engine.vanishing_orders([1])[1]
+    assert verdicts.force == ("vanishes",) * 4
+
+
+def test_shaft_beside_the_crank_leaves_a_rolling_couple() -> None:
+    engine, offset = halved(SINGLE), 0.12
+    at_the_crank = cp.balance_shafts(engine, -1, x=0.0, y=0.0).balance(RPM, orders=[1])[1]
+    beside = cp.balance_shafts(engine, -1, x=offset, y=0.0)
+    after = beside.balance(RPM, orders=[1])[1]
+    assert after.force.peak == 0.0
+    rolling = complex(after.torque.phasor) - complex(at_the_crank.torque.phasor)
+    # x·F_y with the shaft's force MR/2·ω², straight down at θ = 0.
+    assert rolling == pytest.approx(-MR / 2 * OMEGA**2 * offset, rel=1e-12)
+    # Two shafts, one to each side, share the force and leave none.
+    pair = cp.balance_shafts(engine, [-1, -1], x=[offset, -offset], y=0.0)
+    assert [each.unbalance for each in pair] == pytest.approx([MR / 4] * 2, rel=ROUNDING)
+    assert pair.balance(RPM, orders=[1])[1].torque.peak == pytest.approx(
+        at_the_crank.torque.peak, rel=1e-9
+    )
+
+
+def test_free_place_of_one_shaft_cancels_the_roll_torque_of_its_order() -> None:
+    engine = halved(SINGLE)
+    fit = cp.balance_shafts(engine, -1)
+    before, after = (e.balance(RPM, orders=[1])[1].torque.peak for e in (engine, fit.engine))
+    assert before > 0.0
+    assert after <= ROUNDING * MR * OMEGA**2
+    # With x given, height alone cannot: what is closest stays.
+    best = cp.balance_shafts(engine, -1, x=0.1)
+    heights = best[0].shaft.y + np.array([-0.01, 0.0, 0.01])
+    low, least, high = (
+        cp.balance_shafts(engine, -1, x=0.1, y=y).balance(RPM, orders=[1])[1].torque.peak
+        for y in heights.tolist()
+    )
+    assert least < min(low, high)
+
+
+# --- any engine -----------------------------------------------------------------------------------
+
+RATIOS = (1, -1, 2, -2, 4, -4)
+
+
+@pytest.mark.parametrize("name", UNLIKE)
+def test_unlike_cylinders(name: str) -> None:
+    """Unbalances by the lever rule from sampled waveforms; with them as masses nothing is left."""
+    engine = UNLIKE[name]
+    planes = (float(engine.z.min()) - 0.05, float(engine.z.max()) + 0.1)
+    fit = cp.balance_shafts(engine, RATIOS, planes=planes, x=[0.1] * 6, y=-0.05)
+    force, moment, torque = sampled(engine)
+    size = sum(c.reciprocating_mass * c.crank_radius for c in engine.cylinders) * OMEGA**2
+    for each in fit:
+        ratio = each.shaft.ratio
+        turn = [rederived.turning(samples, ratio) for samples in (force, moment)]
+        wanted = rederived.in_two_planes(
+            turn[0], turn[1], ratio * OMEGA, planes, engine.reference_z
+        )
+        found = {weight.z: vector(weight) for weight in each.shaft.unbalances}
+        for z, expected in zip(planes, wanted, strict=True):
+            assert abs(found.get(z, 0.0) - expected) * OMEGA**2 < SAMPLED * size
+    parts = [rotors.wrench(rotors_of(each.shaft), RPM, engine.reference_z) for each in fit]
+    for samples, k, scale in ((force, 0, size), (moment, 1, size)):
+        left = samples + sum(part[k] for part in parts)
+        for ratio in RATIOS:
+            assert abs(rederived.turning(left, ratio)) < SAMPLED * scale
+    # The roll torque that the places make is in what stays.
+    roll = time_domain.peak_phasors(torque + sum(part[2] for part in parts), [1, 2, 4])
+    after = fit.balance(RPM, orders=[1, 2, 4])
+    np.testing.assert_allclose(np.asarray(after.torque), roll, rtol=0, atol=SAMPLED * size)
+    assert abs(after.force.xy).max() <= ROUNDING * size
+    assert abs(after.moment.xy).max() <= ROUNDING * size
+
+
+@pytest.mark.parametrize("bearings", [(0.0, 0.3), (0.1, 0.15)])
+def test_bearing_loads(bearings: tuple[float, float]) -> None:
+    fit = cp.balance_shafts(HEAVIER, [-1, 2], planes=(0.05, 0.35), bearings=bearings)
+    for each in fit:
+        expected = rederived.bearing_loads(rotors_of(each.shaft), RPM, bearings)
+        loads = each.bearing_loads(RPM)
+        theta = time_domain.crank_angles(256)
+        turning_loads = loads * np.exp(1j * each.shaft.ratio * theta)[:, np.newaxis]
+        np.testing.assert_allclose(turning_loads, expected, rtol=0, atol=SAMPLED * OMEGA**2)
+        assert abs(loads.sum()) == pytest.approx(each.removed_force * OMEGA**2, rel=1e-12)
+        assert each.length == bearings[1] - bearings[0]
+
+
+def test_bearings_are_at_the_first_and_last_cylinder_unless_given() -> None:
+    fit = cp.balance_shafts(I4, [2, -2], bearings=[[0.35, 0.05], None])
+    assert [each.bearings for each in fit] == [(0.05, 0.35), (0.0, I4.z[3])]
+    alone = cp.balance_shafts(SINGLE, -1)[0]
+    assert (alone.bearings, alone.length) == (None, None)
+    with pytest.raises(cp.InputError, match="bearings = None: give bearings"):
+        alone.bearing_loads(RPM)
+    assert "bearings" not in repr(cp.balance_shafts(SINGLE, -1))
+
+
+def test_free_planes() -> None:
+    """One where that is enough, inside the engine; the first and last cylinder elsewhere."""
+    single_plane = I4.replace(cylinder=[CYLINDER] + [CYLINDER.replace(reciprocating_mass=0.0)] * 3)
+    (weight,) = cp.balance_shafts(single_plane, -1)[0].shaft.unbalances
+    assert weight.z == pytest.approx(0.0, abs=1e-12)
+    assert weight.amount == pytest.approx(MR / 2, rel=ROUNDING)
+    # Two unlike pistons half a turn apart: their force acts far outside, at nine half spacings.
+    twin = cp.Engine.inline(CYLINDER, throws_deg=[0, 180], spacing=0.1)
+    unlike = twin.replace(cylinder=[CYLINDER, CYLINDER.replace(reciprocating_mass=0.4)])
+    assert [w.z for w in cp.balance_shafts(unlike, -1)[0].shaft.unbalances] == [0.0, 0.1]
+    # Of one heavier piston it acts there, beside three couples.
+    assert [w.z for w in cp.balance_shafts(HEAVIER, 1)[0].shaft.unbalances] == [
+        pytest.approx(0.1, abs=1e-9)
+    ]
+    assert [w.z for w in cp.balance_shafts(I3, 1)[0].shaft.unbalances] == [0.0, 2.0]
+
+
+def test_counterweights_outside_the_cylinders_extend_the_engine() -> None:
+    weights = [Unbalance(0.01, -0.2, 0), Unbalance(0.01, 0.5, 180)]
+    fit = cp.balance_shafts(SINGLE.with_counterweights(weights), 1)
+    assert {w.z for w in fit[0].shaft.unbalances} == {-0.2, 0.5}
+    assert turning(fit.engine, 1, "moment") == 0.0
+
+
+def test_force_alone_and_moment_alone() -> None:
+    for planes in (None, (0.02, 0.4), (0.0, 0.2, 0.5)):
+        force = cp.balance_shafts(HEAVIER, -1, planes=planes, remove="force")
+        assert abs(turning(force.engine, -1, "force")) <= ROUNDING * MR * OMEGA**2
+        assert turning(force.engine, -1, "moment") == pytest.approx(turning(HEAVIER, -1, "moment"))
+        moment = cp.balance_shafts(HEAVIER, -1, planes=planes, remove="moment")
+        assert abs(turning(moment.engine, -1, "moment")) <= ROUNDING * MR * OMEGA**2
+        assert turning(moment.engine, -1, "force") == pytest.approx(turning(HEAVIER, -1, "force"))
+        assert moment[0].removed_force == 0.0
+    off = cp.balance_shafts(I4, [2, -2], planes=[0.3], remove="force")
+    assert off.balance(RPM, orders=[2])[2].force.peak <= ROUNDING * MR * OMEGA**2
+    assert off.balance(RPM, orders=[2])[2].moment.peak == pytest.approx(
+        4 * MR * A2 * OMEGA**2 * 0.15
+    )
+
+
+def test_reference_plane_of_a_force_alone() -> None:
+    fit = cp.balance_shafts(HEAVIER, -1, remove="force", reference_z=0.25)
+    (weight,) = fit[0].shaft.unbalances
+    assert weight.z == fit.reference_z == 0.25
+    assert fit.balance(RPM).reference_z == 0.25
+
+
+def test_single_plane_takes_the_least_sum_of_squares() -> None:
+    plane, lever = 0.27, 0.15
+
+    def left(engine: cp.Engine) -> float:
+        parts = [turning(engine, -1, quantity) for quantity in ("force", "moment")]
+        return float(np.hypot(abs(parts[0]), abs(parts[1]) / lever))
+
+    fit = cp.balance_shafts(HEAVIER, -1, planes=[plane])
+    (weight,) = fit[0].shaft.unbalances
+    least = left(fit.engine)
+    assert 0.0 < least < left(HEAVIER)
+    for change in (1e-4, -1e-4, 1e-4j, -1e-4j):
+        other = vector(weight) + change
+        moved = Unbalance(abs(other), plane, float(np.degrees(np.angle(other))))
+        assert left(HEAVIER.with_shafts([Shaft(-1, [moved])])) > least
+
+
+def test_more_planes_than_needed_take_the_least_sum_of_squares() -> None:
+    fit = cp.balance_shafts(I4, 2, planes=(0.0, 0.15, 0.3))
+    amounts = [weight.amount for weight in fit[0].shaft.unbalances]
+    assert amounts == pytest.approx([MR * A2 / 6] * 3, rel=1e-12)
+
+
+def test_shafts_of_one_ratio_share_their_task_whatever_their_order() -> None:
+    mixed = cp.balance_shafts(HEAVIER, [-1, 2, -1], planes=[[0.0], [0.1, 0.3], [0.2]])
+    assert [each.shaft.ratio for each in mixed] == [-1, 2, -1]
+    assert [[w.z for w in each.shaft.unbalances] for each in mixed] == [[0.0], [0.1, 0.3], [0.2]]
+    for quantity in ("force", "moment"):
+        for ratio in (-1, 2):
+            assert abs(turning(mixed.engine, ratio, quantity)) <= ROUNDING * MR * OMEGA**2
+
+
+def test_pair_of_a_lying_engine_has_its_heights_along_its_force() -> None:
+    flat = cp.Engine.from_lists(
+        CYLINDER, tdc_deg=[0, 180, 180, 0], bank_deg=[20] * 4, z=[0, 0.1, 0.2, 0.3]
+    )
+    (pair,) = cp.balance_shafts(flat, [2, -2]).heights
+    (upright,) = cp.balance_shafts(I4, [2, -2]).heights
+    assert pair.up_deg == pytest.approx(20.0)
+    assert pair.difference == pytest.approx(upright.difference)
+    # No pair: without a force, of unequal forces, of three shafts.
+    assert cp.balance_shafts(V6_60, [2, -2]).heights == ()
+    twin = cp.Engine.vee(CYLINDER, bank_angle_deg=45, throws_deg=[0], spacing=0.1)
+    assert cp.balance_shafts(twin, [2, -2]).heights == ()
+    assert cp.balance_shafts(I4, [2, -2, -2]).heights == ()
+
+
+# --- laws -----------------------------------------------------------------------------------------
+
+ANY = [*UNLIKE.values(), I4, I3, V6_90, V6_60, SINGLE]
+engines = st.sampled_from(ANY)
+ratios = st.lists(st.sampled_from([-1, 1, -2, 2, -3, 4]), min_size=1, max_size=4)
+planes_or_free = st.none() | st.lists(
+    st.integers(-10, 40).map(lambda k: k / 50), min_size=1, max_size=3, unique=True
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(engine=engines, chosen=ratios, planes=planes_or_free)
+def test_a_shaft_changes_its_own_part_alone(
+    engine: cp.Engine, chosen: list[int], planes: list[float] | None
+) -> None:
+    fit = cp.balance_shafts(engine, chosen, planes=planes, x=0.1, y=-0.1)
+    size = sum(c.reciprocating_mass * c.crank_radius for c in engine.cylinders) * OMEGA**2
+    for ratio in (-1, 1, -2, 2, -3, 3, -4, 4):
+        if ratio not in chosen:
+            for quantity in ("force", "moment"):
+                before, after = (turning(e, ratio, quantity) for e in (engine, fit.engine))
+                assert abs(after - before) <= ROUNDING * size
+
+
+@settings(max_examples=40, deadline=None)
+@given(engine=engines, chosen=ratios, planes=planes_or_free)
+def test_what_stays_never_exceeds_the_start(
+    engine: cp.Engine, chosen: list[int], planes: list[float] | None
+) -> None:
+    fit = cp.balance_shafts(engine, chosen, planes=planes)
+    span = float(np.ptp(engine.z)) / 2 or engine.cylinders[0].crank_radius
+    for ratio in set(chosen):
+        sizes = [
+            np.hypot(abs(turning(e, ratio, "force")), abs(turning(e, ratio, "moment")) / span)
+            for e in (engine, fit.engine)
+        ]
+        assert sizes[1] <= sizes[0] * (1 + 1e-9)
+
+
+@settings(max_examples=25, deadline=None)
+@given(engine=engines, chosen=ratios, share=st.floats(0.01, 1.0))
+def test_no_counterweight_changes_what_a_backward_shaft_carries(
+    engine: cp.Engine, chosen: list[int], share: float
+) -> None:
+    weighted = engine.with_counterweights(bob_weights(engine, share))
+    for ratio in chosen:
+        if ratio < 0:
+            fits = [cp.balance_shafts(e, ratio, planes=(0.0, 0.4))[0] for e in (engine, weighted)]
+            size = MR * len(engine)
+            assert abs(fits[0].makes.force - fits[1].makes.force) <= ROUNDING * size
+            assert abs(fits[0].makes.moment - fits[1].makes.moment) <= ROUNDING * size
+
+
+@pytest.mark.parametrize("engine", ANY)
+def test_adding_and_removing_is_the_identity(engine: cp.Engine) -> None:
+    own = [Shaft(3, [Unbalance(0.001, 0.1, 20)], x=0.2)]
+    equipped = engine.with_counterweights(bob_weights(engine, 0.3)).with_shafts(own)
+    fit = cp.balance_shafts(equipped, [-1, 2])
+    assert fit.before is equipped
+    assert fit.engine.shafts == (*equipped.shafts, *(each.shaft for each in fit))
+    assert fit.engine.counterweights == equipped.counterweights
+    assert fit.engine.with_shafts(equipped.shafts) == equipped
+    # What is removed once is not there to be removed again.
+    again = cp.balance_shafts(fit.engine, [-1, 2])
+    assert again.unbalance <= 1e-12 * fit.unbalance
+
+
+@settings(max_examples=25, deadline=None)
+@given(engine=engines, turn=st.integers(-179, 180), crank=st.integers(0, 359))
+def test_turning_the_engine_turns_the_answer(engine: cp.Engine, turn: int, crank: int) -> None:
+    """In space all vectors turn alike; with the crank those of a shaft by its ratio."""
+    chosen, planes = [-1, 1, 2, -2], (0.0, 0.4)
+    there = cp.balance_shafts(engine, chosen, planes=planes)
+    tilted = engine.replace(bank_deg=engine.bank_deg + turn)
+    later = engine.with_first_tdc(float(engine.tdc_deg[0]) + crank)
+    size = sum(each.unbalance for each in there)
+    for each, of_tilted, of_later in zip(
+        there,
+        cp.balance_shafts(tilted, chosen, planes=planes),
+        cp.balance_shafts(later, chosen, planes=planes),
+        strict=True,
+    ):
+        force = each.makes.force
+        assert abs(of_tilted.makes.force - turned(force, turn)) <= 1e-11 * size
+        back = -crank * each.shaft.ratio
+        assert abs(of_later.makes.force - turned(force, back)) <= 1e-11 * size
+        where = complex(each.shaft.x, each.shaft.y)
+        if abs(force) > 1e-6 * size:
+            moved = complex(of_tilted.shaft.x, of_tilted.shaft.y)
+            assert abs(moved - turned(where, turn)) <= 1e-6 * max(abs(where), 0.1)
+            assert abs(complex(of_later.shaft.x, of_later.shaft.y) - where) <= 1e-6 * max(
+                abs(where), 0.1
+            )
+
+
+# --- the object -----------------------------------------------------------------------------------
+
+FIT = cp.balance_shafts(V6_90, [-1, -2], x=0.1, y=[0.05, None])
+
+
+def test_result_is_frozen_and_copies() -> None:
+    for one in (FIT, FIT[0], cp.balance_shafts(I4, [2, -2]).heights[0]):
+        assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301 - its own
+        assert copy.deepcopy(one) == one
+        assert hash(copy.copy(one)) == hash(one)
+        with pytest.raises(AttributeError):
+            one.order = 3  # type: ignore[misc, union-attr]
+    assert cp.balance_shafts(V6_90, [-1, -2], x=0.1, y=0.05) != FIT
+    assert (len(FIT), FIT.orders, [each.part for each in FIT]) == (2, (1, 2), ["backward"] * 2)
+
+
+def test_tables_show_the_fit() -> None:
+    unbalances, shafts, stays = FIT.tables()
+    weights = [w for each in FIT for w in each.shaft.unbalances]
+    assert unbalances.rows[:, 3].tolist() == [w.amount for w in weights]
+    assert unbalances.rows[:, 4].tolist() == [w.angle_deg for w in weights]
+    assert unbalances.rows[:, 2].tolist() == [w.z for w in weights]
+    assert shafts.rows[:, 1].tolist() == [each.removed_moment for each in FIT]
+    loads = [abs(each.bearing_loads(RPM)) / OMEGA**2 for each in FIT]
+    np.testing.assert_allclose(shafts.rows[:, 3:], loads, rtol=1e-12)
+    for label, (before, after) in zip(stays.labels, stays.rows.tolist(), strict=True):
+        order, quantity, part = label
+        names = {"shaking": "force", "rocking": "moment", "roll": "torque"}
+        name = names[str(quantity).split()[0]]
+        for engine, value in ((V6_90, before), (FIT.engine, after)):
+            found = getattr(engine.balance(RPM, orders=[1, 2])[int(order)], name)
+            expected = abs(getattr(found, str(part) if part else "phasor")) / OMEGA**2
+            assert value == pytest.approx(float(expected), rel=1e-9, abs=1e-15)
+    assert repr(FIT).count("\n\n") == 2
+    assert FIT._repr_html_().count("<table>") == 3
+
+
+def test_to_pandas() -> None:
+    table = FIT.to_pandas()
+    assert table.columns.tolist() == [
+        "shaft", "ratio", "order", "part", "x", "y", "z", "amount", "angle_deg",
+    ]  # fmt: skip
+    weights = [w for each in FIT for w in each.shaft.unbalances]
+    assert table["amount"].tolist() == [w.amount for w in weights]
+    assert table["ratio"].tolist() == [-1, -1, -2, -2]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"ratios": 0}, "^ratios = 0: give whole numbers other than 0"),
+        ({"ratios": 1.5}, "^ratios = 1.5: give a whole number"),
+        ({"ratios": []}, "^ratios has 0 shafts: give 1 to 100"),
+        ({"ratios": "2"}, "^ratios = '2'"),
+        ({"ratios": 10**6}, "^ratios = 1000000: give"),
+        ({"x": [1, 2]}, "^x has 2 entries: give one for each of 1 shafts"),
+        ({"x": float("nan")}, "^x = nan: give a finite number"),
+        ({"y": "up"}, "^y"),
+        ({"planes": 0.1}, "^planes = 0.1: give places along the crank"),
+        ({"planes": [0.1, 0.1]}, r"^planes\[0\] = \[0.1, 0.1\]: give different places"),
+        ({"planes": []}, r"^planes\[0\] = \[\]: give different places"),
+        ({"planes": [[0.1], [0.2]]}, "^planes has 2 entries"),
+        ({"planes": [0.1], "remove": "moment"}, r"^planes\[0\] = \[0.1\]: a couple takes two"),
+        ({"bearings": [0.1]}, r"^bearings\[0\] = \[0.1\]: give the places of two bearings"),
+        ({"remove": "all"}, '^remove = \'all\': give "both" or "force" or "moment"'),
+        ({"ratios": [2, 2], "remove": ["force", "both"]}, "shafts of one ratio share their task"),
+        ({"rpm": 100}, "^rpm = 100: is that of extra_torque"),
+        ({"extra_torque": {1: 1.0}}, "^rpm = None: extra_torque needs the crank speed"),
+        ({"extra_torque": 3, "rpm": 100}, "^extra_torque = 3: give a mapping"),
+        ({"extra_torque": {1: 1.0}, "rpm": 0}, "^rpm = 0"),
+        ({"extra_torque": {2: 1.0}, "rpm": 100}, r"^extra_torque\[2\]: shafts act on order 1"),
+        ({"extra_torque": {1: "x"}, "rpm": 100}, r"^extra_torque\[1\] = 'x': give a mapping"),
+        ({"extra_torque": {1: np.nan}, "rpm": 1}, r"^extra_torque\[1\] = \(nan"),
+        ({"extra_torque": {1: 1e20}, "rpm": 1}, r"^extra_torque\[1\] = \(1e\+20"),
+        ({"extra_torque": {1: np.inf}, "rpm": 100}, r"^extra_torque\[1\] = \(inf"),
+        ({"reference_z": "x"}, "^reference_z = 'x': give a number"),
+        ({"engine": "i4"}, "^engine = 'i4': give a crankpin.Engine"),
+    ],
+)
+def test_errors_name_the_argument(given: dict[str, Any], words: str) -> None:
+    arguments: dict[str, Any] = {"engine": I4, "ratios": -1} | given
+    call: Callable[..., Any] = cp.balance_shafts
+    with pytest.raises(cp.InputError, match=words):
+        call(**arguments)
+    with pytest.raises(cp.InputError, match=r"use crankpin\.balance_shafts"):
+        cp.types.BalanceShafts(I4, (1,), None, ())  # type: ignore[arg-type]
