@@ -26,8 +26,8 @@ LOOKS = ("white", "dark", "column", "grid")
 COLUMN = 3.4
 """Inches: a column of a paper."""
 TOLERANCE = 4.0
-"""Root mean square of 255 grey levels: rendering of type differs that much between builds of
-FreeType; a line, a legend or a label in another place makes 6 and more."""
+"""Root mean square of 255 grey levels: an allowance for type drawn by another build of FreeType.
+A legend ten points lower makes 26 and more."""
 
 Test = TypeVar("Test", bound="Callable[..., Any]")
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 SHORT = 1.9
 """Inches of height below which axes get a short title."""
-IN_A_ROW = 0.65
-"""Part of the width of axes that the layout leaves them beside others."""
+IN_A_ROW = 0.75
+"""Part of their width that the layout leaves to axes beside others."""
 TICK_LABELS = 0.12
 """Part of a figure's width that is beside axes; longer labels of ticks take width from them."""
 
@@ -132,7 +132,7 @@ def entitle_figure(figure: FigureBase, *lines: str) -> None:
 def head(ax: Axes, text: str, pad: float | None = None) -> None:
     """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`."""
     font = FontProperties(size="medium")
-    block = _block([text], inches_of(ax), font)
+    block = _block([text], IN_A_ROW * inches_of(ax), font)
     ax.set_title(block, loc="left", fontsize="medium", color=muted(ax), pad=pad)
 
 
