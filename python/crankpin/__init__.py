@@ -11,10 +11,13 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin.analysis.bob_weight import bob_weight
+from crankpin.analysis.counterweights import counterweights
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
 from crankpin.analysis.throws import throws
+from crankpin.analysis.two_plane import two_plane_correction
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
@@ -28,11 +31,14 @@ __all__ = [
     "Shaft",
     "Unbalance",
     "__version__",
+    "bob_weight",
+    "counterweights",
     "presets",
     "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
     "throws",
+    "two_plane_correction",
     "types",
 ]

@@ -1,9 +1,18 @@
 """Classes of results, for annotations and ``isinstance``; functions and engines make them."""
 
 from crankpin.analysis.balance import Balance
+from crankpin.analysis.bob_weight import BobWeight, Straight
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
+from crankpin.analysis.counterweights import (
+    BayLoad,
+    Counterweights,
+    Ellipses,
+    ForwardPart,
+    PartVerdict,
+    Remainder,
+)
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
@@ -13,6 +22,7 @@ from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweep import Sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
+from crankpin.analysis.two_plane import TwoPlaneCorrection
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,
@@ -21,32 +31,43 @@ from crankpin.analysis.vanishing import (
     Verdicts,
 )
 from crankpin.analysis.waveform import Waveform
+from crankpin.model.crankpins import Crankpin
 
 __all__ = [
     "Arrangement",
     "ArrangementSearch",
     "Balance",
+    "BayLoad",
+    "BobWeight",
     "Choice",
     "ClosedForm",
+    "Counterweights",
+    "Crankpin",
     "Ellipse",
+    "Ellipses",
     "ErrorBound",
     "Firing",
+    "ForwardPart",
     "Gap",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
+    "PartVerdict",
     "PlaneVector",
     "PortTiming",
     "Ports",
     "Quantity",
     "Ranking",
+    "Remainder",
     "Scalar",
+    "Straight",
     "Sweep",
     "SweepWaveform",
     "Throws",
     "Total",
     "TotalQuantity",
     "TotalVector",
+    "TwoPlaneCorrection",
     "ValveTiming",
     "Valves",
     "VanishingOrders",
