@@ -307,9 +307,15 @@ class Counterweights(Frozen):
         parts = self.fit.parts
         if not self.exact or name not in parts:
             return False
-        # Forces of bays have moments about the engine's plane.
-        alone = name == "moment" and self.fit.target == "internal"
-        return not alone or parts.get("force") == parts["moment"]
+        if self.fit.target == "external":
+            return True
+        # The engine's parts are sums over its bays, if all that rotates is in one of them, and
+        # forces of bays have moments about the engine's plane.
+        listed = bays(self.before)
+        inside = all(
+            any(bay.holds(weight.z) for bay in listed) for weight in self.before.counterweights
+        )
+        return inside and (name == "force" or parts.get("force") == parts["moment"])
 
     @property
     def vanishes(self) -> bool:

@@ -227,26 +227,30 @@ def internal(
 
 
 def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
-    front, rear = bay.bearings
-    return {name: z for name, z in planes.items() if front <= z < rear}
+    return {name: z for name, z in planes.items() if bay.holds(z)}
 
 
 def bay_alone(engine: Engine, bay: Bay) -> Engine:
     """Return the cylinders of a bay with what rotates there: an engine of one throw."""
     places = [number - 1 for number in bay.cylinders]
     tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine.core.exact_angles)
-    number_of = {number: k for k, number in enumerate(bay.cylinders, start=1)}
-    weights = [
-        dataclasses.replace(weight, pin=None if weight.pin is None else number_of[weight.pin])
-        for weight in engine.counterweights
-        if bay.bearings[0] <= weight.z < bay.bearings[1]
-        and (weight.pin is None or weight.pin in number_of)
-    ]
     return Engine.from_lists(
         [engine.cylinders[k] for k in places],
         tdc_deg=tdc_deg,
         bank_deg=bank_deg,
         z=engine.z[places],
         rotating_mass=engine.rotating_mass[places],
-        counterweights=weights,
+        counterweights=[
+            _in_bay(engine, bay, weight) for weight in engine.counterweights if bay.holds(weight.z)
+        ],
     )
+
+
+def _in_bay(engine: Engine, bay: Bay, weight: Unbalance) -> Unbalance:
+    """Return a weight with its pin's number in the bay, or turned if that is elsewhere."""
+    if weight.pin is None:
+        return weight
+    if weight.pin in bay.cylinders:
+        return dataclasses.replace(weight, pin=bay.cylinders.index(weight.pin) + 1)
+    turned = float(engine.pin_deg[weight.pin - 1]) + correction_planes.degrees(weight.angle_deg)
+    return Unbalance(weight.amount, weight.z, turned)

@@ -194,8 +194,7 @@ def _nearest(
     """Return amounts within bounds that come nearest to the target, from amounts within bounds."""
     made, filled, room = _constraints(problem, columns, amounts)
     target = _real(problem.target[:, None])[:, 0]
-    full = filled @ np.append(amounts, room)
-    return least_squares(made, target, filled, full)[: len(amounts)]
+    return least_squares(made, target, filled, np.append(amounts, room))[: len(amounts)]
 
 
 def _squares(
@@ -206,8 +205,8 @@ def _squares(
     sums = np.zeros((len(problem.bounds), made.shape[1]))
     sums[columns.plane, np.arange(len(amounts))] = 1.0
     held = np.vstack([made, filled])
-    value = held @ np.append(amounts, room)
-    return least_squares(sums, np.zeros(len(sums)), held, value)[: len(amounts)]
+    start = np.append(amounts, room)
+    return least_squares(sums, np.zeros(len(sums)), held, start)[: len(amounts)]
 
 
 def _largest(

@@ -49,6 +49,11 @@ class Bay(NamedTuple):
         front, rear = self.bearings
         return (self.z + front) / 2.0, (self.z + rear) / 2.0
 
+    def holds(self, z: float) -> bool:
+        """Return whether a place is between the bearings; one at a bearing is behind it."""
+        front, rear = self.bearings
+        return front <= z < rear
+
 
 def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
     """Return the crankpins from front to flywheel.
