@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 TABULATED = (0.0, 0.25, 0.4, 0.5, 0.52, 0.6, 0.75, 1.0)
 """Factors in the table of what stays."""
 LARGEST_FACTOR = 10.0
+SMALLEST = 1e-30
+"""Smallest unbalance that engines take, kg·m."""
 UNITS = {"force": "kg·m", "moment": "kg·m²"}
 """Quantity → its unit over ω²."""
 
@@ -180,8 +182,9 @@ class BobWeight(Frozen):
             ),
             start=1,
         ):
-            mass = rotating + factor * parts.reciprocating_mass
-            weights.append(Unbalance(mass * parts.crank_radius, z, 180, pin=number))
+            amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
+            if amount >= SMALLEST:
+                weights.append(Unbalance(amount, z, 180, pin=number))
         return self.before.with_counterweights(weights)
 
     # --- what stays -----------------------------------------------------------------------------

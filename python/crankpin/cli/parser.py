@@ -68,7 +68,7 @@ def orders_and_rtol(parser: Parser) -> None:
 
 
 def cylinder_and_output(parser: Parser) -> None:
-    """Add ``--reference-z``, ``--spectrum``, ``--csv`` and ``--plot``."""
+    """Add ``--reference-z``, ``--spectrum``, and what :func:`output` adds."""
     parser.add_argument(
         "--reference-z",
         metavar="Z",
@@ -80,5 +80,10 @@ def cylinder_and_output(parser: Parser) -> None:
         help="one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
         "1=9.0,2=3.75",
     )
+    output(parser)
+
+
+def output(parser: Parser) -> None:
+    """Add ``--csv`` and ``--plot``."""
     parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
     parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
