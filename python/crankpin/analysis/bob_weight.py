@@ -340,10 +340,10 @@ class BobWeight(Frozen):
             words.setdefault(self.factor, [])
             for name in UNITS:
                 if (least := self.least(name)) is not None:
-                    words.setdefault(least, []).append(f"least {name}")
+                    words.setdefault(round(least, 9), []).append(f"least {name}")
                 for line in self.straight(name):
                     what = f"{name} along {line.direction_deg:.4g}°"
-                    words.setdefault(line.factor, []).append(what)
+                    words.setdefault(round(line.factor, 9), []).append(what)
         listed = sorted(words)
         axes = [self.stays(name, listed) for name in UNITS]
         rows = np.stack([part for each in axes for part in (each.major, abs(each.minor))], axis=-1)

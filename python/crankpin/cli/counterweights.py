@@ -26,16 +26,16 @@ def add(commands: Commands) -> None:
         "weights that remove the most of what turns with the crankshaft at order 1",
         example="counterweights v8-crossplane --planes webs --plot weights.png",
         run=run,
-        note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, counted as the crank\n"
-        "turns. What stays is in kg·m and kg·m², to be multiplied by ω².",
+        note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
+        "What stays is in kg·m and kg·m², to be multiplied by ω².",
     )
     fits.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
     fits.add_argument(
         "--planes",
         default="webs",
         metavar="ends|webs|Z,…|NAME=Z,…",
-        help="where weights can be: at the first and last cylinder, at both webs of every throw, or "
-        "at places in m; write --planes=-0.1,0.4 if the first is below zero (default: %(default)s)",
+        help="where weights can be: at the first and last cylinder, at both webs of every throw, "
+        "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: %(default)s)",
     )
     fits.add_argument(
         "--target",
