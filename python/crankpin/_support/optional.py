@@ -26,6 +26,11 @@ def sympy() -> Any:  # noqa: ANN401 - a module
     return _imported("sympy", "exact")
 
 
+def matplotlib() -> Any:  # noqa: ANN401 - a module
+    """Return matplotlib, or raise an ImportError that names the extra to install."""
+    return _imported("matplotlib", "plot")
+
+
 def scipy_optimize() -> Any:  # noqa: ANN401 - a module
     """Return scipy.optimize, or raise an ImportError that names the extra to install."""
     return _imported("scipy.optimize", "optimize")
