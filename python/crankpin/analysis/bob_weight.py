@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, optional
+from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
@@ -33,8 +33,6 @@ TABULATED = (0.0, 0.25, 0.4, 0.5, 0.52, 0.6, 0.75, 1.0)
 LARGEST_FACTOR = 10.0
 SMALLEST = 1e-30
 """Smallest unbalance that engines take, kg·m."""
-UNITS = {"force": "kg·m", "moment": "kg·m²"}
-"""Quantity → its unit over ω²."""
 
 
 def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
@@ -338,17 +336,17 @@ class BobWeight(Frozen):
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
         if factors is None:
             words.setdefault(self.factor, [])
-            for name in UNITS:
+            for name in labels.OVER_SQUARE:
                 if (least := self.least(name)) is not None:
                     words.setdefault(round(least, 9), []).append(f"least {name}")
                 for line in self.straight(name):
                     what = f"{name} along {line.direction_deg:.4g}°"
                     words.setdefault(round(line.factor, 9), []).append(what)
         listed = sorted(words)
-        axes = [self.stays(name, listed) for name in UNITS]
+        axes = [self.stays(name, listed) for name in labels.OVER_SQUARE]
         rows = np.stack([part for each in axes for part in (each.major, abs(each.minor))], axis=-1)
         header = ["factor", ""]
-        for name, unit in UNITS.items():
+        for name, unit in labels.OVER_SQUARE.items():
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         return Table("What stays of order 1, half axes over ω²", header, names, rows.reshape(-1, 4))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -18,9 +18,9 @@ from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
-    from typing import Any
-
     import pandas as pd
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
 
     from crankpin._support.inputs import Angles, Orders
     from crankpin.analysis.balance import Balance
@@ -364,7 +364,7 @@ class Counterweights(Frozen):
         rows, names = [], []
         verdicts = self.verdicts
         for place, quantity in enumerate(("force", "moment")):
-            unit = {"force": "kg·m", "moment": "kg·m²"}[quantity]
+            unit = labels.OVER_SQUARE[quantity]
             for state, ellipses in (("before", self.ellipses_before), ("after", self.ellipses)):
                 ellipse = ellipses[place]
                 names.append((f"{labels.NAMES[quantity]}, {unit}", state))
@@ -383,9 +383,34 @@ class Counterweights(Frozen):
     def _repr_html_(self) -> str:
         return self.table().html() + self.table_of_order_1().html()
 
-    def plot(self, ax: Any = None, *, figure: Any = None, **options: Any) -> Any:  # noqa: ANN401
-        """Draw (to be replaced)."""
-        return draw(self, ax, figure=figure, **options)
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str = "summary",
+        quantity: str = "moment",
+        **style: Any,  # noqa: ANN401 - of lines
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw the weights, and what order 1 does before and after; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones. ``"summary"`` draws the weights on them.
+        figure
+            Figure or SubFigure for the panels of ``"summary"``; by default a new one.
+        kind
+            ``"summary"``: panels of weights and of the ellipses of force and moment, those that
+            are not zero; ``"weights"``: mass·radius of each plane over its place, with an arrow in
+            its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
+            ``"ellipses"``: what order 1 traces before and after.
+        quantity
+            ``"force"`` or ``"moment"``, for ``"ellipses"``.
+        **style
+            ``label`` and properties of matplotlib lines.
+        """
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **style)
 
 
 def _ellipses(engine: Engine, plane: float) -> Ellipses:

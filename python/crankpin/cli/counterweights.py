@@ -82,7 +82,7 @@ def run(arguments: argparse.Namespace) -> str:
         reference_z=inputs.plane(arguments.reference_z),
     )
     if picture is not None:
-        outputs.write(fitted.plot(), picture)
+        outputs.write(np.ravel(fitted.plot())[0], picture)
     tables = [fitted.table()] if arguments.csv else [fitted.table(), fitted.table_of_order_1()]
     return outputs.printed(tables, csv=arguments.csv)
 
