@@ -198,6 +198,31 @@ def test_a_single_is_straight_at_nothing_and_at_all() -> None:
     assert single.straight("moment") == ()
 
 
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10_000))
+def test_half_the_mass_removes_the_forward_part_of_any_engine_without_offset(seed: int) -> None:
+    """The forward theorem, for engines that differ in all else; presets: tests/model/test_shafts."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 13))
+    radius, ratio, mass = rng.uniform([0.5, 0.1, 0.1], [2.0, 0.6, 3.0], (count, 3)).T
+    engine = cp.Engine.from_lists(
+        [cp.Cylinder(r, r / x, m) for r, x, m in zip(radius, ratio, mass, strict=True)],
+        tdc_deg=rng.uniform(0, 360, count).tolist(),
+        bank_deg=rng.uniform(0, 360, count).tolist(),
+        z=rng.uniform(-2, 2, count),
+        rotating_mass=rng.uniform(0, 2, count),
+    )
+    bob = cp.bob_weight(engine)
+    for plane in (None, 0.7):
+        after = bob.engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        assert complex(after.force.forward) == complex(after.moment.forward) == 0.0
+        before = engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        for quantity in ("force", "moment"):
+            found = complex(getattr(after, quantity).backward)
+            expected = complex(getattr(before, quantity).backward)
+            assert abs(found - expected) <= 1e-13 * float((mass * radius).sum())
+
+
 @pytest.mark.parametrize(("angle", "stays"), [(90, 0.0), (60, 0.5), (45, 0.707107)])
 def test_v_twins_at_half(angle: float, stays: float) -> None:
     bob = cp.bob_weight(v_twin(angle, rotating_mass=0.4))
