@@ -201,7 +201,7 @@ def test_a_single_is_straight_at_nothing_and_at_all() -> None:
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 10_000))
 def test_half_the_mass_removes_the_forward_part_of_any_engine_without_offset(seed: int) -> None:
-    """The forward theorem, for engines that differ in all else; presets: tests/model/test_shafts."""
+    """The forward theorem for engines that differ; tests/model/test_shafts.py has the presets."""
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 13))
     radius, ratio, mass = rng.uniform([0.5, 0.1, 0.1], [2.0, 0.6, 3.0], (count, 3)).T
@@ -270,8 +270,8 @@ def test_tables_and_copies() -> None:
     assert "-0°" not in text
     assert bob._repr_html_().count("<table>") == 2
     rows = bob.table_of_factors([0.5, 0.1]).rows
-    assert rows.shape == (2, 4)
-    assert rows[1, 2] == bob.stays("moment", 0.5).major
+    assert rows.shape == (2, 2)  # without the force, of which there is none
+    assert rows[1, 0] == bob.stays("moment", 0.5).major
     back = pickle.loads(pickle.dumps(bob))  # noqa: S301 - its own
     assert back == bob
     assert hash(back) == hash(bob)

@@ -101,6 +101,14 @@ OBJECTS: dict[str, Any] = {
         [V6, ODD], rpm=5000, by="total.moment.peak", spectrum=SPECTRUM
     ),
     "Choice": ranking()[0],
+    "Counterweights": cp.counterweights(V6, planes="ends"),
+    "Counterweights, bay by bay": cp.counterweights(
+        V6, planes="webs", target="internal", fraction=0.8, bound=0.1
+    ),
+    "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
+    "TwoPlaneCorrection": cp.two_plane_correction(
+        [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
+    ),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -177,6 +185,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "ErrorBound",
         "ClosedForm",
         "Choice",
+        "Counterweights",
     )
     assert found or name.startswith(without)
     for attribute, array in found:
@@ -490,9 +499,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    if not name.startswith(
-        ("Balance", "Engine", "Vanishing", "ClosedForm", "Ranking")
-    ):  # tables under a title
+    tables = ("Balance", "Engine", "Vanishing", "ClosedForm", "Ranking")
+    tables += ("Counterweights", "BobWeight", "TwoPlane")
+    if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
 

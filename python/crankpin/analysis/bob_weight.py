@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
     from crankpin.model.engine import Engine
 
-TABULATED = (0.0, 0.25, 0.4, 0.5, 0.52, 0.6, 0.75, 1.0)
+TABULATED = (0.0, 0.5, 1.0)
 """Factors in the table of what stays."""
 LARGEST_FACTOR = 10.0
 SMALLEST = 1e-30
@@ -72,7 +73,7 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     >>> overbalanced = cp.bob_weight(v8, factor=0.52)
     >>> before = v8.replace(rotating_mass=0).balance(rpm=6000)[1].moment.peak
     >>> after = overbalanced.balance(rpm=6000)[1].moment.peak
-    >>> round(after / before, 9)  # 2 % too much leaves 4 %
+    >>> round(float(after / before), 9)  # 2 % too much leaves 4 %
     0.04
     """
     engine_core(engine)
@@ -334,22 +335,30 @@ class BobWeight(Frozen):
         """
         given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
-        if factors is None:
-            words.setdefault(self.factor, [])
-            for name in labels.OVER_SQUARE:
-                if (least := self.least(name)) is not None:
-                    words.setdefault(round(least, 9), []).append(f"least {name}")
-                for line in self.straight(name):
-                    what = f"{name} along {line.direction_deg:.4g}°"
-                    words.setdefault(round(line.factor, 9), []).append(what)
+        for factor, text in self._remarkable() if factors is None else ():
+            # 0.5 comes out as 0.49999999999999994 at times.
+            near = next((each for each in words if abs(each - factor) < 1e-12), factor)
+            words.setdefault(near, []).extend([text] if text else [])
         listed = sorted(words)
-        axes = [self.stays(name, listed) for name in labels.OVER_SQUARE]
-        rows = np.stack([part for each in axes for part in (each.major, abs(each.minor))], axis=-1)
-        header = ["factor", ""]
-        for name, unit in labels.OVER_SQUARE.items():
+        # An engine without force or moment of order 1 has no columns of it.
+        quantities = [name for name in labels.OVER_SQUARE if any(self._parts(name))]
+        header, columns = ["factor", ""], []
+        for name in quantities or ["moment"]:
+            stays, unit = self.stays(name, listed), labels.OVER_SQUARE[name]
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
+            columns += [stays.major, abs(stays.minor)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
-        return Table("What stays of order 1, half axes over ω²", header, names, rows.reshape(-1, 4))
+        title = "What stays of order 1, half axes over ω²"
+        return Table(title, header, names, np.stack(columns, axis=-1))
+
+    def _remarkable(self) -> Iterator[tuple[float, str]]:
+        """Return the factors that are something special, and what."""
+        yield self.factor, ""
+        for name in labels.OVER_SQUARE:
+            if (least := self.least(name)) is not None:
+                yield least, f"least {name}"
+            for line in self.straight(name):
+                yield line.factor, f"{name} along {line.direction_deg:.4g}°"
 
     def __repr__(self) -> str:
         return f"{self.table().text()}\n{self.table_of_factors().text()}"
