@@ -5,15 +5,9 @@ from crankpin.analysis.bob_weight import BobWeight, Straight
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
-from crankpin.analysis.counterweights import (
-    BayLoad,
-    Counterweights,
-    Ellipses,
-    ForwardPart,
-    PartVerdict,
-    Remainder,
-)
+from crankpin.analysis.counterweights import Counterweights, PartVerdict, Remainder
 from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.first_order import BayLoad, Ellipses, ForwardPart
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking

@@ -14,7 +14,7 @@ from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.fitting import first_order
+from crankpin.analysis.first_order import first_order
 from crankpin.analysis.quantities import Ellipse
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import Crankpin, crankpins
@@ -392,7 +392,8 @@ def _ellipse(
     f, b = np.abs(forward), np.full(factor.shape, abs(backward))
     tilt = np.angle(forward * backward, deg=True) / 2.0
     tilt = np.where(tilt <= -90.0, 90.0, np.where((f == 0.0) | (b == 0.0), 0.0, tilt))
-    parts = (f + b, f - b, tilt)
+    minor = np.where(np.abs(f - b) < 1e-14 * (f + b), 0.0, f - b)
+    parts = (f + b, minor, tilt)
     return Ellipse(*map(read_only, parts))
 
 

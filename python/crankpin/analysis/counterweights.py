@@ -13,7 +13,15 @@ from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
 from crankpin.analysis import correction_planes
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.fitting import Fit, bay_alone, external, first_order, internal
+from crankpin.analysis.first_order import (
+    BayLoad,
+    Ellipses,
+    ForwardPart,
+    bay_loads_of,
+    ellipses_of,
+    first_order,
+)
+from crankpin.analysis.fitting import Fit, external, internal
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
 
@@ -26,7 +34,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.correction_planes import Planes
     from crankpin.analysis.fitting import Minimise, Target
-    from crankpin.analysis.quantities import Ellipse
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
@@ -130,24 +137,6 @@ def counterweights(
     return Counterweights(engine, tuple(places.items()), fit, found.unbalances, found.exact)
 
 
-class ForwardPart(NamedTuple):
-    """Forward part of order 1 over ω²: what weights on the crankshaft can change."""
-
-    force: complex
-    """Shaking force, x + iy at θ = 0, kg·m."""
-    moment: complex
-    """Rocking moment, x + iy at θ = 0, kg·m²."""
-
-
-class Ellipses(NamedTuple):
-    """Ellipses that force and moment of order 1 trace, over ω²."""
-
-    force: Ellipse
-    """Shaking force, half axes in kg·m."""
-    moment: Ellipse
-    """Rocking moment, half axes in kg·m²."""
-
-
 class PartVerdict(NamedTuple):
     """Verdicts on the two parts of a quantity: "vanishes", "remains" or "undecided"."""
 
@@ -164,19 +153,6 @@ class Remainder(NamedTuple):
     """Shaking force."""
     moment: PartVerdict
     """Rocking moment."""
-
-
-class BayLoad(NamedTuple):
-    """What a throw brings upon its two main bearings: its forward part of order 1 over ω²."""
-
-    cylinders: tuple[int, ...]
-    """Numbers of the cylinders."""
-    z: float
-    """Place of the crankpins, about which the moment is taken, m."""
-    force: complex
-    """Force, x + iy at θ = 0, kg·m."""
-    moment: complex
-    """Moment, x + iy at θ = 0, kg·m²."""
 
 
 class Counterweights(Frozen):
@@ -269,12 +245,12 @@ class Counterweights(Frozen):
     @property
     def ellipses(self) -> Ellipses:
         """Ellipses that stay at order 1, over ω²."""
-        return _ellipses(self.engine, self.reference_z)
+        return ellipses_of(self.engine, self.reference_z)
 
     @property
     def ellipses_before(self) -> Ellipses:
         """Ellipses of order 1 without the weights, over ω²."""
-        return _ellipses(self.before, self.reference_z)
+        return ellipses_of(self.before, self.reference_z)
 
     @property
     def verdicts(self) -> Remainder:
@@ -315,6 +291,7 @@ class Counterweights(Frozen):
         inside = all(
             any(bay.holds(weight.z) for bay in listed) for weight in self.before.counterweights
         )
+        inside = inside and not self.before.shafts
         return inside and (name == "force" or parts.get("force") == parts["moment"])
 
     @property
@@ -325,12 +302,12 @@ class Counterweights(Frozen):
     @property
     def bay_loads(self) -> tuple[BayLoad, ...]:
         """What each throw brings upon its main bearings with the weights, over ω²."""
-        return _bay_loads(self.engine)
+        return bay_loads_of(self.engine)
 
     @property
     def bay_loads_before(self) -> tuple[BayLoad, ...]:
         """What each throw brings upon its main bearings without the weights, over ω²."""
-        return _bay_loads(self.before)
+        return bay_loads_of(self.before)
 
     # --- tables ---------------------------------------------------------------------------------
 
@@ -411,17 +388,3 @@ class Counterweights(Frozen):
             ``label`` and properties of matplotlib lines.
         """
         return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **style)
-
-
-def _ellipses(engine: Engine, plane: float) -> Ellipses:
-    order_1 = first_order(engine, plane)
-    return Ellipses(order_1.force.ellipse, order_1.moment.ellipse)
-
-
-def _bay_loads(engine: Engine) -> tuple[BayLoad, ...]:
-    found = []
-    for bay in bays(engine):
-        order_1 = first_order(bay_alone(engine, bay), bay.z)
-        force, moment = complex(order_1.force.forward), complex(order_1.moment.forward)
-        found.append(BayLoad(bay.cylinders, bay.z, force, moment))
-    return tuple(found)

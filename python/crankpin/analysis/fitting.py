@@ -1,13 +1,11 @@
 """Counterweights fitted to what turns with the crankshaft at order 1, in kg·m and kg·m².
 
-Forces and moments of order 1 scale with ω², so that one fit serves every speed. All that an engine
-does is read from its balance at ω = 1 rad/s.
+Forces and moments of order 1 scale with ω², so that one fit serves every speed.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -15,20 +13,18 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis import correction_planes
+from crankpin.analysis.first_order import bay_alone, first_order
 from crankpin.analysis.least_weights import Problem, least
 from crankpin.model.crankpins import bays
-from crankpin.model.engine import Engine
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crankpin.analysis.by_order import OrderBalance
     from crankpin.model.crankpins import Bay
+    from crankpin.model.engine import Engine
 
 QUANTITIES = ("force", "moment")
-UNIT_SPEED = 60.0 / math.tau
-"""Crank speed of 1 rad/s, rpm."""
 NOTHING = 1e-13
 """Weights below this part of the largest are rounding."""
 
@@ -105,11 +101,6 @@ class Fitted(NamedTuple):
 
     unbalances: tuple[tuple[str, Unbalance], ...]
     exact: bool
-
-
-def first_order(engine: Engine, reference_z: float | None = None) -> OrderBalance:
-    """Return order 1 at ω = 1 rad/s: force in kg·m and moment in kg·m²."""
-    return engine.balance(UNIT_SPEED, orders=[1], reference_z=reference_z, torque=False)[1]
 
 
 # --- the whole engine ---------------------------------------------------------------------------
@@ -228,29 +219,3 @@ def internal(
 
 def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
     return {name: z for name, z in planes.items() if bay.holds(z)}
-
-
-def bay_alone(engine: Engine, bay: Bay) -> Engine:
-    """Return the cylinders of a bay with what rotates there: an engine of one throw."""
-    places = [number - 1 for number in bay.cylinders]
-    tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine.core.exact_angles)
-    return Engine.from_lists(
-        [engine.cylinders[k] for k in places],
-        tdc_deg=tdc_deg,
-        bank_deg=bank_deg,
-        z=engine.z[places],
-        rotating_mass=engine.rotating_mass[places],
-        counterweights=[
-            _in_bay(engine, bay, weight) for weight in engine.counterweights if bay.holds(weight.z)
-        ],
-    )
-
-
-def _in_bay(engine: Engine, bay: Bay, weight: Unbalance) -> Unbalance:
-    """Return a weight with its pin's number in the bay, or turned if that is elsewhere."""
-    if weight.pin is None:
-        return weight
-    if weight.pin in bay.cylinders:
-        return dataclasses.replace(weight, pin=bay.cylinders.index(weight.pin) + 1)
-    turned = float(engine.pin_deg[weight.pin - 1]) + correction_planes.degrees(weight.angle_deg)
-    return Unbalance(weight.amount, weight.z, turned)

@@ -13,7 +13,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.correction_planes import degrees
 from crankpin.analysis.counterweights import Counterweights
-from crankpin.analysis.fitting import first_order
+from crankpin.analysis.first_order import first_order
 from crankpin.model.crankpins import crankpins
 from crankpin.plot.axes import (
     check_one_place,
