@@ -13,11 +13,14 @@ from crankpin import types
 from crankpin._core import InputError, __version__
 from crankpin.analysis.balance_shafts import balance_shafts
 from crankpin.analysis.balancer_options import balancer_options
+from crankpin.analysis.bob_weight import bob_weight
 from crankpin.analysis.comparison import compare
+from crankpin.analysis.counterweights import counterweights
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
 from crankpin.analysis.throws import throws
+from crankpin.analysis.two_plane import two_plane_correction
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
@@ -33,12 +36,15 @@ __all__ = [
     "__version__",
     "balance_shafts",
     "balancer_options",
+    "bob_weight",
     "compare",
+    "counterweights",
     "presets",
     "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
     "throws",
+    "two_plane_correction",
     "types",
 ]

@@ -2,11 +2,14 @@
 
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.balancers import BalancerOption, BalancerOptions
+from crankpin.analysis.bob_weight import BobWeight, Straight
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
+from crankpin.analysis.counterweights import Counterweights, PartVerdict, Remainder
 from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.first_order import BayLoad, Ellipses, ForwardPart
 from crankpin.analysis.fitted_shaft import FittedShaft
 from crankpin.analysis.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
@@ -19,6 +22,7 @@ from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweep import Sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
+from crankpin.analysis.two_plane import TwoPlaneCorrection
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,
@@ -27,6 +31,7 @@ from crankpin.analysis.vanishing import (
     Verdicts,
 )
 from crankpin.analysis.waveform import Waveform
+from crankpin.model.crankpins import Crankpin
 
 __all__ = [
     "Arrangement",
@@ -35,25 +40,34 @@ __all__ = [
     "BalanceShafts",
     "BalancerOption",
     "BalancerOptions",
+    "BayLoad",
+    "BobWeight",
     "Choice",
     "ClosedForm",
     "Comparison",
+    "Counterweights",
+    "Crankpin",
     "Ellipse",
+    "Ellipses",
     "ErrorBound",
     "Firing",
     "FittedShaft",
+    "ForwardPart",
     "Gap",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
     "PairHeights",
     "PartLeft",
+    "PartVerdict",
     "PlaneVector",
     "PortTiming",
     "Ports",
     "Quantity",
     "Ranking",
+    "Remainder",
     "Scalar",
+    "Straight",
     "Sweep",
     "SweepWaveform",
     "Throws",
@@ -61,6 +75,7 @@ __all__ = [
     "TotalQuantity",
     "TotalVector",
     "Turning",
+    "TwoPlaneCorrection",
     "ValveTiming",
     "Valves",
     "VanishingOrders",

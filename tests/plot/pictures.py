@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 UNNAMED = cp.Engine.inline(CYLINDER, throws_deg=[0, 120, 240], spacing=0.1)
 V8 = cp.Engine.preset("v8-crossplane")
+V6_90 = cp.Engine.preset("v6-90")
 ORDERS = ("1-3-5-2-4-6", "1-4-5-2-3-6", "1-6-5-4-3-2", "1-5-3-6-2-4")
 FAMILY = [cp.Engine.preset(f"ijesc-v6-{order}") for order in ORDERS]
 """The engines of the IJESC paper."""
@@ -56,6 +57,15 @@ def _waveforms(**place: Any) -> Any:  # noqa: ANN401
     return V6.with_bank_angle(90, hold="pins").waveform(5000).plot(ax, label="90°")
 
 
+def _bob_weights(**place: Any) -> Any:  # noqa: ANN401
+    twins = [
+        cp.Engine.vee(CYLINDER, bank_angle_deg=angle, throws_deg=[0], spacing=0.1, name=f"{angle}°")
+        for angle in (45, 60)
+    ]
+    ax = cp.bob_weight(twins[0]).plot(label="45°", **place)
+    return cp.bob_weight(twins[1], 0.6).plot(ax, label="60°")
+
+
 def _of_one_panel(plot: Callable[..., Any]) -> Callable[..., Any]:
     return lambda ax=None: plot(plt.subplots(layout="constrained")[1] if ax is None else ax)
 
@@ -92,6 +102,15 @@ PICTURES: dict[str, Callable[..., Any]] = {
         rpm=5000,
         by="total.moment.peak",
     ).plot(**place),
+    "counterweights": lambda **place: cp.counterweights(V6_90, planes="webs").plot(**place),
+    "counterweights-drilled": lambda **place: cp.counterweights(
+        V8, planes="webs", angles_deg=[0, 90, 180, 270]
+    ).plot(kind="weights", **place),
+    "counterweights-ellipses": lambda **place: cp.counterweights(V6_90, planes="ends").plot(
+        kind="ellipses", **place
+    ),
+    "bob-weight": lambda **place: cp.bob_weight(V6_90).plot(**place),
+    "bob-weights": _bob_weights,
     "search": lambda **place: cp.search_arrangements(14).within(40, 70).plot(**place),
     "engine": lambda **place: FITTED.plot(theta_deg=30, **place),
     "engine-vee": lambda **place: V8.plot(theta_deg=30, **place),

@@ -102,6 +102,14 @@ OBJECTS: dict[str, Any] = {
         [V6, ODD], rpm=5000, by="total.moment.peak", spectrum=SPECTRUM
     ),
     "Choice": ranking()[0],
+    "Counterweights": cp.counterweights(V6, planes="ends"),
+    "Counterweights, bay by bay": cp.counterweights(
+        V6, planes="webs", target="internal", fraction=0.8, bound=0.1
+    ),
+    "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
+    "TwoPlaneCorrection": cp.two_plane_correction(
+        [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
+    ),
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -179,6 +187,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "ClosedForm",
         "Comparison",
         "Choice",
+        "Counterweights",
     )
     assert found or name.startswith(without)
     for attribute, array in found:
@@ -492,9 +501,9 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    if not name.startswith(
-        ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking")
-    ):  # tables under a title
+    tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking")
+    tables += ("Counterweights", "BobWeight", "TwoPlane")
+    if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
 

@@ -761,6 +761,18 @@ SOUND: dict[str, list[Any]] = {
     "shafts": [[cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1)]],
     "unbalances": [[cp.Unbalance(0.01, 0.1)]],
     "after": [V6, I4],
+    "amount_g_mm": [[120, 80]],
+    "angle_deg": [[30, 200]],
+    "bound": [0.01],
+    "correction_z": [[0.05, 0.35]],
+    "factor": [0.5],
+    "factors": [[0.5, 0.6]],
+    "fraction": [1.0, {"force": 1.0}],
+    "measured_z": [[0.0, 0.4]],
+    "minimise": ["squares", "largest"],
+    "oil": [0.004],
+    "planes": ["ends", "webs", [0.0, 0.2]],
+    "target": ["external", "internal"],
     "ax": [None],
     "backward_force": [1j],
     "before": [V6, I4],
@@ -842,6 +854,11 @@ SUBJECTS: dict[str, Any] = {
         [V6, vee()], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
     ),
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
+    "counterweights": cp.counterweights(V6, planes="webs", angles_deg=[0, 120, 240]),
+    "bob weight": cp.bob_weight(V6),
+    "two-plane correction": cp.two_plane_correction(
+        [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
+    ),
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
     "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
 }
@@ -859,6 +876,7 @@ PLAIN = {
 RESULTS_MADE_ELSEWHERE = {
     "Balance",
     "Comparison",
+    "Counterweights",
     "Firing",
     "Ranking",
     "Waveform",
@@ -986,6 +1004,9 @@ RESULTS = {
     cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
     cp.types.Throws: ["throws_deg", "pin_split_deg"],
     cp.types.Ranking: ["values"],
+    cp.types.Counterweights: ["largest", "residual", "ellipses", "bay_loads"],
+    cp.types.BobWeight: ["mass", "grams"],
+    cp.types.TwoPlaneCorrection: ["amount_g_mm", "angle_deg", "drill_deg"],
 }
 
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, NoReturn, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 class Frozen:
@@ -46,6 +49,12 @@ class Frozen:
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         return self
+
+
+def read_only(values: NDArray[Any]) -> NDArray[Any]:
+    """Make an array read-only; return it."""
+    values.setflags(write=False)
+    return values
 
 
 def _equal(a: Any, b: Any) -> bool:  # noqa: ANN401 - values of fields

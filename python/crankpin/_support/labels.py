@@ -18,6 +18,9 @@ SYMBOLS = {
 UNITS = {"force": "N", "moment": "N·m", "torque": "N·m", "crank_torque": "N·m"}
 """Quantity → unit."""
 
+OVER_SQUARE = {"force": "kg·m", "moment": "kg·m²"}
+"""Quantity → unit of order 1 over ω²."""
+
 NAMES = {
     "force": "shaking force",
     "moment": "rocking moment",

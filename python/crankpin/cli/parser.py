@@ -68,10 +68,9 @@ def orders_and_rtol(parser: Parser) -> None:
 
 
 def cylinder_and_output(parser: Parser) -> None:
-    """Add what :func:`loads` adds, ``--csv`` and ``--plot``."""
+    """Add what :func:`loads` and :func:`output` add."""
     loads(parser)
-    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+    output(parser)
 
 
 def loads(parser: Parser) -> None:
@@ -87,3 +86,9 @@ def loads(parser: Parser) -> None:
         help="one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
         "1=9.0,2=3.75",
     )
+
+
+def output(parser: Parser) -> None:
+    """Add ``--csv`` and ``--plot``."""
+    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support.absent import AbsentError
+from crankpin._support.frozen import read_only
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -36,7 +37,7 @@ def throws_deg(core: _core.Engine) -> NDArray[np.float64]:
     if len(found) > 2:
         raise _undefined("throws_deg", core, "one or two are needed; see pin_deg")
     pins = core.pin_deg[_along(core, next(iter(found.values())))]
-    return _read_only(_reduced(pins - pins[0]))
+    return read_only(_reduced(pins - pins[0]))
 
 
 def pin_split_deg(core: _core.Engine) -> NDArray[np.float64]:
@@ -51,7 +52,7 @@ def pin_split_deg(core: _core.Engine) -> NDArray[np.float64]:
             f"pin_split_deg is undefined for this engine: it has {sizes}; as many are needed"
         )
     split = _reduced(core.pin_deg[left] - core.pin_deg[right])
-    return _read_only(np.where(split > 180.0, split - 360.0, split))
+    return read_only(np.where(split > 180.0, split - 360.0, split))
 
 
 def text(core: _core.Engine) -> str:
@@ -76,11 +77,6 @@ def _along(core: _core.Engine, numbers: tuple[int, ...]) -> NDArray[np.intp]:
 def _reduced(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return angles in [0, 360), rounded to what a sum of angles is known to."""
     return np.asarray((degrees % 360.0).round(10) % 360.0)
-
-
-def _read_only(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    values.setflags(write=False)
-    return values
 
 
 def _undefined(name: str, core: _core.Engine, needed: str) -> AbsentError:

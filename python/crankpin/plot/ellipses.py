@@ -54,8 +54,8 @@ def ellipses(
     panels = made.axes.ravel()
     for panel, order in zip(panels, shown, strict=False):
         curve = result[order]
-        _ellipse(panel, curve, name, "", series(panel, 1, style)[0])
-        head(panel, f"order {order}\n{_direction(curve, name)}")
+        ellipse(panel, curve, name, "", series(panel, 1, style)[0])
+        head(panel, f"order {order}\n{direction(curve, name)}")
         dress_plane(panel, name)
         panel.set(xlabel="", ylabel="")
     if not shown:
@@ -71,7 +71,7 @@ def ellipses(
     return made.axes
 
 
-def _ellipse(
+def ellipse(
     ax: Axes, order: OrderBalance, name: str, text: str, style: dict[str, Any]
 ) -> NDArray[np.complex128]:
     """Draw one ellipse, a dot where it is at θ = 0, and an arrow from there; return the curve."""
@@ -85,7 +85,7 @@ def _ellipse(
     return curve
 
 
-def _direction(order: OrderBalance, name: str) -> str:
+def direction(order: OrderBalance, name: str) -> str:
     """Return the direction in which an ellipse is passed."""
     minor = getattr(order, name).ellipse.minor
     if minor == 0.0:
@@ -95,6 +95,6 @@ def _direction(order: OrderBalance, name: str) -> str:
 
 def _on_one(ax: Axes, orders: Sequence[OrderBalance], name: str, style: dict[str, Any]) -> None:
     for order, look in zip(orders, series(ax, len(orders), style), strict=True):
-        _ellipse(ax, order, name, f"order {order.order}: {_direction(order, name)}", look)
+        ellipse(ax, order, name, f"order {order.order}: {direction(order, name)}", look)
     dress_plane(ax, name)
     legend_below(ax)

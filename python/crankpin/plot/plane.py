@@ -34,10 +34,10 @@ def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -
     )
 
 
-def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15) -> None:
+def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15, unit: str = "") -> None:
     """Label both axes, with one scale about zero, ``reach`` times as long as the curves need."""
     along_x, along_y = labels.COMPONENTS[quantity]
-    unit = labels.UNITS[quantity]
+    unit = unit or labels.UNITS[quantity]
     label_x(ax, f"{along_x}, {unit}")
     label_y(ax, f"{along_y}, {unit}")
     ends = np.concatenate([np.abs(line.get_xydata()).ravel() for line in ax.lines] or [np.zeros(1)])

@@ -1,0 +1,198 @@
+"""Two-plane correction: what a balancing machine measures, moved to where metal can be changed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, optional
+from crankpin._support.frozen import Frozen, read_only
+from crankpin._support.tables import Table
+from crankpin.model.shafts import Unbalance
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import pandas as pd
+    from numpy.typing import ArrayLike, NDArray
+
+G_MM = 1e-6
+"""A gram millimetre, kg·m."""
+
+
+def two_plane_correction(
+    amount_g_mm: ArrayLike,
+    angle_deg: ArrayLike,
+    *,
+    measured_z: ArrayLike,
+    correction_z: ArrayLike,
+) -> TwoPlaneCorrection:
+    """Return the unbalances in two planes that correct those measured in two others.
+
+    Parameters
+    ----------
+    amount_g_mm
+        Unbalances measured in two planes, g·mm: (2,).
+    angle_deg
+        Their directions, where the crankshaft is heavy, degrees in the direction of rotation: (2,).
+    measured_z
+        Places of the planes of measurement along the crank, m: (2,).
+    correction_z
+        Places of the planes of correction, m, such as the end webs (internal balance), or damper
+        and flywheel (external balance): (2,).
+
+    Returns
+    -------
+    TwoPlaneCorrection
+
+    Raises
+    ------
+    InputError
+        If an argument has other than two figures, one is out of range, or both corrections are in
+        one plane.
+
+    Notes
+    -----
+    Two rotors exert the same force and moment about every point if they do so about one: the
+    corrections v at c satisfy Σv = −Σu and Σc·v = −Σz·u.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> found = cp.two_plane_correction(
+    ...     [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
+    ... )
+    >>> found.amount_g_mm.round(2), found.angle_deg.round(2)
+    (array([153.15, 113.08]), array([209.13,  21.76]))
+    >>> found.drill_deg.round(2)
+    array([ 29.13, 201.76])
+    """
+    given = {
+        "amount_g_mm": amount_g_mm,
+        "angle_deg": angle_deg,
+        "measured_z": measured_z,
+        "correction_z": correction_z,
+    }
+    pairs = {name: _pair(name, values) for name, values in given.items()}
+    if min(pairs["amount_g_mm"]) < 0.0:
+        shown = inputs.shorten(amount_g_mm)
+        raise InputError(f"amount_g_mm = {shown}: give zero or more; angle_deg turns it round")
+    one, other = pairs["correction_z"]
+    if one == other:
+        raise InputError(
+            f"correction_z = {inputs.shorten(correction_z)}: give two different places; in one "
+            "plane no couple can be corrected"
+        )
+    return TwoPlaneCorrection(*pairs.values())
+
+
+def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
+    listed = inputs.vector(name, values)
+    if len(listed) != 2:
+        raise InputError(f"{name} has {len(listed)} figures: give two, one for each plane")
+    if not (np.abs(listed) <= 1e30).all():
+        raise InputError(f"{name} = {inputs.shorten(values)}: give finite numbers")
+    return float(listed[0]), float(listed[1])
+
+
+class TwoPlaneCorrection(Frozen):
+    """Corrections in two planes, and the imbalance that they correct.
+
+    Made by :func:`crankpin.two_plane_correction`.
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = (
+        "measured_g_mm",
+        "measured_deg",
+        "measured_z",
+        "correction_z",
+    )
+
+    measured_g_mm: tuple[float, float]
+    """Unbalances measured, g·mm."""
+    measured_deg: tuple[float, float]
+    """Their directions, degrees."""
+    measured_z: tuple[float, float]
+    """Places of the planes of measurement, m."""
+    correction_z: tuple[float, float]
+    """Places of the planes of correction, m."""
+
+    def __init__(
+        self,
+        measured_g_mm: tuple[float, float],
+        measured_deg: tuple[float, float],
+        measured_z: tuple[float, float],
+        correction_z: tuple[float, float],
+    ) -> None:
+        self._set(
+            measured_g_mm=_pair("measured_g_mm", measured_g_mm),
+            measured_deg=_pair("measured_deg", measured_deg),
+            measured_z=_pair("measured_z", measured_z),
+            correction_z=_pair("correction_z", correction_z),
+        )
+
+    @property
+    def _weights(self) -> NDArray[np.complex128]:
+        """Weights to add, g·mm."""
+        heavy = np.array(self.measured_g_mm) * np.exp(1j * np.deg2rad(self.measured_deg))
+        front, rear = self.correction_z
+        share = (np.array(self.measured_z) - front) / (rear - front)
+        return -np.array([((1.0 - share) * heavy).sum(), (share * heavy).sum()])
+
+    @property
+    def amount_g_mm(self) -> NDArray[np.float64]:
+        """Corrections, g·mm: (2,)."""
+        return read_only(np.abs(self._weights))
+
+    @property
+    def angle_deg(self) -> NDArray[np.float64]:
+        """Directions in which weight is added, degrees in [0, 360): (2,)."""
+        return read_only(np.angle(self._weights, deg=True) % 360.0)
+
+    @property
+    def drill_deg(self) -> NDArray[np.float64]:
+        """Directions in which as much is drilled away instead, degrees in [0, 360): (2,)."""
+        return read_only(np.angle(-self._weights, deg=True) % 360.0)
+
+    @property
+    def measured(self) -> tuple[Unbalance, ...]:
+        """The imbalance, as unbalances of a crankshaft, kg·m."""
+        return tuple(
+            Unbalance(amount * G_MM, z, angle)
+            for amount, z, angle in zip(
+                self.measured_g_mm, self.measured_z, self.measured_deg, strict=True
+            )
+        )
+
+    @property
+    def unbalances(self) -> tuple[Unbalance, ...]:
+        """The corrections, as unbalances of a crankshaft, kg·m."""
+        rows = (self.amount_g_mm.tolist(), self.correction_z, self.angle_deg.tolist())
+        return tuple(
+            Unbalance(amount * G_MM, z, angle) for amount, z, angle in zip(*rows, strict=True)
+        )
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the corrections, one row a plane (needs pandas)."""
+        columns: dict[str, Sequence[float] | NDArray[np.float64]] = {
+            "z": self.correction_z,
+            "amount_g_mm": self.amount_g_mm,
+            "angle_deg": self.angle_deg,
+            "drill_deg": self.drill_deg,
+        }
+        table: pd.DataFrame = optional.pandas().DataFrame(columns)
+        return table
+
+    def table(self) -> Table:
+        """Return the table of the corrections."""
+        columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
+        header = ["plane", "z m", "g·mm", "add at °", "or drill at °"]
+        return Table("Two-plane correction", header, ["1", "2"], np.stack(columns, axis=1))
+
+    def __repr__(self) -> str:
+        return self.table().text()
+
+    def _repr_html_(self) -> str:
+        return self.table().html()

@@ -1,0 +1,181 @@
+"""Counterweights: where they are and which way they point, and what stays with them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import FigureBase
+from matplotlib.lines import Line2D
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.correction_planes import degrees
+from crankpin.analysis.counterweights import Counterweights
+from crankpin.analysis.first_order import first_order
+from crankpin.model.crankpins import crankpins
+from crankpin.plot.axes import (
+    check_one_place,
+    entitle,
+    entitle_figure,
+    head,
+    inches_of,
+    label_x,
+    label_y,
+    many_panels,
+    one_panel,
+    refuse_figure,
+)
+from crankpin.plot.dispatch import draw
+from crankpin.plot.ellipses import direction, ellipse
+from crankpin.plot.legend import figure_legend, legend_below
+from crankpin.plot.plane import dress_plane
+from crankpin.plot.style import SERIES, muted, series
+from crankpin.plot.ticks import numeric
+from crankpin.plot.words import name_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+NEEDLE = 0.2
+"""Length of an arrow, inches; in low axes less."""
+PINS = -0.3
+"""Height of the row of crankpins, in largest weights."""
+NARROWEST = 2.4
+"""Inches of width below which panels stand below each other."""
+KINDS = ("summary", "weights", "ellipses")
+
+
+@draw.register(Counterweights)
+def _counterweights(
+    result: Counterweights,
+    ax: Any = None,  # noqa: ANN401 - checked
+    *,
+    figure: Any = None,  # noqa: ANN401 - checked
+    kind: str = "summary",
+    quantity: str = "moment",
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    chosen = inputs.one_of("kind", kind, KINDS)
+    name = inputs.one_of("quantity", quantity, labels.OVER_SQUARE)
+    if chosen == "summary" and ax is None:
+        return _summary(result, figure, style)
+    refuse_figure(figure, chosen)
+    ax = one_panel(ax)
+    if chosen == "ellipses":
+        entitle(ax, name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
+        _ellipses(ax, result, name, style)
+        legend_below(ax)
+        return ax
+    entitle(ax, name_of(result.before), "counterweights, arrows at θ = 0 seen from the flywheel")
+    _weights(ax, result, style)
+    return ax
+
+
+def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
+    if "label" in style:
+        raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
+    before = result.ellipses_before
+    shown = [name for name in labels.OVER_SQUARE if getattr(before, name).major > 0.0]
+    shown += ["moment"] if not shown else []
+    count = 1 + len(shown)
+    given = isinstance(figure, FigureBase)
+    width = inches_of(figure) if given else float(mpl.rcParams["figure.figsize"][0])
+    beside = width >= NARROWEST * count
+    made = many_panels(
+        figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
+    )
+    panels = made.axes.ravel()
+    head(panels[0], "weights, arrows at θ = 0")
+    _weights(panels[0], result, style)
+    for panel, name in zip(panels[1:], shown, strict=True):
+        head(panel, labels.NAMES[name])
+        states = _ellipses(panel, result, name, style)
+    entitle_figure(made.figure, name_of(result.before), "counterweights, and order 1 over ω²")
+    figure_legend(made.figure, states)
+    return made.axes
+
+
+def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
+    """Draw stems as high as the weights; those of one plane stand on each other."""
+    (look,) = series(ax, 1, {"linestyle": "-"} | style)
+    places = np.array([weight.z for weight in result.unbalances])
+    amounts = np.array([weight.amount for weight in result.unbalances])
+    names = [name for name, _ in result.by_plane]
+    feet = np.array(
+        [sum(amounts[k] for k in range(i) if names[k] == names[i]) for i in range(len(names))]
+    )
+    tops = feet + amounts
+    gap = np.full(len(places), np.nan)
+    (line,) = ax.plot(
+        np.stack([places, places, gap], axis=1).ravel() if len(places) else [],
+        np.stack([feet, tops, gap], axis=1).ravel() if len(places) else [],
+        gid=SERIES,
+        label=style.get("label", "_"),
+        **look,
+    )
+    angles = [degrees(weight.angle_deg) for weight in result.unbalances]
+    _needles(ax, places, tops, angles, line.get_color(), "crankpin weights")
+    largest = float(tops.max(initial=0.0)) or 1.0
+    pins = crankpins(result.before)
+    at = np.array([pin.z for pin in pins])
+    height = np.full(len(pins), PINS * largest)
+    _needles(ax, at, height, [pin.pin_deg for pin in pins], muted(ax), "crankpin pins")
+    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1, gid="crankpin axis")
+    along = np.append([z for _, z in result.places], at)
+    room = 0.08 * float(np.ptp(along)) or 0.1
+    ax.set_xlim(float(along.min()) - room, float(along.max()) + room)
+    ax.set_ylim(1.8 * PINS * largest, 1.25 * largest)
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= 1.25 * largest])
+    ax.text(0.01, 0.02, "crankpins", transform=ax.transAxes, fontsize="small", color=muted(ax))
+    label_x(ax, "z, m")
+    label_y(ax, "mass·radius, kg·m")
+
+
+def _needles(
+    ax: Axes,
+    x: Any,  # noqa: ANN401 - an array
+    y: Any,  # noqa: ANN401 - an array
+    angles_deg: list[float],
+    colour: Any,  # noqa: ANN401 - a colour
+    gid: str,
+) -> None:
+    """Draw a dot at each point and an arrow from there, in the direction seen on the paper."""
+    ax.plot(x, y, "o", color=colour, markersize=4.0, gid=gid, label="_", zorder=3)
+    if len(angles_deg):
+        turned = np.deg2rad(angles_deg)
+        arrows = ax.quiver(
+            x,
+            y,
+            np.cos(turned),
+            np.sin(turned),
+            color=colour,
+            angles="uv",
+            units="inches",
+            width=0.018,
+            scale=1.0 / min(NEEDLE, 0.1 * inches_of(ax, "height")),
+            scale_units="inches",
+            zorder=3,
+            clip_on=False,
+            gid=gid,
+        )
+        # Its extent would count the arrows' lengths as if they were data.
+        arrows.set_in_layout(False)
+
+
+def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]) -> list[Line2D]:
+    """Draw what order 1 traces before and after; return entries of a legend for both."""
+    entries, states = [], {"before": result.before, "after": result.engine}
+    for (state, engine), look in zip(states.items(), series(ax, 2, style), strict=True):
+        order = first_order(engine, result.reference_z)
+        vanishes = getattr(order, name).ellipse.major == 0.0
+        text = f"{state}: {'zero' if vanishes else direction(order, name)}"
+        given = style.get("label")
+        ellipse(ax, order, name, f"{given}, {text}" if given else text, look)
+        entries.append(Line2D([], [], label=state, **look))
+    dress_plane(ax, name, unit=labels.OVER_SQUARE[name])
+    return entries

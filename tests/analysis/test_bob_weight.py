@@ -1,0 +1,305 @@
+"""Are bob weights what the trade weighs, and is what every factor leaves what turning masses do?"""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import Unbalance
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rederivation import first_order, time_domain
+
+UNIT = cp.Cylinder(crank_radius=1.0, rod_length=4.0, reciprocating_mass=1.0)
+UNIT_SPEED = 60.0 / (2.0 * np.pi)
+
+
+def v_twin(bank_angle_deg: float, **options: Any) -> cp.Engine:  # noqa: ANN401
+    options = {"throws_deg": [0], "spacing": 1.0} | options
+    return cp.Engine.vee(UNIT, bank_angle_deg=bank_angle_deg, **options)
+
+
+def preset(name: str, **options: Any) -> cp.Engine:  # noqa: ANN401
+    return cp.Engine.preset(name, cylinder=UNIT, spacing=1.0, **options)
+
+
+def order_1(engine: cp.Engine) -> cp.types.OrderBalance:
+    return engine.balance(UNIT_SPEED, orders=[1])[1]
+
+
+# --- what is weighed -----------------------------------------------------------------------------
+
+
+def test_a_bob_weight_is_rotating_and_a_part_of_reciprocating_mass_and_oil() -> None:
+    """A V8 trade example: two rods on a pin, so twice what one cylinder has."""
+    v8 = cp.Engine.preset("v8-crossplane", rotating_mass=0.55)
+    bob = cp.bob_weight(v8, factor=0.52, oil=0.004)
+    np.testing.assert_allclose(bob.grams, [2 * 550 + 0.52 * 2 * 450 + 4] * 4)
+    np.testing.assert_array_equal(bob.mass * 1e3, bob.grams)
+    assert [pin.cylinders for pin in bob.crankpins] == [(1, 2), (3, 4), (5, 6), (7, 8)]
+    frame = bob.to_pandas()
+    assert list(frame.cylinders) == ["1, 2", "3, 4", "5, 6", "7, 8"]
+    assert list(frame["mass"]) == list(bob.mass)
+
+
+@pytest.mark.parametrize(
+    ("engine", "pins"),
+    [
+        (preset("i4"), [(1,), (2,), (3,), (4,)]),
+        (preset("v6-90"), [(1,), (2,), (3,), (4,), (5,), (6,)]),  # split by 30°
+        (preset("v6-90-odd-fire"), [(1, 2), (3, 4), (5, 6)]),
+        (preset("boxer-4"), [(1,), (2,), (3,), (4,)]),
+        (preset("flat-4"), [(1, 2), (3, 4)]),
+        (preset("vr6"), [(1,), (2,), (3,), (4,), (5,), (6,)]),
+        (preset("w16"), [(1, 9), (2, 10), (3, 11), (4, 12), (5, 13), (6, 14), (7, 15), (8, 16)]),
+        (preset("v8-flatplane"), [(1, 2), (3, 4), (5, 6), (7, 8)]),
+        # Rods side by side, up to a crank radius; farther apart are two throws.
+        (v_twin(90, bank_stagger=0.6), [(1, 2)]),
+        (v_twin(90, bank_stagger=-0.6), [(1, 2)]),
+        (v_twin(90, bank_stagger=1.2), [(1,), (2,)]),
+        (
+            cp.Engine.vee(
+                UNIT,
+                bank_angle_deg=60,
+                throws_deg=[0, 0],
+                spacing=1.0,
+                bank_stagger=0.7,
+                numbering="by-bank",
+            ),
+            [(1, 3), (2, 4)],
+        ),
+        # A radial has all its rods on one pin.
+        (
+            cp.Engine.from_lists(
+                UNIT, pin_deg=[0.0] * 5, bank_deg=[0, 72, 144, 216, 288], z=[0.0] * 5
+            ),
+            [(1, 2, 3, 4, 5)],
+        ),
+    ],
+)
+def test_cylinders_share_a_crankpin(engine: cp.Engine, pins: list[tuple[int, ...]]) -> None:
+    bob = cp.bob_weight(engine)
+    assert [pin.cylinders for pin in bob.crankpins] == pins
+    assert bob.reciprocating.tolist() == [len(pin) for pin in pins]
+    for pin in bob.crankpins:
+        assert min(engine.z) <= pin.z <= max(engine.z)
+        assert all(
+            abs((pin.pin_deg - engine.pin_deg[n - 1] + 180) % 360 - 180) < 1e-9
+            for n in pin.cylinders
+        )
+
+
+def test_a_heavier_piston_weighs_on_its_pin() -> None:
+    v8 = cp.Engine.preset("v8-crossplane")
+    masses = [0.45] * 4 + [0.47] + [0.45] * 3
+    heavy = v8.replace(
+        cylinder=[
+            c.replace(reciprocating_mass=m) for c, m in zip(v8.cylinders, masses, strict=True)
+        ]
+    )
+    np.testing.assert_allclose(cp.bob_weight(heavy).grams, [450, 450, 460, 450])
+
+
+# --- what stays ----------------------------------------------------------------------------------
+
+ENGINES = {
+    **{name: cp.Engine.preset(name) for name in ("single", "v6-90", "i3", "v6-60", "v-twin-90")},
+    "45° V-twin": v_twin(45, rotating_mass=0.3),
+    "unlike": cp.Engine.from_lists(
+        [UNIT, cp.Cylinder(0.8, 3.0, 1.4), cp.Cylinder(1.2, 4.0, 0.6)],
+        tdc_deg=[10, 77, 200],
+        bank_deg=[90, 50, 130],
+        z=[0.0, 0.9, 2.1],
+        rotating_mass=[0.2, 0.3, 0.4],
+        counterweights=[Unbalance(0.7, 0.3, 12.0)],
+    ),
+    "vr6": cp.Engine.preset("vr6"),
+    "w12": cp.Engine.preset("w12"),
+}
+
+
+@settings(max_examples=40, deadline=None)
+@given(name=st.sampled_from(list(ENGINES)), factor=st.floats(0.0, 1.5))
+def test_what_stays_is_what_turning_masses_leave(name: str, factor: float) -> None:
+    engine = ENGINES[name]
+    parts, plane = engine.cylinders, float(engine.z.max() + engine.z.min()) / 2
+    lists = time_domain.EngineLists(
+        crank_radius=[c.crank_radius for c in parts],
+        rod_length=[c.rod_length for c in parts],
+        reciprocating_mass=[c.reciprocating_mass for c in parts],
+        pin_offset=[c.pin_offset for c in parts],
+        tdc_deg=engine.tdc_deg,
+        bank_deg=engine.bank_deg,
+        z=engine.z,
+        rotating_mass=engine.rotating_mass,
+    )
+    weights = [
+        ((m + factor * c.reciprocating_mass) * c.crank_radius, pin + 180.0, z)
+        for m, c, pin, z in zip(engine.rotating_mass, parts, engine.pin_deg, engine.z, strict=True)
+    ]
+    found = first_order.parts(lists, weights, plane)
+    bob = cp.bob_weight(engine, factor, oil=0.1)
+    after = order_1(bob.engine)
+    size = sum(c.reciprocating_mass * c.crank_radius for c in parts)
+    for quantity, (forward, backward) in {"force": found[:2], "moment": found[2:]}.items():
+        near = 1e-10 * max(size, size * float(np.ptp(engine.z)))
+        assert abs(complex(getattr(after, quantity).forward) - forward) < near
+        assert abs(complex(getattr(after, quantity).backward) - backward) < near
+        ellipse = bob.stays(quantity)
+        assert ellipse.major == pytest.approx(abs(forward) + abs(backward), abs=near)
+        assert ellipse.minor == pytest.approx(abs(forward) - abs(backward), abs=near)
+        of_array = bob.stays(quantity, [0.1, factor])
+        assert of_array.major[1] == ellipse.major
+
+
+@pytest.mark.parametrize("name", ["single", "v6-90", "i3", "45° V-twin"])
+def test_half_axes_are_those_of_the_theorem(name: str) -> None:
+    """|(1 − 2κ)f| ± |b|, least at one half, straight at ½(1 ± |b|/|f|)."""
+    engine = ENGINES[name].replace(rotating_mass=0)
+    before, bob = order_1(engine), cp.bob_weight(engine)
+    for quantity in ("force", "moment"):
+        f = abs(complex(getattr(before, quantity).forward))
+        b = abs(complex(getattr(before, quantity).backward))
+        if f == 0.0:
+            assert bob.least(quantity) is None
+            assert bob.straight(quantity) == ()
+            continue
+        factors = np.linspace(0.0, 1.2, 13)
+        stays = bob.stays(quantity, factors)
+        np.testing.assert_allclose(stays.major, np.abs(1 - 2 * factors) * f + b, atol=1e-14)
+        np.testing.assert_allclose(stays.minor, np.abs(1 - 2 * factors) * f - b, atol=1e-14)
+        assert bob.least(quantity) == pytest.approx(0.5, abs=1e-15)
+        lines = bob.straight(quantity)
+        assert [line.factor for line in lines] == pytest.approx(
+            [(1 - b / f) / 2, (1 + b / f) / 2], abs=1e-12
+        )
+        for line in lines:
+            assert bob.stays(quantity, line.factor).minor == pytest.approx(0.0, abs=1e-12)
+            assert line.half == pytest.approx(2 * b)
+            traced = order_1(cp.bob_weight(engine, line.factor).engine)
+            path = getattr(traced, quantity).xy[..., :] @ np.eye(2)
+            turns = np.exp(1j * np.linspace(0, 2 * np.pi, 60))
+            xy = (path[:, None] * turns).real
+            angle = np.deg2rad(line.direction_deg)
+            across = xy[1] * np.cos(angle) - xy[0] * np.sin(angle)
+            assert np.abs(across).max() < 1e-9 * line.half
+
+
+def test_a_single_is_straight_at_nothing_and_at_all() -> None:
+    single = cp.bob_weight(preset("single"))
+    assert single.straight("force") == (
+        cp.types.Straight(0.0, 90.0, 1.0),
+        cp.types.Straight(1.0, 0.0, 1.0),
+    )
+    assert single.stays("force") == (0.5, -0.5, 0.0)
+    assert single.straight("moment") == ()
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10_000))
+def test_half_the_mass_removes_the_forward_part_of_any_engine_without_offset(seed: int) -> None:
+    """The forward theorem for engines that differ; tests/model/test_shafts.py has the presets."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 13))
+    radius, ratio, mass = rng.uniform([0.5, 0.1, 0.1], [2.0, 0.6, 3.0], (count, 3)).T
+    engine = cp.Engine.from_lists(
+        [cp.Cylinder(r, r / x, m) for r, x, m in zip(radius, ratio, mass, strict=True)],
+        tdc_deg=rng.uniform(0, 360, count).tolist(),
+        bank_deg=rng.uniform(0, 360, count).tolist(),
+        z=rng.uniform(-2, 2, count),
+        rotating_mass=rng.uniform(0, 2, count),
+    )
+    bob = cp.bob_weight(engine)
+    for plane in (None, 0.7):
+        after = bob.engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        assert complex(after.force.forward) == complex(after.moment.forward) == 0.0
+        before = engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        for quantity in ("force", "moment"):
+            found = complex(getattr(after, quantity).backward)
+            expected = complex(getattr(before, quantity).backward)
+            assert abs(found - expected) <= 1e-13 * float((mass * radius).sum())
+
+
+@pytest.mark.parametrize(("angle", "stays"), [(90, 0.0), (60, 0.5), (45, 0.707107)])
+def test_v_twins_at_half(angle: float, stays: float) -> None:
+    bob = cp.bob_weight(v_twin(angle, rotating_mass=0.4))
+    assert bob.stays("force").major == pytest.approx(stays, abs=1e-6)
+    assert float(order_1(bob.engine).force.peak) == pytest.approx(stays, abs=1e-6)
+
+
+def test_pin_offsets_move_the_best_factor() -> None:
+    """Of a₁ = 1 + ib a factor κ leaves ½a₁ − κ: least at ½, and not zero."""
+    engine = cp.Engine.inline(UNIT.replace(pin_offset=0.4), throws_deg=[0], spacing=1.0)
+    a1 = complex(engine.cylinders[0].harmonics([1])[0])
+    bob = cp.bob_weight(engine)
+    assert bob.least("force") == pytest.approx(0.5)
+    assert bob.stays("force").major == pytest.approx(abs(a1) / 2 + abs(a1.imag) / 2)
+    vr6 = cp.bob_weight(cp.Engine.preset("vr6"))
+    factors = np.linspace(0, 1, 2001)
+    best = factors[vr6.stays("moment", factors).major.argmin()]
+    assert vr6.least("moment") == pytest.approx(best, abs=5e-4)
+    for line in vr6.straight("moment"):
+        assert vr6.stays("moment", line.factor).minor == pytest.approx(0, abs=1e-15)
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+def test_counterweights_are_replaced_and_oil_cancels() -> None:
+    engine = v_twin(60, rotating_mass=0.4, name="twin").with_counterweights([Unbalance(1.0, 0.0)])
+    dry, oiled = cp.bob_weight(engine), cp.bob_weight(engine, oil=0.02)
+    assert dry.engine == oiled.engine
+    assert len(dry.engine.counterweights) == 2
+    np.testing.assert_allclose(oiled.grams - dry.grams, [20.0])
+    assert float(order_1(dry.engine).force.peak) == pytest.approx(0.5)
+    assert dry.balance(10, orders=[1]) == dry.engine.balance(10, orders=[1])
+
+
+def test_tables_and_copies() -> None:
+    bob = cp.bob_weight(cp.Engine.preset("v6-90", rotating_mass=0.3), 0.55, oil=0.005)
+    text = repr(bob)
+    assert text.startswith(
+        "V6 90°, split pins: bob weights, rotating + 55 % of reciprocating + oil"
+    )
+    assert "least moment" in text
+    assert "moment along 90°" in text
+    assert "\n0.55 " in text
+    assert "-0°" not in text
+    assert bob._repr_html_().count("<table>") == 2
+    rows = bob.table_of_factors([0.5, 0.1]).rows
+    assert rows.shape == (2, 2)  # without the force, of which there is none
+    assert rows[1, 0] == bob.stays("moment", 0.5).major
+    back = pickle.loads(pickle.dumps(bob))  # noqa: S301 - its own
+    assert back == bob
+    assert hash(back) == hash(bob)
+    assert cp.bob_weight(bob.before, 0.55) != bob
+    for values in (
+        bob.mass,
+        bob.grams,
+        bob.rotating,
+        bob.reciprocating,
+        bob.stays("force", [1]).major,
+    ):
+        assert not values.flags.writeable
+
+
+@pytest.mark.parametrize(
+    ("given_", "words"),
+    [
+        ({"factor": -0.1}, "factor = -0.1: give a part of the reciprocating mass"),
+        ({"factor": 50}, "factor = 50.0: give a part of the reciprocating mass, 0 to 10"),
+        ({"factor": float("nan")}, "factor = nan"),
+        ({"factor": [0.5]}, r"factor = \[0.5\]: give a number"),
+        ({"oil": -1}, "oil = -1.0: give the oil of a crankpin in kilograms"),
+        ({"engine": 3}, r"engine = 3: give a crankpin\.Engine"),
+    ],
+)
+def test_arguments_that_do_not_fit_are_named(given_: dict[str, Any], words: str) -> None:
+    arguments: dict[str, Any] = {"engine": v_twin(90)} | given_
+    with pytest.raises(cp.InputError, match=words):
+        cp.bob_weight(**arguments)
+    with pytest.raises(cp.InputError, match="quantity = 'torque'"):
+        cp.bob_weight(v_twin(90)).stays("torque")

@@ -1,0 +1,599 @@
+"""Do counterweights remove what they can, by the least weights, and is what is said of it true?"""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import Any, Literal
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin import Unbalance
+from crankpin.model import crankpins
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rederivation import first_order, time_domain
+
+UNIT = cp.Cylinder(crank_radius=1.0, rod_length=4.0, reciprocating_mass=1.0)
+"""Forces of order 1 are in units of m·r·ω², couples in m·r·ω² times the spacing."""
+UNIT_SPEED = 60.0 / (2.0 * np.pi)
+ROUNDING = 1e-13
+
+
+def preset(name: str) -> cp.Engine:
+    return cp.Engine.preset(name, cylinder=UNIT, spacing=1.0)
+
+
+CROSSPLANE = preset("v8-crossplane")
+I3, I4 = preset("i3"), preset("i4")
+V6_90 = cp.Engine.vee(
+    UNIT, bank_angle_deg=90, throws_deg=[0, 120, 240], pin_split_deg=-30, spacing=1.0
+)
+V6_60 = cp.Engine.vee(
+    UNIT, bank_angle_deg=60, throws_deg=[0, 120, 240], pin_split_deg=-60, spacing=1.0
+)
+SHARED_60 = cp.Engine.vee(UNIT, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=1.0)
+
+
+def v_twin(bank_angle_deg: float) -> cp.Engine:
+    return cp.Engine.vee(UNIT, bank_angle_deg=bank_angle_deg, throws_deg=[0], spacing=1.0)
+
+
+def couple(engine: cp.Engine) -> tuple[float, float]:
+    """Forward and backward couple of order 1 in units of m·r·ω² times the spacing."""
+    moment = engine.balance(UNIT_SPEED, orders=[1])[1].moment
+    return abs(complex(moment.forward)), abs(complex(moment.backward))
+
+
+def shaking(engine: cp.Engine) -> tuple[float, float]:
+    force = engine.balance(UNIT_SPEED, orders=[1])[1].force
+    return abs(complex(force.forward)), abs(complex(force.backward))
+
+
+def degrees(angle: object) -> float:
+    over, _, under = str(angle).partition("/")
+    return float(over) / float(under or 1)
+
+
+# --- figures of balancing-and-torque.md ----------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("engine", "forward", "backward"),
+    [
+        (V6_90, 1.673033, 0.448288),
+        (V6_60, 1.5, 0.0),
+        (SHARED_60, 1.732051, 0.866025),
+        (CROSSPLANE, np.sqrt(10.0), 0.0),
+        # I5: the couple is half forward, half backward.
+        (preset("i5"), 0.449028 / 2, 0.449028 / 2),
+        # Ito and Hattori, 49.54°: the amplitude 1.5363 M₀.
+        (preset("v14-49.54"), 1.5363, 0.0),
+    ],
+)
+@pytest.mark.parametrize("planes", ["ends", "webs", [-0.7, 0.4, 3.3]])
+def test_counterweights_leave_the_backward_couple_alone(
+    engine: cp.Engine,
+    forward: float,
+    backward: float,
+    planes: Any,  # noqa: ANN401 - of several kinds
+) -> None:
+    assert couple(engine) == pytest.approx((forward, backward), abs=6e-5 if forward < 2 else 1e-6)
+    fitted = cp.counterweights(engine, planes=planes)
+    assert fitted.exact
+    assert couple(fitted.engine)[0] == 0.0
+    assert couple(fitted.engine)[1] == pytest.approx(couple(engine)[1], abs=ROUNDING)
+    assert shaking(fitted.engine) == (0.0, 0.0)
+    assert fitted.vanishes == (backward == 0.0 and len(engine) < 14)
+
+
+@pytest.mark.parametrize(("angle", "stays"), [(90, 0.0), (60, 0.5), (45, 0.707107)])
+def test_a_v_twin_at_half_the_mass_keeps_the_cosine_of_its_angle(
+    angle: float, stays: float
+) -> None:
+    fitted = cp.counterweights(v_twin(angle), planes=[0.0])
+    assert fitted.exact  # one plane serves: the cylinders share it
+    force = fitted.balance(UNIT_SPEED, orders=[1])[1].force
+    assert float(force.peak) == pytest.approx(stays, abs=1e-6)
+    assert fitted.vanishes == (angle == 90)
+
+
+def test_cross_plane_weights_are_shared_out_over_webs() -> None:
+    """Least squares go as the lever, the least largest are all alike: |M|/Σ|z|."""
+    levers = np.array([-1.75, -1.25, -0.75, -0.25, 0.25, 0.75, 1.25, 1.75])
+    squares = cp.counterweights(CROSSPLANE, planes="webs")
+    np.testing.assert_allclose([w.z for w in squares.unbalances], levers + 1.5)
+    np.testing.assert_allclose(
+        [w.amount for w in squares.unbalances],
+        np.sqrt(10.0) * np.abs(levers) / (levers**2).sum(),
+        rtol=1e-12,
+    )
+    largest = cp.counterweights(CROSSPLANE, planes="webs", minimise="largest")
+    amounts = [w.amount for w in largest.unbalances]
+    np.testing.assert_allclose(amounts, np.sqrt(10.0) / np.abs(levers).sum(), rtol=1e-8)
+    assert largest.largest == max(amounts) < squares.largest
+    assert largest.vanishes
+    assert squares.vanishes
+
+
+def test_two_percent_overbalance_leaves_four() -> None:
+    fitted = cp.counterweights(CROSSPLANE, planes="webs", fraction=1.04)
+    assert couple(fitted.engine) == pytest.approx((0.126491, 0.0), abs=1e-6)
+    assert fitted.exact
+    assert fitted.verdicts.moment == ("remains", "vanishes")
+    assert not fitted.vanishes
+
+
+def test_end_counterweights_of_an_inline_three_stand_30_degrees_off_their_pins() -> None:
+    fitted = cp.counterweights(I3, planes="ends")
+    opposite = (I3.pin_deg[[0, 2]] + 180.0) % 360.0
+    angles = np.array([degrees(w.angle_deg) for w in fitted.unbalances])
+    turned = angles - opposite
+    np.testing.assert_allclose((turned + 180.0) % 360.0 - 180.0, [30.0, -30.0], atol=1e-9)
+    # Straight opposite, the same weights remove cos 30° of the couple, and leave a force.
+    straight = [
+        Unbalance(w.amount, w.z, angle)
+        for w, angle in zip(fitted.unbalances, opposite.tolist(), strict=True)
+    ]
+    left = I3.with_counterweights(straight)
+    removed = complex(I3.balance(UNIT_SPEED)[1].moment.forward)
+    removed -= complex(left.balance(UNIT_SPEED)[1].moment.forward)
+    along = removed / complex(I3.balance(UNIT_SPEED)[1].moment.forward)
+    assert along.real == pytest.approx(np.cos(np.pi / 6), abs=1e-12)
+    assert abs(along.imag) < 1e-12
+    assert shaking(left)[0] > 0.1
+
+
+# --- against masses that turn, in plain NumPy ----------------------------------------------------
+
+
+def lists(engine: cp.Engine) -> time_domain.EngineLists:
+    parts = engine.cylinders
+    return time_domain.EngineLists(
+        crank_radius=[c.crank_radius for c in parts],
+        rod_length=[c.rod_length for c in parts],
+        reciprocating_mass=[c.reciprocating_mass for c in parts],
+        pin_offset=[c.pin_offset for c in parts],
+        tdc_deg=engine.tdc_deg,
+        bank_deg=engine.bank_deg,
+        z=engine.z,
+        rotating_mass=engine.rotating_mass,
+    )
+
+
+def rederived(engine: cp.Engine, plane: float) -> first_order.Parts:
+    weights = [(w.amount, degrees(w.angle_deg), w.z) for w in engine.counterweights]
+    return first_order.parts(lists(engine), weights, plane)
+
+
+def random_engine(seed: int) -> cp.Engine:
+    """Cylinders that differ in everything, pin offsets among them."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 9))
+    return cp.Engine.from_lists(
+        [
+            cp.Cylinder(r, r / ratio, m, e * r)
+            for r, ratio, m, e in zip(
+                rng.uniform(0.5, 1.5, count),
+                rng.uniform(0.15, 0.45, count),
+                rng.uniform(0.2, 2.0, count),
+                rng.uniform(-0.3, 0.3, count),
+                strict=True,
+            )
+        ],
+        tdc_deg=(rng.uniform(0, 360, count)).tolist(),
+        bank_deg=(rng.uniform(0, 360, count)).tolist(),
+        z=rng.uniform(-3.0, 3.0, count),
+        rotating_mass=rng.uniform(0.0, 1.0, count),
+        counterweights=[Unbalance(rng.uniform(0, 1), rng.uniform(-3, 3), rng.uniform(0, 360))],
+    )
+
+
+UNLIKE = {
+    "vr6": cp.Engine.preset("vr6"),
+    "w12": cp.Engine.preset("w12"),
+    "w16": cp.Engine.preset("w16"),
+    "v8 with a heavy piston": cp.Engine.preset("v8-crossplane").replace(
+        cylinder=[
+            c.replace(reciprocating_mass=c.reciprocating_mass * (1.1 if k == 4 else 1.0))
+            for k, c in enumerate(cp.Engine.preset("v8-crossplane").cylinders)
+        ]
+    ),
+    **{f"random {seed}": random_engine(seed) for seed in range(12)},
+}
+
+
+def inside(engine: cp.Engine) -> bool:
+    """Whether all weights of an engine are between its main bearings."""
+    bearings = [z for bay in crankpins.bays(engine) for z in bay.bearings]
+    return all(min(bearings) <= w.z < max(bearings) for w in engine.counterweights)
+
+
+def within(engine: cp.Engine) -> cp.Engine:
+    """The engine with its weights at its first cylinder."""
+    z = float(engine.z[0])
+    return engine.with_counterweights(
+        [Unbalance(w.amount, z, w.angle_deg) for w in engine.counterweights]
+    )
+
+
+@pytest.mark.parametrize("name", UNLIKE)
+@pytest.mark.parametrize("options", [{}, {"minimise": "largest"}, {"target": "internal"}])
+def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]) -> None:
+    engine, plane = UNLIKE[name], 0.123
+    if options.get("target") != "internal":
+        options = options | {"reference_z": plane}
+    planes: Any = "webs" if "target" in options else [-1.0, 0.4, 0.7]
+    fitted = cp.counterweights(engine, planes=planes, **options)
+    assert fitted.exact
+    assert fitted.engine.counterweights == engine.counterweights + fitted.unbalances
+    if "target" in options and not inside(engine):
+        assert fitted.verdicts.force.forward == "remains"
+        engine, fitted = within(engine), cp.counterweights(within(engine), planes=planes, **options)
+    before, after = rederived(engine, plane), rederived(fitted.engine, plane)
+    size = sum(c.reciprocating_mass * c.crank_radius for c in engine.cylinders)
+    size += float((engine.rotating_mass * [c.crank_radius for c in engine.cylinders]).sum())
+    size = 4.0 * (size + sum(w.amount for w in fitted.unbalances))
+    # Differentiating 256 samples twice lifts rounding by up to 128².
+    assert abs(after.force_forward) < 1e-11 * size
+    assert abs(after.moment_forward) < 1e-11 * size
+    assert abs(after.force_backward - before.force_backward) < 1e-11 * size
+    assert abs(after.moment_backward - before.moment_backward) < 1e-11 * size
+    found = fitted.engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+    assert complex(found.force.backward) == pytest.approx(after.force_backward, abs=1e-11 * size)
+    assert fitted.verdicts.force.forward == fitted.verdicts.moment.forward == "vanishes"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_one_plane_leaves_the_least_of_both(seed: int) -> None:
+    """No other weight in the plane leaves less of |force|² + |moment/length|²."""
+    engine, z, length = random_engine(seed), 0.9, 1.7
+    fitted = cp.counterweights(engine, planes=[z], length=length, reference_z=0.2)
+    assert not fitted.exact
+    assert fitted.verdicts.moment.forward == "remains"
+    (weight,) = fitted.unbalances
+
+    def left(weight: Unbalance) -> float:
+        with_it = engine.with_counterweights((*engine.counterweights, weight))
+        found = rederived(with_it, 0.2)
+        return abs(found.force_forward) ** 2 + abs(found.moment_forward / length) ** 2
+
+    least = left(weight)
+    force, moment = fitted.residual
+    assert abs(force) ** 2 + abs(moment / length) ** 2 == pytest.approx(least, rel=1e-9)
+    for amount, angle in [(1.01, 0.0), (0.99, 0.0), (1.0, 1.0), (1.0, -1.0)]:
+        turned = degrees(weight.angle_deg) + angle
+        assert left(Unbalance(weight.amount * amount, z, turned)) > least
+
+
+# --- targets -------------------------------------------------------------------------------------
+
+
+def test_a_target_that_is_left_out_does_not_matter() -> None:
+    twin = cp.Engine.vee(UNIT, bank_angle_deg=90, throws_deg=[0], spacing=1.0, bank_stagger=0.4)
+    force = cp.counterweights(twin, planes=[1.0], fraction={"force": 1.0})
+    assert force.exact
+    assert force.residual.force == 0.0
+    assert abs(force.residual.moment) == pytest.approx(0.8)  # 1 − 0.2 from the middle
+    assert force.verdicts.force.forward == "vanishes"
+    assert force.verdicts.moment.forward == "remains"
+    moment = cp.counterweights(CROSSPLANE, planes=[0.0], fraction={"moment": 0.5})
+    assert moment.exact
+    assert couple(moment.engine)[0] == pytest.approx(np.sqrt(10.0) / 2)
+    in_the_middle = cp.counterweights(CROSSPLANE, planes=[1.5], fraction={"moment": 1.0})
+    assert not in_the_middle.exact
+    assert couple(in_the_middle.engine)[0] == pytest.approx(np.sqrt(10.0))
+
+
+def test_parts_of_force_and_moment_are_removed_each() -> None:
+    engine = random_engine(3)
+    before = cp.counterweights(engine, planes=[0.0, 1.0], fraction=0.0)
+    fitted = cp.counterweights(engine, planes=[0.0, 1.0], fraction={"force": 0.25, "moment": 0.75})
+    assert before.unbalances == ()
+    assert fitted.residual.force == pytest.approx(0.75 * before.residual.force)
+    assert fitted.residual.moment == pytest.approx(0.25 * before.residual.moment)
+
+
+def test_one_plane_is_exact_only_where_that_is_proved() -> None:
+    single = preset("single")
+    assert cp.counterweights(single, planes=[0.0]).exact
+    assert not cp.counterweights(single, planes=[0.1]).exact
+    assert not cp.counterweights(single, planes=[0.1, 0.1]).exact
+    assert cp.counterweights(single, planes=[0.1, 0.2]).exact
+    unequal = {"force": 1.0, "moment": 0.5}
+    # In the plane of the cylinder there is no moment, of which half is as good as all.
+    assert cp.counterweights(single, planes=[0.0], fraction=unequal).exact
+    assert not cp.counterweights(single, planes=[0.0], fraction=unequal, reference_z=1.0).exact
+    assert cp.counterweights(I4, planes=[0.7]).exact  # nothing to do
+    assert cp.counterweights(I4, planes=[0.7]).by_plane == ()
+
+
+def test_internal_weights_relieve_every_throw() -> None:
+    """An inline-4 needs no weights outside, and a middle couple of 1 m·r·ω²·a says: inside."""
+    assert cp.counterweights(I4, planes="webs").by_plane == ()
+    fitted = cp.counterweights(I4, planes="webs", target="internal")
+    assert [w.amount for w in fitted.unbalances] == pytest.approx([0.25] * 8)
+    for before, after in zip(fitted.bay_loads_before, fitted.bay_loads, strict=True):
+        assert abs(before.force) == pytest.approx(0.5)
+        assert after.force == after.moment == 0.0
+    assert fitted.exact
+    assert fitted.vanishes  # outside as well, as before
+    part = cp.counterweights(I4, planes="webs", target="internal", fraction=0.803)
+    assert [abs(load.force) for load in part.bay_loads] == pytest.approx([0.197 / 2] * 4)
+    assert part.verdicts.moment == ("vanishes", "vanishes")
+
+
+def test_one_web_for_a_throw_leaves_the_least_loads_on_its_bearings() -> None:
+    """Webs 1, 4, 5, 8 of an inline-4: each throw's bearings are 0.5 from it, the web 0.25."""
+    webs = cp.counterweights(I4, planes="webs").places
+    planes = dict(webs[k] for k in (0, 3, 4, 7))
+    fitted = cp.counterweights(I4, planes=planes, target="internal")
+    assert not fitted.exact
+
+    def loads(weight: float) -> float:
+        """Sum of squares of the forward loads on both bearings, by the lever rule."""
+        force, at = 0.5, 0.25
+        return (force / 2 - weight * (0.5 + at)) ** 2 + (force / 2 - weight * (0.5 - at)) ** 2
+
+    weights = np.linspace(0.0, 1.0, 100_001)
+    best = weights[np.argmin([loads(w) for w in weights])]
+    assert [w.amount for w in fitted.unbalances] == pytest.approx([best] * 4, abs=2e-5)
+    few = cp.counterweights(I4, planes=dict(webs[:2]), target="internal")
+    assert len(few.unbalances) == 2
+    assert not few.exact
+
+
+def test_internal_weights_count_those_there_are() -> None:
+    there = [Unbalance(0.2, 0.0, 180, pin=1), Unbalance(0.1, 1.1, 77.0), Unbalance(0.1, 9.0)]
+    fitted = cp.counterweights(
+        I4.with_counterweights(there), planes="webs", target="internal", fraction=1.0
+    )
+    # The one beyond the last bearing belongs to no bay.
+    assert all(load.force == load.moment == 0.0 for load in fitted.bay_loads)
+    assert fitted.engine.counterweights[:3] == tuple(there)
+
+
+# --- least weights, bounds and drilling places ---------------------------------------------------
+
+
+@pytest.mark.parametrize("largest", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool) -> None:
+    """SciPy's SLSQP on the same question, bounds included, and the bounds kept."""
+    optimize = pytest.importorskip("scipy.optimize")
+    engine = random_engine(20 + seed)
+    places = np.sort(np.random.default_rng(seed).uniform(-2, 2, 5))
+    free = cp.counterweights(engine, planes=places, reference_z=0.0)
+    bound = {"plane 1": 0.6 * free.unbalances[0].amount, "plane 5": 2.0 * free.largest}
+    fitted = cp.counterweights(
+        engine,
+        planes=places,
+        reference_z=0.0,
+        bound=bound,
+        minimise="largest" if largest else "squares",
+    )
+    assert fitted.exact
+    assert fitted.unbalances[0].amount <= bound["plane 1"] * (1 + 1e-9)
+    amounts = np.array([w.amount for w in fitted.unbalances])
+    before = engine.balance(UNIT_SPEED, orders=[1], reference_z=0.0)[1]
+    wanted = -np.array([complex(before.force.forward), complex(before.moment.forward)])
+    matrix = np.stack([np.ones(5), 1j * places])
+
+    def weights(x: np.ndarray) -> np.ndarray:
+        return x[:5] + 1j * x[5:10]
+
+    def missing(x: np.ndarray) -> np.ndarray:
+        rest = matrix @ weights(x) - wanted
+        return np.concatenate([rest.real, rest.imag])
+
+    limits = np.array([bound["plane 1"], bound["plane 5"]]) ** 2
+    constraints: list[dict[str, Any]] = [
+        {"type": "eq", "fun": missing},
+        {"type": "ineq", "fun": lambda x: limits - np.abs(weights(x)[[0, 4]]) ** 2},
+    ]
+    if largest:
+        constraints.append({"type": "ineq", "fun": lambda x: x[10] - np.abs(weights(x)) ** 2})
+    start = np.linalg.pinv(matrix) @ wanted
+    found = optimize.minimize(
+        (lambda x: x[10]) if largest else (lambda x: (np.abs(weights(x)) ** 2).sum()),
+        np.concatenate([start.real, start.imag, [2 * np.abs(start).max() ** 2]]),
+        constraints=constraints,
+        method="SLSQP",
+        options={"maxiter": 500, "ftol": 1e-14},
+    )
+    assert found.success
+    ours = amounts.max() ** 2 if largest else (amounts**2).sum()
+    assert ours == pytest.approx(found.fun, rel=1e-7)
+
+
+def test_a_bound_that_binds_leaves_the_least() -> None:
+    fitted = cp.counterweights(CROSSPLANE, planes="ends", bound=0.5)
+    assert not fitted.exact
+    assert [w.amount for w in fitted.unbalances] == pytest.approx([0.5, 0.5], rel=1e-9)
+    assert couple(fitted.engine)[0] == pytest.approx(np.sqrt(10.0) - 2 * 0.5 * 1.5)
+    assert fitted.verdicts.moment.forward == "remains"
+    assert fitted.verdicts.force.forward == "undecided"
+    wide = cp.counterweights(CROSSPLANE, planes="ends", bound=2.0)
+    assert wide.unbalances == cp.counterweights(CROSSPLANE, planes="ends").unbalances
+    assert cp.counterweights(CROSSPLANE, planes="ends", bound=0.0).by_plane == ()
+    assert not cp.counterweights(CROSSPLANE, planes="ends", bound=0.0).exact
+    one = cp.counterweights(CROSSPLANE, planes="ends", bound={"rear": 0.0})
+    assert [name for name, _ in one.by_plane] == ["front"]
+
+
+@pytest.mark.parametrize("minimise", ["squares", "largest"])
+def test_weights_stand_at_drilling_places(minimise: Literal["squares", "largest"]) -> None:
+    places = ["0", "45", "90", "135", 180, 225, 270, "630/2"]
+    fitted = cp.counterweights(CROSSPLANE, planes="webs", angles_deg=places, minimise=minimise)
+    assert fitted.exact
+    assert fitted.vanishes
+    assert couple(fitted.engine)[0] == 0.0
+    assert {degrees(w.angle_deg) % 45.0 for w in fitted.unbalances} == {0.0}
+    free = cp.counterweights(CROSSPLANE, planes="webs", minimise=minimise)
+    sums = {name: 0.0 for name, _ in fitted.places}
+    for name, weight in fitted.by_plane:
+        sums[name] += weight.amount
+    assert fitted.largest == pytest.approx(max(sums.values()))
+    # Two neighbouring places of weights a make a·√2·√(1 + √½) of 2a along their middle.
+    worst = 1.0 / np.cos(np.pi / 8)
+    if minimise == "largest":
+        assert free.largest < fitted.largest <= worst * free.largest * (1 + 1e-9)
+    else:
+        ratio = sum(s**2 for s in sums.values()) / sum(w.amount**2 for w in free.unbalances)
+        assert 1.0 < ratio <= worst**2
+
+
+def test_drilling_places_that_do_not_suffice_leave_the_least() -> None:
+    single = preset("single")
+    (opposite,) = cp.counterweights(single, planes=[0.0]).unbalances
+    angle = degrees(opposite.angle_deg)
+    beside = cp.counterweights(single, planes=[0.0], angles_deg=[angle + 60, angle + 180])
+    assert not beside.exact
+    (weight,) = beside.unbalances
+    assert weight.amount == pytest.approx(0.5 * np.cos(np.pi / 3))
+    assert abs(beside.residual.force) == pytest.approx(0.5 * np.sin(np.pi / 3))
+    away = cp.counterweights(single, planes=[0.0], angles_deg=[angle + 120])
+    assert away.by_plane == ()
+    each = cp.counterweights(
+        single, planes={"a": -1.0, "b": 1.0}, angles_deg={"a": [angle], "b": [angle]}, bound=0.3
+    )
+    assert each.exact
+    assert [w.amount for w in each.unbalances] == pytest.approx([0.25, 0.25])
+
+
+def test_bounds_and_drilling_places_together() -> None:
+    angles = list(range(0, 360, 30))
+    free = cp.counterweights(CROSSPLANE, planes="webs", angles_deg=angles)
+    bound = 0.9 * free.largest
+    fitted = cp.counterweights(CROSSPLANE, planes="webs", angles_deg=angles, bound=bound)
+    assert fitted.exact
+    assert fitted.largest <= bound * (1 + 1e-9)
+    assert couple(fitted.engine)[0] == 0.0
+
+
+# --- laws ----------------------------------------------------------------------------------------
+
+
+ANY = st.integers(0, 1000).map(random_engine)
+
+
+@settings(max_examples=25, deadline=None)
+@given(engine=ANY, turn=st.integers(-180, 180))
+def test_turning_the_engine_turns_the_answer(engine: cp.Engine, turn: int) -> None:
+    fitted = cp.counterweights(engine, planes=[-1.0, 0.2, 1.5])
+    turned = engine.with_first_tdc(float(engine.tdc_deg[0]) + turn)
+    again = cp.counterweights(turned, planes=[-1.0, 0.2, 1.5])
+    for one, other in zip(fitted.unbalances, again.unbalances, strict=True):
+        apart = degrees(other.angle_deg) - degrees(one.angle_deg) + turn
+        assert other.amount == pytest.approx(one.amount, rel=1e-9)
+        assert abs((apart + 180.0) % 360.0 - 180.0) < 1e-6
+
+
+@settings(max_examples=25, deadline=None)
+@given(engine=ANY, planes=st.lists(st.floats(-2, 2), min_size=1, max_size=4, unique=True))
+def test_what_stays_never_exceeds_the_start(engine: cp.Engine, planes: list[float]) -> None:
+    fitted = cp.counterweights(engine, planes=planes, length=1.0, bound=2.0)
+
+    def size(found: cp.types.ForwardPart) -> float:
+        return abs(found.force) ** 2 + abs(found.moment) ** 2
+
+    before = cp.counterweights(engine, planes=planes, fraction=0.0).residual
+    assert size(fitted.residual) <= size(before) * (1 + 1e-9)
+    assert fitted.largest <= 2.0 * (1 + 1e-9)
+
+
+@settings(max_examples=10, deadline=None)
+@given(engine=ANY)
+def test_a_fitted_engine_needs_nothing_more(engine: cp.Engine) -> None:
+    fitted = cp.counterweights(engine, planes=[-1.0, 1.0])
+    again = cp.counterweights(fitted.engine, planes=[-1.0, 1.0])
+    assert again.by_plane == ()
+    removed = fitted.engine.with_counterweights(engine.counterweights)
+    assert removed == engine
+
+
+# --- what it is ----------------------------------------------------------------------------------
+
+
+def test_planes_have_names() -> None:
+    assert dict(cp.counterweights(I3, planes="ends").places) == {"front": 0.0, "rear": 2.0}
+    assert dict(cp.counterweights(preset("single"), planes="ends").places) == {"crankpin": 0.0}
+    # A lone throw has bearings a crank radius away.
+    webs = dict(cp.counterweights(preset("single"), planes="webs").places)
+    assert webs == {"throw 1 front": -0.5, "throw 1 rear": 0.5}
+    webs = dict(cp.counterweights(V6_60, planes="webs").places)
+    assert list(webs.values()) == [-0.25, 0.25, 0.75, 1.25, 1.75, 2.25]
+    named = {"damper": -1, "flywheel": np.float32(2.5)}
+    external = cp.counterweights(CROSSPLANE, planes=named)
+    assert external.places == (("damper", -1.0), ("flywheel", 2.5))
+    assert [name for name, _ in external.by_plane] == ["damper", "flywheel"]
+
+
+def test_ellipses_are_those_of_the_balance() -> None:
+    fitted = cp.counterweights(V6_90, planes="ends")
+    for ellipses, engine in ((fitted.ellipses_before, V6_90), (fitted.ellipses, fitted.engine)):
+        order_1 = engine.balance(UNIT_SPEED, orders=[1])[1]
+        assert ellipses == (order_1.force.ellipse, order_1.moment.ellipse)
+    assert fitted.ellipses.moment.major == pytest.approx(0.448288, abs=1e-6)
+    balance = fitted.balance(100)
+    assert balance == fitted.engine.balance(100, reference_z=fitted.reference_z)
+
+
+def test_tables_list_weights_and_what_stays() -> None:
+    fitted = cp.counterweights(V6_90, planes="ends")
+    text = repr(fitted)
+    assert "front" in text
+    assert "rocking moment, kg·m²" in text
+    assert "forward moment vanishes; backward moment remains." in text
+    assert fitted._repr_html_().count("<table>") == 2
+    frame = fitted.to_pandas()
+    assert list(frame.columns) == ["plane", "z", "amount", "angle_deg"]
+    assert list(frame.amount) == [w.amount for w in fitted.unbalances]
+    assert "No weights are needed" in repr(cp.counterweights(I4, planes="ends"))
+
+
+def test_results_are_frozen_and_copied() -> None:
+    fitted = cp.counterweights(V6_90, planes={"a": 0, "b": 1}, fraction={"force": 1})
+    for back in (copy.deepcopy(fitted), pickle.loads(pickle.dumps(fitted))):  # noqa: S301
+        assert back == fitted
+        assert hash(back) == hash(fitted)
+        assert back.engine == fitted.engine
+    assert cp.counterweights(V6_90, planes={"a": 0, "b": 1}) != fitted
+    with pytest.raises(AttributeError):
+        fitted.exact = False
+    with pytest.raises(cp.InputError, match=r"use crankpin\.counterweights"):
+        cp.types.Counterweights(V6_90, (), None, (), True)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("given_", "words"),
+    [
+        ({"planes": "middle"}, 'planes = \'middle\': give "ends" or "webs"'),
+        ({"planes": []}, "planes has 0 places: give 1 to 200"),
+        ({"planes": [0.0] * 201}, "planes has 201 places"),
+        ({"planes": 0.1}, 'planes = 0.1: give "ends", "webs"'),
+        ({"planes": [0.0, "x"]}, r"planes\[1\] = 'x': give a number"),
+        ({"planes": {"a": float("nan")}}, r"planes\['a'\] = nan: give a finite place"),
+        ({"planes": {1: 0.0}}, "planes = 1: give text"),
+        ({"target": "inside"}, "target = 'inside': give"),
+        ({"minimise": "least"}, "minimise = 'least': give"),
+        ({"fraction": -1}, "fraction = -1.0: give 0 to 10"),
+        ({"fraction": {}}, "fraction = {}: give a number"),
+        ({"fraction": {"torque": 1}}, 'fraction = \'torque\': give "force" or "moment"'),
+        ({"bound": -1}, "bound = -1.0: give a mass·radius"),
+        ({"bound": {"x": 1}}, r"bound\['x'\]: is no plane; they are \['front', 'rear'\]"),
+        ({"angles_deg": []}, "angles_deg has 0 angles: give 1 to 360"),
+        ({"angles_deg": {"front": [1]}}, 'angles_deg has none for "rear"'),
+        ({"angles_deg": ["x"]}, r"angles_deg\[0\] = x: give degrees"),
+        ({"length": 0.0}, "length = 0.0: give a length in metres"),
+        ({"reference_z": "x"}, "reference_z = 'x': give a number"),
+        ({"target": "internal", "reference_z": 1}, "reference_z = 1: leave it out"),
+        ({"target": "internal", "planes": {"fly": 9}}, r'planes\["fly"\] = 9: is beyond the main'),
+    ],
+)
+def test_arguments_that_do_not_fit_are_named(given_: dict[str, Any], words: str) -> None:
+    with pytest.raises(cp.InputError, match=words):
+        cp.counterweights(I3, **{"planes": "ends"} | given_)
+    with pytest.raises(cp.InputError, match=r"give a crankpin\.Engine"):
+        cp.counterweights(None, planes="ends")  # type: ignore[arg-type]
