@@ -11,6 +11,7 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin.analysis.design.design import design
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
@@ -28,6 +29,7 @@ __all__ = [
     "Shaft",
     "Unbalance",
     "__version__",
+    "design",
     "presets",
     "rank",
     "search_arrangements",
