@@ -271,7 +271,7 @@ def test_a_v6_needs_one_shaft_of_order_2() -> None:
 
 
 def test_shafts_are_fitted_anew_at_other_bank_angles() -> None:
-    given = {"by": "[1].moment.peak", "shafts": [-1], "throws_deg": [0, 120, 250]}
+    given = {"by": "[2].moment.peak", "shafts": [-2], "throws_deg": [0, 120, 250]}
     found = design(6, bank_angle_deg=77, **given)
     other = design(6, bank_angle_deg=90, **given)
     values = found.over_bank_angle(np.array([77.0, 90.0]))[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
@@ -67,10 +68,7 @@ def families(question: Question) -> tuple[list[Family], int]:
             continue
         everything.add(family)
         if len(everything) > MOST_CRANKS:
-            raise InputError(
-                f"cylinders = {question.cylinders}: there are more than {MOST_CRANKS} cranks; give "
-                "fewer different throws, a common pin split or shared pins"
-            )
+            raise _too_many(question.count)
         fixed = not family.variables
         base = question.symmetries.first(family.base, exchange=fixed)
         found.setdefault(dataclasses.replace(family, base=base))
@@ -80,6 +78,13 @@ def families(question: Question) -> tuple[list[Family], int]:
             "or pins that are split (shared_pins=False)"
         )
     return list(found), len(everything)
+
+
+def _too_many(throws: int) -> InputError:
+    return InputError(
+        f"{throws} throws have more than {MOST_CRANKS} cranks: give fewer different throws_deg, or "
+        "leave pins shared, or split alike"
+    )
 
 
 def _all(question: Question) -> Iterator[Family]:
@@ -138,6 +143,9 @@ def orders(angles: Sequence[Exact]) -> Iterator[tuple[Exact, ...]]:
         for turn in ((each - angles[0]) % TURN for each in counts)
         if Counter((each + turn) % TURN for each in angles) == counts
     ]
+    number = math.factorial(len(angles)) // math.prod(map(math.factorial, counts.values()))
+    if number > MOST_CRANKS * len(turns):
+        raise _too_many(len(angles))
     firsts = [each for each in counts if each == min((each + turn) % TURN for turn in turns)]
     for first in firsts:
         for rest in _permutations(counts - Counter([first])):
