@@ -11,6 +11,7 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
@@ -29,6 +30,7 @@ __all__ = [
     "Shaft",
     "Unbalance",
     "__version__",
+    "compare",
     "design",
     "presets",
     "rank",

@@ -4,6 +4,7 @@ from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
+from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs, Image
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
@@ -29,6 +30,7 @@ __all__ = [
     "Balance",
     "Choice",
     "ClosedForm",
+    "Comparison",
     "Design",
     "Designs",
     "Ellipse",

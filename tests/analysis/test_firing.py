@@ -17,7 +17,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
 import crankpin as cp
-import matplotlib as mpl
 import numpy as np
 import pytest
 from built_engines import EVEN, UNEVEN
@@ -26,11 +25,10 @@ from crankpin.cli import main
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
-from matplotlib.collections import PolyCollection
 from rederivation import firing, ijesc
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
 
 V8 = cp.Engine.preset("v8-crossplane")
@@ -40,13 +38,6 @@ OFFSET = CYLINDER.replace(pin_offset=0.01)
 
 # Angles below 720 degrees, rounded a few times to half a unit in the last place, 5.7e-14.
 ROUNDING = 1e-12
-
-
-@pytest.fixture(autouse=True)
-def _close() -> Iterator[None]:
-    mpl.use("agg")
-    yield
-    plt.close("all")
 
 
 def inline(tdc: Sequence[Any], **options: Any) -> cp.Engine:  # noqa: ANN401 - of from_lists
@@ -742,64 +733,6 @@ def test_tables() -> None:
     assert table["angle_deg"].tolist() == [90.0 * k for k in range(8)]
     assert table["gap_in_bank_deg"].tolist() == [270, 90, 180, 180, 270, 90, 180, 180]
     assert "<td>270</td>" in PAGE._repr_html_()
-
-
-# --- the chart ------------------------------------------------------------------------------------
-
-
-def drawn(ax: Any) -> dict[str, list[tuple[float, float, float]]]:  # noqa: ANN401 - axes
-    """Colour → (row, start, end) of every bar."""
-    found: dict[str, list[tuple[float, float, float]]] = {}
-    for bars in ax.collections:
-        assert isinstance(bars, PolyCollection)
-        colour = mpl.colors.to_hex(bars.get_facecolor()[0])
-        for path in bars.get_paths():
-            (x0, y0), (x1, _) = path.vertices.min(axis=0), path.vertices.max(axis=0)
-            found.setdefault(colour, []).append((math.floor(y0 + 0.5), x0, x1))
-    return found
-
-
-def test_the_chart_shows_when_valves_are_open() -> None:
-    ax = PAGE.plot()
-    rows = [1, 3, 5, 7, 2, 4, 6, 8]
-    assert [label.get_text() for label in ax.get_yticklabels()] == [str(row) for row in rows]
-    found = drawn(ax)
-    blue, red = list(found)
-    assert int(blue[5:], 16) > int(blue[1:3], 16)
-    assert int(red[1:3], 16) > int(red[5:], 16)
-    for colour, periods in zip((blue, red), PAGE.valves(), strict=True):
-        expected = []
-        for row, cylinder in enumerate(rows):
-            start, end = periods[cylinder - 1]
-            expected.append((row, start, min(end, 720.0)))
-            if end > 720:
-                expected.append((row, 0.0, end - 720))
-        assert sorted(found[colour]) == sorted(expected)
-    fires = ax.lines[0]
-    assert fires.get_label() == "fires"
-    assert fires.get_xdata().tolist() == [PAGE.angles_deg[row - 1] for row in rows]
-    assert ax.get_xlim() == (0.0, 720.0)
-    assert ax.get_title(loc="left") == "V8 90°, cross-plane\n4-stroke 1-8-4-3-6-5-7-2, even, 90°"
-
-
-def test_the_chart_takes_axes_and_timing() -> None:
-    _, ax = plt.subplots()
-    timing = cp.types.ValveTiming(exhaust_opens_deg=80)
-    assert PAGE.plot(ax, timing=timing) is ax
-    assert any(end - start == 270 for bars in drawn(ax).values() for _, start, end in bars)
-    two = BOXER.firing("1+2-3+4", strokes=2).plot()
-    assert two.get_xlim() == (0.0, 360.0)
-    transfer, exhaust = drawn(two).values()
-    assert sorted({bar[1:] for bar in transfer}) == [(0, 60), (120, 240), (300, 360)]
-    assert sorted({bar[1:] for bar in exhaust}) == [(0, 85), (95, 265), (275, 360)]
-    labels = [text.get_text() for text in two.get_legend().get_texts()]  # type: ignore[union-attr]
-    assert labels == ["transfer open", "exhaust open", "fires"]
-    racing = BOXER.firing("1+2-3+4", strokes=2).plot(
-        timing=cp.types.PortTiming(exhaust_opens_deg=98)
-    )
-    assert (82, 278) in {bar[1:] for bars in drawn(racing).values() for bar in bars}
-    with pytest.raises(cp.InputError, match="ax = 3"):
-        PAGE.plot(3)  # type: ignore[arg-type]
 
 
 # --- the command line -----------------------------------------------------------------------------

@@ -81,6 +81,7 @@ OBJECTS: dict[str, Any] = {
     "Balance": balance(),
     "Balance, auto": balance(orders="auto"),
     "Balance of a spectrum": balance(spectrum=SPECTRUM),
+    "Comparison": cp.compare(V6, ODD, rpm=5000, orders=[1, 2]),
     "OrderBalance": balance()[1],
     "Ellipse": balance()[1].moment.ellipse,
     "ErrorBound": balance().error_bound,
@@ -176,6 +177,7 @@ def test_arrays_are_read_only(name: str) -> None:
         "Ellipse",
         "ErrorBound",
         "ClosedForm",
+        "Comparison",
         "Choice",
     )
     assert found or name.startswith(without)
@@ -491,7 +493,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
     if not name.startswith(
-        ("Balance", "Engine", "Vanishing", "ClosedForm", "Ranking")
+        ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking")
     ):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 

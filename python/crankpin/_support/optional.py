@@ -31,6 +31,11 @@ def scipy_optimize() -> Any:  # noqa: ANN401 - a module
     return _imported("scipy.optimize", "optimize")
 
 
+def matplotlib() -> Any:  # noqa: ANN401 - a module
+    """Return matplotlib, or raise an ImportError that names the extra to install."""
+    return _imported("matplotlib", "plot")
+
+
 def _imported(name: str, extra: str | None = None) -> Any:  # noqa: ANN401 - a module
     try:
         return importlib.import_module(name)

@@ -248,11 +248,17 @@ class Firing(Frozen):
         return table
 
     def plot(
-        self, ax: Axes | None = None, *, timing: ValveTiming | PortTiming | None = None
+        self,
+        ax: Axes | None = None,
+        *,
+        timing: ValveTiming | PortTiming | None = None,
+        **style: Any,  # noqa: ANN401 - of matplotlib's collections
     ) -> Axes:
-        """Draw the open periods of the valves or ports over a cycle; return the axes.
+        """Draw strokes, and open valves or ports, over a cycle; return the axes.
 
-        Intake or transfer is blue, exhaust red, a firing a black mark.
+        A row for each cylinder, bank by bank: its strokes with a mark where it fires, and below
+        them intake valves (transfer ports) and exhausts. Exhausts that are open at one time in
+        one bank are hatched.
 
         Parameters
         ----------
@@ -261,10 +267,12 @@ class Firing(Frozen):
         timing
             When valves open and close; by default ``ValveTiming()``, of a two-stroke
             ``PortTiming()``.
+        **style
+            Passed on to the bars, such as ``edgecolor=``.
         """
         from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
 
-        return draw(self, ax, timing=timing)  # type: ignore[no-any-return]
+        return draw(self, ax, timing=timing, **style)  # type: ignore[no-any-return]
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""

@@ -96,11 +96,11 @@ def check_request(request: object, maker: str) -> None:
         raise InputError(f"request = {inputs.shorten(request)}: use {maker}")
 
 
-def engine_core(engine: object) -> _core.Engine:
+def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
     core = getattr(engine, "core", None)
     if not isinstance(core, _core.Engine):
-        raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
+        raise InputError(f"{name} = {inputs.shorten(engine)}: give a crankpin.Engine")
     return core
 
 

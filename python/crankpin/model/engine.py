@@ -18,6 +18,8 @@ from crankpin.model import shafts as rotating
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles, Orders, Spectrum
@@ -733,7 +735,65 @@ class Engine(Frozen):
         return "\n".join([*self._lines(), self._table("").text(), *more])
 
     def _repr_html_(self) -> str:
-        return self._table("; ".join(self._lines())).html()
+        table = self._table("; ".join(self._lines())).html()
+        picture = self._repr_svg_()
+        return table if picture is None else f"<div>{picture}</div>{table}"
+
+    def _repr_svg_(self) -> str | None:
+        from crankpin.analysis.drawing import inline_svg
+
+        return inline_svg(self)
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: FigureBase | None = None,
+        kind: Literal["section", "star", "side"] | None = None,
+        theta_deg: float = 0.0,
+        **style: Any,  # noqa: ANN401 - of matplotlib's collections
+    ) -> Axes | NDArray[Any]:
+        """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
+
+        Seen from the flywheel; the side view from x < 0, front to flywheel. Numbers are those of
+        the cylinders. An unbalance is a sector whose area is proportional to its amount. An engine
+        does not store its bores: they are drawn as wide as the stroke is long, but at most 0.9 of
+        the distance to the next cylinder of the bank, and at least 0.6 of the stroke. Crankpins at
+        one place along the crank are drawn side by side.
+
+        Parameters
+        ----------
+        ax
+            Axes for one picture; without ``kind`` the cross-section.
+        figure
+            Figure or SubFigure for all three; by default a new one.
+        kind
+            ``"section"``, ``"star"`` or ``"side"`` for one picture; None for all three.
+        theta_deg
+            Crank angle, degrees.
+        **style
+            Passed on to the main parts, such as ``facecolor=``: pistons and rods of the section,
+            throws of the star, webs of the side view.
+
+        Returns
+        -------
+        The axes; of all three pictures an array: (3,).
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are combined, or an argument is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> ax = cp.Engine.preset("v8-crossplane").plot(kind="star", theta_deg=45)
+        """
+        from crankpin.analysis.drawing import draw
+
+        return draw(  # type: ignore[no-any-return]
+            self, ax, figure=figure, kind=kind, theta_deg=theta_deg, **style
+        )
 
     def replace(
         self,

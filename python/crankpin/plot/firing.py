@@ -1,69 +1,230 @@
-"""Firings: the periods in which valves or ports are open, a row for each cylinder."""
+"""Firings: strokes and open valves or ports over a cycle, a row for each cylinder."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, MultipleLocator
+from matplotlib.colors import to_rgb
+from matplotlib.font_manager import FontProperties
+from matplotlib.patches import Patch
 
 from crankpin._support import labels
 from crankpin.analysis.firing import Firing
-from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.plot import ticks
+from crankpin.plot.axes import entitle, one_panel
 from crankpin.plot.dispatch import draw
-from crankpin.plot.style import COLOURS, RED, dress, entitle, given_or_new, in_degrees, name_of
+from crankpin.plot.legend import legend_below
+from crankpin.plot.style import background, colours, foreground, muted
+from crankpin.plot.words import name_of, width_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin.analysis.gas_exchange import Overlap, PortTiming, ValveTiming
+
+STROKES = (-0.44, 0.5)
+"""Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
+INLETS = (0.1, 0.15)
+EXHAUSTS = (0.28, 0.15)
+ROW = 0.24
+"""Inches of a row that suffice for letters."""
+
+
+class Kind(NamedTuple):
+    """Periods of one kind, a row for each cylinder by number."""
+
+    name: str
+    colour: Any
+    periods: NDArray[np.float64]
+    place: tuple[float, float]
+    letter: str = ""
 
 
 @draw.register(Firing)
 def _firing(
-    result: Firing, ax: Axes | None = None, *, timing: ValveTiming | PortTiming | None = None
+    result: Firing,
+    ax: Axes | None = None,
+    *,
+    timing: ValveTiming | PortTiming | None = None,
+    **style: Any,  # noqa: ANN401
 ) -> Axes:
-    if result.strokes == 2:
-        ports = result.ports(PortTiming() if timing is None else timing)  # type: ignore[arg-type]
-        inlet, inlets, exhausts = "transfer open", ports.transfer, ports.exhaust
+    rows = [cylinder for bank in result.banks for cylinder in bank]
+    openings = _openings(result, timing)  # an error in the timing comes before a figure
+    overlaps = result.exhaust_overlaps(timing=timing)
+    room = 1.0 if ax is None else 0.55  # the legend of given axes will take its part
+    if ax is None:
+        ax = one_panel(ax)
+        _make_room(ax, len(rows))
     else:
-        valves = result.valves(ValveTiming() if timing is None else timing)  # type: ignore[arg-type]
-        inlet, inlets, exhausts = "intake open", valves.intake, valves.exhaust
-    ax = given_or_new(ax)
+        ax = one_panel(ax)
+    row_height = room * _row_height(ax, len(rows))
+    inlet, exhaust, compression, power = _inks(ax)
+    inlet_name, inlets, exhausts = openings
+    faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
+    strokes = [
+        Kind(name, _tint(ax, faces[name]), periods, STROKES, name[0].upper())
+        for name, periods in result.strokes_deg().items()
+    ]
+    opened = [
+        Kind(f"{inlet_name} open", inlet, inlets, INLETS),
+        Kind("exhaust open", exhaust, exhausts, EXHAUSTS),
+    ]
     cycle = 180.0 * result.strokes
-    # Bank by bank: who shares a manifold as most engines have it stands together.
-    rows = [cylinder - 1 for bank in result.banks for cylinder in bank]
-    bars = [(inlet, COLOURS[0], inlets), ("exhaust open", RED, exhausts)]
-    height = 0.8 / len(bars)
-    for k, (name, colour, periods) in enumerate(bars):
-        for row, (start, end) in enumerate(periods[rows].tolist()):
-            # What runs past the end of the cycle goes on at its beginning.
-            pieces = [(start, min(end, cycle) - start)]
-            if end > cycle:
-                pieces.append((0.0, end - cycle))
-            place = (row - 0.4 + k * height, height)
-            label = name if row == 0 else ""
-            ax.broken_barh(pieces, place, facecolors=colour, label=label)
-    ax.plot(
-        result.angles_deg[rows],
-        range(len(rows)),
+    lettered = row_height >= ROW
+    handles: list[Any] = []
+    for kind in (*strokes, *opened):
+        looks = {"facecolor": kind.colour, "edgecolor": "none"}
+        if kind.letter:
+            looks |= {"edgecolor": background(ax), "linewidth": 0.8}
+        for row, cylinder in enumerate(rows):
+            pieces = _pieces(kind.periods[cylinder - 1], cycle)
+            _bars(ax, pieces, row, kind.place, **(looks | style))
+            if kind.letter and lettered:
+                _letters(ax, kind.letter, pieces, row)
+        name = f"{kind.letter}: {kind.name}" if kind.letter and lettered else kind.name
+        handles.append(Patch(label=name, **(looks | {"edgecolor": "none"} | style)))
+    handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
+    handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1])
+    _dress(ax, result, rows, row_height)
+    entitle(ax, name_of(result.engine), labels.cut(result.summary))
+    legend_below(ax, handles=handles)
+    return ax
+
+
+def _openings(
+    result: Firing, timing: ValveTiming | PortTiming | None
+) -> tuple[str, NDArray[np.float64], NDArray[np.float64]]:
+    """Return the name of the inlet, and the periods in which inlets and exhausts are open."""
+    if result.strokes == 2:
+        ports = result.ports(timing)  # type: ignore[arg-type]
+        return "transfer", ports.transfer, ports.exhaust
+    valves = result.valves(timing)  # type: ignore[arg-type]
+    return "intake", valves.intake, valves.exhaust
+
+
+def _inks(ax: Axes) -> tuple[Any, Any, Any, Any]:
+    """Return the colours of inlet, exhaust, compression and power."""
+    blue, red, _, _, orange = colours(ax, 5)
+    return blue, red, muted(ax, 0.3), orange
+
+
+def _tint(ax: Axes, colour: Any) -> Any:  # noqa: ANN401 - colours
+    """Return a colour of strokes, paler than that of valves."""
+    return 0.45 * np.array(to_rgb(colour)) + 0.55 * np.array(background(ax))
+
+
+def _pieces(period: ArrayLike, cycle: float) -> list[tuple[float, float]]:
+    """Return start and length of a period; past the end of the cycle it goes on at its start."""
+    start, end = np.asarray(period, dtype=np.float64).tolist()
+    if end <= cycle:
+        return [(start, end - start)]
+    return [(start, cycle - start), (0.0, end - cycle)]
+
+
+def _bars(
+    ax: Axes,
+    pieces: Sequence[tuple[float, float]],
+    row: int,
+    place: tuple[float, float],
+    **style: Any,  # noqa: ANN401
+) -> None:
+    if "color" in style:  # of faces and edges; matplotlib warns of both
+        style = {key: each for key, each in style.items() if key not in {"facecolor", "edgecolor"}}
+    top, height = place
+    ax.broken_barh(pieces, (row + top, height), **style)
+
+
+def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: int) -> None:
+    for start, length in pieces:
+        if length >= 45.0:
+            ax.text(
+                start + 0.5 * length,
+                row + STROKES[0] + 0.5 * STROKES[1],
+                letter,
+                ha="center",
+                va="center_baseline",
+                fontsize="x-small",
+            )
+
+
+def _mark_overlaps(
+    ax: Axes,
+    overlaps: Sequence[Sequence[Overlap]],
+    exhausts: NDArray[np.float64],
+    rows: list[int],
+    cycle: float,
+) -> list[Any]:
+    """Hatch both exhausts where two of a bank are open at one time; return a legend's handle."""
+    looks = {
+        "facecolor": "none", "edgecolor": foreground(ax), "hatch": "////", "linewidth": 0.6,
+        "zorder": 3,
+    }  # fmt: skip
+    found = [each for bank in overlaps for each in bank if each.overlap_deg > 0.0]
+    for each in found:
+        start = float(exhausts[each.after - 1, 0])
+        pieces = _pieces((start, start + each.overlap_deg), cycle)
+        for cylinder in {each.before, each.after}:
+            _bars(ax, pieces, rows.index(cylinder), EXHAUSTS, **looks)
+    return [Patch(label="exhausts overlap", **looks)] if found else []
+
+
+def _mark_firings(ax: Axes, angles: NDArray[np.float64]) -> list[Line2D]:
+    return ax.plot(
+        angles,
+        np.arange(len(angles)) + STROKES[0] + 0.5 * STROKES[1],
         linestyle="",
         marker="D",
-        markersize=4.5,
-        color="black",
+        markersize=5.0,
+        color=foreground(ax),
+        markeredgecolor=background(ax),
         clip_on=False,
-        zorder=3,
+        zorder=4,
         label="fires",
     )
-    dress(ax, "x")
+
+
+def _dress(ax: Axes, result: Firing, rows: list[int], row_height: float) -> None:
+    ax.set_axisbelow(True)
     ax.grid(visible=False, axis="y")
-    for end in np.cumsum([len(bank) for bank in result.banks])[:-1].tolist():
-        ax.axhline(end - 0.5, color="#999999", linewidth=0.8)
-    ax.set_xlim(0.0, cycle)
-    ax.xaxis.set_major_locator(MultipleLocator(90))
-    ax.xaxis.set_major_formatter(FuncFormatter(in_degrees))
+    ax.set_xlim(0.0, 180.0 * result.strokes)
     ax.set_ylim(len(rows) - 0.5, -0.5)
-    ax.set_yticks(range(len(rows)), [str(row + 1) for row in rows])
-    ax.tick_params(axis="y", length=0, pad=8)
+    ticks.degrees(ax.xaxis)
+    ax.set_yticks(range(len(rows)), [str(cylinder) for cylinder in rows])
+    ax.tick_params(axis="y", length=0)
     ax.set_xlabel("crank angle θ")
     ax.set_ylabel("cylinder, bank by bank" if len(result.banks) > 1 else "cylinder")
-    entitle(ax, name_of(result.engine), labels.cut(result.summary))
-    return ax
+    first = 0
+    names = {numbers: name for name, numbers in result.engine.banks.items()}
+    for bank in result.banks:
+        if first:
+            ax.axhline(first - 0.5, color=muted(ax), linewidth=0.8, linestyle="-")
+        name = names.get(bank, "") if len(result.banks) > 1 else ""
+        if width_of(name, FontProperties(size="small")) < 72.0 * row_height * len(bank):
+            ax.text(
+                1.01,
+                first + 0.5 * (len(bank) - 1),
+                name,
+                transform=ax.get_yaxis_transform(),
+                rotation=270,
+                va="center",
+                fontsize="small",
+                color=muted(ax),
+            )
+        first += len(bank)
+
+
+def _row_height(ax: Axes, rows: int) -> float:
+    """Return the height of a row, inches."""
+    return float(ax.get_window_extent().height / ax.get_figure(root=True).dpi / rows)  # type: ignore[union-attr]
+
+
+def _make_room(ax: Axes, rows: int) -> None:
+    """Make a new figure high enough for its rows."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None  # noqa: S101 - the axes are new
+    figure.set_figheight(max(figure.get_figheight(), 1.2 * ROW * rows + 1.6))

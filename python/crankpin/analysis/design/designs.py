@@ -192,15 +192,17 @@ class Designs(Frozen):
             "orders": "auto" if self.orders is None else self.orders,
         }
         if self.question.shafts:
-            cranks = [self._at(each.crank, angle) for each in designs for angle in angles.tolist()]
+            cranks = [
+                self.turned(each.crank, angle) for each in designs for angle in angles.tolist()
+            ]
             swept = sweep(built.engines(self.question, cranks), **chosen)
         else:
             engines = [each.engine for each in designs]
             swept = sweep(engines, bank_angle_deg=angles, hold=self.question.hold, **chosen)
         return named(self.by[0]).values(swept).reshape(len(designs), -1)
 
-    def _at(self, crank: Crank, bank_angle_deg: float) -> Crank:
-        """Return a crank at another bank angle."""
+    def turned(self, crank: Crank, bank_angle_deg: float) -> Crank:
+        """Return a crank at another bank angle: pins held, or top dead centres."""
         angle = exact(inputs.angle("bank_angle_deg", bank_angle_deg))
         assert crank.bank_angle is not None  # noqa: S101 - two banks
         more = angle - crank.bank_angle if self.question.hold == "firing" else 0
@@ -251,10 +253,9 @@ class Designs(Frozen):
         """
         return draw(self, ax, count=count, **style)  # type: ignore[no-any-return]
 
-    @property
-    def description(self) -> str:
-        """The objectives, the speed and the balancers in words."""
-        least = ", then ".join(each.words for each in self.objectives)
+    def description(self, objectives: int | None = None) -> str:
+        """Return the objectives, all or the first few, the speed and the balancers in words."""
+        least = ", then ".join(each.words for each in self.objectives[:objectives])
         if self.orders is not None:
             least = least.replace("all orders", "all of the orders given")
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
@@ -282,7 +283,7 @@ class Designs(Frozen):
             row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
             rows.append((*row, each.alike))
         values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
-        title = f"Designed by {self.description}"
+        title = f"Designed by {self.description()}"
         if len(designs) < self.optima:
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"

@@ -1,0 +1,221 @@
+"""Two engines beside each other, order by order: before and after a change."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.frozen import Frozen
+from crankpin._support.tables import Table
+from crankpin.analysis.balance import Balance, at_orders, balance
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import engine_core
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.model.engine import Engine
+
+
+def compare(
+    before: Engine,
+    after: Engine,
+    rpm: float,
+    *,
+    orders: Orders = "auto",
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+) -> Comparison:
+    """Return the balances of two engines at one speed and at the same orders.
+
+    Parameters
+    ----------
+    before, after
+        The engines: one before and after a change, or any two.
+    rpm
+        Crank speed.
+    orders
+        Whole multiples of crank speed; by default all that either engine needs to reach ``rtol``.
+    rtol, reference_z, spectrum, torque
+        As in :meth:`Engine.balance`; by default moments of each engine are about its own reference
+        plane.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> c = cp.compare(v6, v6.with_bank_angle(90, hold="pins"), rpm=6000, orders=[1, 2])
+    >>> c.change("moment").round(3)
+    array([0.577, 0.414])
+    """
+    for name, engine in (("before", before), ("after", after)):
+        engine_core(engine, name)
+    options: dict[str, Any] = {
+        "rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque,
+    }  # fmt: skip
+    first = balance(before, rpm, orders=orders, **options)
+    second = balance(after, rpm, orders=orders, **options)
+    both = sorted({*first.orders, *second.orders})
+    return Comparison(at_orders(first, both), at_orders(second, both))
+
+
+class Comparison(Frozen):
+    """Two balances at the same speed and orders.
+
+    Made by :func:`crankpin.compare`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> i4 = cp.Engine.preset("i4")
+    >>> shafts = [
+    ...     cp.Shaft(ratio, [cp.Unbalance(0.0029, z=0.15, angle_deg=-90)], x=x)
+    ...     for ratio, x in [(2, 0.08), (-2, -0.08)]
+    ... ]
+    >>> cp.compare(i4, i4.with_shafts(shafts), rpm=6000, orders=[2, 4])
+    Inline-4 at 6000 rpm: peaks
+    quantity          order  before   after  change %
+    shaking force, N  2      9269.4  110.41   -98.809
+    shaking force, N  4      213.27  213.27         0
+    roll torque, N·m  2      657.31  657.31         0
+    roll torque, N·m  4      30.216  30.216         0
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("before", "after")
+
+    before: Balance
+    """Balance of the engine before the change."""
+    after: Balance
+    """Balance of the engine after the change."""
+
+    def __init__(self, before: Balance, after: Balance) -> None:
+        for each in (before, after):
+            if not isinstance(each, Balance):
+                raise InputError(f"Comparison({inputs.shorten(each)}): use crankpin.compare")
+        if before.orders != after.orders or before.rpm != after.rpm:
+            raise InputError("Comparison of balances at different orders or speeds: use compare")
+        self._set(before=before, after=after)
+
+    @property
+    def rpm(self) -> float:
+        """Crank speed, rpm."""
+        return self.before.rpm
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed."""
+        return self.before.orders
+
+    def change(self, quantity: str = "moment") -> NDArray[np.float64]:
+        """Return how the peak of each order changes, relative to that before: (n_orders,).
+
+        −1 where it vanishes, 0 where it stays, inf where it was zero.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        """
+        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        before, after = (getattr(each, name).peak for each in (self.before, self.after))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            change = (after - before) / before
+        return np.where((before == 0.0) & (after == 0.0), 0.0, change)
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        quantity: str = "moment",
+        **style: Any,  # noqa: ANN401 - of matplotlib's bars
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw peaks of both engines over order, and the curves that force or moment trace.
+
+        Above each order stands by how much it fell or rose. A torque is drawn over crank angle.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; the peaks alone then.
+        figure
+            Figure or SubFigure for both panels; by default a new one.
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        **style
+            Passed on to the bars, such as ``linewidth=``.
+
+        Returns
+        -------
+        The axes; without ``ax`` an array of them: (1, 2), or (2, 1) in a narrow figure.
+        """
+        return draw(self, ax, figure=figure, quantity=quantity, **style)
+
+    def shown_orders(self, quantity: str) -> list[int]:
+        """Return places of the orders that tables and pictures show: those that are not negligible.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        """
+        peaks = np.maximum(*(getattr(each, quantity).peak for each in (self.before, self.after)))
+        kept: list[int] = np.flatnonzero(
+            peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
+        ).tolist()
+        return kept
+
+    def table(self) -> Table:
+        """Return the table that is shown: the peak of each quantity and order before and after."""
+        texts, rows = [], []
+        for name in self.before.request.quantities:
+            if name == "crank_torque":
+                continue
+            before, after = (getattr(each, name).peak for each in (self.before, self.after))
+            change = 100.0 * self.change(name)
+            for k in self.shown_orders(name):
+                texts.append((f"{labels.NAMES[name]}, {labels.UNITS[name]}", f"{self.orders[k]}"))
+                rows.append((before[k], after[k], change[k]))
+        title = f"{self.title} at {self.rpm:g} rpm: peaks"
+        header = ["quantity", "order", "before", "after", "change %"]
+        return Table(title, header, texts, np.array(rows).reshape(-1, 3))
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Names of the engines; ``"before"`` and ``"after"`` if they have one name."""
+        first, second = (
+            each.engine.name or f"{len(each.engine)} cylinders"
+            for each in (self.before, self.after)
+        )
+        return (first, second) if first != second else ("before", "after")
+
+    @property
+    def title(self) -> str:
+        """Names of the engines, or the one they have."""
+        engine = self.before.engine
+        if self.names == ("before", "after"):
+            return engine.name or f"{len(engine)} cylinders"
+        return " → ".join(self.names)
+
+    def __repr__(self) -> str:
+        return self.table().text()
+
+    def _repr_html_(self) -> str:
+        return self.table().html()

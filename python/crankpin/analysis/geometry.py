@@ -1,0 +1,130 @@
+"""Places of an engine's moving parts at a crank angle."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.model import shafts as rotating
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Unbalance
+
+WIDEST_BORE = 0.9
+"""Assumed bore over the distance to the next cylinder of the bank, at most: walls need the rest."""
+NARROWEST_BORE = 0.6
+"""Assumed bore over stroke, at least: engines whose spacing is not to scale stay readable."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Geometry:
+    """Places of an engine's moving parts at one crank angle, cylinder by cylinder.
+
+    Points and directions of the cross-section plane are complex, x + iy as seen from the flywheel;
+    all arrays are (n_cylinders,).
+    """
+
+    theta_deg: float
+    """Crank angle, degrees."""
+    along: NDArray[np.complex128]
+    """Directions of the bores, unit length."""
+    foot: NDArray[np.complex128]
+    """Points of the bores' axes nearest to the crank's axis, m; 0 without pin offset."""
+    crankpin: NDArray[np.complex128]
+    """Crankpins, m."""
+    wrist_pin: NDArray[np.complex128]
+    """Piston pins, m."""
+    lowest: NDArray[np.float64]
+    """Least distance of the piston pin from the foot over a turn, m."""
+    highest: NDArray[np.float64]
+    """Largest distance of the piston pin from the foot over a turn, m."""
+
+
+def geometry(engine: Engine, theta_deg: float = 0.0) -> Geometry:
+    """Return the places of an engine's parts at a crank angle, by exact kinematics."""
+    theta = crank_angle(theta_deg)
+    cylinders = engine.cylinders
+    figures = [(each.crank_radius, each.rod_length, each.pin_offset) for each in cylinders]
+    radius, length, offset = np.array(figures).T
+    along = direction(engine.bank_deg)
+    # The offset is on the side to which the crankpin swings after top dead centre.
+    foot = 1j * offset * along
+    turns = theta - engine.tdc_deg
+    height = [float(each.position(at)) for each, at in zip(cylinders, turns, strict=True)]
+    return Geometry(
+        theta_deg=theta,
+        along=along,
+        foot=foot,
+        crankpin=radius * direction(engine.pin_deg + theta),
+        wrist_pin=foot + height * along,
+        lowest=np.sqrt((length - radius) ** 2 - offset**2),
+        highest=np.sqrt((length + radius) ** 2 - offset**2),
+    )
+
+
+class Weight(NamedTuple):
+    """An unbalance at a crank angle."""
+
+    z: float
+    """Place along the crank, m."""
+    amount: float
+    """Mass × eccentricity, kg·m."""
+    angle_deg: float
+    """Direction from +x, degrees."""
+
+
+def weights_on_crank(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:
+    """Return the counterweights, turned to a crank angle."""
+    pins = engine.pin_deg.tolist()
+    return [
+        _turned(each, theta_deg + (0.0 if each.pin is None else pins[each.pin - 1]))
+        for each in engine.counterweights
+    ]
+
+
+def weights_on_shafts(engine: Engine, theta_deg: float = 0.0) -> list[list[Weight]]:
+    """Return the unbalances of each balance shaft, turned to a crank angle."""
+    return [
+        [_turned(each, shaft.ratio * theta_deg) for each in shaft.unbalances]
+        for shaft in engine.shafts
+    ]
+
+
+def _turned(unbalance: Unbalance, by_deg: float) -> Weight:
+    angle = rotating.degrees(unbalance.angle_deg) + by_deg
+    return Weight(unbalance.z, unbalance.amount, angle % 360.0)
+
+
+def crank_angle(theta_deg: object) -> float:
+    """Return a crank angle that was given, degrees."""
+    theta = inputs.number("theta_deg", theta_deg)
+    if not np.isfinite(theta):
+        raise InputError(f"theta_deg = {theta}: give a crank angle in degrees, such as 90")
+    return theta
+
+
+def direction(degrees: NDArray[np.float64] | float) -> NDArray[np.complex128]:
+    """Return unit vectors at these angles from +x, x + iy."""
+    return np.asarray(np.exp(1j * np.radians(degrees)))
+
+
+def assumed_bores(engine: Engine) -> NDArray[np.float64]:
+    """Return diameters of the bores to draw, m: (n_cylinders,). An engine does not store them.
+
+    As wide as the stroke is long, but at most 0.9 of the distance to the next cylinder of the bank,
+    and at least 0.6 of the stroke.
+    """
+    banks = np.array(engine.core.bank)
+    bores = np.array([cylinder.stroke for cylinder in engine.cylinders])
+    for k, z in enumerate(engine.z):
+        distances = abs(engine.z[banks == banks[k]] - z)
+        nearest = distances[distances > 0.0].min(initial=np.inf)
+        bores[k] *= np.clip(WIDEST_BORE * nearest / bores[k], NARROWEST_BORE, 1.0)
+    return bores

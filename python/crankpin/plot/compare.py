@@ -1,0 +1,165 @@
+"""Comparisons: peaks of two engines over order, and the curves of both."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.font_manager import FontProperties
+
+from crankpin._support import inputs, labels
+from crankpin.analysis.comparison import Comparison
+from crankpin.analysis.source import PLANE_VECTORS
+from crankpin.analysis.waveform import Waveform
+from crankpin.plot.axes import (
+    check_one_place,
+    entitle,
+    entitle_figure,
+    head,
+    inches_of,
+    label_y,
+    many_panels,
+    one_panel,
+    say_zero,
+)
+from crankpin.plot.dispatch import draw
+from crankpin.plot.legend import figure_legend, legend_below
+from crankpin.plot.style import background, series
+from crankpin.plot.ticks import numeric
+from crankpin.plot.words import number, rounded, width_of, with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH = 0.36
+"""Width of a bar, in orders."""
+SIDE_BY_SIDE = 5.0
+"""Inches that two panels beside each other need."""
+TURN = np.arange(361.0)
+MATTERS = 1e-3
+"""Orders that are below this part of the largest peak in both engines have no bars."""
+
+
+@draw.register(Comparison)
+def _comparison(
+    result: Comparison,
+    ax: Axes | None = None,
+    *,
+    figure: Any = None,  # noqa: ANN401 - checked
+    quantity: str = "moment",
+    **style: Any,  # noqa: ANN401 - of bars
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    result.before.request.check(name)
+    lines = (result.title, f"{number(result.rpm)} rpm, {_total(result, name)}")
+    if ax is not None:
+        ax = one_panel(ax)
+        _bars(ax, result, name, style)
+        entitle(ax, *lines)
+        legend_below(ax)
+        return ax
+    width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
+    beside = width >= SIDE_BY_SIDE
+    shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
+    made = many_panels(figure, 1 if beside else 2, 2 if beside else 1, row_height=0.75, **shape)
+    bars, curves = made.axes.ravel()
+    _bars(bars, result, name, style)
+    head(bars, "peaks by order")
+    _curves(curves, result, name)
+    entitle_figure(made.figure, *lines)
+    figure_legend(made.figure, bars.get_legend_handles_labels()[0])
+    return made.axes
+
+
+def _total(result: Comparison, name: str) -> str:
+    """Return what becomes of all orders together."""
+    before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
+    what = (
+        f"longest {labels.NAMES[name]}" if name in PLANE_VECTORS else f"peak {labels.NAMES[name]}"
+    )
+    return (
+        f"{what} {rounded(before, 4)} → {rounded(after, 4)} {labels.UNITS[name]}"
+        f" ({changed(before, after)})"
+    )
+
+
+def changed(before: float, after: float) -> str:
+    """Return by how much a peak fell or rose, in words that fit above a bar."""
+    if before == after:
+        return "as before"
+    if before == 0.0:
+        return "new"
+    if after == 0.0:
+        return "gone"
+    change = 100.0 * (after / before - 1.0)
+    if abs(change) > 999.0:
+        return f"{rounded(after / before, 2)}×"
+    text = rounded(change, 2) if abs(change) < 99.0 else f"{change:.3g}"
+    return f"{'+' if change > 0.0 else ''}{text}\N{NO-BREAK SPACE}%".replace("-", "−")
+
+
+def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> None:
+    """Draw a pair of bars for each order, and above it how it changes."""
+    pairs = np.array([getattr(each, name).peak for each in (result.before, result.after)])
+    top = float(pairs.max(initial=0.0))
+    shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > MATTERS * top]
+    orders = np.array(result.orders, dtype=np.float64)[shown]
+    looks = series(ax, 2)
+    hatches = ("////", None)  # for print without colour
+    for k, (peaks, text) in enumerate(zip(pairs[:, shown], result.names, strict=True)):
+        fill = {
+            "color": looks[k]["color"], "hatch": hatches[k], "edgecolor": background(ax),
+            "linewidth": 0.0,
+        }  # fmt: skip
+        ax.bar(orders + (k - 0.5) * WIDTH, peaks, 0.96 * WIDTH, label=text, **(fill | style))
+    if not shown:
+        say_zero(ax)
+    last = float(orders.max(initial=0.0)) + 1.0
+    texts = [changed(*pairs[:, k].tolist()) for k in shown]
+    widths = [width_of(text, FontProperties(size="x-small")) for text in texts]
+    # The layout will take a part of the axes for labels.
+    apart = float(np.diff(orders).min(initial=last)) / last
+    upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
+    for order, k, text in zip(orders.tolist(), shown, texts, strict=True):
+        ax.annotate(
+            text,
+            (order, float(pairs[:, k].max())),
+            (0.0, 3.0),
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            fontsize="x-small",
+            rotation=90.0 if upright else 0.0,
+        )
+    ax.set_xlim(0.0, last)
+    ax.set_ylim(0.0, (1.4 if upright else 1.25) * top or 1.0)
+    numeric(ax.xaxis, whole=True)
+    numeric(ax.yaxis)
+    ax.set_xlabel("order (multiples of crank speed)")
+    label_y(ax, with_unit(name, peak=True))
+
+
+def _curves(ax: Axes, result: Comparison, name: str) -> None:
+    """Draw what both forces or moments trace, or both torques over crank angle."""
+    kind = "orbit" if name in PLANE_VECTORS else "curves"
+    for balance, label in zip((result.before, result.after), result.names, strict=True):
+        waveform = Waveform(balance.engine, balance.rpm, TURN, True, balance.request)
+        draw(waveform, ax, kind=kind, quantity=name, label=label)
+    if legend := ax.get_legend():  # the figure's names both
+        legend.remove()
+    if kind == "orbit":
+        _square(ax)
+    head(ax, "over a turn")
+
+
+def _square(ax: Axes) -> None:
+    """Give orbits a square panel that they fill, without crank angles: whose would they be?"""
+    for text in [*ax.texts]:
+        if text.get_text():
+            text.remove()
+    reach = max(float(np.abs(line.get_xydata()).max(initial=0.0)) for line in ax.lines) or 1.0
+    ax.set_aspect("equal", adjustable="box")
+    ax.set_xlim(-1.15 * reach, 1.15 * reach)
+    ax.set_ylim(-1.15 * reach, 1.15 * reach)

@@ -1,0 +1,286 @@
+"""A crankshaft as a star seen from the flywheel, and from the side."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.transforms import Bbox
+
+from crankpin.analysis.crankshaft import Crankpin, directions, throws
+from crankpin.analysis.geometry import (
+    assumed_bores,
+    crank_angle,
+    direction,
+    weights_on_crank,
+    weights_on_shafts,
+)
+from crankpin.plot.axes import inches_of
+from crankpin.plot.section import shaft_text
+from crankpin.plot.shapes import (
+    JOURNAL,
+    Inks,
+    add,
+    arrow_round,
+    bar,
+    box,
+    by_direction,
+    crank_radius,
+    disc,
+    inks_of,
+    listed,
+    outside,
+    radius_of_amounts,
+    rotating_masses,
+    text_corner,
+    wedge,
+)
+from crankpin.plot.words import plain_text, width_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.geometry import Weight
+    from crankpin.model.engine import Engine
+
+PINS = "crankpin pins"
+"""Marks the main journal, then the crankpins."""
+UNBALANCES = "crankpin unbalances"
+"""Marks the sectors of the star, the largest first."""
+WEIGHTS = "crankpin counterweights"
+"""Marks the counterweights of the side view."""
+
+# --- star ---------------------------------------------------------------------------------------
+
+
+def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+    """Draw crankpins in their directions, numbered, with rotating masses and counterweights.
+
+    Unbalances of one direction are added up, and drawn as a sector whose area is as the sum.
+    """
+    theta = crank_angle(theta_deg)
+    ink = inks_of(ax)
+    largest = crank_radius(engine)
+    turn = complex(direction(theta))
+    pins = {pin.at * turn: [*pin.cylinders] for pin in directions(engine)}
+    half = 0.65 * JOURNAL * largest
+    sums = [
+        (amount, towards, colour)
+        for weights, colour in (
+            (rotating_masses(engine, theta), ink.journal),
+            (weights_on_crank(engine, theta), ink.weight),
+        )
+        for towards, amount in by_direction(weights).items()
+    ]
+    sums.sort(key=lambda each: -each[0])  # smaller sectors over larger ones
+    radii = radius_of_amounts(engine, [amount for amount, _, _ in sums])
+    sectors = [
+        wedge(0.0, radius, float(np.degrees(np.angle(towards))))
+        for radius, (_, towards, _) in zip(radii, sums, strict=True)
+    ]
+    faces = [colour for _, _, colour in sums]
+    add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
+    looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
+    add(ax, [bar(0.0, at, 2.6 * half, 1.3 * half) for at in pins], **(looks | style))
+    rounds = [disc(0.0, 1.5 * half), *(disc(at, half) for at in pins)]
+    faces = [ink.paper] + [ink.journal] * len(pins)
+    add(ax, rounds, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
+    circle = largest * direction(np.linspace(0.0, 360.0, 181))
+    ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
+    arrow_round(ax, largest, _widest_gap([*pins]), ink)
+    reach = max(1.25 * largest, *radii) if radii else largest + half
+    limit = 1.25 * reach
+    # The layout may make the axes smaller yet.
+    scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
+    for at, cylinders in _numbers(pins, scale * reach).items():
+        outside(ax, reach * at, listed(cylinders), fontsize="small")
+    ax.set_aspect("equal")
+    ax.set_xlim(-limit, limit)
+    ax.set_ylim(-limit, limit)
+    ax.set_axis_off()
+
+
+def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
+    """Join the cylinders of pins whose numbers would overlap, so many points from the axis."""
+    font = FontProperties(size="small")
+    labels = [
+        (at / abs(at), cylinders)
+        for at, cylinders in sorted(pins.items(), key=lambda each: float(np.angle(each[0])))
+    ]
+
+    def place(towards: complex, cylinders: list[int]) -> Bbox:
+        anchor = radius * towards
+        left, bottom = text_corner(towards)
+        width, height = width_of(listed(cylinders), font), font.get_size_in_points()
+        x0, y0 = anchor.real + left * width, anchor.imag + bottom * height
+        return Bbox.from_bounds(x0, y0, width, height)
+
+    k = 0
+    while len(labels) > 1 and k < len(labels):
+        (a, first), (b, second) = labels[k - 1], labels[k]
+        if place(a, first).padded(1.0).overlaps(place(b, second).padded(1.0)):
+            labels[k] = ((a + b) / abs(a + b), sorted(first + second))
+            del labels[k - 1]
+            k = 0
+        else:
+            k += 1
+    return dict(labels)
+
+
+def _widest_gap(places: list[complex]) -> float:
+    """Return the middle of the widest gap between directions, degrees."""
+    angles = np.sort(np.degrees(np.angle(places)))
+    gaps = np.diff(angles, append=angles[0] + 360.0)
+    widest = int(np.argmax(gaps.round(6)))
+    return float(angles[widest] + 0.5 * gaps[widest])
+
+
+# --- side ---------------------------------------------------------------------------------------
+
+
+class Stretch(NamedTuple):
+    """A crankpin, and the part of the crank that it takes as drawn."""
+
+    pin: Crankpin
+    low: float
+    high: float
+    """From one web to the next, m."""
+
+
+def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+    """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
+    theta = crank_angle(theta_deg)
+    ink = inks_of(ax)
+    turn = complex(direction(theta))
+    drawn, pitch = _stretches(engine)
+    thick = 0.09 * pitch
+    half = JOURNAL * crank_radius(engine)
+    front, back = drawn[0][0].low - 2.0 * thick, drawn[-1][-1].high + 4.0 * thick
+    per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
+    journals, webs = [_rectangle(front, back, -half, half)], []
+    for throw in drawn:
+        heights = [(stretch.pin.at * turn).imag for stretch in throw]
+        for (_, low, high), height in zip(throw, heights, strict=True):
+            journals.append(_rectangle(low, high, height - half, height + half))
+        middle = 0.5 * (throw[0].low + throw[-1].high)
+        room = pitch / len(throw)
+        for k, (stretch, height) in enumerate(zip(throw, heights, strict=True)):
+            # Numbers of pins side by side have the room between throws too.
+            z = middle + (k - 0.5 * (len(throw) - 1)) * room
+            _number(ax, z, height, 1.2 * half, stretch.pin.cylinders, 0.9 * room * per_metre)
+        # Webs: from the main journal to a pin, from pin to pin, and back to the main journal.
+        joined = zip([0.0, *heights], [*heights, 0.0], strict=True)
+        edges = [throw[0].low, *(stretch.high for stretch in throw)]
+        for (a, b), z in zip(joined, edges, strict=True):
+            low, high = min(a, b) - 1.2 * half, max(a, b) + 1.2 * half
+            webs.append(_rectangle(z - 0.5 * thick, z + 0.5 * thick, low, high))
+    looks = {"facecolor": ink.journal, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
+    add(ax, journals, gid=PINS, **looks)
+    add(ax, webs, **(looks | {"facecolor": ink.web} | style))
+    flywheel = 1.5 * crank_radius(engine)
+    wheel = _rectangle(back, back + 2.0 * thick, -flywheel, flywheel)
+    add(ax, [wheel], facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
+    _weights(engine, ax, theta, ink, thick)
+    _shafts(engine, ax, theta, ink, (front, back + 2.0 * thick), thick)
+    reach = max(flywheel, 2.0 * crank_radius(engine))
+    ax.update_datalim([(front - thick, -reach), (back + 3.0 * thick, reach)])
+    to_scale = pitch > 0.5 * crank_radius(engine)
+    ax.set_aspect("equal" if to_scale else "auto")
+    ax.autoscale_view()
+    ax.set_ylabel("y, m")
+    ax.set_xlabel("z, m" if to_scale else "z, m (not to the scale of y)")
+
+
+def _stretches(engine: Engine) -> tuple[list[list[Stretch]], float]:
+    """Divide the crank among its throws, and each throw's stretch among its pins.
+
+    Pins at one place along the crank are drawn side by side, as they are built. Also return the
+    distance between throws.
+    """
+    found = throws(engine)
+    middles = [float(np.mean([pin.z for pin in throw])) for throw in found]
+    apart = np.diff(np.sort(middles))
+    pitch = float(apart[apart > 0.0].min(initial=np.inf))
+    if not np.isfinite(pitch):
+        pitch = 1.2 * float(assumed_bores(engine).max())
+    width = 0.62 * pitch
+    drawn = []
+    for middle, throw in zip(middles, found, strict=True):
+        edges = middle + width * (np.linspace(0.0, 1.0, len(throw) + 1) - 0.5)
+        drawn.append([Stretch(*each) for each in zip(throw, edges[:-1], edges[1:], strict=True)])
+    return drawn, pitch
+
+
+def _number(
+    ax: Axes, z: float, y: float, clear: float, cylinders: Sequence[int], room: float
+) -> None:
+    """Write the numbers of a pin's cylinders on the side of it that is away from the axis.
+
+    They are below each other where they are wider than ``room``, points.
+    """
+    text = listed(cylinders)
+    if width_of(text, FontProperties(size="small")) > room:
+        text = text.replace(", ", "\n")
+    up = 1.0 if y > -1e-9 * clear else -1.0
+    ax.annotate(
+        text,
+        (z, y + up * clear),
+        (0.0, 3.0 * up),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if up > 0.0 else "top",
+        fontsize="small",
+    )
+
+
+def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) -> None:
+    weights = weights_on_crank(engine, theta)
+    radii = radius_of_amounts(engine, [each.amount for each in weights])
+    plates = [_plate(each, radius, 0.0, thick) for each, radius in zip(weights, radii, strict=True)]
+    add(ax, plates, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=WEIGHTS)
+
+
+def _shafts(
+    engine: Engine,
+    ax: Axes,
+    theta: float,
+    ink: Inks,
+    ends: tuple[float, float],
+    thick: float,
+) -> None:
+    weights = weights_on_shafts(engine, theta)
+    radii = iter(radius_of_amounts(engine, [each.amount for shaft in weights for each in shaft]))
+    half = 0.35 * JOURNAL * crank_radius(engine)
+    rods, plates = [], []
+    names: dict[float, list[str]] = {}
+    for shaft, carried in zip(engine.shafts, weights, strict=True):
+        rods.append(_rectangle(*ends, shaft.y - half, shaft.y + half))
+        plates += [_plate(each, 0.7 * next(radii), shaft.y, thick) for each in carried]
+        names.setdefault(shaft.y, []).append(shaft_text(shaft.name, shaft.ratio))
+    add(ax, rods, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=2)
+    add(ax, plates, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.8, zorder=4)
+    for y, texts in names.items():
+        ax.annotate(
+            plain_text(", ".join(texts)),
+            (ends[1], y),
+            (4.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize="x-small",
+        )
+        ax.update_datalim([(ends[0], y - crank_radius(engine)), (ends[1], y)])
+
+
+def _plate(weight: Weight, radius: float, y: float, thick: float) -> NDArray[np.complex128]:
+    """Return the outline from the side of a sector in which an unbalance is drawn."""
+    heights = wedge(1j * y, radius, weight.angle_deg).imag
+    z = weight.z
+    return _rectangle(z - 0.8 * thick, z + 0.8 * thick, heights.min(), heights.max())
+
+
+def _rectangle(left: float, right: float, low: float, high: float) -> NDArray[np.complex128]:
+    return box(complex(0.5 * (left + right), 0.0), 1j, right - left, low, high)

@@ -1,0 +1,210 @@
+"""Phasor diagrams: what the cylinders add to a balance, head to tail, an order a column."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.transforms import ScaledTranslation
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis import contributions as adding
+from crankpin.analysis.balance import at_orders
+from crankpin.analysis.source import PLANE_VECTORS
+from crankpin.plot import ticks
+from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
+from crankpin.plot.legend import figure_legend
+from crankpin.plot.style import colours, foreground, muted
+from crankpin.plot.words import name_of, number, rounded, width_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Orders
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.contributions import Contribution
+
+ORDERS = (1, 2)
+"""Orders that are drawn of a balance whose orders were not given."""
+SUM = 4.0
+"""Points of the sum's line, below those of the arms."""
+NOTHING = 1e-9
+"""Phasors below this part of the longest arrow are not drawn."""
+
+
+def phasors(
+    result: Balance,
+    ax: object = None,
+    figure: FigureBase | None = None,
+    *,
+    quantity: str = "moment",
+    orders: Orders | None = None,
+    **style: Any,  # noqa: ANN401 - of arrows
+) -> NDArray[Any]:
+    """Draw the phasors of cylinders, counterweights and shafts head to tail, with their sum.
+
+    A column for each order; a row for the forward and one for the backward parts of force or
+    moment, one row for a torque. Arrows that cover each other are moved apart.
+    """
+    if ax is not None:
+        raise InputError('ax: kind="phasors" has several panels; give figure=')
+    kind = inputs.one_of("quantity", quantity, labels.UNITS)
+    result.request.check(kind)
+    shown = inputs.explicit_orders(
+        orders if orders is not None else result.request.orders or ORDERS
+    )
+    whole = at_orders(result, shown)
+    arms = adding.contributions(whole, kind)
+    sums = adding.phasors(whole, kind)
+    rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)
+    width, height = mpl.rcParams["figure.figsize"]
+    # Square panels, each below its two lines, between the title and the legend.
+    inches = len(rows) * (0.8 * width / len(shown) + 0.4) + 1.1
+    row_height = (inches / height - 0.25) / len(rows)
+    figure, axes = many_panels(figure, len(rows), len(shown), row_height=row_height)
+    groups = list(dict.fromkeys(arm.group for arm in arms))
+    inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
+    for column, order in enumerate(shown):
+        for row, part in enumerate(rows):
+            panel, total = axes[row, column], complex(sums[row, column])
+            # Corners of the polygon, from the origin on.
+            chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
+            room = _polygon(panel, arms, chain, total, inks, style)
+            _frame(panel, chain, room)
+            length = f"{rounded(abs(total), 4)} {labels.UNITS[kind]}" if total else "0"
+            head(panel, f"order {order} {part}".strip() + f"\n{length}")
+    axes[-1, 0].set_xlabel(_axis_label(kind, 0))
+    for panel in axes[:, 0]:
+        label_y(panel, _axis_label(kind, 1))
+    entitle_figure(
+        figure, name_of(result.engine), f"{labels.NAMES[kind]}, {number(result.rpm)} rpm, θ = 0"
+    )
+    handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
+    handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))
+    figure_legend(figure, handles)
+    return axes
+
+
+def _polygon(
+    ax: Axes,
+    arms: Sequence[Contribution],
+    chain: NDArray[np.complex128],
+    total: complex,
+    inks: dict[str, Any],
+    style: dict[str, Any],
+) -> float:
+    """Draw arms and sum; return the room that arrows moved aside need, points."""
+    lengths = abs(np.diff(chain))
+    longest = lengths.max(initial=0.0)
+    if not longest:
+        say_zero(ax)
+        return 0.0
+    drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
+    arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
+    lanes = _lanes(arrows)
+    font = FontProperties(size="small")
+    lane = 5.0 + max(width_of(arms[k].part, font) for k in drawn)
+    middle = complex(chain[:-1].mean())
+    for k, (start, end), aside in zip(drawn, arrows, lanes, strict=True):
+        across = _across(end - start)
+        # Outside of the polygon, or on the side of the arrow that has no other.
+        outwards = ((0.5 * (start + end) - middle) * across.conjugate()).real
+        out = across if aside or outwards >= -1e-9 * longest else -across
+        looks = {"color": inks[arms[k].group], "linewidth": 1.5} | style
+        _arrow(ax, start, end, aside * lane * across, **looks)
+        place = aside * lane * across + 0.5 * lane * out
+        ax.annotate(
+            arms[k].part,
+            (0.5 * (start + end).real, 0.5 * (start + end).imag),
+            (place.real, place.imag),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize="small",
+        )
+    if abs(total) > NOTHING * longest:
+        _arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
+    ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
+    return lane * max(lanes)
+
+
+def _arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
+    """Draw an arrow between two points, moved aside by so many points of type."""
+    inches = ax.get_figure(root=True).dpi_scale_trans  # type: ignore[union-attr]
+    aside = ScaledTranslation(shift.real / 72.0, shift.imag / 72.0, inches)
+    ax.add_patch(
+        FancyArrowPatch(
+            (start.real, start.imag),
+            (end.real, end.imag),
+            arrowstyle="-|>",
+            mutation_scale=9.0,
+            shrinkA=0.0,
+            shrinkB=0.0,
+            transform=ax.transData + aside,
+            **style,
+        )
+    )
+
+
+def _lanes(arrows: Sequence[tuple[complex, complex]]) -> list[int]:
+    """Return how far to the side each arrow goes, so that none covers another before it."""
+    taken: list[tuple[complex, float, float, float, int]] = []
+    lanes = []
+    for start, end in arrows:
+        across = _across(end - start)
+        along = 1j * across.conjugate()  # turns the arrow's line onto the real axis
+        offset = (start * across.conjugate()).real
+        low, high = sorted(((start * along).real, (end * along).real))
+        length = high - low
+        used = {
+            lane
+            for other, there, first, last, lane in taken
+            if abs(other - across) < 1e-6
+            and abs(there - offset) < 1e-6 * length
+            and min(high, last) - max(low, first) > 1e-6 * length
+        }
+        lane = next(k for k in range(len(used) + 1) if k not in used)
+        taken.append((across, offset, low, high, lane))
+        lanes.append(lane)
+    return lanes
+
+
+def _across(arrow: complex) -> complex:
+    """Return the unit vector across an arrow, the same for the arrow reversed."""
+    across = 1j * arrow / abs(arrow)
+    upward = across.imag < -1e-9 or (abs(across.imag) <= 1e-9 and across.real < 0.0)
+    return -across if upward else across
+
+
+def _frame(ax: Axes, chain: NDArray[np.complex128], room: float) -> None:
+    """Show the whole polygon, with room for labels and arrows moved aside, points."""
+    box = ax.get_window_extent()
+    # The layout will make the axes smaller than they are.
+    points = 0.7 * 72.0 * min(box.width, box.height) / ax.get_figure(root=True).dpi  # type: ignore[union-attr]
+    half = 0.625 * float(max(np.ptp(chain.real), np.ptp(chain.imag)))
+    half /= 1.0 - min(0.6, 1.5 * room / points)
+    ax.set_aspect("equal")
+    if not half:
+        ax.set_xticks([])
+        ax.set_yticks([])
+        return
+    x, y = 0.5 * (chain.real.min() + chain.real.max()), 0.5 * (chain.imag.min() + chain.imag.max())
+    ax.set_xlim(x - half, x + half)
+    ax.set_ylim(y - half, y + half)
+    ticks.numeric(ax.xaxis)
+    ticks.numeric(ax.yaxis)
+
+
+def _axis_label(kind: str, axis: int) -> str:
+    if kind in PLANE_VECTORS:
+        return f"{labels.COMPONENTS[kind][axis].split(' (')[0]}, {labels.UNITS[kind]}"
+    return f"{('real', 'imaginary')[axis]} part, {labels.UNITS[kind]}"

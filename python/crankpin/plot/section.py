@@ -1,0 +1,187 @@
+"""Cross-section of an engine, seen from the flywheel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin.analysis.crankshaft import directions
+from crankpin.analysis.geometry import (
+    assumed_bores,
+    direction,
+    geometry,
+    weights_on_crank,
+    weights_on_shafts,
+)
+from crankpin.plot.shapes import (
+    JOURNAL,
+    Inks,
+    add,
+    arrow_round,
+    bar,
+    box,
+    crank_radius,
+    disc,
+    inks_of,
+    listed,
+    outside,
+    points,
+    radius_of_amounts,
+    wedge,
+)
+from crankpin.plot.words import number, plain_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.geometry import Geometry
+    from crankpin.model.engine import Engine
+
+MOVING = "crankpin moving parts"
+"""Marks pistons, rods, piston pins and crankpins, in turn for each cylinder from the front."""
+CROWN = 0.32
+"""Top of a piston above its pin, over the bore."""
+SKIRT = 0.26
+"""Bottom of a piston below its pin, over the bore."""
+
+
+def section(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
+    """Draw bores, pistons, rods, crank, counterweights and balance shafts."""
+    at = geometry(engine, theta_deg)
+    bores = assumed_bores(engine)
+    ink = inks_of(ax)
+    _walls(engine, ax, at, bores, ink)
+    _crank(engine, ax, at, ink)
+    _moving_parts(engine, ax, at, bores, ink, style)
+    _shafts(engine, ax, at.theta_deg, ink)
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    ax.set_axis_off()
+    _scale_bar(engine, ax, ink)
+
+
+def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], ink: Inks) -> None:
+    """Draw each bore once, with its head and the numbers of its cylinders."""
+    seen: dict[tuple[float, ...], list[int]] = {}
+    heads = at.highest + (CROWN + 0.04) * bores
+    for k, (along, foot) in enumerate(zip(at.along, at.foot, strict=True)):
+        place = (along.real, along.imag, foot.real, foot.imag, bores[k], heads[k])
+        seen.setdefault(tuple(np.round(place, 9).tolist()), []).append(k)
+    reached = [disc(0.0, 1.8 * crank_radius(engine))]
+    for cylinders in seen.values():
+        k = cylinders[0]
+        corners = box(at.foot[k], at.along[k], bores[k], at.lowest[k] - SKIRT * bores[k], heads[k])
+        ax.plot(corners.real, corners.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
+        axis = at.foot[k] + np.array([0.0, heads[k]]) * at.along[k]
+        ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
+        outside(ax, axis[1], listed([each + 1 for each in cylinders]), fontsize="small")
+        reached.append(corners)
+    # Numbers need room beyond the heads.
+    ax.update_datalim(points(1.06 * np.concatenate(reached)))
+
+
+def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
+    largest = crank_radius(engine)
+    width = 2.0 * JOURNAL * largest
+    weights = weights_on_crank(engine, at.theta_deg)
+    radii = radius_of_amounts(engine, [each.amount for each in weights])
+    sectors = [
+        wedge(0.0, radius, each.angle_deg)
+        for radius, each in zip(radii, weights, strict=True)
+        if radius
+    ]
+    add(ax, sectors, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.6, zorder=2.5)
+    turn = complex(direction(at.theta_deg))
+    webs = [bar(0.0, pin.at * turn, 1.3 * width, width) for pin in directions(engine)]
+    add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
+    add(ax, [disc(0.0, 0.5 * width)], facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
+    arc = 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))
+    ax.plot(arc.real, arc.imag, color=ink.faint, linewidth=1.0, linestyle="-", zorder=2)
+    arrow_round(ax, 1.7 * largest, -15.0, ink)
+
+
+def _moving_parts(
+    engine: Engine,
+    ax: Axes,
+    at: Geometry,
+    bores: NDArray[np.float64],
+    ink: Inks,
+    style: dict[str, Any],
+) -> None:
+    """Draw pistons and rods, the ones close to the flywheel over those behind them."""
+    outlines, faces = [], []
+    for k in np.argsort(engine.z, kind="stable"):
+        eye = 0.16 * bores[k]
+        pin, wrist = at.crankpin[k], at.wrist_pin[k]
+        width = 2.0 * JOURNAL * abs(pin)
+        low, high = -SKIRT * bores[k], CROWN * bores[k]
+        outlines += [
+            box(wrist, at.along[k], 0.97 * bores[k], low, high),
+            bar(pin, wrist, 1.3 * width, 1.5 * eye),
+            disc(wrist, 0.5 * eye),
+            disc(pin, 0.5 * width),
+        ]
+        faces += [ink.metal, ink.metal, ink.paper, ink.journal]
+    looks = {
+        "facecolor": faces,
+        "edgecolor": ink.line,
+        "linewidth": 0.8,
+        "zorder": 4,
+        "gid": MOVING,
+    }
+    add(ax, outlines, **(looks | style))
+
+
+def _shafts(engine: Engine, ax: Axes, theta_deg: float, ink: Inks) -> None:
+    """Draw balance shafts at their places, with their unbalances and ratios."""
+    weights = weights_on_shafts(engine, theta_deg)
+    amounts = [each.amount for shaft in weights for each in shaft]
+    radii = iter(radius_of_amounts(engine, amounts))
+    names: dict[complex, list[str]] = {}
+    sectors, discs = [], []
+    for shaft, carried in zip(engine.shafts, weights, strict=True):
+        place = complex(shaft.x, shaft.y)
+        sectors += [wedge(place, 0.7 * next(radii), each.angle_deg) for each in carried]
+        discs.append(disc(place, 0.5 * JOURNAL * crank_radius(engine)))
+        names.setdefault(place, []).append(shaft_text(shaft.name, shaft.ratio))
+    add(ax, sectors, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.6, zorder=5)
+    add(ax, discs, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=5.1)
+    for place, texts in names.items():
+        below = -0.9j * crank_radius(engine)
+        ax.text(
+            place.real,
+            (place + below).imag,
+            plain_text("\n".join(texts)),
+            ha="center",
+            va="top",
+            fontsize="x-small",
+        )
+        reach = disc(place, 1.1 * crank_radius(engine))
+        ax.update_datalim(points(reach))
+
+
+def shaft_text(name: str, ratio: int) -> str:
+    """Return the words at a balance shaft: its name and its speed over the crank's."""
+    return f"{name} {ratio:+d}×".strip().replace("-", "−")
+
+
+def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:
+    """Draw a round length, about as long as the stroke, below the drawing on the left."""
+    stroke = 2.0 * crank_radius(engine)
+    decade = 10.0 ** np.floor(np.log10(stroke))
+    length = max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= stroke)
+    left, (low, high) = ax.get_xlim()[0], ax.get_ylim()
+    low -= 0.16 * (high - low)  # below the numbers of hanging cylinders
+    ax.set_ylim(low, high)
+    ax.plot([left, left + length], [low, low], color=ink.line, linewidth=1.5, linestyle="-")
+    ax.annotate(
+        f"{number(length)} m",
+        (left + 0.5 * length, low),
+        (0.0, -3.0),
+        textcoords="offset points",
+        ha="center",
+        va="top",
+        fontsize="x-small",
+    )

@@ -1,0 +1,74 @@
+"""Are two engines compared at the same orders, and what fell and rose named rightly?"""
+
+from __future__ import annotations
+
+import pickle
+
+import crankpin as cp
+import numpy as np
+import pytest
+from conftest import I4, V6
+
+SHAFTS = [
+    cp.Shaft(ratio, [cp.Unbalance(0.003, z=0.15, angle_deg=-90)], x=x)
+    for ratio, x in [(2, 0.08), (-2, -0.08)]
+]
+FITTED = I4.with_shafts(SHAFTS)
+
+
+def test_both_balances_are_at_all_orders_that_either_needs() -> None:
+    found = cp.compare(I4, V6, rpm=5000)
+    needed = {*I4.balance(5000).orders, *V6.balance(5000).orders}
+    assert set(found.orders) == needed
+    assert found.before == I4.balance(5000, orders=found.orders)
+    assert found.after == V6.balance(5000, orders=found.orders)
+    assert found.rpm == 5000.0
+
+
+def test_change_is_relative_to_before() -> None:
+    found = cp.compare(I4, FITTED, rpm=5000, orders=[1, 2, 4])
+    before, after = found.before.force.peak, found.after.force.peak
+    change = found.change("force")
+    assert change.tolist() == [0.0, after[1] / before[1] - 1.0, 0.0]
+    back = cp.compare(I4, V6, rpm=5000, orders=[1, 2])
+    assert back.change("force").tolist() == [0.0, -1.0]  # a V6 has no force of order 2
+    assert back.change().tolist() == [np.inf, np.inf]  # and an inline-4 no moment
+
+
+def test_options_are_those_of_a_balance() -> None:
+    options = {"orders": [1, 2], "reference_z": 0.4, "spectrum": {1: 0.5, 2: 0.2}}
+    found = cp.compare(I4, FITTED, 5000, **options)  # type: ignore[arg-type]
+    assert found.after == FITTED.balance(5000, **options)  # type: ignore[arg-type]
+    with pytest.raises(AttributeError, match="torque is not available"):
+        found.change("torque")
+    with pytest.raises(cp.InputError, match="quantity"):
+        found.change("power")
+    with pytest.raises(cp.InputError, match="before = 3"):
+        cp.compare(3, I4, rpm=5000)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match="after = 3"):
+        cp.compare(I4, 3, rpm=5000)  # type: ignore[arg-type]
+
+
+def test_the_table_has_what_matters_before_and_after() -> None:
+    text = repr(cp.compare(I4, FITTED, rpm=5000, orders=[1, 2, 4]))
+    title, header, *lines = text.splitlines()
+    assert title == "Inline-4 at 5000 rpm: peaks"
+    assert header.split() == ["quantity", "order", "before", "after", "change", "%"]
+    assert [line.split()[:4] for line in lines] == [
+        ["shaking", "force,", "N", "2"],
+        ["shaking", "force,", "N", "4"],
+        ["roll", "torque,", "N·m", "2"],
+        ["roll", "torque,", "N·m", "4"],
+    ]
+    assert repr(cp.compare(I4, V6, rpm=5000)).startswith("Inline-4 → V6 60°, shared pins at 5000")
+    assert "<td>roll torque, N·m</td>" in cp.compare(I4, V6, rpm=5000)._repr_html_()
+
+
+def test_it_is_made_of_two_like_balances() -> None:
+    found = cp.compare(I4, FITTED, rpm=5000)
+    assert pickle.loads(pickle.dumps(found)) == found  # noqa: S301 - our own
+    kind = cp.types.Comparison
+    with pytest.raises(cp.InputError, match=r"use crankpin\.compare"):
+        kind(I4, FITTED)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match="different orders or speeds"):
+        kind(I4.balance(5000, orders=[1]), FITTED.balance(5000, orders=[2]))

@@ -1,0 +1,347 @@
+"""Do drawings of an engine show its parts where the library has them?"""
+
+from __future__ import annotations
+
+import itertools
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from conftest import CYLINDER
+from crankpin.analysis.geometry import geometry
+from crankpin.plot.crank import PINS, UNBALANCES, WEIGHTS
+from crankpin.plot.section import MOVING
+from crankpin.plot.shapes import listed
+from matplotlib import pyplot as plt
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+RADIAL = cp.Engine.from_lists(
+    CYLINDER,
+    bank_deg=[90 + 40 * k for k in range(9)],
+    z=[0.0] * 9,
+    pin_deg=[90] * 9,
+    rotating_mass=0.1,
+    counterweights=[cp.Unbalance(0.05, 0.0, 180, pin=1)],
+    name="Radial 9",
+)
+FITTED = cp.Engine.preset("i4", rotating_mass=0.4).replace(
+    counterweights=[cp.Unbalance(0.012, 0.1 * k, 180, pin=k + 1) for k in range(4)],
+    shafts=[
+        cp.Shaft(ratio, [cp.Unbalance(0.002, 0.15, -90)], x=x, y=y, name=name)
+        for ratio, x, y, name in [(2, 0.08, -0.02, "right"), (-2, -0.08, 0.05, "")]
+    ],
+)
+STAGGERED = cp.Engine.vee(
+    CYLINDER,
+    bank_angle_deg=90,
+    throws_deg=[0, 120, 240],
+    spacing=0.11,
+    bank_stagger=0.022,
+    pin_split_deg=-30,
+    name="V6 staggered",
+)
+ENGINES = [*map(cp.Engine.preset, cp.presets()), RADIAL, FITTED, STAGGERED]
+any_engine = pytest.mark.parametrize("engine", ENGINES, ids=lambda engine: engine.name)
+
+
+def outlines(ax: Axes, gid: str) -> list[NDArray[np.complex128]]:
+    """Corners of the shapes of one kind, without the last, which is the first again."""
+    (found,) = (each for each in ax.collections if each.get_gid() == gid)
+    corners = [np.asarray(path.vertices)[:-1] for path in found.get_paths()]
+    return [each[:, 0] + 1j * each[:, 1] for each in corners]
+
+
+def middle(outline: NDArray[np.complex128]) -> complex:
+    x, y = outline.real, outline.imag
+    return complex(0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max()))
+
+
+def words(ax: Axes) -> list[str]:
+    return [text.get_text() for text in ax.texts if text.get_text()]
+
+
+def figure_of(axes: Any) -> Figure:  # noqa: ANN401 - axes
+    figure: Figure = np.ravel(axes)[0].get_figure(root=True)
+    return figure
+
+
+# --- the numbers drawn --------------------------------------------------------------------------
+
+
+@any_engine
+def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
+    engine: cp.Engine,
+) -> None:
+    drawn = outlines(engine.plot(kind="section", theta_deg=100), MOVING)
+    at = geometry(engine, 100.0)
+    front_first = np.argsort(engine.z, kind="stable")
+    assert len(drawn) == 4 * len(engine)
+    for j, k in enumerate(front_first):
+        piston, rod, wrist, pin = drawn[4 * j : 4 * j + 4]
+        size = engine.cylinders[k].rod_length
+        assert middle(wrist) == pytest.approx(at.wrist_pin[k], abs=1e-12 * size)
+        assert middle(pin) == pytest.approx(at.crankpin[k], abs=1e-12 * size)
+        # The piston is a rectangle about the bore's axis, and around its pin.
+        along = ((piston - at.wrist_pin[k]) / at.along[k]).real
+        across = ((piston - at.wrist_pin[k]) / at.along[k]).imag
+        assert along.min() < 0.0 < along.max()
+        assert across.min() == pytest.approx(-across.max())
+        # The rod goes from pin to pin.
+        assert abs(rod - at.crankpin[k]).min() < 0.5 * size
+        assert abs(rod - at.wrist_pin[k]).min() < 0.5 * size
+
+
+@any_engine
+def test_the_star_has_every_crankpin_with_its_numbers(engine: cp.Engine) -> None:
+    ax = engine.plot(kind="star", theta_deg=30)
+    _, *pins = map(middle, outlines(ax, PINS))
+    at = geometry(engine, 30.0).crankpin
+    for place in at:
+        assert min(abs(place - pin) for pin in pins) < 1e-8 * abs(place)
+    for pin in pins:
+        assert min(abs(at - pin)) < 1e-8 * abs(pin)
+    for k, place in enumerate(at, start=1):
+        # Annotations without text are arrows.
+        labels = [label for label in ax.texts if label.get_text()]
+        nearest = min(labels, key=lambda label: _angle(complex(*label.xy), place))  # type: ignore[attr-defined]
+        assert k in _numbers(nearest.get_text())
+
+
+def _angle(a: complex, b: complex) -> float:
+    return abs(float(np.angle(a / b)))
+
+
+def _numbers(text: str) -> set[int]:
+    """The cylinders of a label."""
+    found: set[int] = set()
+    parts = re.split(r"[,\n]\s*", text)
+    for k, part in enumerate(parts):
+        if part == "…":
+            first, second, last = (int(parts[j]) for j in (k - 2, k - 1, k + 1))
+            found |= set(range(first, last + 1, second - first))
+        else:
+            first, *last = map(int, part.split("–"))  # type: ignore[assignment]
+            found |= set(range(first, (last or [first])[0] + 1))  # type: ignore[index]
+    return found
+
+
+@any_engine
+def test_the_side_view_has_pins_at_their_heights_and_places(engine: cp.Engine) -> None:
+    ax = engine.plot(kind="side", theta_deg=70)
+    _, *pins = map(middle, outlines(ax, PINS))
+    at = geometry(engine, 70.0).crankpin
+    span = np.ptp(engine.z) or 1.0
+    for k, place in enumerate(at):
+        same = [pin for pin in pins if abs(pin.imag - place.imag) < 1e-8 * abs(place)]
+        # Pins at one place along the crank are drawn side by side, within their throw.
+        assert min(abs(pin.real - engine.z[k]) for pin in same) < 0.3 * span
+    shown = set().union(*map(_numbers, words(ax)[: len(pins)]))
+    assert shown == set(range(1, len(engine) + 1))
+
+
+def test_a_pin_alone_on_its_throw_is_drawn_at_its_z() -> None:
+    engine = cp.Engine.preset("i5")
+    _, *pins = map(middle, outlines(engine.plot(kind="side"), PINS))
+    assert [pin.real for pin in pins] == pytest.approx(engine.z.tolist(), abs=1e-12)
+
+
+def test_areas_of_the_star_are_proportional_to_unbalances() -> None:
+    ax = FITTED.plot(kind="star", theta_deg=0)
+    sectors = outlines(ax, UNBALANCES)
+    radii = [abs(sector).max() for sector in sectors]
+    # Rotating masses of two cylinders at each pin; their counterweights at the pin opposite.
+    mass, weight = 2 * 0.4 * 0.043, 2 * 0.012
+    assert len(sectors) == 4
+    assert radii[0] == pytest.approx(radii[1])
+    assert (radii[2] / radii[0]) ** 2 == pytest.approx(weight / mass)
+    directions = sorted(round(np.degrees(np.angle(sector[1:].mean()))) for sector in sectors)
+    assert directions == [-90, -90, 90, 90]
+
+
+def test_the_side_view_has_counterweights_and_shafts_at_their_places() -> None:
+    ax = FITTED.plot(kind="side", theta_deg=0)
+    plates = outlines(ax, WEIGHTS)
+    assert [middle(plate).real for plate in plates] == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    assert [np.sign(middle(plate).imag) for plate in plates] == [-1, 1, 1, -1]
+    texts = {text.get_text(): text.xy for text in ax.texts if "×" in text.get_text()}  # type: ignore[attr-defined]
+    assert {text: y for text, (_, y) in texts.items()} == {"right +2×": -0.02, "−2×": 0.05}
+
+
+def test_the_section_has_shafts_at_their_places() -> None:
+    ax = FITTED.plot(kind="section")
+    texts = {text.get_text(): text.get_position() for text in ax.texts if "×" in text.get_text()}
+    assert texts["right +2×"][0] == 0.08
+    assert texts["−2×"][0] == -0.08
+
+
+def test_the_flywheel_end_is_over_the_front() -> None:
+    """Seen from the flywheel, what is near it covers what is behind."""
+    engine = cp.Engine.inline(CYLINDER, throws_deg=[0, 90], spacing=0.1)
+    last = outlines(engine.plot(kind="section"), MOVING)[-1]
+    assert middle(last) == pytest.approx(geometry(engine).crankpin[1])
+
+
+# --- words --------------------------------------------------------------------------------------
+
+
+CROWDED = ("w12", "w16", "v16-45", "v14-9.13", "v4-narrow", "vr6", "i6")
+
+
+@pytest.mark.parametrize(
+    ("engine", "size", "font"),
+    [(engine, (7.2, 5.6), 10.0) for engine in ENGINES]
+    + [(engine, (3.4, 3.2), 7.0) for engine in (*map(cp.Engine.preset, CROWDED), RADIAL, FITTED)],
+)
+def test_no_numbers_overlap(engine: cp.Engine, size: tuple[float, float], font: float) -> None:
+    with plt.rc_context({"font.size": font}):
+        figure = plt.figure(figsize=size, layout="constrained")
+        axes = engine.plot(figure=figure)
+        figure.canvas.draw()
+        for ax in axes:  # type: ignore[union-attr]
+            texts = [text for text in ax.texts if text.get_text()]
+            boxes = [text.get_window_extent().padded(-0.5) for text in texts]
+            texts.append(ax._left_title)  # type: ignore[attr-defined]
+            boxes.append(texts[-1].get_window_extent())
+            for (a, one), (b, other) in itertools.combinations(zip(texts, boxes, strict=True), 2):
+                assert not one.overlaps(other), (a.get_text(), b.get_text())
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"),
+    [
+        ([3], "3"),
+        ([1, 2], "1, 2"),
+        ([1, 2, 3], "1–3"),
+        ([1, 3, 5, 7], "1, 3, 5, 7"),
+        ([2, 4, 6, 8, 10], "2, 4, …, 10"),
+        ([1, 2, 15, 16], "1, 2, 15, 16"),
+    ],
+)
+def test_numbers_of_many_cylinders_are_shortened(numbers: list[int], text: str) -> None:
+    assert listed(numbers) == text
+
+
+def test_titles_and_legend_say_what_it_is() -> None:
+    figure = figure_of(FITTED.plot(theta_deg=22.5))
+    assert figure.get_suptitle() == "Inline-4\nθ = 22.5°, seen from the flywheel"
+    titles = [ax.get_title(loc="left") for ax in figure.axes]
+    assert titles == ["cross-section", "crank star", "crank from the side"]
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "rotating masses, up to 0.0172 kg·m each",
+        "counterweights, up to 0.012 kg·m each",
+        "balance shafts, up to 0.002 kg·m each",
+    ]
+    ax = FITTED.plot(kind="star")
+    assert ax.get_title(loc="left") == "Inline-4\ncrank star, θ = 0°"  # type: ignore[union-attr]
+    assert not figure_of(cp.Engine.preset("i4").plot()).legends
+
+
+def test_lengths_that_are_not_to_scale_say_so() -> None:
+    true = cp.Engine.preset("i4").plot(kind="side")
+    assert true.get_xlabel() == "z, m"  # type: ignore[union-attr]
+    assert true.get_aspect() == 1.0  # type: ignore[union-attr]
+    book = cp.Engine.preset("i4-ebook").plot(kind="side")
+    assert book.get_xlabel() == "z, m (not to the scale of y)"  # type: ignore[union-attr]
+
+
+# --- places and options -------------------------------------------------------------------------
+
+
+def test_axes_given_get_the_section_and_one_kind_takes_axes() -> None:
+    _, (left, right) = plt.subplots(1, 2)
+    assert FITTED.plot(left) is left
+    assert outlines(left, MOVING)
+    assert FITTED.plot(right, kind="star") is right
+    assert len(plt.get_fignums()) == 1
+
+
+def test_style_is_passed_on_to_the_main_parts() -> None:
+    for kind, gid in (("section", MOVING), ("star", None), ("side", None)):
+        ax = FITTED.plot(kind=kind, color="#123456", label="parts")  # type: ignore[call-overload,arg-type]
+        (found,) = (each for each in ax.collections if each.get_label() == "parts")
+        assert found.get_gid() == gid
+        np.testing.assert_allclose(found.get_facecolor()[0][:3], np.array([18, 52, 86]) / 255)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"kind": "top"}, "kind = 'top'"),
+        ({"theta_deg": "x"}, "theta_deg = 'x'"),
+        ({"theta_deg": np.inf}, "theta_deg = inf"),
+        ({"ax": 3}, "ax = 3"),
+        ({"figure": 3}, "figure = 3"),
+        ({"figure": 3, "kind": "star"}, "figure = 3: kind='star' has one panel"),
+        ({"figure": 3, "ax": 3}, "ax and figure cannot be combined"),
+    ],
+)
+def test_what_cannot_be_drawn_leaves_no_figure(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        FITTED.plot(**options)
+    assert plt.get_fignums() == []
+
+
+# --- in a notebook ------------------------------------------------------------------------------
+
+SVG = "{http://www.w3.org/2000/svg}"
+HREF = "{http://www.w3.org/1999/xlink}href"
+
+
+@any_engine
+def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engine) -> None:
+    text = engine._repr_svg_()
+    assert text is not None
+    root = ET.fromstring(text)  # noqa: S314 - our own
+    assert root.tag == f"{SVG}svg"
+    assert root.attrib["aria-label"].startswith(engine.name)
+    assert len(text) < 50_000
+    assert not list(root.iter(f"{SVG}style"))  # it would apply to the whole page
+    assert not list(root.iter(f"{SVG}image"))
+    ids = {each.attrib["id"] for each in root.iter() if "id" in each.attrib}
+    used = {each.attrib[HREF] for each in root.iter() if HREF in each.attrib}
+    assert used <= {f"#{name}" for name in ids}
+    assert "url(" not in text
+    assert not re.findall(r"(?<!xmlns=\")(?<!xmlns:xlink=\")https?:", text)
+    shown = [each.text for each in root.iter(f"{SVG}text")]
+    assert "0.05 m" in shown or "2 m" in shown  # text is text
+
+
+def test_pictures_on_one_page_have_ids_of_their_own() -> None:
+    first, second = (set(re.findall(r' id="([^"]+)"', FITTED._repr_svg_() or "")) for _ in range(2))
+    assert first
+    assert not first & second
+
+
+def test_its_lines_have_the_colour_of_the_page_s_text() -> None:
+    with plt.style.context("dark_background"):
+        text = FITTED._repr_svg_() or ""
+    assert "stroke: currentColor" in text
+    assert "#010203" not in text
+
+
+def test_a_table_follows_the_picture_and_no_figure_stays() -> None:
+    html = FITTED.replace(name="<script>alert(1)</script> & co")._repr_html_()
+    assert html.index("<svg") < html.index("<table")
+    assert "<script" not in html
+    assert plt.get_fignums() == []
+
+
+def test_without_matplotlib_there_is_the_table() -> None:
+    code = (
+        "import sys; sys.modules['matplotlib'] = None\n"
+        "import crankpin as cp\n"
+        "engine = cp.Engine.preset('i4')\n"
+        "assert engine._repr_svg_() is None\n"
+        "assert engine._repr_html_().startswith('<table>')"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)  # noqa: S603
