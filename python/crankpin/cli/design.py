@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from crankpin.cli import inputs, outputs, parser
 if TYPE_CHECKING:
     import argparse
 
+    from crankpin.analysis.design.question import Kind
     from crankpin.cli.parser import Commands
     from crankpin.model.engine import Engine
 
@@ -25,8 +26,8 @@ def add(commands: Commands) -> None:
         "cranks, pin splits and bank angles that minimise an objective",
         example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
         run=run,
-        note="Moving parts, spacing, bank angle and the number of cylinders and banks are those of\n"
-        "NAME; its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
+        note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
+        "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
     )
     designs.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
     designs.add_argument("--cylinders", metavar="N", help="number of cylinders (default: NAME's)")
@@ -98,7 +99,7 @@ def run(arguments: argparse.Namespace) -> str:
         angle = engine.bank_angle_deg
     found = design(
         len(engine) if arguments.cylinders is None else _whole("--cylinders", arguments.cylinders),
-        layout=layout,
+        layout=cast("Kind", layout),
         cylinder=engine.cylinders[0],
         spacing=_spacing(engine),
         rotating_mass=float(engine.rotating_mass[0]),

@@ -34,7 +34,7 @@ def _designs(
     designs: Designs,
     ax: Axes | None = None,
     *,
-    count: int = 6,
+    count: int = 4,
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
@@ -43,7 +43,7 @@ def _designs(
         raise InputError(f"count = {number}: give a whole number, 1 or more")
     ax = one_panel(ax)
     of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
-    best = designs[:number]
+    best = designs.designs[:number]
     names = [", ".join(filter(None, [label, _name(each)])) for each in best]
     quantity = f"{designs.by[0]}, {designs.unit}".rstrip(", ")
     if designs.question.banks == 2 and designs.objectives[0].quantity:
@@ -53,21 +53,21 @@ def _designs(
     else:
         _below_each_other(ax, best, names, of_lines)
         label_x(ax, quantity)
-    rest = designs.optima - len(best)
-    entitle(ax, _title(designs), designs.description(1), f"{rest} more not shown" if rest else "")
+    entitle(ax, _title(designs, len(best)), designs.description(1))
     if designs.question.banks == 2:
         legend_below(ax, last=BEST)
     return ax
 
 
-def _title(designs: Designs) -> str:
+def _title(designs: Designs, shown: int) -> str:
     question = designs.question
-    return f"{'IV'[question.banks - 1]}{question.cylinders}"
+    counted = f"{shown} of {designs.optima}" if shown < designs.optima else f"{shown}"
+    return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} designs"
 
 
 def _name(design: Design) -> str:
     split = design.crank.splits_text
-    return f"{design.crank.text}°" + (f" split {split}°" if split else "")
+    return f"{design.crank.text}°" + (f" split {split.replace('-', '−')}°" if split else "")
 
 
 def _over_bank_angle(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -192,9 +193,8 @@ class Designs(Frozen):
             "orders": "auto" if self.orders is None else self.orders,
         }
         if self.question.shafts:
-            cranks = [
-                self.turned(each.crank, angle) for each in designs for angle in angles.tolist()
-            ]
+            pairs = itertools.product(designs, angles.tolist())
+            cranks = [self.turned(each.crank, angle) for each, angle in pairs]
             swept = sweep(built.engines(self.question, cranks), **chosen)
         else:
             engines = [each.engine for each in designs]
@@ -236,7 +236,7 @@ class Designs(Frozen):
         table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
         return table
 
-    def plot(self, ax: Axes | None = None, *, count: int = 6, **style: Any) -> Axes:  # noqa: ANN401
+    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
         """Draw the first objective of the best designs over bank angle; return the axes.
 
         A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,
