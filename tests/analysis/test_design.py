@@ -14,20 +14,8 @@ import pytest
 from conftest import CYLINDER, OFFSET
 from crankpin.analysis.design import built
 from crankpin.analysis.design.cranks import Crank, Symmetries
-from crankpin.analysis.design.question import checked
+from designing import A2, RPM, SPACING, UNIT, design, question
 from rederivation import design as brute
-
-RPM = 6000.0
-SPACING = 0.1
-UNIT = 0.5 * 0.045 * (RPM * 2.0 * np.pi / 60.0) ** 2
-"""m·r·ω² of a cylinder, N."""
-A2 = float(CYLINDER.harmonics([2])[0].real)
-
-
-def design(cylinders: int, layout: str = "vee", **given: Any) -> cp.types.Designs:  # noqa: ANN401
-    given = {"cylinder": CYLINDER, "spacing": SPACING, "rpm": RPM} | given
-    return cp.design(cylinders, layout=layout, **given)  # type: ignore[arg-type]
-
 
 # --- engines that were built --------------------------------------------------------------------
 
@@ -218,16 +206,6 @@ def test_images_shake_alike(cylinder: cp.Cylinder, stagger: float, angle: int, c
             assert not np.allclose(a.moment.peak_xy, b.moment.peak_xy, rtol=1e-6)
 
 
-def question(cylinders: int, layout: str = "vee", **given: Any) -> Any:  # noqa: ANN401
-    defaults: dict[str, Any] = {
-        "cylinder": CYLINDER, "spacing": SPACING, "shared_pins": None, "pin_split_deg": None,
-        "bank_angle_deg": (0, 180) if layout == "vee" else None, "same_split": True,
-        "throws_deg": None, "even_firing": False, "intervals_deg": None, "strokes": 4,
-        "bank_stagger": 0.0, "rotating_mass": 0.0, "counterweights": False, "shafts": (),
-    }  # fmt: skip
-    return checked(cylinders, layout, **defaults | given)
-
-
 # --- balancers ----------------------------------------------------------------------------------
 
 
@@ -358,7 +336,7 @@ def test_units_are_warned_of_once() -> None:
     with pytest.warns(UserWarning, match="spacing") as caught:
         design(6, bank_angle_deg=60, by="[1].moment.peak", spacing=130.0)
     assert len(caught) == 1
-    assert caught[0].filename.endswith("test_design.py")
+    assert caught[0].filename.endswith("designing.py")
     with pytest.warns(UserWarning, match="mean piston speed") as caught:
         design(6, bank_angle_deg=60, by="total.moment.peak", rpm=60_000)
     assert len(caught) == 1

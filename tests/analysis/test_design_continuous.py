@@ -10,13 +10,13 @@ from typing import Any
 import crankpin as cp
 import numpy as np
 import pytest
-from analysis.test_design import A2, RPM, UNIT, design, question
 from conftest import OFFSET
 from crankpin.analysis import objectives
 from crankpin.analysis.design import built
 from crankpin.analysis.design.families import families
 from crankpin.analysis.design.merit import Merit, rows_of, term
 from crankpin.analysis.design.phasors import Phasors
+from designing import A2, RPM, UNIT, design, question
 from rederivation import design as brute
 
 BY = (

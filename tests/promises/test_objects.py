@@ -74,6 +74,12 @@ def ranking(**options: Any) -> cp.types.Ranking:
     return cp.rank({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
 
 
+def designs(**options: Any) -> cp.types.Designs:
+    given: dict[str, Any] = {"layout": "vee", "bank_angle_deg": 72, "by": "total.moment.peak"}
+    given |= {"cylinder": OFFSET, "spacing": 0.1, "rpm": 5000, "counterweights": True}
+    return cp.design(6, **given | options)
+
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Engine": V6,
@@ -102,6 +108,10 @@ OBJECTS: dict[str, Any] = {
         [V6, ODD], rpm=5000, by="total.moment.peak", spectrum=SPECTRUM
     ),
     "Choice": ranking()[0],
+    "Designs": designs(),
+    "Designs by a function": designs(by=lambda b: b.total.moment.peak, shafts=[-1, 2]),
+    "Design": designs()[0],
+    "Image": designs()[0].images[0],
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
