@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import doctest
 import itertools
 import math
 import pickle
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import crankpin as cp
@@ -16,6 +18,14 @@ from crankpin.analysis.design import built
 from crankpin.analysis.design.cranks import Crank, Symmetries
 from designing import A2, RPM, SPACING, UNIT, design, question
 from rederivation import design as brute
+
+
+def test_the_manual() -> None:
+    manual = Path(__file__).parents[2] / "docs" / "inverse-design.md"
+    found = doctest.testfile(str(manual), module_relative=False)
+    assert found.attempted > 5
+    assert not found.failed
+
 
 # --- engines that were built --------------------------------------------------------------------
 

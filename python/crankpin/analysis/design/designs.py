@@ -283,7 +283,7 @@ class Designs(Frozen):
             row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
             rows.append((*row, each.alike))
         values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
-        title = f"Designed by {self.description()}"
+        title = f"Designs by {self.description()}"
         if len(designs) < self.optima:
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"
