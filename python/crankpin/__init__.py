@@ -16,6 +16,7 @@ from crankpin.analysis.balancer_options import balancer_options
 from crankpin.analysis.bob_weight import bob_weight
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.counterweights import counterweights
+from crankpin.analysis.design.design import design
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
@@ -39,6 +40,7 @@ __all__ = [
     "bob_weight",
     "compare",
     "counterweights",
+    "design",
     "presets",
     "rank",
     "search_arrangements",

@@ -8,6 +8,7 @@ from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.counterweights import Counterweights, PartVerdict, Remainder
+from crankpin.analysis.design.designs import Design, Designs, Image
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.first_order import BayLoad, Ellipses, ForwardPart
 from crankpin.analysis.fitted_shaft import FittedShaft
@@ -47,6 +48,8 @@ __all__ = [
     "Comparison",
     "Counterweights",
     "Crankpin",
+    "Design",
+    "Designs",
     "Ellipse",
     "Ellipses",
     "ErrorBound",
@@ -54,6 +57,7 @@ __all__ = [
     "FittedShaft",
     "ForwardPart",
     "Gap",
+    "Image",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",

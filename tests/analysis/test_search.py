@@ -438,3 +438,60 @@ def test_bank_angles_that_are_rational_parts_of_a_turn_are_correctly_rounded(
 
 def test_phases_of_any_part_of_a_turn_are_searched() -> None:
     assert cp.search_arrangements(6, phases_deg=[0, 120, 235]).bank_angles_deg.tolist() == [0, 180]
+
+
+# --- shared pins --------------------------------------------------------------------------------
+
+
+def test_arrangements_on_shared_pins_are_all_orders_at_90() -> None:
+    search = cp.search_arrangements(10, shared_pins=True, hold="pins")
+    assert (search.candidates, search.qualifying, search.balanced) == (120, 120, 0)
+    assert search.bank_angles_deg.tolist() == [90.0] * 8
+    assert all(each.first_deg == each.second_deg for each in search)
+    assert repr(search) == "<ArrangementSearch of a V10 on shared pins: 120 of 120 pairs>"
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5)
+    for each in search:
+        engine = each.engine(cylinder, spacing=0.1)
+        assert not engine.pin_split_deg.any()
+        one, two = (engine.balance(6000, orders=[n])[n].moment for n in (1, 2))
+        unit = 0.5 * 0.045 * (200 * np.pi) ** 2 * 0.1
+        assert abs(one.backward) == 0.0
+        assert each.counterweight == pytest.approx(abs(one.forward) / unit, rel=1e-12)
+        a2 = abs(cylinder.harmonics([2])[0])
+        np.testing.assert_allclose(each.second_order, two.peak_xy / unit / a2, atol=1e-9)
+    (best,) = search.best()
+    # Of the V10s at 90° with counterweights, the one with the least second order.
+    assert best.first_deg == (0, 72, 288, 144, 216)
+
+
+def test_shared_pins_among_all_pairs() -> None:
+    # In the search of all pairs those with the same pins twice are 3! of the V6.
+    shared = cp.search_arrangements(6, shared_pins=True, hold="pins")
+    every = cp.search_arrangements(6, hold="pins")
+    assert shared.candidates == 6
+    assert set(shared.bank_angles_deg.round(9)) <= set(every.bank_angles_deg.round(9))
+    flat = cp.search_arrangements(8, shared_pins=True, hold="pins")
+    # Two phases, each twice: of six orders two have no first-order moment (0-180-180-0).
+    assert (flat.candidates, flat.balanced, len(flat)) == (6, 2, 3)
+    own = cp.search_arrangements(8, shared_pins=True, hold="pins", phases_deg=[0, 90, 180, 270])
+    assert (own.candidates, own.balanced, len(own)) == (24, 0, 3)
+    again = pickle.loads(pickle.dumps(own.within(80, 100)))  # noqa: S301 - our own
+    assert again == own.within(80, 100) != flat
+    assert len(own.within(0, 80)) == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"cylinders": 7}, "cylinders = 7: give an even number"),
+        ({"hold": "firing"}, 'give hold="pins"'),
+        ({"alternating": True}, "leave out alternating"),
+        ({"phases_deg": [0, 120]}, "phases_deg has 2 phases: give 3"),
+        ({"cylinders": 30}, "more than 50000 cranks"),
+    ],
+)
+def test_what_shared_pins_cannot_be_searched_for(given: dict[str, object], message: str) -> None:
+    arguments = {"cylinders": 6, "hold": "pins", "shared_pins": True} | given
+    with pytest.raises(cp.InputError) as caught:
+        cp.search_arrangements(**arguments)  # type: ignore[arg-type]
+    assert message in str(caught.value)

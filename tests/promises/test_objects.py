@@ -74,6 +74,12 @@ def ranking(**options: Any) -> cp.types.Ranking:
     return cp.rank({"even": V6, "again": V6}, **given | {"orders": [1, 2]} | options)
 
 
+def designs(**options: Any) -> cp.types.Designs:
+    given: dict[str, Any] = {"layout": "vee", "bank_angle_deg": 72, "by": "total.moment.peak"}
+    given |= {"cylinder": OFFSET, "spacing": 0.1, "rpm": 5000, "counterweights": True}
+    return cp.design(6, **given | options)
+
+
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Engine": V6,
@@ -110,6 +116,10 @@ OBJECTS: dict[str, Any] = {
     "TwoPlaneCorrection": cp.two_plane_correction(
         [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
     ),
+    "Designs": designs(),
+    "Designs by a function": designs(by=lambda b: b.total.moment.peak, shafts=[-1, 2]),
+    "Design": designs()[0],
+    "Image": designs()[0].images[0],
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -188,6 +198,8 @@ def test_arrays_are_read_only(name: str) -> None:
         "Comparison",
         "Choice",
         "Counterweights",
+        "Design",
+        "Image",
     )
     assert found or name.startswith(without)
     for attribute, array in found:

@@ -81,7 +81,7 @@ def chosen(
         found.append(Choice(0, str(names[k]), engine, where, best))
     rows = np.array([each.values for each in found])
     ranked: list[Choice] = []
-    for group in _groups(rows, np.arange(len(found)), tolerances):
+    for group in groups(rows, np.arange(len(found)), tolerances):
         place = len(ranked) + 1
         ranked += [dataclasses.replace(found[k], place=place) for k in group]
     return tuple(ranked)
@@ -96,7 +96,7 @@ def _least(rows: NDArray[np.float64], tolerances: NDArray[np.float64]) -> NDArra
     return kept
 
 
-def _groups(
+def groups(
     rows: NDArray[np.float64], which: NDArray[np.intp], tolerances: NDArray[np.float64]
 ) -> Iterator[list[int]]:
     """Yield rows that tie, the lowest first."""

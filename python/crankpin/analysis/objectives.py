@@ -40,6 +40,10 @@ class Objective(NamedTuple):
     """Where ``of_sweep`` is None: computes it from one engine at one bank angle."""
     order: int | None = None
     """The order that it reads."""
+    quantity: str = ""
+    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; empty for a function."""
+    what: str = ""
+    """``"peak"``, ``"peak_xy"``, ``"forward"`` or ``"backward"``; empty for a function."""
 
     def values(self, swept: Sweep) -> NDArray[np.float64]:
         """Return the value of each engine at each bank angle: (n_engines, n_angles)."""
@@ -163,7 +167,7 @@ def named(label: str) -> Objective:
         values = np.abs(getattr(getattr(source, quantity), what))
         return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
 
-    return Objective(label, words, labels.UNITS[quantity], of_sweep, order=order)
+    return Objective(label, words, labels.UNITS[quantity], of_sweep, None, order, quantity, what)
 
 
 def of_table(swept: Sweep) -> list[Objective]:
@@ -196,7 +200,9 @@ def listed(by: object) -> list[Objective]:
             + ", ".join(f'"{name}"' for name in COMMON[:6])
             + ", or a function of a Balance"
         )
-    if isinstance(by, str) or callable(by):
+    if isinstance(by, str):
+        by = [name.strip() for name in by.split(",")]
+    elif callable(by):
         by = [by]
     remedy = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
     found: list[Objective] = []

@@ -52,9 +52,9 @@ def rank(
     rpm
         Crank speed.
     by
-        Quantity to minimise, required: the name of an objective (see Notes), a function that takes
-        the :class:`Balance` of an engine at a bank angle and returns a number (NaN or inf for an
-        engine to avoid), or a list of these; later ones break ties.
+        Quantity to minimise, required: the name of an objective (see Notes), several names with
+        commas, a function that takes the :class:`Balance` of an engine at a bank angle and returns
+        a number (NaN or inf for an engine to avoid), or a list of these; later ones break ties.
     bank_angle_deg
         Bank angles to choose from, 0 to 180; by default each engine is taken unchanged.
     hold

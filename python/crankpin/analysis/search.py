@@ -17,6 +17,7 @@ from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.shared_pins import SharedPinAngles, SharedPins
 from crankpin.model.builders import parts
 from crankpin.model.engine import Engine
 
@@ -101,6 +102,7 @@ def search_arrangements(
     alternating: bool = False,
     phases_deg: Angles | None = None,
     hold: Hold = "firing",
+    shared_pins: bool = False,
     progress: Progress = False,
 ) -> ArrangementSearch:
     """Search all pairs of bank arrangements for those with a balanced bank angle.
@@ -123,6 +125,10 @@ def search_arrangements(
     hold
         What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
         Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
+    shared_pins
+        Only arrangements whose banks share their crankpins, with ``hold="pins"``: all are balanced
+        at 90°. Every order of the throws is enumerated, up to nine different ones; those that are
+        mirror images are listed once, so that the same bank angle is listed for each.
     progress
         True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
         steps in all, some 50 times a second, while a long search runs.
@@ -159,8 +165,16 @@ def search_arrangements(
         raise _core.InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
     phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
     rule = inputs.flag("alternating", alternating)
+    shared = inputs.flag("shared_pins", shared_pins)
     held = inputs.text("hold", hold, 'give "firing" or "pins"')
     watched = progress_bar.checked(progress)
+    if shared:
+        if held != "pins" or rule:
+            raise _core.InputError(
+                'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
+                "centres held pins are split at all but one bank angle"
+            )
+        return ArrangementSearch(SharedPins(count, phases), count, rule, phases, hold)
     with progress_bar.shown(watched, f"V{count}") as told:
         core = _core.Search(count, rule, phases, held, told)
     return ArrangementSearch(core, count, rule, phases, hold, progress=watched)
@@ -203,7 +217,7 @@ class ArrangementSearch(Frozen):
         window_deg: tuple[float, float] = _WHOLE,
         progress: Progress = False,
     ) -> None:
-        if not isinstance(core, _core.Search):
+        if not isinstance(core, (_core.Search, SharedPins)):
             cure = "use crankpin.search_arrangements"
             raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {cure}")
         self._set(
@@ -216,7 +230,7 @@ class ArrangementSearch(Frozen):
             _progress=progress,
         )
 
-    _search: _core.Search
+    _search: _core.Search | SharedPins
     _phases: list[str] | None
     _progress: Progress
 
@@ -235,8 +249,15 @@ class ArrangementSearch(Frozen):
         """Pairs without any first-order moment, balanced at every bank angle."""
         return self._search.balanced
 
+    @property
+    def shared_pins(self) -> bool:
+        """True if both banks share their crankpins."""
+        return isinstance(self._search, SharedPins)
+
     @cached_property
-    def _angles(self) -> _core.BankAngles:
+    def _angles(self) -> _core.BankAngles | SharedPinAngles:
+        if isinstance(self._search, SharedPins):
+            return SharedPinAngles(self._search, self.window_deg)
         with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as told:
             return _core.BankAngles(self._search, self.window_deg, told)
 
@@ -371,6 +392,7 @@ class ArrangementSearch(Frozen):
 
     def __repr__(self) -> str:
         rule = ", alternating" if self.alternating else ""
+        rule += " on shared pins" if self.shared_pins else ""
         found = f"{self.qualifying} of {self.candidates} pairs"
         low, high = self.window_deg
         part = "" if self.window_deg == _WHOLE else f", bank angles {low:g} to {high:g}"
@@ -383,7 +405,9 @@ class ArrangementSearch(Frozen):
         return hash((self.cylinders, self.alternating))
 
     def _key(self) -> tuple[Any, ...]:
-        return (self.cylinders, self.alternating, self._phases, self.hold, self.window_deg)
+        phases = None if self._phases is None else tuple(self._phases)
+        given = (self.cylinders, self.alternating, phases, self.hold)
+        return (*given, self.shared_pins, self.window_deg)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, self._key())
@@ -392,11 +416,14 @@ class ArrangementSearch(Frozen):
 def _again(
     cylinders: int,
     alternating: bool,
-    phases: list[str] | None,
+    phases: tuple[str, ...] | None,
     hold: Hold,
+    shared_pins: bool,
     window_deg: tuple[float, float],
 ) -> ArrangementSearch:
-    found = search_arrangements(cylinders, alternating=alternating, phases_deg=phases, hold=hold)
+    found = search_arrangements(
+        cylinders, alternating=alternating, phases_deg=phases, hold=hold, shared_pins=shared_pins
+    )
     return found.within(*window_deg)
 
 

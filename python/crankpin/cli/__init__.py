@@ -12,6 +12,7 @@ from crankpin.cli import (
     balance,
     bob_weight,
     counterweights,
+    design,
     firing,
     gallery,
     presets,
@@ -35,6 +36,7 @@ COMMANDS = (
     counterweights,
     bob_weight,
     shafts,
+    design,
     view,
     gallery,
 )

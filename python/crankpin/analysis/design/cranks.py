@@ -1,0 +1,137 @@
+"""A crank and its banks as exact angles, and the cranks that shake alike."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import TypeAlias
+
+Exact: TypeAlias = Fraction | int
+"""Degrees; whole ones as int, which is some ten times as fast."""
+
+TURN, HALF = 360, 180
+
+
+def exact(text: str) -> Exact:
+    """Return an angle that is given as exact text, such as ``"360/7"``."""
+    return simple(Fraction(text))
+
+
+def simple(angle: Fraction) -> Exact:
+    """Return whole degrees as int."""
+    return angle.numerator if angle.denominator == 1 else angle
+
+
+@dataclasses.dataclass(frozen=True)
+class Crank:
+    """Crankpins and bank angle of a candidate; angles are exact degrees."""
+
+    throws: tuple[Exact, ...]
+    """Pins of the only or the right bank from the front one, in [0, 360)."""
+    splits: tuple[Exact, ...]
+    """Left pin minus right pin of each throw, in (−180, 180]; empty without banks."""
+    bank_angle: Exact | None
+    """Angle between the banks; None without."""
+
+    @classmethod
+    def of(
+        cls,
+        throws: Sequence[Exact],
+        splits: Sequence[Exact] = (),
+        bank_angle: Exact | None = None,
+    ) -> Crank:
+        """Return the crank of these angles, reduced, and turned until its front throw is at 0."""
+        return cls(
+            tuple((throw - throws[0]) % TURN for throw in throws),
+            tuple(HALF - (HALF - split) % TURN for split in splits),
+            bank_angle,
+        )
+
+    @property
+    def left(self) -> tuple[Exact, ...]:
+        """Pins of the left bank, from the front pin of the right one; empty without banks."""
+        if not self.splits:
+            return ()
+        return tuple(a + b for a, b in zip(self.throws, self.splits, strict=True))
+
+    def mirrored(self) -> Crank:
+        """Return the engine seen in a mirror that exchanges left and right.
+
+        It turns the other way; accelerations are the same with time reversed, so that it shakes
+        alike turning as before. A pin at p comes to 180° − p, in the other bank.
+        """
+        return Crank.of([-pin for pin in self.left or self.throws], self.splits, self.bank_angle)
+
+    def reversed(self) -> Crank:
+        """Return the engine with front and rear exchanged."""
+        return Crank.of(self.throws[::-1], self.splits[::-1], self.bank_angle)
+
+    def exchanged(self) -> Crank:
+        """Return the engine with the banks exchanged: turned over, at 180°."""
+        return Crank.of(self.left, [-split for split in self.splits], self.bank_angle)
+
+    @property
+    def text(self) -> str:
+        """Throws as text, such as ``0-144-216-288-72``."""
+        return "-".join(f"{float(throw):.6g}" for throw in self.throws)
+
+    @property
+    def splits_text(self) -> str:
+        """Pin splits as text: one if all are alike; empty for shared pins."""
+        if not any(self.splits):
+            return ""
+        listed = [f"{float(split):.6g}" for split in self.splits]
+        return listed[0] if len(set(listed)) == 1 else ", ".join(listed)
+
+
+@dataclasses.dataclass(frozen=True)
+class Symmetries:
+    """Changes of a crank that leave the size of every force, moment and torque as it is.
+
+    A mirror moves an offset piston pin to the other side, and every single change the left bank
+    from behind the right one to before it: what these break is left out.
+    """
+
+    offset: bool = False
+    """True if piston pins are offset."""
+    staggered: bool = False
+    """True if one bank stands behind the other."""
+
+    def images(self, crank: Crank, *, exchange: bool = True) -> Iterator[tuple[str, Crank]]:
+        """Yield the names of the changes, and the crank that each makes of this one.
+
+        Banks are exchanged only at bank angles of 0 and 180; ``exchange=False`` leaves that out,
+        for cranks whose bank angle is still to be found.
+        """
+        at_ends = exchange and crank.bank_angle in (0, HALF)
+        for mirror in (False, True):
+            for reverse in (False, True):
+                for swap in (False, True) if at_ends else (False,):
+                    changes = [
+                        word
+                        for word, done in (
+                            ("mirrored", mirror),
+                            ("reversed", reverse),
+                            ("banks exchanged", swap),
+                        )
+                        if done
+                    ]
+                    if not changes or (mirror and self.offset):
+                        continue
+                    if self.staggered and len(changes) % 2:
+                        continue
+                    found = crank.mirrored() if mirror else crank
+                    found = found.reversed() if reverse else found
+                    yield ", ".join(changes), found.exchanged() if swap else found
+
+    def first(self, crank: Crank, *, exchange: bool = True) -> Crank:
+        """Return the one crank that stands for all that shake alike: the first in order of size."""
+        images = (image for _, image in self.images(crank, exchange=exchange))
+        return min((crank, *images), key=_size)
+
+
+def _size(crank: Crank) -> tuple[float, ...]:
+    """Return what cranks are sorted by, rounded to what an optimiser finds angles to."""
+    splits = [part for split in crank.splits for part in (abs(split), split)]
+    return tuple(round(float(each), 4) % TURN for each in (*crank.throws, *splits))

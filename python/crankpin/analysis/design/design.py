@@ -1,0 +1,191 @@
+"""Inverse design: the cranks, pin splits and bank angles that minimise an objective."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support import progress as progress_bar
+from crankpin.analysis.design import built
+from crankpin.analysis.design.designs import Designs
+from crankpin.analysis.design.question import checked
+from crankpin.analysis.design.search import Search
+from crankpin.analysis.objectives import listed as listed_objectives
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from crankpin._support.inputs import Angles, Orders
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.design.question import Kind, Range
+    from crankpin.analysis.objectives import Measure
+    from crankpin.model.cylinder import Cylinder
+
+
+def design(
+    cylinders: int,
+    *,
+    layout: Kind,
+    cylinder: Cylinder,
+    spacing: float,
+    rpm: float,
+    by: str | Measure | Sequence[str | Measure] | None = None,
+    bank_angle_deg: Range | None = None,
+    shared_pins: bool | None = None,
+    pin_split_deg: Range | None = None,
+    same_split: bool = True,
+    throws_deg: Angles | Literal["free"] | None = None,
+    even_firing: bool = False,
+    intervals_deg: Angles | None = None,
+    strokes: int = 4,
+    counterweights: bool = False,
+    shafts: Iterable[int] = (),
+    bank_stagger: float = 0.0,
+    rotating_mass: float = 0.0,
+    orders: Orders = "auto",
+    count: int = 20,
+    seed: int = 0,
+    tie_rtol: float = 1e-9,
+    progress: Progress = False,
+) -> Designs:
+    """Choose throws, their order, pin splits and bank angle that minimise an objective.
+
+    Finite choices (orders of throws; the throws that a firing needs) are all compared, those that
+    are mirror images of each other once. Angles that may vary are optimised from many starts, with
+    closed-form derivatives (needs SciPy); all optima found are reported.
+
+    Parameters
+    ----------
+    cylinders
+        Number of cylinders.
+    layout
+        ``"inline"``, ``"vee"``, ``"flat"`` (a vee of 180° on shared pins) or ``"boxer"`` (pins
+        split by 180°).
+    cylinder
+        Moving parts of every cylinder.
+    spacing
+        Distance between neighbouring throws, m.
+    rpm
+        Crank speed.
+    by
+        Quantity to minimise, required, as in :func:`crankpin.rank`: names of objectives, the later
+        ones breaking ties. Functions of a :class:`Balance` only where no angle varies.
+    bank_angle_deg
+        Bank angle of a vee, or the lowest and the highest to choose from: ``(60, 120)``.
+    shared_pins
+        True, the default, for crankpins that the two cylinders of a throw share; False for pins
+        that are split by any angle.
+    pin_split_deg
+        Left pin minus right pin, or the lowest and the highest, −180 to 180, in place of
+        ``shared_pins``.
+    same_split
+        False for a split of each throw's own.
+    throws_deg
+        Throws to be put in the best order, one for each; by default equally spaced ones.
+        ``"free"`` for throws of any angles.
+    even_firing, intervals_deg
+        Firing that the engine must allow: even, or these intervals one after another, which add up
+        to 720. It determines the throws, and, on shared pins, the bank angles.
+    strokes
+        4 or 2: strokes of a cycle.
+    counterweights
+        True if counterweights are allowed: the forward part of the first order does not count, and
+        each crankpin gets the weight that removes its cylinders' share.
+    shafts
+        Speed ratios of balance shafts that are allowed, such as ``[-1]`` or ``[2, -2]``: each
+        removes the part of its order that turns with it, force and moment. They are put on the
+        crank axis, where they add no roll torque.
+    bank_stagger, rotating_mass
+        As in :meth:`Engine.vee`; one rotating mass for all cylinders.
+    orders
+        Orders that totals are of, as in :meth:`Engine.balance`.
+    count
+        Number of designs to return.
+    seed
+        Of the random starts, which are only needed where several angles vary.
+    tie_rtol
+        Values tie when they differ by at most this, relative to the largest that the objective
+        could have, all cylinders in phase.
+    progress
+        True for a tqdm bar (needs tqdm), or a function of (steps done, steps in all).
+
+    Returns
+    -------
+    Designs
+        The best first.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, arguments contradict each other, or no crank fires so.
+    ImportError
+        If angles vary and SciPy is not installed.
+
+    Examples
+    --------
+    Which bank angle for a V10 on five shared pins? All 24 cranks in one call:
+
+    >>> import crankpin as cp
+    >>> parts = cp.Cylinder(0.045, 0.158, 0.5)
+    >>> v10 = {"cylinders": 10, "layout": "vee", "cylinder": parts, "spacing": 0.1, "rpm": 6000}
+    >>> v10 |= {"bank_angle_deg": (60, 120)}
+    >>> best = cp.design(**v10, even_firing=True, by="total.moment.peak")[0]
+    >>> best.bank_angle_deg, best.engine.name
+    (72.0, 'V10 72°, 0-144-216-288-72')
+
+    If it need not fire evenly, and has counterweights, 90°:
+
+    >>> cp.design(**v10, counterweights=True, by="[1].moment.backward,[2].moment.peak")[0]
+    ... # doctest: +ELLIPSIS
+    Design(place=1, engine=V10 90°, ...
+    """
+    objectives = listed_objectives(by)
+    tolerance = inputs.number("tie_rtol", tie_rtol)
+    if not 0.0 <= tolerance < 1.0:
+        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+    wanted = inputs.whole("count", count)
+    start = inputs.whole("seed", seed)
+    for name, number, least in (("count", wanted, 1), ("seed", start, 0)):
+        if number < least:
+            raise InputError(f"{name} = {number}: give a whole number, {least} or more")
+    speed = inputs.number("rpm", rpm)
+    summed = inputs.orders(orders)
+    watched = progress_bar.checked(progress)
+    asked = checked(
+        cylinders,
+        layout,
+        cylinder=cylinder,
+        spacing=spacing,
+        bank_angle_deg=bank_angle_deg,
+        shared_pins=shared_pins,
+        pin_split_deg=pin_split_deg,
+        same_split=same_split,
+        throws_deg=throws_deg,
+        even_firing=even_firing,
+        intervals_deg=intervals_deg,
+        strokes=strokes,
+        bank_stagger=bank_stagger,
+        rotating_mass=rotating_mass,
+        counterweights=counterweights,
+        shafts=shafts,
+    )
+    with warnings.catch_warnings():
+        # Once for the whole call, below.
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        built.warn_of_units(asked)
+        search = Search(asked, objectives, speed, summed)
+        found = search.optima(wanted, start, watched)
+        designs, swept = search.best(found, wanted, tolerance)
+    inputs.warn_of_units(swept.mean_piston_speed)
+    return Designs(
+        asked,
+        tuple(objective.bare() for objective in objectives),
+        speed,
+        None if summed is None else tuple(summed),
+        designs,
+        len(found),
+        search.cranks,
+    )

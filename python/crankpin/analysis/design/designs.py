@@ -1,0 +1,303 @@
+"""Designs sorted by objectives: result of :func:`crankpin.design`."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frozen import Frozen
+from crankpin._support.tables import Table
+from crankpin.analysis.design import built
+from crankpin.analysis.design.cranks import HALF, Crank, exact
+from crankpin.analysis.design.question import Question
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.objectives import named
+from crankpin.analysis.ranking import SHOWN, SHOWN_IN_NOTEBOOKS
+from crankpin.analysis.sweep import sweep
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.objectives import Objective
+    from crankpin.model.engine import Engine
+
+NEARBY = "*"
+"""Mark of a design that other angles nearby equal."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Image:
+    """A crank that shakes like another one: the same forces and moments in a mirror."""
+
+    change: str
+    """What makes it of the other: ``"mirrored"`` (left and right exchanged), ``"reversed"`` (front
+    and rear), ``"banks exchanged"``, or several of these."""
+    throws_deg: tuple[float, ...]
+    """Crankpins of the only or the right bank from the front one, degrees."""
+    pin_split_deg: tuple[float, ...]
+    """Left pin minus right pin of each throw, degrees; empty without banks."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Design:
+    """An engine of :class:`Designs`."""
+
+    place: int
+    """1 for the best; designs whose values are equal within the tolerance share a place."""
+    engine: Engine
+    """The engine, with the counterweights and balance shafts it is allowed."""
+    values: tuple[float, ...]
+    """Value of each objective, in the objective's unit."""
+    isolated: bool
+    """True if no other angles nearby are as good; False for one of a continuum of designs."""
+    crank: Crank
+    """Its angles as exact degrees."""
+    images: tuple[Image, ...]
+    """Mirror images and the like, which shake alike; those equal to the crank itself included."""
+
+    @property
+    def value(self) -> float:
+        """Value of the first objective, in its unit."""
+        return self.values[0]
+
+    @property
+    def bank_angle_deg(self) -> float | None:
+        """Angle between the banks, degrees; None without banks."""
+        return None if self.crank.bank_angle is None else float(self.crank.bank_angle)
+
+    @property
+    def throws_deg(self) -> tuple[float, ...]:
+        """Crankpins of the only or the right bank from the front one, degrees in [0, 360)."""
+        return tuple(map(float, self.crank.throws))
+
+    @property
+    def pin_split_deg(self) -> tuple[float, ...]:
+        """Left pin minus right pin of each throw, degrees; empty without banks."""
+        return tuple(map(float, self.crank.splits))
+
+    @property
+    def alike(self) -> int:
+        """Number of different cranks that shake alike, this one included."""
+        own = (self.throws_deg, self.pin_split_deg)
+        return len({own, *((each.throws_deg, each.pin_split_deg) for each in self.images)})
+
+
+class Designs(Frozen):
+    """Designs sorted by objectives.
+
+    A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = (
+        "question", "objectives", "rpm", "orders", "designs", "optima", "cranks"
+    )  # fmt: skip
+
+    question: Question
+    """What was asked."""
+    objectives: tuple[Objective, ...]
+    """The objectives."""
+    rpm: float
+    """Crank speed."""
+    orders: tuple[int, ...] | None
+    """The orders that were given, or None for all that matter."""
+    designs: tuple[Design, ...]
+    """The designs, the best first."""
+    optima: int
+    """Number of designs found; ``designs`` are the best of them."""
+    cranks: int
+    """Number of cranks that were compared, those that shake alike included; free angles apart."""
+
+    def __init__(
+        self,
+        question: Question,
+        objectives: tuple[Objective, ...],
+        rpm: float,
+        orders: tuple[int, ...] | None,
+        designs: tuple[Design, ...],
+        optima: int,
+        cranks: int,
+    ) -> None:
+        if not isinstance(question, Question):
+            raise InputError(f"Designs({inputs.shorten(question)}): use crankpin.design")
+        self._set(
+            question=question,
+            objectives=objectives,
+            rpm=rpm,
+            orders=orders,
+            designs=designs,
+            optima=optima,
+            cranks=cranks,
+        )
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Names of the objectives."""
+        return tuple(objective.label for objective in self.objectives)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the first objective; empty where it is a function."""
+        return self.objectives[0].unit
+
+    @cached_property
+    def engines(self) -> tuple[Engine, ...]:
+        """The engines, the best first."""
+        return tuple(design.engine for design in self.designs)
+
+    def __len__(self) -> int:
+        return len(self.designs)
+
+    def __getitem__(self, index: int) -> Design:
+        return self.designs[index]
+
+    def __iter__(self) -> Iterator[Design]:
+        return iter(self.designs)
+
+    def over_bank_angle(
+        self, bank_angle_deg: NDArray[np.float64], count: int = 1
+    ) -> NDArray[np.float64]:
+        """Return the first objective of the best designs at other bank angles.
+
+        Crankpins are held, or, where a given firing has pins split for it, the top dead centres.
+        Counterweights and balance shafts are fitted anew at each angle.
+
+        Parameters
+        ----------
+        bank_angle_deg
+            Bank angles, 0 to 180.
+        count
+            Number of designs.
+
+        Returns
+        -------
+        numpy.ndarray
+            Of shape (count, n_angles), in the objective's unit.
+        """
+        if self.question.banks == 1:
+            raise InputError("bank_angle_deg is undefined for these designs: they have one bank")
+        if not self.objectives[0].quantity:
+            raise InputError(f'by = "{self.by[0]}": give the name of a force, moment or torque')
+        angles = inputs.vector("bank_angle_deg", bank_angle_deg)
+        designs = self.designs[:count]
+        chosen: dict[str, Any] = {
+            "rpm": self.rpm,
+            "orders": "auto" if self.orders is None else self.orders,
+        }
+        if self.question.shafts:
+            pairs = itertools.product(designs, angles.tolist())
+            cranks = [self.turned(each.crank, angle) for each, angle in pairs]
+            swept = sweep(built.engines(self.question, cranks), **chosen)
+        else:
+            engines = [each.engine for each in designs]
+            swept = sweep(engines, bank_angle_deg=angles, hold=self.question.hold, **chosen)
+        return named(self.by[0]).values(swept).reshape(len(designs), -1)
+
+    def turned(self, crank: Crank, bank_angle_deg: float) -> Crank:
+        """Return a crank at another bank angle: pins held, or top dead centres."""
+        angle = exact(inputs.angle("bank_angle_deg", bank_angle_deg))
+        assert crank.bank_angle is not None  # noqa: S101 - two banks
+        more = angle - crank.bank_angle if self.question.hold == "firing" else 0
+        return Crank.of(crank.throws, [split + more for split in crank.splits], angle)
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the designs as a tidy table, one row a design and objective (needs pandas).
+
+        Columns are place, engine, throws_deg, pin_split_deg, bank_angle_deg, isolated, objective,
+        value and unit.
+        """
+        rows = [
+            (
+                each.place,
+                each.engine.name,
+                each.throws_deg,
+                each.pin_split_deg,
+                np.nan if each.bank_angle_deg is None else each.bank_angle_deg,
+                each.isolated,
+                objective.label,
+                value,
+                objective.unit,
+            )
+            for each in self
+            for objective, value in zip(self.objectives, each.values, strict=True)
+        ]
+        columns = ["place", "engine", "throws_deg", "pin_split_deg", "bank_angle_deg", "isolated"]
+        columns += ["objective", "value", "unit"]
+        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
+        return table
+
+    def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
+        """Draw the first objective of the best designs over bank angle; return the axes.
+
+        A ring marks each design. Designs without banks, or by a function, are drawn as a dot each,
+        below each other.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        count
+            Number of designs.
+        **style
+            Properties of the curves, or of the dots.
+        """
+        return draw(self, ax, count=count, **style)  # type: ignore[no-any-return]
+
+    def description(self, objectives: int | None = None) -> str:
+        """Return the objectives, all or the first few, the speed and the balancers in words."""
+        least = ", then ".join(each.words for each in self.objectives[:objectives])
+        if self.orders is not None:
+            least = least.replace("all orders", "all of the orders given")
+        return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
+
+    def _balancers(self) -> list[str]:
+        ratios = ", ".join(f"{ratio:+d}" for ratio in self.question.shafts)
+        return [
+            *(["with counterweights"] if self.question.counterweights else []),
+            *([f"with balance shafts at {ratios}"] if ratios else []),
+        ]
+
+    def table_of_designs(self, shown: int | None = None) -> Table:
+        """Return the table that is shown: the first designs, all by default."""
+        designs = self.designs[:shown]
+        vee = self.question.banks == 2
+        split = vee and any(any(each.pin_split_deg) for each in self)
+        heads = ["place", "throws °", *(["pin split °"] if split else [])]
+        heads += ["bank angle °"] if vee else []
+        heads += ["alike", *(f"{each.label} {each.unit}".strip() for each in self.objectives)]
+        rows = []
+        for each in designs:
+            mark = "" if each.isolated else NEARBY
+            row: list[str | float] = [each.place, f"{each.crank.text}{mark}"]
+            row += [each.crank.splits_text or "0"] if split else []
+            row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
+            rows.append((*row, each.alike))
+        values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
+        title = f"Designs by {self.description()}"
+        if len(designs) < self.optima:
+            title += f"; {len(designs)} of {self.optima}"
+        note = f"{NEARBY} other angles nearby are as good"
+        starred = any(not each.isolated for each in designs)
+        return Table(title, heads, rows, values, note=note if starred else "")
+
+    def __repr__(self) -> str:
+        return self.table_of_designs(SHOWN).text()
+
+    def _repr_html_(self) -> str:
+        return self.table_of_designs(SHOWN_IN_NOTEBOOKS).html()
+
+
+def bank_angle_range(designs: Designs) -> tuple[float, float]:
+    """Return the bank angles that were allowed; of a single one all that there are."""
+    low, high = map(float, designs.question.bank_angle)
+    return (low, high) if low < high else (0.0, float(HALF))

@@ -1,0 +1,259 @@
+"""All candidates: the finite choices, each with the angles that may still vary."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
+from typing import TYPE_CHECKING
+
+from crankpin._core import InputError
+from crankpin.analysis.design.cranks import TURN, Crank, Exact
+
+if TYPE_CHECKING:
+    from crankpin.analysis.design.question import Question
+
+MOST_CRANKS = 50_000
+"""Cranks that are tried one by one: all orders of nine different throws are 40 320."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Variable:
+    """An angle that may vary, and what varies with it."""
+
+    low: Exact
+    high: Exact
+    """Limits, degrees; of a throw those of a turn, which are one and the same place."""
+    bank_angle: int = 0
+    """1 if it is the bank angle."""
+    throws: tuple[int, ...] = ()
+    """1 for each throw that it turns; empty for none."""
+    splits: tuple[int, ...] = ()
+    """1 for each pin split that grows with it; empty for none."""
+
+    @property
+    def periodic(self) -> bool:
+        """True for the angle of a throw."""
+        return bool(self.throws)
+
+
+@dataclasses.dataclass(frozen=True)
+class Family:
+    """A candidate whose angles may vary; one whose angles are fixed has no variables."""
+
+    base: Crank
+    """The crank with every variable at 0."""
+    variables: tuple[Variable, ...] = ()
+
+    def crank(self, values: Sequence[Exact]) -> Crank:
+        """Return the crank with these values of the variables."""
+        throws, splits = list(self.base.throws), list(self.base.splits)
+        angle = self.base.bank_angle
+        for variable, value in zip(self.variables, values, strict=True):
+            throws = _plus(throws, variable.throws, value)
+            splits = _plus(splits, variable.splits, value)
+            if angle is not None:
+                angle += variable.bank_angle * value
+        return Crank.of(throws, splits, angle)
+
+
+def families(question: Question) -> tuple[list[Family], int]:
+    """Return the candidates that do not shake alike, and how many there are with those that do."""
+    found: dict[Family, None] = {}
+    everything: set[Family] = set()
+    for family in _all(question):
+        if family in everything:
+            continue
+        everything.add(family)
+        if len(everything) > MOST_CRANKS:
+            raise _too_many(question.count)
+        fixed = not family.variables
+        base = question.symmetries.first(family.base, exchange=fixed)
+        found.setdefault(dataclasses.replace(family, base=base))
+    if not found:
+        raise InputError(
+            "no crank fires at these intervals between these bank angles: allow other bank angles, "
+            "or pins that are split (shared_pins=False)"
+        )
+    return list(found), len(everything)
+
+
+def _too_many(throws: int) -> InputError:
+    return InputError(
+        f"{throws} throws have more than {MOST_CRANKS} cranks: give fewer different throws_deg, or "
+        "leave pins shared, or split alike"
+    )
+
+
+def _all(question: Question) -> Iterator[Family]:
+    if question.tdcs is None:
+        yield from _of_throws(question)
+    elif question.banks == 1:
+        for tdcs in orders(question.tdcs):
+            yield Family(Crank.of([-each for each in tdcs]))
+    else:
+        seen: set[tuple[Exact, ...]] = set()
+        for right, left in _pairs(question):
+            # Left minus right TDC is bank angle minus split, throw by throw.
+            later = tuple((b - a) % TURN for a, b in zip(right, left, strict=True))
+            throws = Crank.of([-each for each in right]).throws
+            if (*throws, *later) in seen:
+                continue
+            seen.add((*throws, *later))
+            yield from _between(question, throws, later)
+
+
+# --- any firing ---------------------------------------------------------------------------------
+
+
+def _of_throws(question: Question) -> Iterator[Family]:
+    """Yield the families of given throws in all orders, or of free ones."""
+    assert question.throws is not None  # noqa: S101 - there is no firing to determine them
+    count = question.count
+    variables = []
+    fixed: Exact = 0
+    if question.banks == 2:
+        low, high = question.bank_angle
+        fixed = low if low == high else fixed
+        variables += [Variable(low, high, bank_angle=1)] if low < high else []
+        split = question.pin_split[0] if question.fixed_split else 0
+        splits: tuple[Exact, ...] = (split,) * count
+        if not question.fixed_split:
+            groups = [(1,) * count] if question.same_split else _units(count)
+            variables += [Variable(*question.pin_split, splits=group) for group in groups]
+    else:
+        splits = ()
+    angle = fixed if question.banks == 2 else None
+    if question.free_throws:
+        turning = [Variable(0, TURN, throws=unit) for unit in _units(count)[1:]]
+        base = Crank.of([0] * count, splits, angle)
+        yield Family(base, (*variables, *turning))
+        return
+    for throws in orders(question.throws):
+        yield Family(Crank.of(throws, splits, angle), tuple(variables))
+
+
+def orders(angles: Sequence[Exact]) -> Iterator[tuple[Exact, ...]]:
+    """Yield all orders of some angles, of those that differ by a rotation at least one."""
+    counts = Counter(angles)
+    turns = [
+        turn
+        for turn in ((each - angles[0]) % TURN for each in counts)
+        if Counter((each + turn) % TURN for each in angles) == counts
+    ]
+    number = math.factorial(len(angles)) // math.prod(map(math.factorial, counts.values()))
+    if number > MOST_CRANKS * len(turns):
+        raise _too_many(len(angles))
+    firsts = [each for each in counts if each == min((each + turn) % TURN for turn in turns)]
+    for first in firsts:
+        for rest in _permutations(counts - Counter([first])):
+            yield (first, *rest)
+
+
+def _permutations(counts: Counter[Exact]) -> Iterator[tuple[Exact, ...]]:
+    if not counts:
+        yield ()
+    for first in counts:
+        for rest in _permutations(counts - Counter([first])):
+            yield (first, *rest)
+
+
+# --- a given firing -----------------------------------------------------------------------------
+
+
+def _pairs(
+    question: Question,
+) -> Iterator[tuple[tuple[Exact, ...], tuple[Exact, ...]]]:
+    """Yield top dead centres of the right and the left bank, throw by throw."""
+    assert question.tdcs is not None  # noqa: S101 - the caller has looked
+    counts = Counter(question.tdcs)
+    if not question.same_split:
+        for half in _halves(counts, question.count):
+            for right in orders(tuple(half.elements())):
+                for left in _permutations(counts - half):
+                    yield right, left
+        return
+    first = question.tdcs[0]
+    steps = {(each - first) % TURN for each in counts} | {(first - each) % TURN for each in counts}
+    for step in sorted(steps):
+        for half in shifted_halves(counts, step):
+            for right in orders(tuple(half.elements())):
+                yield right, tuple((each + step) % TURN for each in right)
+
+
+def _halves(counts: Counter[Exact], size: int) -> Iterator[Counter[Exact]]:
+    """Yield the choices of so many out of these angles."""
+    keys = list(counts)
+    for numbers in product(*(range(counts[key] + 1) for key in keys)):
+        if sum(numbers) == size:
+            yield Counter(dict(zip(keys, numbers, strict=True)))
+
+
+def shifted_halves(counts: Counter[Exact], step: Exact) -> Iterator[Counter[Exact]]:
+    """Yield the halves of these angles that, turned by a step, are the other half.
+
+    Of an angle that comes m times, r in the half and r′ of the angle one step before add up to m:
+    along each chain of angles a step apart one number determines the others.
+    """
+    chains: list[list[dict[Exact, int]]] = []
+    rest = set(counts)
+    while rest:
+        start = origin = min(rest)
+        before = (start - step) % TURN
+        while before in counts and before != origin:
+            start, before = before, (before - step) % TURN
+        closed = before in counts
+        chain = [start]
+        while (after := (chain[-1] + step) % TURN) in counts and after != chain[0]:
+            chain.append(after)
+        rest -= set(chain)
+        ways = []
+        for number in range(counts[chain[0]] + 1) if closed else (counts[chain[0]],):
+            numbers = [number]
+            for key in chain[1:]:
+                numbers.append(counts[key] - numbers[-1])
+            last = counts[chain[0]] - numbers[0] if closed else 0
+            if min(numbers) >= 0 and numbers[-1] == last:
+                ways.append(dict(zip(chain, numbers, strict=True)))
+        chains.append(ways)
+    for chosen in product(*chains):
+        yield Counter({key: number for way in chosen for key, number in way.items() if number})
+
+
+def _between(
+    question: Question, throws: tuple[Exact, ...], later: tuple[Exact, ...]
+) -> Iterator[Family]:
+    """Yield the ranges of bank angle in which splits are within their limits."""
+    ranges = [question.bank_angle]
+    low, high = question.pin_split
+    if high - low < TURN:
+        for each in set(later):
+            allowed = [(each + low + turn, each + high + turn) for turn in (-TURN, 0, TURN)]
+            ranges = list(_common(ranges, allowed))
+    for first, last in ranges:
+        if first == last:
+            yield Family(Crank.of(throws, [first - each for each in later], first))
+            continue
+        base = Crank.of(throws, [-each for each in later], 0)
+        yield Family(base, (Variable(first, last, bank_angle=1, splits=(1,) * len(later)),))
+
+
+def _common(
+    one: Iterable[tuple[Exact, Exact]], other: Iterable[tuple[Exact, Exact]]
+) -> Iterator[tuple[Exact, Exact]]:
+    for a, b in product(one, other):
+        low, high = max(a[0], b[0]), min(a[1], b[1])
+        if low <= high:
+            yield low, high
+
+
+def _units(count: int) -> list[tuple[int, ...]]:
+    return [tuple(int(j == k) for j in range(count)) for k in range(count)]
+
+
+def _plus(angles: list[Exact], which: tuple[int, ...], value: Exact) -> list[Exact]:
+    if not which:
+        return angles
+    return [angle + each * value for angle, each in zip(angles, which, strict=True)]

@@ -1,0 +1,251 @@
+"""Best values of the angles that may vary, from many starts.
+
+A single angle is started from every dip of a grid; several from random angles, until another
+start can hardly find an optimum that has not been found yet.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import heapq
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._support import optional
+from crankpin.analysis.design.cranks import HALF, TURN, Crank, Exact, simple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from typing import TypeAlias
+
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.design.cranks import Symmetries
+    from crankpin.analysis.design.families import Family
+    from crankpin.analysis.design.merit import Merit
+
+    Real: TypeAlias = NDArray[np.float64]
+    Told: TypeAlias = Callable[[int, int], object]
+
+GRID = 1.0
+"""Degrees between the values at which dips of a single angle are looked for."""
+SMOOTHING = (1e-4, 1e-6, 1e-9)
+"""Successive values of μ, relative to the largest value that an objective could have."""
+FEWEST_STARTS, STARTS_EACH, MOST_STARTS = 24, 8, 1000
+"""Random starts: at least, for each optimum found, and at most.
+
+With w optima found in n starts, the share of starting points that lead to optima not yet found is
+about w(w + 1)/(n(n − 1)) (Boender and Rinnooy Kan): below 2 % at eight starts for each.
+"""
+SAME = 1e-3
+"""Degrees within which two angles are one."""
+LEVEL = 1e-7
+"""Difference of objectives, relative to their largest possible value, below which optima tie."""
+NEARLY_LEVEL = 1e-5
+"""The same of an optimum that other angles nearby equal: its last objectives are less exact."""
+MOST_BETTER = 5
+"""Better optima that are followed from one to the next."""
+ASIDE = 2.0
+"""Degrees by which an optimum is moved to see whether it comes back."""
+FLAT = 1e-12
+"""Difference of objectives that rounding explains."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Optimum:
+    """A crank at which no small change of its angles helps."""
+
+    crank: Crank
+    isolated: bool
+    """False if other angles nearby are as good."""
+    values: tuple[float, ...]
+    """Objectives over the largest that they could be, as the optimiser has them."""
+
+
+def of_one_angle(
+    families: Sequence[Family],
+    merit_of: Callable[[Family], Merit],
+    symmetries: Symmetries,
+    count: int,
+    told: Told,
+) -> list[Optimum]:
+    """Return the best optima of families with a single angle that varies.
+
+    Dips are refined from the lowest up. Between two values of the grid the merit is not lower than
+    its steepest slope allows: dips that cannot be among the best ones are left out.
+    """
+    starts: list[tuple[float, float, int]] = []
+    for k, family in enumerate(families):
+        merit, (variable,) = merit_of(family), family.variables
+        low, high = float(variable.low), float(variable.high)
+        grid = np.linspace(low, high, max(2, int(np.ceil((high - low) / GRID))) + 1)
+        heights = merit.sampled(np.radians(grid)[:, np.newaxis])
+        lowest = heights - merit.steepest * np.radians(grid[1] - grid[0])
+        around = np.pad(heights, 1, constant_values=np.inf)
+        dips = np.flatnonzero((heights <= around[:-2]) & (heights <= around[2:]))
+        starts += [(float(lowest[dip]), float(grid[dip]), k) for dip in _middles(dips)]
+        told(k + 1, len(families) + len(starts))
+    found: list[Optimum] = []
+    heights_found: list[float] = []
+    for k, (bound, start, which) in enumerate(sorted(starts), start=1):
+        if len(found) >= count and bound > heapq.nsmallest(count, heights_found)[-1]:
+            break
+        family = families[which]
+        merit = merit_of(family)
+        optimum = _optimum(family, merit, np.array([start]))
+        if _new(found, optimum, symmetries):
+            found.append(optimum)
+            heights_found.append(merit.of(np.array(optimum.values)))
+        told(len(families) + k, len(families) + len(starts))
+    return found
+
+
+def of_several_angles(
+    families: Sequence[Family],
+    merit_of: Callable[[Family], Merit],
+    symmetries: Symmetries,
+    seed: int,
+    told: Told,
+) -> list[Optimum]:
+    """Return the optima of families with several angles that vary."""
+    everything: list[Optimum] = []
+    steps = 0
+    for k, family in enumerate(families):
+        merit, (low, high) = merit_of(family), _limits(family)
+        random = np.random.default_rng([seed, k])
+        found: list[Optimum] = []
+        starts, needed = 0, FEWEST_STARTS
+        while starts < needed:
+            optimum = _optimum(family, merit, random.uniform(low, high))
+            if _new(found, optimum, symmetries):
+                found.append(optimum)
+            starts, steps = starts + 1, steps + 1
+            needed = min(MOST_STARTS, max(FEWEST_STARTS, STARTS_EACH * len(found)))
+            rest = needed - starts + FEWEST_STARTS * (len(families) - k - 1)
+            told(steps, steps + rest)
+        everything += [each for each in found if _new(everything, each, symmetries)]
+    return everything
+
+
+def _middles(places: NDArray[np.intp]) -> Iterator[int]:
+    """Yield the middle of each run of neighbours."""
+    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
+        if run.size:
+            yield int(run[run.size // 2])
+
+
+def _optimum(family: Family, merit: Merit, start: Real) -> Optimum:
+    """Return the optimum that a start, degrees, leads to."""
+    number = len(merit.scales)
+    values, isolated = _settled(family, merit, np.radians(start), number)
+    if number > 1 and merit.values(values)[0] > LEVEL:
+        # The later objectives draw it aside a little, unless the first vanishes.
+        alone, determined = _settled(family, merit, values, 1)
+        if determined:
+            values, isolated = alone, True
+    rounded = _rounded(family, merit, values)
+    found = merit.values(np.radians([float(each) for each in rounded]))
+    return Optimum(family.crank(rounded), isolated, tuple(found.tolist()))
+
+
+def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tuple[Real, bool]:
+    """Return a local optimum, radians, and whether nothing nearby is as good.
+
+    From angles beside an optimum the way leads back to it, to a better one, or, if it is not the
+    only one of its kind, to another that is as good.
+    """
+    values = _local(family, merit, start, objectives)
+    low, high = (np.radians(each) for each in _limits(family))
+    bounded = np.array([not each.periodic for each in family.variables])
+    move = np.radians(ASIDE) * np.resize([1.0, -0.6, 0.3, -0.8], len(values))
+    for _ in range(MOST_BETTER):
+        outside = bounded & ((values + move < low) | (values + move > high))
+        aside = values + np.where(outside, -move, move)
+        aside = np.where(bounded, np.clip(aside, low, high), aside)
+        again = _local(family, merit, aside, objectives)
+        if np.degrees(np.abs(again - values)).max() < SAME:
+            return values, True
+        levels = merit.values(again)[:objectives] - merit.values(values)[:objectives]
+        if np.abs(levels).max() < NEARLY_LEVEL:
+            return values, False
+        if merit.of(levels) > 0.0:
+            return values, True
+        values = again
+    return values, True
+
+
+def _local(family: Family, merit: Merit, start: Real, objectives: int) -> Real:
+    """Return the values of the variables, radians, at a local optimum of the first objectives."""
+    optimize = optional.scipy_optimize()
+    limits = zip(family.variables, *(np.radians(each) for each in _limits(family)), strict=True)
+    bounds = [(None, None) if each.periodic else (low, high) for each, low, high in limits]
+    values = start
+    for mu in SMOOTHING:
+        solved = optimize.minimize(
+            merit.smoothed,
+            values,
+            args=(mu, objectives),
+            jac=True,
+            method="SLSQP",
+            bounds=bounds,
+            options={"ftol": 1e-15, "maxiter": 200},
+        )
+        if solved.fun <= merit.smoothed(values, mu, objectives)[0]:
+            values = np.asarray(solved.x)
+    return values
+
+
+def _limits(family: Family) -> tuple[Real, Real]:
+    """Return the lowest and the highest value of each variable, degrees."""
+    low = np.array([float(each.low) for each in family.variables])
+    return low, np.array([float(each.high) for each in family.variables])
+
+
+def _rounded(family: Family, merit: Merit, values: Real) -> list[Exact]:
+    """Return the degrees with the fewest digits that are as good: 90 for 90.00000000001."""
+    degrees = np.degrees(values)
+    level = merit.of(merit.values(values))
+    for parts in (*range(8), None):
+        found = [_near(each, family, parts) for each in degrees.tolist()]
+        if parts is None:
+            break
+        limits = zip(found, family.variables, strict=True)
+        if not all(each.periodic or each.low <= value <= each.high for value, each in limits):
+            continue
+        radians = np.radians([float(each) for each in found])
+        if merit.of(merit.values(radians)) <= level + FLAT:
+            break
+    return found
+
+
+def _near(degrees: float, family: Family, digits: int | None) -> Exact:
+    if digits is None:
+        return simple(Fraction(repr(degrees)))
+    if digits == 0:
+        # Parts of a turn that so many throws have, which seven of them do not have in decimals.
+        steps = 4 * len(family.base.throws)
+        return simple(Fraction(round(degrees * steps / TURN) * TURN, steps))
+    return simple(Fraction(repr(round(degrees, digits - 1))))
+
+
+def _new(found: Sequence[Optimum], optimum: Optimum, symmetries: Symmetries) -> bool:
+    """Return whether none of those found shakes alike at the same angles, nor is it nearby."""
+    images = [optimum.crank, *(image for _, image in symmetries.images(optimum.crank))]
+    for each in found:
+        if any(_alike(image, each.crank) for image in images):
+            return False
+        levels = np.abs(np.subtract(each.values, optimum.values)).max()
+        if not each.isolated and not optimum.isolated and levels < NEARLY_LEVEL:
+            return False
+    return True
+
+
+def _alike(one: Crank, other: Crank) -> bool:
+    pins = zip((*one.throws, *one.splits), (*other.throws, *other.splits), strict=True)
+    if any(abs((float(a - b) + HALF) % TURN - HALF) > SAME for a, b in pins):
+        return False
+    if one.bank_angle is None or other.bank_angle is None:
+        return True
+    return abs(float(one.bank_angle - other.bank_angle)) < SAME

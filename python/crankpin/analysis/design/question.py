@@ -1,0 +1,221 @@
+"""What an inverse design asks: what is given, what is to be chosen, and between which limits."""
+
+from __future__ import annotations
+
+import dataclasses
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.analysis.design.cranks import HALF, TURN, Exact, Symmetries, exact, simple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from crankpin._support.inputs import Angle, Angles
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Hold
+
+Kind: TypeAlias = Literal["inline", "vee", "flat", "boxer"]
+Range: TypeAlias = "Angle | tuple[Angle, Angle]"
+"""One angle, or the lowest and the highest to choose from, degrees."""
+
+MOST_CYLINDERS = 48
+
+
+@dataclasses.dataclass(frozen=True)
+class Question:
+    """Arguments of :func:`crankpin.design`, checked; angles are exact degrees."""
+
+    cylinders: int
+    banks: int
+    """1 or 2."""
+    cylinder: Cylinder
+    spacing: float
+    bank_angle: tuple[Exact, Exact]
+    """Lowest and highest; both 0 without banks."""
+    pin_split: tuple[Exact, Exact]
+    """Lowest and highest."""
+    same_split: bool
+    """True if all throws have one split."""
+    throws: tuple[Exact, ...] | None
+    """Throws to be put in order; None for those that the firing needs."""
+    free_throws: bool
+    """True if throws may have any angles."""
+    tdcs: tuple[Exact, ...] | None
+    """Top dead centres that the firing needs, one for each cylinder; None for any firing."""
+    bank_stagger: float
+    rotating_mass: float
+    counterweights: bool
+    """True if the forward part of the first order is removed by counterweights."""
+    shafts: tuple[int, ...]
+    """Speed ratios of the balance shafts."""
+
+    @property
+    def count(self) -> int:
+        """Number of throws."""
+        return self.cylinders // self.banks
+
+    @property
+    def hold(self) -> Hold:
+        """What does not change with the bank angle."""
+        return "firing" if self.tdcs is not None and not self.fixed_split else "pins"
+
+    @property
+    def fixed_split(self) -> bool:
+        """True if there is one pin split."""
+        return self.pin_split[0] == self.pin_split[1]
+
+    @property
+    def symmetries(self) -> Symmetries:
+        """Changes of a crank that do not change how it shakes."""
+        return Symmetries(offset=bool(self.cylinder.pin_offset), staggered=bool(self.bank_stagger))
+
+
+def checked(
+    cylinders: object,
+    layout: object,
+    *,
+    cylinder: Cylinder,
+    spacing: object,
+    bank_angle_deg: Range | None,
+    shared_pins: bool | None,
+    pin_split_deg: Range | None,
+    same_split: object,
+    throws_deg: Angles | Literal["free"] | None,
+    even_firing: object,
+    intervals_deg: Angles | None,
+    strokes: object,
+    bank_stagger: Any,  # noqa: ANN401 - checked here
+    rotating_mass: Any,  # noqa: ANN401 - checked here
+    counterweights: object,
+    shafts: Iterable[int],
+) -> Question:
+    """Return the question that these arguments ask, or raise an InputError."""
+    kind = inputs.one_of("layout", layout, ("inline", "vee", "flat", "boxer"))
+    banks = 1 if kind == "inline" else 2
+    number = _cylinders(cylinders, banks)
+    tdcs = _tdcs(number, even_firing, intervals_deg, inputs.strokes(strokes))
+    angles = _bank_angles(kind, bank_angle_deg)
+    split = _splits(kind, shared_pins, pin_split_deg)
+    free = isinstance(throws_deg, str) and throws_deg == "free"
+    if tdcs is not None and throws_deg is not None:
+        raise InputError(
+            f"throws_deg = {inputs.shorten(throws_deg)}: the firing intervals determine the "
+            "throws; leave out throws_deg, or even_firing and intervals_deg"
+        )
+    count = number // banks
+    return Question(
+        cylinders=number,
+        banks=banks,
+        cylinder=cylinder,
+        spacing=inputs.number("spacing", spacing),
+        bank_angle=angles,
+        pin_split=split,
+        same_split=inputs.flag("same_split", same_split) or split[0] == split[1],
+        throws=None if tdcs is not None else _throws(count, None if free else throws_deg),
+        free_throws=free,
+        tdcs=tdcs,
+        bank_stagger=inputs.number("bank_stagger", bank_stagger) if banks == 2 else 0.0,
+        rotating_mass=inputs.number("rotating_mass", rotating_mass),
+        counterweights=inputs.flag("counterweights", counterweights),
+        shafts=_shafts(shafts),
+    )
+
+
+def _cylinders(given: object, banks: int) -> int:
+    number = inputs.whole("cylinders", given)
+    if not banks <= number <= MOST_CYLINDERS or number % banks:
+        even = "an even number, 2" if banks == 2 else "a whole number, 1"
+        raise InputError(f"cylinders = {number}: give {even} to {MOST_CYLINDERS}")
+    return number
+
+
+def _tdcs(
+    number: int, even_firing: object, intervals_deg: Angles | None, strokes: int
+) -> tuple[Exact, ...] | None:
+    cycle = HALF * strokes
+    even = inputs.flag("even_firing", even_firing)
+    if intervals_deg is None:
+        return _spread(number, cycle) if even else None
+    if even:
+        given = inputs.shorten(intervals_deg)
+        raise InputError(f"intervals_deg = {given}: leave it out, or even_firing")
+    listed = [exact(each) for each in inputs.angles("intervals_deg", intervals_deg)]
+    if len(listed) != number or sum(listed) != cycle or min(listed) < 0:
+        raise InputError(
+            f"intervals_deg = {inputs.shorten(intervals_deg)}: give {number} intervals, none "
+            f"negative, that add up to {cycle}"
+        )
+    return tuple(sum(listed[:k]) % TURN for k in range(number))
+
+
+def _spread(number: int, over: int) -> tuple[Exact, ...]:
+    """Return equally spaced angles."""
+    return tuple(simple(Fraction(over * k, number) % TURN) for k in range(number))
+
+
+def _bank_angles(kind: str, given: Range | None) -> tuple[Exact, Exact]:
+    if kind != "vee":
+        if given is not None:
+            what = "has no banks" if kind == "inline" else "has its banks at 180"
+            raise InputError(
+                f'bank_angle_deg = {inputs.shorten(given)}: layout="{kind}" {what}; leave it out'
+            )
+        return (0, 0) if kind == "inline" else (HALF, HALF)
+    if given is None:
+        raise InputError("bank_angle_deg = None: give an angle, or two to choose between: (60, 90)")
+    return _range("bank_angle_deg", given, 0, HALF)
+
+
+def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[Exact, Exact]:
+    shared = given is None if shared_pins is None else inputs.flag("shared_pins", shared_pins)
+    if kind == "boxer" and (given is not None or shared_pins is not None):
+        raise InputError(
+            'layout="boxer" has pins split by 180: leave out shared_pins and pin_split_deg'
+        )
+    if kind == "boxer":
+        return (HALF, HALF)
+    if shared and given is not None:
+        given_text = inputs.shorten(given)
+        raise InputError(f"pin_split_deg = {given_text}: shared pins have none; leave one out")
+    if shared or kind == "inline":
+        return (0, 0)
+    if given is None:
+        return -HALF, HALF
+    return _range("pin_split_deg", given, -HALF, HALF)
+
+
+def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact]:  # noqa: ANN401
+    ends = given if isinstance(given, (tuple, list, np.ndarray)) else (given, given)
+    cure = f"give an angle, or the lowest and the highest, {low} to {high}"
+    if len(ends) != 2:
+        raise InputError(f"{name} = {inputs.shorten(given)}: {cure}")
+    first, last = (exact(inputs.angle(name, end)) for end in ends)
+    if not low <= first <= last <= high:
+        raise InputError(f"{name} = {inputs.shorten(given)}: {cure}")
+    return first, last
+
+
+def _throws(count: int, given: Any) -> tuple[Exact, ...]:  # noqa: ANN401 - checked here
+    if given is None:
+        return _spread(count, TURN)
+    cure = f'give {count} angles to be put in order, or "free"'
+    if isinstance(given, str):
+        raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
+    listed = [exact(each) % TURN for each in inputs.angles("throws_deg", given)]
+    if len(listed) != count:
+        raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
+    return tuple(listed)
+
+
+def _shafts(given: Iterable[int]) -> tuple[int, ...]:
+    cure = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
+    listed = inputs.items("shafts", given, cure)
+    ratios = [inputs.whole("shafts", each) for each in listed]
+    if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
+        raise InputError(f"shafts = {inputs.shorten(listed)}: {cure}")
+    return tuple(ratios)

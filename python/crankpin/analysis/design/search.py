@@ -1,0 +1,134 @@
+"""The search behind a design: candidates, their optima, and the best of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import progress as progress_bar
+from crankpin.analysis.balance import balance
+from crankpin.analysis.choices import groups
+from crankpin.analysis.design import built, optima
+from crankpin.analysis.design.designs import Design, Image
+from crankpin.analysis.design.families import families
+from crankpin.analysis.design.merit import Merit, rows_of, term
+from crankpin.analysis.design.phasors import Phasors
+from crankpin.analysis.sweep import sweep
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.design.cranks import Crank
+    from crankpin.analysis.design.families import Family
+    from crankpin.analysis.design.optima import Optimum
+    from crankpin.analysis.design.question import Question
+    from crankpin.analysis.objectives import Objective
+    from crankpin.analysis.sweep import Sweep
+
+
+GUIDING = 1e-6
+"""Tolerance, as ``rtol`` of a balance, of the totals by which angles are optimised."""
+
+
+class Search:
+    """Candidates of a question, and the objectives by which they are compared."""
+
+    def __init__(
+        self,
+        question: Question,
+        objectives: Sequence[Objective],
+        rpm: float,
+        orders: list[int] | None,
+    ) -> None:
+        self._question, self._objectives = question, objectives
+        self._rpm, self._orders = rpm, orders
+        self._families, self.cranks = families(question)
+        one = built.one_cylinder(question)
+        if orders is None:
+            # Totals guide the optimiser; those of the result have all orders.
+            orders = list(balance(one, rpm, rtol=GUIDING).orders)
+        listed = [each.order for each in objectives if each.order is not None]
+        self._share = balance(one, rpm, orders=sorted({*orders, *listed}))
+        smooth = [each for each in objectives if each.quantity]
+        self._rows = rows_of(smooth, orders)
+        self._terms = [term(each, self._rows) for each in smooth]
+        unnamed = [each.label for each in objectives if not each.quantity]
+        if unnamed and any(family.variables for family in self._families):
+            raise InputError(
+                f'by = "{unnamed[0]}": angles that vary are optimised by forces, moments and '
+                "torques; fix the angles, or design by others and rank the engines with "
+                "crankpin.rank"
+            )
+        # What an objective cannot read is an error before the search.
+        self._values([self._families[0].base])
+
+    def optima(self, count: int, seed: int, progress: Progress) -> list[Optimum]:
+        """Return the designs at which no small change of angles helps."""
+        fixed = [each for each in self._families if not each.variables]
+        single = [each for each in self._families if len(each.variables) == 1]
+        several = [each for each in self._families if len(each.variables) > 1]
+        symmetries = self._question.symmetries
+        found = [optima.Optimum(each.base, isolated=True, values=()) for each in fixed]
+        with progress_bar.shown(progress, "designs") as shown:
+
+            def told(done: int, total: int) -> None:
+                if shown is not None:
+                    shown(done, total)
+
+            if single:
+                found += optima.of_one_angle(single, self._merit, symmetries, count, told)
+            if several:
+                found += optima.of_several_angles(several, self._merit, symmetries, seed, told)
+        return found
+
+    def best(
+        self, found: Sequence[Optimum], count: int, rtol: float
+    ) -> tuple[tuple[Design, ...], Sweep]:
+        """Return the best designs, and the sweep of all that were found."""
+        symmetries = self._question.symmetries
+        cranks = [symmetries.first(each.crank) for each in found]
+        swept, rows = self._values(cranks)
+        tolerances = rtol * self._scales(rows)
+        designs: list[Design] = []
+        for group in groups(rows, np.arange(len(found)), tolerances):
+            place = len(designs) + 1
+            for k in group[: count - len(designs)]:
+                images = tuple(
+                    Image(change, tuple(map(float, image.throws)), tuple(map(float, image.splits)))
+                    for change, image in symmetries.images(cranks[k])
+                )
+                values, isolated = tuple(rows[k].tolist()), found[k].isolated
+                designs.append(Design(place, swept.engines[k], values, isolated, cranks[k], images))
+            if len(designs) >= count:
+                break
+        return tuple(designs), swept
+
+    def _values(self, cranks: Sequence[Crank]) -> tuple[Sweep, NDArray[np.float64]]:
+        """Return the sweep of the engines, and their objectives: (n_cranks, n_objectives)."""
+        swept = sweep(
+            built.engines(self._question, cranks),
+            rpm=self._rpm,
+            orders="auto" if self._orders is None else self._orders,
+        )
+        return swept, np.stack([each.values(swept)[:, 0] for each in self._objectives], axis=1)
+
+    def _merit(self, family: Family) -> Merit:
+        removed = [
+            (abs(ratio), "forward" if ratio > 0 else "backward") for ratio in self._question.shafts
+        ]
+        (engine,) = built.engines(dataclasses.replace(self._question, shafts=()), [family.base])
+        phasors = Phasors(engine, family.variables, self._share, self._rows, removed)
+        return Merit(phasors, self._terms)
+
+    def _scales(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the largest value that each objective could have; of a function that it has."""
+        named = iter(self._merit(self._families[0]).scales if self._terms else ())
+        largest = np.abs(np.where(np.isfinite(rows), rows, 0.0)).max(axis=0)
+        pairs = zip(self._objectives, largest, strict=True)
+        return np.array([next(named) if each.quantity else most for each, most in pairs])
