@@ -11,10 +11,12 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
+from crankpin.analysis.match_parts import match_parts
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
 from crankpin.analysis.throws import throws
+from crankpin.analysis.tolerances import tolerances
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
@@ -28,11 +30,13 @@ __all__ = [
     "Shaft",
     "Unbalance",
     "__version__",
+    "match_parts",
     "presets",
     "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
     "throws",
+    "tolerances",
     "types",
 ]

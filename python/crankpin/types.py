@@ -6,6 +6,7 @@ from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
+from crankpin.analysis.match_parts import Match
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
@@ -13,6 +14,7 @@ from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweep import Sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
+from crankpin.analysis.tolerances import Shares, Tolerances
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,
@@ -32,6 +34,7 @@ __all__ = [
     "ErrorBound",
     "Firing",
     "Gap",
+    "Match",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
@@ -41,9 +44,11 @@ __all__ = [
     "Quantity",
     "Ranking",
     "Scalar",
+    "Shares",
     "Sweep",
     "SweepWaveform",
     "Throws",
+    "Tolerances",
     "Total",
     "TotalQuantity",
     "TotalVector",

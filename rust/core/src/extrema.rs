@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use crate::Complex64;
 use crate::order::Order;
 use crate::rational::divisor;
+use crate::simd::vectorised;
 
 /// Grid points to the shortest wave.
 const POINTS_PER_WAVE: usize = 16;
@@ -18,15 +19,27 @@ const MOST_PARTS: f64 = 4096.0;
 /// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
 const EXCURSION_OVER_SAMPLED: f64 = 0.51;
 
+/// Most values of waves that a grid keeps: half a mebibyte.
+const MOST_WAVE_VALUES: usize = 1 << 15;
+
 /// A grid that serves every sum of the same orders.
 #[derive(Debug, Clone)]
 pub struct PeakFinder {
     /// Orders over their greatest common divisor.
     waves: Vec<u32>,
-    /// `e^{iθ}` at the grid points of a force or torque.
-    linear: Vec<Complex64>,
+    /// Grid of a force or torque.
+    linear: Grid,
     /// ... and of its squared length, which has twice the degree.
-    quadratic: Vec<Complex64>,
+    quadratic: Grid,
+}
+
+/// Points of the circle.
+#[derive(Debug, Clone)]
+struct Grid {
+    /// `e^{iθ}`.
+    units: Vec<Complex64>,
+    /// cos nθ and sin nθ of each wave; empty where there are too many.
+    waves: Vec<[Vec<f64>; 2]>,
 }
 
 /// Value and two derivatives by crank angle.
@@ -40,19 +53,21 @@ impl PeakFinder {
         let common = halves().fold(0, divisor);
         let waves: Vec<u32> = halves().map(|n| n / common.max(1)).collect();
         let degree = waves.iter().copied().max().unwrap_or(1) as usize;
-        Self {
-            waves,
-            linear: circle(POINTS_PER_WAVE * degree),
-            quadratic: circle(2 * POINTS_PER_WAVE * degree),
-        }
+        let linear = Grid::new(POINTS_PER_WAVE * degree, &waves);
+        let quadratic = Grid::new(2 * POINTS_PER_WAVE * degree, &waves);
+        Self { waves, linear, quadratic }
     }
 
     /// max over θ of |Re Σ Pₙ e^{inθ}|, phasors in the order of the orders.
     #[must_use]
     pub fn along_axis(&self, phasors: &[Complex64]) -> f64 {
-        let up = Self::peak(&self.linear, &|unit| self.sum(phasors, unit));
-        let down = Self::peak(&self.linear, &|unit| self.sum(phasors, unit).map(|v| -v));
-        up.max(down).max(0.0)
+        let mut heights = self.heights(&self.linear, phasors);
+        let terms = self.waves.iter().zip(phasors).map(|(&wave, phasor)| (wave, phasor.norm()));
+        let bounds = Bounds::new(&heights, terms);
+        let up = Self::peak(&self.linear, &heights, bounds, 0.0, &|unit| self.sum(phasors, unit));
+        heights.iter_mut().for_each(|height| *height = -*height);
+        let down = |unit| self.sum(phasors, unit).map(|v| -v);
+        Self::peak(&self.linear, &heights, bounds, up, &down)
     }
 
     /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}).
@@ -65,8 +80,53 @@ impl PeakFinder {
         }
         let scaled = |phasors: &[Complex64]| phasors.iter().map(|z| z / scale).collect::<Vec<_>>();
         let (x, y) = (scaled(x), scaled(y));
+        let mut heights = self.heights(&self.quadratic, &x);
+        let across = self.heights(&self.quadratic, &y);
+        heights.iter_mut().zip(across).for_each(|(x, y)| *x = *x * *x + y * y);
+        let bounds = Bounds::new(&heights, self.squared_terms(&x, &y).into_iter());
         let squared = |unit| self.squared_length(&x, &y, unit);
-        Self::peak(&self.quadratic, &squared).max(0.0).sqrt() * scale
+        Self::peak(&self.quadratic, &heights, bounds, 0.0, &squared).sqrt() * scale
+    }
+
+    /// Waves of a vector's squared length and their amplitudes.
+    ///
+    /// Of x + iy = Σ vⱼ e^{ijθ} it has order d from every two terms that are d apart.
+    fn squared_terms(&self, x: &[Complex64], y: &[Complex64]) -> Vec<(u32, f64)> {
+        let i = Complex64::i();
+        let highest = self.waves.iter().copied().max().unwrap_or(0) as usize;
+        let parts = self.waves.iter().zip(x).zip(y).flat_map(|((&wave, x), y)| {
+            let (forward, backward) = (0.5 * (x + i * y), 0.5 * (x.conj() + i * y.conj()));
+            [(i64::from(wave), forward), (-i64::from(wave), backward)]
+        });
+        let parts: Vec<_> = parts.filter(|(_, part)| *part != Complex64::default()).collect();
+        let mut terms = vec![Complex64::default(); 2 * highest + 1];
+        for (k, (wave, part)) in parts.iter().enumerate() {
+            for (other, of_other) in &parts[k + 1..] {
+                let (above, below) =
+                    if wave > other { (part, of_other) } else { (of_other, part) };
+                terms[wave.abs_diff(*other) as usize] += above * below.conj();
+            }
+        }
+        (0..).zip(&terms).map(|(wave, term)| (wave, 2.0 * term.norm())).collect()
+    }
+
+    /// The sum's real part at the points of a grid.
+    fn heights(&self, grid: &Grid, phasors: &[Complex64]) -> Vec<f64> {
+        if grid.waves.is_empty() {
+            return grid.units.iter().map(|&unit| self.sum(phasors, unit)[0]).collect();
+        }
+        let mut heights = vec![0.0; grid.units.len()];
+        vectorised(
+            #[inline(always)]
+            || {
+                for ([cos, sin], phasor) in grid.waves.iter().zip(phasors) {
+                    for ((height, cos), sin) in heights.iter_mut().zip(cos).zip(sin) {
+                        *height += phasor.re * cos - phasor.im * sin;
+                    }
+                }
+            },
+        );
+        heights
     }
 
     /// The square of a vector's length, and its derivatives.
@@ -102,34 +162,44 @@ impl PeakFinder {
         jet
     }
 
-    /// Largest value over the circle.
-    fn peak(grid: &[Complex64], at: &impl Fn(Complex64) -> Jet) -> f64 {
-        let jets: Vec<Jet> = grid.iter().map(|&unit| at(unit)).collect();
-        let step = TAU / grid.len() as f64;
-        let highest = jets.iter().map(|jet| jet[0]).fold(f64::NEG_INFINITY, f64::max);
-        let lowest = jets.iter().map(|jet| jet[0]).fold(f64::INFINITY, f64::min);
-        let bounds = Bounds {
-            degree: (grid.len() / POINTS_PER_WAVE) as f64,
-            excursion: EXCURSION_OVER_SAMPLED * (highest - lowest),
-        };
+    /// Largest value over the circle, or `known` if that is larger, given the values at the points of
+    /// the grid.
+    fn peak(
+        grid: &Grid,
+        heights: &[f64],
+        bounds: Bounds,
+        known: f64,
+        at: &impl Fn(Complex64) -> Jet,
+    ) -> f64 {
+        let step = TAU / heights.len() as f64;
+        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // The mean is zero or more, and so is the highest.
         let negligible = 0.25 * f64::EPSILON * highest;
-        let mut best = highest;
+        let mut best = highest.max(known);
         let may_hold_more = |interval: &Interval, best: f64| {
             let hidden = bounds.hidden(interval);
             hidden > negligible && interval.highest_end() + hidden > best
         };
-        let mut rest: Vec<Interval> = jets
-            .iter()
-            .zip(jets.iter().cycle().skip(1))
-            .enumerate()
-            .map(|(k, (&here, &next))| Interval {
-                from: k as f64 * step,
-                width: step,
-                ends: [here, next],
-            })
-            .filter(|interval| may_hold_more(interval, best))
-            .collect();
+        // Slopes are evaluated only where values leave room for a peak.
+        let most_hidden = bounds.hidden_in_bracket(step).max(step.powi(3) / 12.0 * bounds.third);
+        let mut jets: [Option<(usize, Jet)>; 2] = [None; 2];
+        let mut jet = |end: usize, k: usize| {
+            let known = jets.iter().flatten().find(|(place, _)| *place == k).map(|(_, jet)| *jet);
+            let found = known.unwrap_or_else(|| at(grid.units[k]));
+            jets[end] = Some((k, found));
+            found
+        };
+        let mut rest = Vec::new();
+        for (k, &height) in heights.iter().enumerate() {
+            let next = if k + 1 == heights.len() { 0 } else { k + 1 };
+            if height.max(heights[next]) + most_hidden > best && most_hidden > negligible {
+                let ends = [jet(0, k), jet(1, next)];
+                let interval = Interval { from: k as f64 * step, width: step, ends };
+                if may_hold_more(&interval, best) {
+                    rest.push(interval);
+                }
+            }
+        }
         // The last is the first to be looked at: a peak found rules out others.
         rest.sort_by_key(Interval::rises_then_falls);
         while let Some(interval) = rest.pop() {
@@ -150,29 +220,55 @@ impl PeakFinder {
     }
 }
 
-/// What a sum does between two points at most, by Bernstein's inequality: each derivative is within
-/// the degree times the one before.
+/// Bounds on the derivatives of a sum.
+#[derive(Debug, Clone, Copy)]
 struct Bounds {
-    degree: f64,
-    /// Half of what lies between the extremes.
-    excursion: f64,
+    second: f64,
+    third: f64,
 }
 
 impl Bounds {
+    /// From the values at the points of a grid, and from waves and their amplitudes.
+    ///
+    /// By Bernstein's inequality each derivative is within the degree times the one before, the first
+    /// within the degree times half of what lies between the extremes. Where high waves are small, the
+    /// sum of the amplitudes' derivatives is less.
+    fn new(heights: &[f64], terms: impl Iterator<Item = (u32, f64)>) -> Self {
+        let degree = (heights.len() / POINTS_PER_WAVE) as f64;
+        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let excursion = EXCURSION_OVER_SAMPLED * (highest - lowest);
+        let (mut second, mut third) = (0.0, 0.0);
+        for (wave, amplitude) in terms {
+            let n = f64::from(wave);
+            second += n * n * amplitude;
+            third += n * n * n * amplitude;
+        }
+        Self {
+            second: second.min(degree.powi(2) * excursion),
+            third: third.min(degree.powi(3) * excursion),
+        }
+    }
+
     /// How far the sum may rise above both ends.
     fn hidden(&self, interval: &Interval) -> f64 {
-        let width = self.degree * interval.width;
-        // From one peak to the nearer end by the second derivative. Without a bracket it rises from a
-        // dip to a peak: between two zeros of the slope, by the third.
-        let share =
-            if interval.rises_then_falls() { width.powi(2) / 8.0 } else { width.powi(3) / 12.0 };
-        share * self.excursion
+        if interval.rises_then_falls() {
+            return self.hidden_in_bracket(interval.width);
+        }
+        // It rises from a dip to a peak: between two zeros of the slope, by the third derivative.
+        interval.width.powi(3) / 12.0 * self.third
+    }
+
+    /// The same where it rises at one end and falls at the other, from one peak to the nearer end by
+    /// the second derivative.
+    fn hidden_in_bracket(&self, width: f64) -> f64 {
+        width.powi(2) / 8.0 * self.second
     }
 
     /// Whether it has no more than one peak there, since the second derivative stays below zero.
     fn bends_down(&self, interval: &Interval) -> bool {
         let [left, right] = interval.ends;
-        left[2].max(right[2]) + 0.5 * interval.width * self.degree.powi(3) * self.excursion < 0.0
+        left[2].max(right[2]) + 0.5 * interval.width * self.third < 0.0
     }
 }
 
@@ -232,8 +328,21 @@ impl Interval {
     }
 }
 
-fn circle(points: usize) -> Vec<Complex64> {
-    (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect()
+impl Grid {
+    fn new(points: usize, waves: &[u32]) -> Self {
+        let units: Vec<Complex64> =
+            (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect();
+        if points * waves.len() > MOST_WAVE_VALUES {
+            return Self { units, waves: Vec::new() };
+        }
+        let wave = |&n: &u32| {
+            let turned = (0..points).map(|k| units[k * n as usize % points]);
+            let (cos, sin) = turned.map(|unit| (unit.re, unit.im)).unzip();
+            [cos, sin]
+        };
+        let waves = waves.iter().map(wave).collect();
+        Self { units, waves }
+    }
 }
 
 #[cfg(test)]
@@ -375,7 +484,7 @@ mod tests {
         }
     }
 
-    /// Beyond the grid, on average: a few steps of Newton's method for each peak that may be the highest,
+    /// Besides the heights at the points of the grid, on average: a few steps of Newton's method for each peak that may be the highest,
     /// and what rules out the rest. No bound of anything but time.
     #[test]
     fn few_values_are_needed() {
@@ -401,11 +510,18 @@ mod tests {
                     jet
                 };
                 let along = |unit| counted(finder.sum(&x, unit));
-                PeakFinder::peak(&finder.linear, &along);
-                of_sums += calls.replace(0) - finder.linear.len();
+                let heights = finder.heights(&finder.linear, &x);
+                let norms = finder.waves.iter().zip(&x).map(|(&n, p)| (n, p.norm()));
+                let bounds = Bounds::new(&heights, norms);
+                PeakFinder::peak(&finder.linear, &heights, bounds, 0.0, &along);
+                of_sums += calls.replace(0);
                 let squared = |unit| counted(finder.squared_length(&x, &y, unit));
-                PeakFinder::peak(&finder.quadratic, &squared);
-                of_vectors += calls.replace(0) - finder.quadratic.len();
+                let both = [&x, &y].map(|phasors| finder.heights(&finder.quadratic, phasors));
+                let squares = both[0].iter().zip(&both[1]).map(|(x, y)| x * x + y * y);
+                let heights: Vec<f64> = squares.collect();
+                let bounds = Bounds::new(&heights, finder.squared_terms(&x, &y).into_iter());
+                PeakFinder::peak(&finder.quadratic, &heights, bounds, 0.0, &squared);
+                of_vectors += calls.replace(0);
             }
             let mean = [of_sums, of_vectors].map(|calls| calls.div_ceil(50));
             assert!(mean.iter().zip(most).all(|(mean, most)| *mean <= most), "{degree}: {mean:?}");
