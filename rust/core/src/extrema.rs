@@ -73,19 +73,22 @@ impl PeakFinder {
     /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}).
     #[must_use]
     pub fn of_vector(&self, x: &[Complex64], y: &[Complex64]) -> f64 {
-        // Scaled so that squares neither overflow nor vanish.
-        let scale = x.iter().chain(y).map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
-        if scale == 0.0 {
+        // Scaled where fourth powers would overflow or vanish.
+        let largest = x.iter().chain(y).map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
+        if largest == 0.0 {
             return 0.0;
         }
-        let scaled = |phasors: &[Complex64]| phasors.iter().map(|z| z / scale).collect::<Vec<_>>();
-        let (x, y) = (scaled(x), scaled(y));
-        let mut heights = self.heights(&self.quadratic, &x);
-        let across = self.heights(&self.quadratic, &y);
+        if !(1e-60..1e60).contains(&largest) {
+            let scaled =
+                |phasors: &[Complex64]| phasors.iter().map(|z| z / largest).collect::<Vec<_>>();
+            return self.of_vector(&scaled(x), &scaled(y)) * largest;
+        }
+        let mut heights = self.heights(&self.quadratic, x);
+        let across = self.heights(&self.quadratic, y);
         heights.iter_mut().zip(across).for_each(|(x, y)| *x = *x * *x + y * y);
-        let bounds = Bounds::new(&heights, self.squared_terms(&x, &y).into_iter());
-        let squared = |unit| self.squared_length(&x, &y, unit);
-        Self::peak(&self.quadratic, &heights, bounds, 0.0, &squared).sqrt() * scale
+        let bounds = Bounds::new(&heights, self.squared_terms(x, y).into_iter());
+        let squared = |unit| self.squared_length(x, y, unit);
+        Self::peak(&self.quadratic, &heights, bounds, 0.0, &squared).sqrt()
     }
 
     /// Waves of a vector's squared length and their amplitudes.
@@ -107,7 +110,8 @@ impl PeakFinder {
                 terms[wave.abs_diff(*other) as usize] += above * below.conj();
             }
         }
-        (0..).zip(&terms).map(|(wave, term)| (wave, 2.0 * term.norm())).collect()
+        // Their squares are within range: a tenth of what `norm` takes.
+        (0..).zip(&terms).map(|(wave, term)| (wave, 2.0 * term.norm_sqr().sqrt())).collect()
     }
 
     /// The sum's real part at the points of a grid.
@@ -131,21 +135,26 @@ impl PeakFinder {
 
     /// The square of a vector's length, and its derivatives.
     fn squared_length(&self, x: &[Complex64], y: &[Complex64], unit: Complex64) -> Jet {
-        let mut jet = [0.0; 3];
-        for phasors in [x, y] {
-            let [v, slope, bend] = self.sum(phasors, unit);
-            jet[0] += v * v;
-            jet[1] += 2.0 * v * slope;
-            jet[2] += 2.0 * (slope * slope + v * bend);
-        }
-        jet
+        let [x, y] = self.sums([x, y], unit);
+        [
+            x[0] * x[0] + y[0] * y[0],
+            2.0 * (x[0] * x[1] + y[0] * y[1]),
+            2.0 * (x[1] * x[1] + x[0] * x[2] + y[1] * y[1] + y[0] * y[2]),
+        ]
     }
 
     /// The sum's real part and its two derivatives where `e^{iθ}` is given.
     fn sum(&self, phasors: &[Complex64], unit: Complex64) -> Jet {
-        let mut jet = [0.0; 3];
+        let [jet] = self.sums([phasors], unit);
+        jet
+    }
+
+    /// [`Self::sum`] of several rows of phasors.
+    #[inline]
+    fn sums<const N: usize>(&self, rows: [&[Complex64]; N], unit: Complex64) -> [Jet; N] {
+        let mut jets = [[0.0; 3]; N];
         let (mut power, mut at) = (Complex64::new(1.0, 0.0), 0);
-        for (&wave, &phasor) in self.waves.iter().zip(phasors) {
+        for (k, &wave) in self.waves.iter().enumerate() {
             // Ascending orders go from power to power; others start again.
             if wave < at {
                 (power, at) = (Complex64::new(1.0, 0.0), 0);
@@ -154,12 +163,14 @@ impl PeakFinder {
             power *= if step == 1 { unit } else { unit.powu(step) };
             at = wave;
             let n = f64::from(wave);
-            let term = phasor * power;
-            jet[0] += term.re;
-            jet[1] -= n * term.im;
-            jet[2] -= n * n * term.re;
+            for (jet, phasors) in jets.iter_mut().zip(rows) {
+                let term = phasors[k] * power;
+                jet[0] += term.re;
+                jet[1] -= n * term.im;
+                jet[2] -= n * n * term.re;
+            }
         }
-        jet
+        jets
     }
 
     /// Largest value over the circle, or `known` if that is larger, given the values at the points of
@@ -201,7 +212,10 @@ impl PeakFinder {
             }
         }
         // The last is the first to be looked at: a peak found rules out others.
-        rest.sort_by_key(Interval::rises_then_falls);
+        rest.sort_by(|a, b| {
+            let peaks = a.rises_then_falls().cmp(&b.rises_then_falls());
+            peaks.then_with(|| a.highest_end().total_cmp(&b.highest_end()))
+        });
         while let Some(interval) = rest.pop() {
             best = best.max(interval.highest_end());
             if !may_hold_more(&interval, best) {
@@ -297,12 +311,13 @@ impl Interval {
         ]
     }
 
-    /// Height of the maximum between the ends: Newton's method on the slope, bisection where that
-    /// would leave the bracket or the top.
+    /// Height of the maximum between the ends: Newton's method on the slope, from where a straight line
+    /// of slopes is zero; bisection where that would leave the bracket or the top.
     fn polish(&self, at: &impl Fn(Complex64) -> Jet) -> f64 {
         let (mut low, mut high) = (self.from, self.from + self.width);
         let mut best = self.highest_end();
-        let mut here = f64::midpoint(low, high);
+        let [rise, fall] = [self.ends[0][1], self.ends[1][1]];
+        let mut here = self.from + self.width * (rise / (rise - fall));
         for _ in 0..60 {
             let [value, slope, bend] = at(Complex64::cis(here));
             best = best.max(value);
@@ -314,6 +329,12 @@ impl Interval {
             let newton = here - slope / bend;
             // Where it bends upwards Newton's method goes to a dip.
             let next = if bend < 0.0 && (low..=high).contains(&newton) {
+                // The parabola's top is right to rounding where its steps are so short that what it
+                // lacks, of the third power, is.
+                if (newton - here).abs() <= 3e-6 * self.width {
+                    best = best.max(value - 0.5 * slope * slope / bend);
+                    break;
+                }
                 newton
             } else {
                 f64::midpoint(low, high)

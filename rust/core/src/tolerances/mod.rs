@@ -242,12 +242,12 @@ impl Tolerances {
             }
             let [[x, y], [about_x, about_y], [roll, crank]] =
                 [force_xy, moment_xy, torques].map(|both| both.split_at(orders)).map(<[_; 2]>::from);
-            *peaks = [
-                finder.of_vector(x, y),
-                finder.of_vector(about_x, about_y),
-                finder.along_axis(roll),
-                finder.along_axis(crank),
-            ];
+            let on_block = finder.along_axis(roll);
+            // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
+            let opposite = roll.iter().zip(&*crank).all(|(roll, crank)| *roll == -crank);
+            let on_crank = if opposite { on_block } else { finder.along_axis(crank) };
+            let [force, moment] = [finder.of_vector(x, y), finder.of_vector(about_x, about_y)];
+            *peaks = [force, moment, on_block, on_crank];
         }
         Ok(())
     }
