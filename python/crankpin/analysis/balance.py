@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
@@ -212,17 +213,52 @@ class Balance(AllOrders):
     def _named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
         return check_quantities(quantities, self.request.quantities)
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
-        """Draw the peaks of each order along (about) x and y as bars; return the axes.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str = "spectrum",
+        quantity: str = "moment",
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw the orders; return the axes.
 
         Parameters
         ----------
         ax
-            Axes to draw on; by default new ones.
+            Axes to draw on; by default new ones. ``"ellipses"`` draws all orders on them.
+        figure
+            Figure or SubFigure for the panels of ``"ellipses"``; by default a new one.
+        kind
+            ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles;
+            ``"ellipses"``: the ellipse that force or moment traces in each of the four largest
+            orders, with its direction and, as a dot, the place at θ = 0.
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        **options
+            ``log=True`` for a logarithmic spectrum; ``label``, for a legend of several results on
+            the same axes; colour, line width and other properties of matplotlib lines.
+
+        Returns
+        -------
+        matplotlib.axes.Axes, or numpy.ndarray of them
+            The axes; of ``"ellipses"`` without ``ax`` an array of panels.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given, or there is no such picture of the quantity.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000)
+        >>> ax = b.plot(quantity="torque", log=True, color="black")
+        >>> b.plot(kind="ellipses").shape
+        (1, 2)
         """
-        return draw(self, ax, quantity=quantity)  # type: ignore[no-any-return]
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
 
     def table(self) -> Table:
         """Return the table that is shown: peaks by order, negligible orders left out."""

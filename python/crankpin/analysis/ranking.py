@@ -225,15 +225,21 @@ class Ranking(Frozen):
         dataset: xr.Dataset = optional.xarray().Dataset(variables, coords, attributes)
         return dataset
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the first objective over bank angle, the best marked; return the axes.
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+        """Draw the first objective over bank angle, the best angles ringed; return the axes.
+
+        Engines ranked without bank angles are listed, the best first. Of many engines the best
+        are named, the others thin lines.
 
         Parameters
         ----------
         ax
             Axes to draw on; by default new ones.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines.
         """
-        return draw(self, ax)  # type: ignore[no-any-return]
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     def description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""

@@ -16,6 +16,7 @@ from crankpin import _core
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
+from crankpin.analysis.drawing import draw
 from crankpin.model.builders import parts
 from crankpin.model.engine import Engine
 
@@ -318,17 +319,18 @@ class ArrangementSearch(Frozen):
             raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}")
         return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw second-order moments over the balanced bank angles; return the axes.
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+        """Draw the second-order moment that remains over the bank angles; return the axes.
 
         Parameters
         ----------
         ax
             Axes to draw on; by default new ones.
+        **options
+            ``label``, for a legend of several searches on the same axes; colour, marker and other
+            properties of matplotlib lines.
         """
-        from crankpin.analysis.drawing import draw  # noqa: PLC0415 - drawing is optional
-
-        return draw(self, ax)  # type: ignore[no-any-return]
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""

@@ -24,6 +24,8 @@ from crankpin.model.engine import Engine
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
@@ -403,26 +405,69 @@ class Sweep(AllOrders):
         """
         return export.to_pandas(self.source, self.named(quantities), self.coords)
 
-    def plot(self, ax: Any = None, *, quantity: str = "moment", x: str | None = None) -> Any:  # noqa: ANN401
-        """Draw the peaks of each order over a swept dimension; return the axes.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str | None = None,
+        quantity: str | None = None,
+        x: str | None = None,
+        orders: Orders | None = None,
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw peaks over what was swept; return the axes.
 
-        One panel for each order and axis, one curve for each combination of the other dimensions.
+        A row of panels for all orders together and for each of the three largest orders, a column
+        for each axis.
 
         Parameters
         ----------
         ax
-            Axes to draw on, one for each order shown and axis: (n_orders, 2), of torque
-            (n_orders, 1); by default new ones.
+            Axes to draw on: a single panel with the longest vector of all orders together, or of
+            the one in ``orders``; with ``"bars"`` of one quantity.
+        figure
+            Figure or SubFigure for the panels; by default a new one.
+        kind
+            ``"curves"``: over one dimension, a curve for each combination of the others, with the
+            points where an order is exactly zero, and the least of all, marked; ``"map"``: over two
+            numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,
+            and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
+            4, with the class of each engine. By default bars for engines alone, a map for two long
+            numeric dimensions, otherwise curves.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, of
+            bars force and moment.
         x
             The dimension along the horizontal axis; by default the longest.
+        orders
+            Orders to draw, a row for each; by default as above.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines, of maps those of ``pcolormesh``.
 
         Returns
         -------
-        numpy.ndarray of matplotlib axes
+        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+            The panels, (n_rows, 2), of torque (n_rows, 1); with ``ax`` the axes given.
+
+        Raises
+        ------
+        InputError
+            If nothing was swept, the kind does not fit what was swept, an argument names no swept
+            dimension or order, or ``ax`` and ``figure`` are both given.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=range(10, 180, 10), hold="pins")
+        >>> s.plot(orders=[1, 2]).shape
+        (2, 2)
         """
-        return draw(self, ax, quantity=quantity, x=x)
+        given = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
+        chosen = {} if orders is None else {"orders": orders}
+        return draw(self, ax, **given, **chosen, **options)
 
     def __repr__(self) -> str:
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())

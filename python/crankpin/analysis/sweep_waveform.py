@@ -22,6 +22,8 @@ from crankpin.analysis.source import PLANE_VECTORS, ErrorBound
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.progress import Progress
@@ -237,28 +239,51 @@ class SweepWaveform(Frozen):
         table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
         return table
 
-    def plot(self, ax: Any = None, *, quantity: str = "moment") -> Any:  # noqa: ANN401
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str | None = None,
+        quantity: str = "moment",
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw a quantity over crank angle, a panel for each axis; return the axes.
 
         Parameters
         ----------
         ax
-            Axes to draw on, one for each axis of the quantity; by default new ones.
+            Axes to draw on: of a force or moment the length of the vector.
+        figure
+            Figure or SubFigure for the panels; by default a new one.
+        kind
+            ``"curves"``: a curve for each point of the sweep; ``"envelope"``: the range of all
+            points, the range of their middle half, and the median. By default curves if colours and
+            dashes distinguish them.
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines.
 
         Returns
         -------
-        numpy.ndarray of matplotlib axes
+        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+            The panels, (1, 2), of torque (1, 1); with ``ax`` the axes given.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
         >>> s.waveform().plot(quantity="moment").shape
-        (2,)
+        (1, 2)
         """
-        return draw(self, ax, quantity=quantity)
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)

@@ -209,17 +209,42 @@ class Waveform(Frozen):
             coords["axis"] = ("axis", ["x", "y"])
         return export.made(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
-        """Draw a quantity over crank angle; return the axes.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        kind: str = "curves",
+        quantity: str = "moment",
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Axes:
+        """Draw a quantity over crank angle, or the curve that its tip traces; return the axes.
 
         Parameters
         ----------
         ax
             Axes to draw on; by default new ones.
+        kind
+            ``"curves"``: a curve over crank angle for each axis; ``"orbit"``: the tip of force or
+            moment in the cross-section plane, arrows in its direction, a dot every 30°.
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        **options
+            ``label``, for a legend of several results on the same axes; colour, line width and
+            other properties of matplotlib lines.
+
+        Raises
+        ------
+        InputError
+            If there is no such picture of the quantity: a torque has no orbit.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> ax = v6.waveform(rpm=6000).plot(label="60°")
+        >>> ax = v6.with_bank_angle(90, hold="pins").waveform(rpm=6000).plot(ax, label="90°")
         """
-        return draw(self, ax, quantity=quantity)  # type: ignore[no-any-return]
+        return draw(self, ax, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
     def __repr__(self) -> str:
         how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)

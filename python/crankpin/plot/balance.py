@@ -1,59 +1,27 @@
-"""Balances: bars, one for each order and axis."""
+"""Balances: the picture of each kind."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
-import numpy as np
-
-from crankpin._support import labels
+from crankpin._support import inputs
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.source import PLANE_VECTORS, shown_orders
+from crankpin.plot.axes import check_one_place
 from crankpin.plot.dispatch import draw
-from crankpin.plot.style import (
-    COLOURS,
-    FEW_BARS,
-    GREY,
-    by_component,
-    checked,
-    dress,
-    entitle,
-    from_zero,
-    given_or_new,
-    name_of,
-    number,
-)
+from crankpin.plot.ellipses import ellipses
+from crankpin.plot.spectrum import spectrum
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+KINDS = {"spectrum": spectrum, "ellipses": ellipses}
 
 
 @draw.register(Balance)
-def _balance(result: Balance, ax: Axes | None = None, *, quantity: str = "moment") -> Axes:
-    kind = checked(quantity)
-    drawn = getattr(result, kind)
-    ax = given_or_new(ax)
-    shown, omitted = shown_orders(result.source, kind)
-    peaks = by_component(drawn.peak_xy if kind in PLANE_VECTORS else drawn.peak, kind)[list(shown)]
-    places = np.arange(len(shown))
-    count = len(labels.COMPONENTS[kind])
-    width = 0.76 / count
-    for k, (name, colour) in enumerate(zip(labels.COMPONENTS[kind], COLOURS, strict=False)):
-        offset = (k - (count - 1) / 2) * width
-        bars = ax.bar(places + offset, peaks[:, k], 0.94 * width, color=colour, label=name)
-        if peaks.size <= FEW_BARS:
-            # Exact zeros are labelled: a missing bar could be a small one.
-            texts = [number(float(f"{peak:.4g}")) for peak in peaks[:, k]]
-            ax.bar_label(bars, texts, padding=2, fontsize=8, color=GREY)
-    dress(ax)
-    ax.grid(visible=False, axis="x")
-    ax.tick_params(axis="x", length=0)
-    ax.set_xticks(places, [str(result.orders[place]) for place in shown])
-    note = labels.not_shown(omitted)
-    ax.set_xlabel("order (multiples of crank speed)" + (f"\n{note}" if note else ""))
-    ax.set_ylabel(f"peak {labels.NAMES[kind]}, {labels.UNITS[kind]}")
-    from_zero(ax, float(peaks.max(initial=0.0)))
-    how = ", orders given" if result.request.orders is not None else ""
-    how += "" if result.spectrum is None else ", spectrum given"
-    entitle(ax, name_of(result.engine), f"{number(result.rpm)} rpm{how}")
-    return ax
+def _balance(
+    result: Balance,
+    ax: Any = None,  # noqa: ANN401 - checked
+    *,
+    figure: Any = None,  # noqa: ANN401 - checked
+    kind: str = "spectrum",
+    **options: Any,  # noqa: ANN401 - of the kind
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

@@ -1,194 +1,191 @@
-"""Curves over swept dimensions: their colours, dashes, names and legend."""
+"""Curves of a sweep over one swept dimension, with what vanishes and what is best marked."""
 
 from __future__ import annotations
 
-import itertools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.lines import Line2D
 
-from crankpin._support import labels
-from crankpin.analysis.sweep import engine_titles
-from crankpin.plot.style import COLOURS, DASHES, GREY, number, plain_text, viridis
+from crankpin._support import inputs, labels
+from crankpin.plot.axes import (
+    entitle,
+    entitle_figure,
+    head,
+    label_x,
+    label_y,
+    many_panels,
+    one_panel,
+    say_zero,
+)
+from crankpin.plot.bundle import Bundle, Curve, bundle_of, colour_scale
+from crankpin.plot.legend import figure_legend, legend_below
+from crankpin.plot.marks import entry, ring, write
+from crankpin.plot.rows import Rows, along_x, at, dimension, rows_of, words_of
+from crankpin.plot.style import MOST_TOLD_APART, SERIES, foreground
+from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.words import plain_text
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from matplotlib.figure import Figure
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.sweep import Sweep
 
-
-class Curve(NamedTuple):
-    """How one combination of swept values is drawn."""
-
-    place: tuple[Any, ...]
-    """Picks it from an array whose first axis is along x."""
-    style: dict[str, Any]
-    coloured_by: int
-    dashed_by: int
+FEW_POINTS = 40
+"""Up to so many points of a curve are marked."""
+MOST_MARKS = 6
+"""Up to so many zeros of a curve, and texts of a panel, are marked."""
+ZERO, LEAST = "exactly zero", "least of all"
 
 
-class Words(NamedTuple):
-    """What a sweep's picture says."""
-
-    names: list[str]
-    """Engines, without what they have in common."""
-    common: str
-    """What the names are: the end of their common words, such as ``firing order``."""
-    title: str
-    parts: list[str]
-    """What was fixed or held."""
-
-    def subtitle(self, quantity: str) -> str:
-        """Return the quantity and the arguments that are fixed or held."""
-        return ", ".join([labels.NAMES[quantity], *self.parts])
-
-
-def words_of(sweep: Sweep) -> Words:
-    """Return the words of a sweep's picture."""
-    parts = [labels.value_text(dim, value) for dim, value in sweep.fixed.items()]
-    if sweep.hold is not None:
-        parts.append(labels.HELD[sweep.hold])
-    full = engine_titles(sweep)
-    if "engine" not in sweep.coords:
-        return Words([], "", full[0], parts)
-    names, shared = short_names(full)
-    title, _, common = shared.rpartition(", ")
-    if not title:
-        title, common = common, ""
-    return Words(names, common, title or f"{len(names)} engines", parts)
-
-
-def short_names(names: list[str]) -> tuple[list[str], str]:
-    """Return names without the words they share at either end, and these words."""
-    words = [name.split() for name in names]
-    shortest = min(len(each) for each in words) - 1
-    head = tail = 0
-    if len(set(names)) > 1:
-        while head < shortest and len({each[head] for each in words}) == 1:
-            head += 1
-        while tail < shortest - head and len({each[-1 - tail] for each in words}) == 1:
-            tail += 1
-    shared = words[0][:head] + words[0][len(words[0]) - tail :]
-    short = [" ".join(each[head : len(each) - tail]).strip(",;:") for each in words]
-    return short, " ".join(shared).rstrip(",;:")
+def curves(
+    sweep: Sweep,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str = "moment",
+    x: str | None = None,
+    orders: object = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw peaks over a swept dimension, rows for orders and columns for axes."""
+    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    rows = rows_of(sweep, name, orders, single=ax is not None)
+    along, words = along_x(sweep, x), words_of(sweep)
+    if ax is not None:
+        ax = one_panel(ax)
+        entitle(ax, words.title, words.subtitle(name), rows.columns[0])
+        _draw(np.array([[ax]]), sweep, name, along, rows, style)
+        legend_below(ax, words.common)
+        return ax
+    shared: dict[str, Any] = {"sharex": "col", "sharey": "row"}
+    if along == "engine":
+        shared = {"sharex": "row", "sharey": "all"}
+    made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
+    for panel, axis in zip(made.axes[0], rows.columns, strict=True):
+        head(panel, axis)
+    bundle = _draw(made.axes, sweep, name, along, rows, style)
+    entitle_figure(made.figure, words.title, words.subtitle(name), rows.note)
+    marks = [_entry(made.axes, text) for text in (ZERO, LEAST)]
+    handles = [*bundle.handles, *filter(None, marks)]
+    figure_legend(made.figure, handles, words.common if bundle.handles else "")
+    return made.axes
 
 
-def curves_of(sweep: Sweep, others: Sequence[str]) -> list[Curve]:
-    """Give every combination a colour by the first of the other dimensions and dashes by the rest.
-
-    A longer row of numbers gets a scale of colours in place of single ones.
-    """
-    shape = [len(sweep.coords[dim]) for dim in others]
-    n_colours = shape[0] if shape else 1
-    n_dashes = int(np.prod(shape[1:], dtype=np.int64))
-    colours: Sequence[Any] = COLOURS
-    if n_colours > len(COLOURS):
-        colours = viridis(n_colours)
-    curves = []
-    for k, place in enumerate(np.ndindex(*shape)):
-        colour, dash = divmod(k, n_dashes)
-        style = {"color": colours[colour], "linewidth": 1.8}
-        if n_dashes > len(DASHES):  # more than can be told apart: a thin bundle of each colour
-            style |= {"linewidth": 0.7, "alpha": 0.6}
-        else:
-            style["linestyle"] = DASHES[dash]
-        curves.append(Curve(place, style, colour, dash))
-    return curves
-
-
-def explain(
-    figure: Figure,
+def _draw(
     panels: NDArray[Any],
     sweep: Sweep,
-    others: Sequence[str],
-    curves: list[Curve],
-    words: Words,
+    quantity: str,
+    along: str,
+    rows: Rows,
+    style: Mapping[str, Any],
+) -> Bundle:
+    dims, words = list(sweep.coords), words_of(sweep)
+    others = [dim for dim in dims if dim != along]
+    peaks = [np.moveaxis(row.peaks, dims.index(along), 0) for row in rows.rows]
+    sizes = peaks[0].max(axis=-1).min(axis=0, initial=np.inf).reshape(-1)
+    of_lines = mpl.cbook.normalize_kwargs(dict(style), Line2D)
+    bundle = bundle_of(panels[0, 0], sweep, others, words, sizes, of_lines)
+    for row, column in np.ndindex(*panels.shape):
+        panel: Any = panels[row, column]
+        heights = peaks[row][..., column]
+        if along == "engine":
+            _dots(panel, words.names, heights, bundle.curves)
+            continue
+        values = np.asarray(sweep.coords[along], dtype=np.float64)
+        span(panel, values)
+        _lines(panel, values, heights, bundle.curves)
+        # Every peak grows with the square of speed: the least is at the lowest.
+        least = row == 0 and "rpm" not in sweep.coords
+        _mark(panel, along, values, heights, bundle.curves, least=least)
+    for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
+        _scale(of_row, float(heights.max(initial=0.0)), quantity, along, row_of_picture.name)
+    if along != "engine":
+        for panel in panels[-1]:
+            label_x(panel, dimension(along))
+            (degrees if along.endswith("_deg") else numeric)(panel.xaxis)
+    if bundle.scale:
+        colour_scale(panels, sweep, bundle.scale)
+    return bundle
+
+
+def _lines(
+    ax: Axes, x: NDArray[np.float64], peaks: NDArray[np.float64], drawn: Sequence[Curve]
+) -> None:
+    in_order = np.argsort(x, kind="stable")
+    few = len(drawn) <= MOST_TOLD_APART and len(x) <= FEW_POINTS
+    for curve in drawn:
+        heights = peaks[:, *curve.place][in_order]
+        look: dict[str, Any] = {"marker": "o" if few or len(x) == 1 else "", "markersize": 3.0}
+        look |= curve.style
+        ax.plot(x[in_order], heights, gid=SERIES, label=curve.name or "_", clip_on=False, **look)
+    if not peaks.any():
+        say_zero(ax)
+
+
+def _dots(
+    ax: Axes, names: Sequence[str], peaks: NDArray[np.float64], drawn: Sequence[Curve]
+) -> None:
+    """Draw engines below each other: names need room, and between two engines there is nothing."""
+    rows = np.arange(len(names))
+    for k, curve in enumerate(drawn):
+        look: dict[str, Any] = {"marker": "os^Dv"[k % 5], "markersize": 6.0}
+        look |= curve.style | {"linestyle": ""}
+        heights = peaks[:, *curve.place]
+        ax.plot(heights, rows, gid=SERIES, label=curve.name or "_", clip_on=False, **look)
+    ax.set_yticks(rows, [plain_text(name) for name in names])
+    ax.set_ylim(len(names) - 0.5, -0.5)
+
+
+def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str, name: str) -> None:
+    """Let the axis of the peaks begin at zero; label it with the row's name."""
+    unit = f"peak, {labels.UNITS[quantity]}"
+    for panel in panels:
+        if along == "engine":
+            numeric(panel.xaxis)
+            panel.set_xlim(0.0, 1.08 * largest or 1.0)
+            label_x(panel, unit)
+        else:
+            numeric(panel.yaxis)
+            from_zero(panel, largest)
+    label_y(panels[0], name, *([] if along == "engine" else [unit]))
+
+
+# --- marks --------------------------------------------------------------------------------------
+
+
+def _mark(
+    ax: Axes,
+    along: str,
+    x: NDArray[np.float64],
+    peaks: NDArray[np.float64],
+    drawn: Sequence[Curve],
     *,
-    marked: bool = True,
+    least: bool,
 ) -> None:
-    """Say once what colours and dashes mean."""
-    if not others:
+    """Mark where curves vanish, and with ``least`` the smallest value of all if none does."""
+    found: dict[float, str] = {}
+    for curve in drawn if len(drawn) <= MOST_TOLD_APART else []:
+        heights = peaks[:, *curve.place]
+        zeros = x[heights == 0.0]
+        if 0 < zeros.size <= MOST_MARKS and heights.any():
+            ring(ax, zeros, np.zeros_like(zeros), curve.style["color"], "o", ZERO)
+            found |= dict.fromkeys(zeros.tolist(), "")
+    for place in sorted(found)[:MOST_MARKS]:
+        write(ax, place, 0.0, at(along, place))
+    if not least or not peaks.size or peaks.min() == 0.0:
         return
-    first, *rest = others
-    handles: list[Any] = []
-    marker = "o" if marked and len(curves) <= len(COLOURS) else None
-    if first != "engine" and len(sweep.coords[first]) > len(COLOURS):
-        _colour_scale(figure, panels, first, np.asarray(sweep.coords[first]))
-    else:
-        texts = words.names if first == "engine" else values_of(sweep, [first])
-        seen = {curve.coloured_by: curve for curve in reversed(curves)}
-        handles += [
-            mpl.lines.Line2D(
-                [],
-                [],
-                color=seen[k].style["color"],
-                lw=2,
-                marker=marker,
-                ms=4,
-                label=plain_text(label),
-            )
-            for k, label in enumerate(texts)
-        ]
-    dashes = values_of(sweep, rest)
-    if rest and len(dashes) <= len(DASHES):
-        handles += [
-            mpl.lines.Line2D([], [], color=GREY, lw=1.6, linestyle=DASHES[k], label=label)
-            for k, label in enumerate(dashes)
-        ]
-    elif rest:
-        what = ", ".join(f"{len(sweep.coords[dim])} × {dimension(dim)}" for dim in rest)
-        handles.append(mpl.lines.Line2D([], [], color=GREY, lw=0.7, label=f"each: {what}"))
-    if handles:
-        longest = max(len(handle.get_label()) for handle in handles)
-        fitting = max(1, int(figure.get_figwidth() * 11 / (longest + 7)))
-        figure.legend(
-            handles=handles,
-            title=plain_text(words.common) if first == "engine" else None,
-            loc="outside lower center",
-            ncols=fitting,
-            frameon=False,
-            fontsize=9.5,
-        )
+    best = np.argwhere(peaks == peaks.min())
+    if len(best) == 1:  # a smallest value that is shared singles out nothing
+        place = float(x[best[0][0]])
+        value = float(peaks.min())
+        ring(ax, np.array([place]), np.array([value]), foreground(ax), "D", LEAST)
+        write(ax, place, value, at(along, place))
 
 
-def values_of(sweep: Sweep, dims: Sequence[str]) -> list[str]:
-    """Return each combination of swept values as text."""
-    each = [
-        [
-            str(value) if dim == "engine" else labels.value_text(dim, float(value))
-            for value in sweep.coords[dim]
-        ]
-        for dim in dims
-    ]
-    return [", ".join(parts) for parts in itertools.product(*each)]
-
-
-def dimension(dim: str, *, unit: bool = False) -> str:
-    """Return the name of a dimension, with its unit if asked."""
-    if dim == "engine":
-        return "engine"
-    name, symbol = labels.SWEPT[dim]
-    # Degrees stand at the numbers.
-    symbol = symbol.strip(" °") if unit else ""
-    return ", ".join(part for part in (name or "crank speed", symbol) if part)
-
-
-def _colour_scale(
-    figure: Figure, panels: NDArray[Any], dim: str, values: NDArray[np.float64]
-) -> None:
-    # Colours go by place in the list, so that the scale is right for uneven steps too.
-    n = len(values)
-    colours = mpl.colors.ListedColormap(viridis(n))
-    mappable = mpl.cm.ScalarMappable(mpl.colors.BoundaryNorm(np.arange(n + 1) - 0.5, n), colours)
-    bar = figure.colorbar(mappable, ax=panels.ravel().tolist(), aspect=35, pad=0.02)
-    shown = np.unique(np.linspace(0, n - 1, min(n, 9)).round().astype(int))
-    degrees = "°" if dim.endswith("_deg") else ""
-    bar.set_ticks(shown.tolist(), labels=[number(values[k]) + degrees for k in shown])
-    bar.ax.tick_params(length=0)
-    bar.ax.minorticks_off()
-    bar.outline.set_visible(False)
-    bar.set_label(dimension(dim, unit=True))
+def _entry(panels: NDArray[Any], text: str) -> Line2D | None:
+    return next(filter(None, (entry(panel, text) for panel in panels.flat)), None)

@@ -10,8 +10,8 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 from crankpin._support import labels
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.plot._old import COLOURS, RED, dress, entitle, given_or_new, in_degrees, name_of
 from crankpin.plot.dispatch import draw
-from crankpin.plot.style import COLOURS, RED, dress, entitle, given_or_new, in_degrees, name_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

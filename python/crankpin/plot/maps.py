@@ -1,0 +1,249 @@
+"""Maps of a sweep: peaks over two swept dimensions, and over speed and order."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.plot.axes import (
+    entitle,
+    entitle_figure,
+    head,
+    label_x,
+    label_y,
+    many_panels,
+    one_panel,
+)
+from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
+from crankpin.plot.style import foreground
+from crankpin.plot.ticks import degrees, numeric
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.sweep import Sweep
+
+MOST_ENGINES = 4
+"""Engines with a row of their own."""
+MOST_ZEROS = 60
+"""Up to so many points at which a quantity vanishes are marked."""
+RANGE = 1e-6
+"""Part of the largest peak at which the colours of orders begin."""
+
+
+def heat_map(
+    sweep: Sweep,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str = "moment",
+    x: str | None = None,
+    orders: object = None,
+    **style: Any,  # noqa: ANN401 - of pcolormesh
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes."""
+    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    along, up = _axes_of(sweep, x)
+    rows, note = _rows(sweep, name, orders, single=ax is not None)
+    words = words_of(sweep)
+    dims = [dim for dim in sweep.coords if dim != "engine"]
+    grids = [np.moveaxis(row.peaks, dims.index(up), 0) for row in rows.rows]
+    coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
+    if ax is not None:
+        ax = one_panel(ax)
+        what = f"{rows.rows[0].name}, {rows.columns[0]}"
+        entitle(ax, words.title, words.subtitle(name), what)
+        _heat(np.array([ax]), coords, grids[0], name, style)
+        _label(ax, along, up)
+        return ax
+    made = many_panels(figure, len(grids), len(rows.columns), sharex=True, sharey=True)
+    vanishes = [
+        _heat(panels, coords, grid, name, style)
+        for grid, panels in zip(grids, made.axes, strict=True)
+    ]
+    _label_all(made.axes, along, up, rows)
+    dots = "white dots: exactly zero" if any(vanishes) else ""
+    entitle_figure(made.figure, words.title, words.subtitle(name), dots, note)
+    return made.axes
+
+
+def order_map(
+    sweep: Sweep,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str = "moment",
+    x: str | None = None,
+    **style: Any,  # noqa: ANN401 - of pcolormesh
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw peaks over speed, or another swept number, and order, in a logarithmic scale."""
+    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    dims = [dim for dim in sweep.coords if dim != "engine"]
+    along = along_x(sweep, x or ("rpm" if "rpm" in dims else None), dims or ["engine"])
+    if dims != [along]:
+        swept = ", ".join(sweep.coords)
+        raise InputError(f'kind = "orders" needs one swept number, not {swept}; give kind="curves"')
+    rows, note = _rows(sweep, name, sweep.orders, single=ax is not None, by_order=True)
+    words = words_of(sweep)
+    values = np.asarray(sweep.coords[along], dtype=np.float64)
+    if ax is not None:
+        ax = one_panel(ax)
+        entitle(ax, words.title, words.subtitle(name), rows.columns[0])
+        _cells(np.array([ax]), values, sweep.orders, rows.rows[0].peaks, name, style)
+        _label(ax, along, "order")
+        return ax
+    height = 0.7 if len(rows.rows) == 1 else 0.45
+    shared = {"sharex": True, "sharey": True, "row_height": height}
+    made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
+    for row, panels in zip(rows.rows, made.axes, strict=True):
+        _cells(panels, values, sweep.orders, row.peaks, name, style)
+    _label_all(made.axes, along, "order", rows)
+    entitle_figure(made.figure, words.title, words.subtitle(name), note)
+    return made.axes
+
+
+def _axes_of(sweep: Sweep, x: str | None) -> tuple[str, str]:
+    """Return the two numeric dimensions, the one along x first."""
+    dims = [dim for dim in sweep.coords if dim != "engine"]
+    if len(dims) != 2:
+        swept = ", ".join(sweep.coords)
+        raise InputError(f'kind = "map" needs two swept numbers, not {swept}; give kind="curves"')
+    along = along_x(sweep, x, dims)
+    if along == "engine":
+        raise InputError(f'x = "engine" is not a number; choose from: {", ".join(dims)}')
+    return along, next(dim for dim in dims if dim != along)
+
+
+def _rows(
+    sweep: Sweep, name: str, orders: object, *, single: bool, by_order: bool = False
+) -> tuple[Rows, str]:
+    """Return the rows of a map, of several engines a row for each, and a note.
+
+    With ``by_order`` a row has all orders, in its last dimension but one.
+    """
+    if by_order:
+        of_orders = rows_of(sweep, name, orders, single=False)
+        peaks = np.stack([row.peaks for row in of_orders.rows], axis=-2)
+        if single:
+            peaks = getattr(sweep, name).peak[..., np.newaxis]
+        columns = ("longest vector",) if single and peaks.shape[-1] == 1 else of_orders.columns
+        rows = Rows([Row("", peaks)], columns, "")
+    else:
+        rows = rows_of(sweep, name, orders, single=single)
+    if "engine" not in sweep.coords:
+        return rows, rows.note
+    names = words_of(sweep).names
+    if single and len(names) > 1:
+        raise InputError("ax: a map of several engines has a panel for each; give figure")
+    first = rows.rows[0]
+    what = f", {first.name}" if first.name else ""
+    kept = [Row(f"{n}{what}", first.peaks[k]) for k, n in enumerate(names[:MOST_ENGINES])]
+    rest = len(names) - len(kept)
+    return rows._replace(rows=kept), f"{rest} more engines not shown" if rest else ""
+
+
+def _heat(
+    panels: Sequence[Axes] | NDArray[Any],
+    coords: Sequence[NDArray[np.float64]],
+    peaks: NDArray[np.float64],
+    quantity: str,
+    style: dict[str, Any],
+) -> bool:
+    """Draw a row of panels with one scale of colours, white dots where a quantity vanishes.
+
+    Return True if there are such dots.
+    """
+    dotted = False
+    x, y = coords
+    columns, lines = np.argsort(x, kind="stable"), np.argsort(y, kind="stable")
+    largest = float(peaks.max(initial=0.0))
+    options = {"shading": "nearest", "norm": Normalize(0.0, largest or 1.0), "rasterized": True}
+    for k, panel in enumerate(panels):
+        of_panel = peaks[..., k]
+        cells = of_panel[np.ix_(lines, columns)]
+        mesh = panel.pcolormesh(x[columns], y[lines], cells, **(options | style))
+        up, across = np.nonzero(of_panel == 0.0)
+        if 0 < up.size <= MOST_ZEROS:
+            dotted = True
+            # The scale of colours is dark at zero, whatever the background.
+            panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
+    _colour_bar(panels, mesh, quantity)
+    return dotted
+
+
+def _cells(
+    panels: Sequence[Axes] | NDArray[Any],
+    x: NDArray[np.float64],
+    orders: Sequence[int],
+    peaks: NDArray[np.float64],
+    quantity: str,
+    style: dict[str, Any],
+) -> None:
+    """Draw a row of cells for each order; those of an order that is zero stay empty."""
+    in_order, highest = np.argsort(x, kind="stable"), max(orders)
+    nonzero = peaks[peaks > 0.0]
+    largest = float(nonzero.max(initial=1.0))
+    smallest = max(RANGE * largest, float(nonzero.min(initial=largest)))
+    norm = LogNorm(min(smallest, 0.1 * largest), largest)
+    for k, panel in enumerate(panels):
+        cells = np.full((highest, len(x)), np.nan)
+        for place, order in enumerate(orders):
+            cells[order - 1] = peaks[in_order, place, k]
+            if not cells[order - 1].any():
+                middle = float(np.mean([x.min(), x.max()]))
+                panel.text(
+                    middle,
+                    order,
+                    "zero",
+                    ha="center",
+                    va="center",
+                    fontsize="x-small",
+                    color=foreground(panel),
+                )
+        cells[cells == 0.0] = np.nan
+        options = {"shading": "nearest", "norm": norm, "rasterized": True} | style
+        mesh = panel.pcolormesh(x[in_order], np.arange(1, highest + 1), cells, **options)
+        panel.set_ylim(0.5, highest + 0.5)
+    _colour_bar(panels, mesh, quantity, plain=False)
+
+
+def _colour_bar(
+    panels: Sequence[Axes] | NDArray[Any],
+    mesh: Any,  # noqa: ANN401 - what pcolormesh returns
+    quantity: str,
+    *,
+    plain: bool = True,
+) -> None:
+    first = panels[0]
+    bar = first.get_figure(root=False).colorbar(mesh, ax=list(panels), aspect=25, pad=0.02)  # type: ignore[union-attr]
+    bar.set_label(f"peak, {labels.UNITS[quantity]}")
+    bar.outline.set_visible(False)
+    if plain:
+        numeric(bar.ax.yaxis)
+
+
+def _label(ax: Axes, along: str, up: str, name: str = "") -> None:
+    label_x(ax, dimension(along))
+    label_y(ax, *filter(None, [name, dimension(up)]))
+    for axis, dim in ((ax.xaxis, along), (ax.yaxis, up)):
+        if dim.endswith("_deg"):
+            degrees(axis)
+        else:
+            numeric(axis, whole=dim == "order")
+
+
+def _label_all(panels: NDArray[Any], along: str, up: str, rows: Rows) -> None:
+    """Name the columns above them, the rows and axes on the left and below."""
+    for row, of_row in zip(rows.rows, panels, strict=True):
+        for panel in of_row:
+            _label(panel, along, up, row.name)
+            panel.label_outer()
+    for panel, axis in zip(panels[0], rows.columns, strict=True):
+        head(panel, axis)

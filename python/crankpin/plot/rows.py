@@ -1,0 +1,141 @@
+"""Rows of a sweep's picture: all orders together, then the largest ones."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.source import PLANE_VECTORS
+from crankpin.analysis.sweep import engine_titles
+from crankpin.plot.orders import MOST, largest
+from crankpin.plot.words import numbers, short_names
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.sweep import Sweep
+
+
+class Row(NamedTuple):
+    """Peaks in a row of panels."""
+
+    name: str
+    """``all orders``, or the order."""
+    peaks: NDArray[np.float64]
+    """Peaks along each component, or the largest magnitude: (…, columns)."""
+
+
+class Rows(NamedTuple):
+    """Rows of a picture, what their columns are, and a note of the orders left out."""
+
+    rows: list[Row]
+    columns: tuple[str, ...]
+    note: str
+
+
+def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool = False) -> Rows:
+    """Return the rows of a sweep's picture.
+
+    By default all orders together and the three largest ones; with ``orders`` given a row for each
+    of them. With ``single`` the largest magnitude of all orders, or of the one given.
+    """
+    together = getattr(sweep.total, quantity)
+    planar = quantity in PLANE_VECTORS and not single
+    what = "peak_xy" if planar else "peak"
+
+    def one(order: int) -> Row:
+        values = getattr(getattr(sweep[order], quantity), what)
+        return Row(f"order {order}", values if planar else values[..., np.newaxis])
+
+    columns = labels.COMPONENTS[quantity]
+    if single and quantity in PLANE_VECTORS:
+        columns = ("longest vector",)
+    if orders is not None:
+        chosen = inputs.explicit_orders(orders)
+        if single and len(chosen) > 1:
+            raise InputError(
+                f"orders = {inputs.shorten(orders)}: a single panel shows one order; give figure"
+            )
+        return Rows([one(order) for order in chosen], columns, "")
+    if len(sweep.orders) == 1:
+        return Rows([one(sweep.orders[0])], columns, "")
+    given = " given" if sweep.request.orders is not None else ""
+    values = getattr(together, what)
+    rows = [Row(f"all orders{given}", values if planar else values[..., np.newaxis])]
+    if single:
+        return Rows(rows, columns, "")
+    places, note = largest(sweep.source, quantity, MOST - 1)
+    rows += [one(sweep.orders[place]) for place in places]
+    return Rows(rows, columns, note)
+
+
+# --- words --------------------------------------------------------------------------------------
+
+
+class Words(NamedTuple):
+    """What a sweep's picture says."""
+
+    names: list[str]
+    """Engines, without what they have in common."""
+    common: str
+    """What the names are: the end of their common words, such as ``firing order``."""
+    title: str
+    parts: list[str]
+    """What was fixed or held."""
+
+    def subtitle(self, quantity: str) -> str:
+        """Return the quantity and the arguments that are fixed or held."""
+        return ", ".join([labels.NAMES[quantity], *self.parts])
+
+
+def words_of(sweep: Sweep) -> Words:
+    """Return the words of a sweep's picture."""
+    parts = [labels.value_text(dim, value) for dim, value in sweep.fixed.items()]
+    if sweep.hold is not None:
+        parts.append(labels.HELD[sweep.hold])
+    full = engine_titles(sweep)
+    if "engine" not in sweep.coords:
+        return Words([], "", full[0], parts)
+    names, shared = short_names(full)
+    title, _, common = shared.rpartition(", ")
+    if not title:
+        title, common = common, ""
+    return Words(names, common, title or f"{len(names)} engines", parts)
+
+
+def values_of(sweep: Sweep, dim: str, words: Words) -> list[str]:
+    """Return the values of a swept dimension as text with their unit, engines by name."""
+    if dim == "engine":
+        return words.names
+    name, unit = labels.SWEPT[dim]
+    texts = numbers(np.asarray(sweep.coords[dim], dtype=np.float64))
+    return [f"{name} {text}{unit}".strip() for text in texts]
+
+
+def dimension(dim: str) -> str:
+    """Return the name of a swept dimension, with its unit, for an axis."""
+    if dim in ("engine", "order"):
+        return dim
+    name, symbol = labels.SWEPT[dim]
+    # Degrees stand at the numbers.
+    return ", ".join(part for part in (name or "crank speed", symbol.strip(" °")) if part)
+
+
+def at(dim: str, value: float) -> str:
+    """Return a value of a swept dimension as text, without its name."""
+    (text,) = numbers([value])
+    return f"{text}°" if dim.endswith("_deg") else text
+
+
+def along_x(sweep: Sweep, x: str | None, among: Sequence[str] | None = None) -> str:
+    """Return the dimension along the horizontal axis: the one asked for, or the longest."""
+    if x is not None:
+        return x
+    swept: dict[str, Any] = {dim: len(sweep.coords[dim]) for dim in among or sweep.coords}
+    numeric = {dim: count for dim, count in swept.items() if dim != "engine"} or swept
+    return max(numeric, key=lambda dim: numeric[dim])

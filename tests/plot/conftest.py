@@ -1,0 +1,27 @@
+"""What tests of pictures share: nothing is shown, and no figure is left from another test."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@pytest.fixture(autouse=True)
+def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """No display, no figures from elsewhere, and a failure for whoever shows one."""
+
+    def show(*_: object, **__: object) -> None:
+        pytest.fail("a plot was shown")
+
+    plt.switch_backend("agg")
+    plt.close("all")
+    monkeypatch.setattr(plt, "show", show)
+    monkeypatch.setattr(Figure, "show", show)
+    yield
+    plt.close("all")

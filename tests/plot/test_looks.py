@@ -1,0 +1,100 @@
+"""Is every picture right on white, on dark, at a column's width and in a grid?"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import colors
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from plot.looks import in_every_look, seen
+from plot.pictures import PICTURES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from matplotlib.text import Text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PICTURES)
+@in_every_look
+def test_picture(look: str, name: str) -> Figure:
+    figure = seen(look, PICTURES[name])
+    figure.canvas.draw()
+    panels = [ax for ax in figure.axes if ax.get_visible()]
+    assert_legends_are_off_the_data(figure, panels)
+    for ax in panels:
+        assert_apart(list(_shown(ax.get_xticklabels())), "width")
+        assert_seen(ax)
+    return figure
+
+
+def assert_legends_are_off_the_data(figure: Figure, panels: list[Axes]) -> None:
+    legends = [ax.get_legend() for ax in panels]
+    for part in [figure, *figure.subfigs]:
+        legends += part.legends
+    for legend, ax in itertools.product(filter(None, legends), panels):
+        assert not legend.get_window_extent().shrunk(0.99, 0.99).overlaps(ax.get_window_extent())
+
+
+def assert_apart(texts: list[Text], extent: str) -> None:
+    """No two labels of ticks overlap."""
+    boxes = sorted((text.get_window_extent() for text in texts), key=lambda box: box.x0)
+    for left, right in itertools.pairwise(boxes):
+        assert left.x1 <= right.x0 + 1.0, [text.get_text() for text in texts]
+
+
+def assert_seen(ax: Axes) -> None:
+    """Texts contrast with the background by half of the range of grey levels or so."""
+    figure: Any = ax.get_figure(root=True)
+    for text in [*ax.texts, ax.title, *ax.get_xticklabels(), *ax.get_yticklabels()]:
+        behind = ax.get_facecolor() if text in ax.texts else figure.get_facecolor()
+        assert abs(grey(text.get_color()) - grey(behind)) > 0.4
+
+
+def grey(colour: Any) -> float:  # noqa: ANN401 - a colour
+    return float(np.dot(colors.to_rgb(colour), (0.299, 0.587, 0.114)))
+
+
+def _shown(labels: list[Text]) -> Iterator[Text]:
+    """Labels of ticks within the limits of their axis."""
+    for label in labels:
+        ax = label.axes
+        if label.get_visible() and label.get_text() and ax is not None:
+            low, high = sorted(ax.get_xlim())
+            if low <= label.get_position()[0] <= high:
+                yield label
+
+
+# --- places -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_is_drawn_where_it_is_told(name: str) -> None:
+    """On the axes given, or in the figure given, and no other figure is made."""
+    plot = PICTURES[name]
+    parameters = dict(mpl.rcParams)
+    drawn = plot()
+    (made,) = map(plt.figure, plt.get_fignums())
+    assert np.ravel(drawn)[0].get_figure(root=True) is made
+    several = isinstance(drawn, np.ndarray)
+    assert drawn.ndim == 2 if several else isinstance(drawn, Axes)  # type: ignore[union-attr]
+    plt.close("all")
+    figure = Figure(figsize=(6.0, 5.0))
+    if several:
+        part = figure.subfigures(1, 2)[1]
+        panels = plot(figure=part)
+        assert {ax.get_figure(root=False) for ax in panels.flat} == {part}
+    else:
+        ax = figure.subplots()
+        assert plot(ax=ax) is ax
+    assert plt.get_fignums() == []
+    figure.canvas.draw()
+    assert dict(mpl.rcParams) == parameters

@@ -1,0 +1,115 @@
+"""Are maps the peaks of a sweep, with readable scales?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from conftest import I4, V6
+from matplotlib import pyplot as plt
+
+from plot.pictures import over_two
+from plot.reading import figure_of, title_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def cells(ax: Axes) -> Any:  # noqa: ANN401 - an array
+    """Values of a map: (along y, along x)."""
+    return ax.collections[0].get_array()
+
+
+def bars(panels: Any) -> list[Any]:  # noqa: ANN401 - axes
+    return [ax for ax in figure_of(panels).axes if ax not in panels]
+
+
+def test_two_long_dimensions_make_a_map() -> None:
+    s = over_two()
+    panels = s.plot()
+    assert panels.shape == (4, 2)
+    np.testing.assert_array_equal(cells(panels[0, 1]), s.total.moment.peak_xy[..., 1].T)
+    np.testing.assert_array_equal(cells(panels[2, 0]), s[2].moment.peak_xy[..., 0].T)
+    assert panels[-1, 0].get_xlabel() == "bank angle"
+    assert panels[1, 0].get_ylabel() == "order 1\nrod ratio"
+
+
+def test_the_axis_named_is_along_x_and_values_may_come_in_any_order() -> None:
+    s = cp.sweep(V6, rpm=[3000, 1000, 2000], rod_ratio=[0.3, 0.2], orders=[2])
+    ax = s.plot(kind="map", x="rod_ratio")[0, 0]
+    sorted_ = s[2].moment.peak_xy[..., 0][::-1][:, [1, 2, 0]]
+    np.testing.assert_array_equal(cells(ax), sorted_.T)
+    assert ax.get_xlabel() == "rod ratio"
+
+
+def test_scales_of_colours_begin_at_zero_with_round_numbers() -> None:
+    panels = over_two().plot()
+    figure_of(panels).canvas.draw()
+    for bar, row in zip(bars(panels), panels, strict=True):
+        assert row[0].collections[0].get_clim()[0] == 0.0
+        assert row[0].collections[0].get_clim() == row[1].collections[0].get_clim()
+        assert bar.get_ylabel() == "peak, N·m"
+        texts = [text.get_text() for text in bar.get_yticklabels()]
+        assert 3 <= len(texts) <= 7
+        assert max(map(len, texts)) <= 5
+
+
+def test_zeros_are_dotted() -> None:
+    s = over_two()
+    panels = s.plot()
+    (dots,) = [line for line in panels[2, 0].lines if line.get_gid() == "crankpin zeros"]
+    angle, ratio = np.nonzero(s[2].moment.peak_xy[..., 0] == 0.0)
+    assert set(zip(dots.get_xdata(), dots.get_ydata(), strict=True)) == set(
+        zip(s.coords["bank_angle_deg"][angle], s.coords["rod_ratio"][ratio], strict=True)
+    )
+    assert "white dots: exactly zero" in figure_of(panels).get_suptitle()
+
+
+def test_engines_get_a_row_each() -> None:
+    s = cp.sweep([V6, I4], rpm=[1000, 2000], rod_ratio=[0.2, 0.3], orders=[2])
+    panels = s.plot(kind="map", quantity="force")
+    np.testing.assert_array_equal(cells(panels[1, 1]), s.force.peak_xy[1, :, :, 0, 1].T)
+    assert panels[1, 0].get_ylabel().startswith("Inline-4, order 2")
+    with pytest.raises(cp.InputError, match="give figure"):
+        s.plot(plt.subplots()[1], kind="map")
+
+
+def test_a_map_on_given_axes_has_the_longest_vector() -> None:
+    s = over_two(orders=[1, 2])
+    ax = s.plot(plt.subplots()[1])
+    np.testing.assert_array_equal(cells(ax), s.total.moment.peak.T)
+    assert title_of(ax).endswith("all orders given, longest vector")
+
+
+def test_map_of_orders_is_logarithmic_over_a_numeric_order() -> None:
+    s = cp.sweep(V6, rpm=[1000, 3000, 2000], orders=[1, 2, 4, 5])
+    panels = s.plot(kind="orders")
+    drawn = cells(panels[0, 1])
+    expected = np.full((5, 3), np.nan)
+    expected[[0, 1, 3]] = s.moment.peak_xy[[0, 2, 1], :3, 1].T
+    np.testing.assert_array_equal(np.ma.filled(drawn, np.nan), expected)
+    # Order 3 was not asked for; order 5 is zero and says so.
+    assert [(text.get_position()[1], text.get_text()) for text in panels[0, 1].texts] == [
+        (5, "zero")
+    ]
+    assert panels[0, 0].get_ylim() == (0.5, 5.5)
+    norm = panels[0, 0].collections[0].norm
+    assert norm.vmax == s.moment.peak_xy.max()
+    assert type(norm).__name__ == "LogNorm"
+
+
+def test_map_of_orders_on_axes() -> None:
+    s = cp.sweep(I4, rpm=[1000, 3000], orders=[2, 4])
+    ax = s.plot(plt.subplots()[1], kind="orders", quantity="torque")
+    np.testing.assert_array_equal(np.asarray(cells(ax))[[1, 3]], s.torque.peak.T)
+    ax = s.plot(plt.subplots()[1], kind="orders", quantity="force")
+    np.testing.assert_array_equal(np.asarray(cells(ax))[[1, 3]], s.force.peak.T)
+
+
+def test_map_of_nothing_is_drawn() -> None:
+    s = cp.sweep(V6, rpm=[1000, 2000], orders=[1])
+    figure_of(s.plot(kind="orders", quantity="force")).canvas.draw()
+    s = cp.sweep(V6, rpm=[1000, 2000], rod_ratio=[0.2, 0.3], orders=[1])
+    figure_of(s.plot(kind="map", quantity="force")).canvas.draw()
