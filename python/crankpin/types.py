@@ -10,11 +10,12 @@ from crankpin.analysis.match_parts import Match
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
+from crankpin.analysis.shares import Shares
 from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweep import Sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
-from crankpin.analysis.tolerances import Shares, Tolerances
+from crankpin.analysis.tolerance_samples import Tolerances
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,

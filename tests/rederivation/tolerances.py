@@ -1,8 +1,9 @@
 """What do deviating masses, radii, angles, places and rods leave of an engine's balance?
 
 All samples at once in NumPy: arrays of deviations are (samples, cylinders). Slider-cranks without
-offset, rods as two masses. The harmonics follow from |1 + p^2 e^{2i theta}|: with r/l = 2p/(1 + p^2),
-sqrt(1 - (r/l)^2 sin^2 theta) is that over 1 + p^2, and each factor is a binomial series.
+offset, rods as two masses. The harmonics follow from |1 + p^2 e^{2i theta}|: where r/l is
+2p/(1 + p^2), sqrt(1 - (r/l)^2 sin^2 theta) is that over 1 + p^2, and each of its two factors is a
+binomial series.
 """
 
 from __future__ import annotations
@@ -85,7 +86,9 @@ def remains(
             forward = forward + square * figures["rotating_mass"] * radius * pin
         torque = first_order * radius * of_pin * np.exp(-1j * n * tdc) * 1j * roll[k]
         for total, term in zip(
-            sums, (forward, backward, 1j * lever * forward, 1j * lever * backward, torque), strict=True
+            sums,
+            (forward, backward, 1j * lever * forward, 1j * lever * backward, torque),
+            strict=True,
         ):
             total.append(term.sum(axis=-1))
     f, b, m, c, t = (np.stack(total, axis=-1) for total in sums)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-import math
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,10 +12,8 @@ from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
 from crankpin.analysis import matching
-from crankpin.analysis.balance import balance
-from crankpin.analysis.matching import Kind
+from crankpin.analysis.measured_parts import Assignment, MeasuredParts, assignment_of
 from crankpin.analysis.request import engine_core
-from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,9 +29,8 @@ WORDS = {
 }
 """Objective → its description."""
 UNITS = {"balance": "kg·m", "spread": "kg"}
+"""Objective → unit."""
 MOST_PARTS = 1000
-UNIT_SPEED = 30.0 / math.pi
-"""Crank speed, rpm, at which ω is 1 rad/s."""
 
 
 def match_parts(
@@ -124,14 +119,14 @@ def match_parts(
     if start < 0:
         raise InputError(f"seed = {start}: give zero or more")
     plane = inputs.optional_number("reference_z", reference_z)
-    bin_of_parts = Bin(engine, masses[:, 0], ends, tuple(listed), plane)
+    measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed), plane)
     if word == "spread":
-        chosen, exact = _by_spread(bin_of_parts, wanted)
-        # Pistons alone are exact, and so is one engine's worth; rods may make up for any difference.
-        bound = sum(bin_of_parts.value(word, each) for each in chosen) if exact else 0.0
+        chosen, exact = _by_spread(measured, wanted)
+        # Rods might make up for any difference of pistons.
+        bound = sum(measured.value(word, each) for each in chosen) if exact else 0.0
     else:
-        chosen, exact, bound = _by_balance(bin_of_parts, wanted, start)
-    return Match(bin_of_parts, word, tuple(chosen), bound, exact)
+        chosen, exact, bound = _by_balance(measured, wanted, start)
+    return Match(measured, word, tuple(chosen), bound, exact)
 
 
 def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
@@ -147,119 +142,10 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
     return found.reshape(-1, columns)
 
 
-# --- parts and what they do -----------------------------------------------------------------------
-
-
-class Assignment(NamedTuple):
-    """Parts of one engine."""
-
-    pistons: tuple[int, ...]
-    """Number, from 1, of the piston in each cylinder."""
-    rods: tuple[int, ...] | None
-    """Number, from 1, of the rod in each cylinder; None where no rods were given."""
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Bin:
-    """Measured parts, and the engine that they are for."""
-
-    engine: Engine
-    pistons: NDArray[np.float64]
-    rods: NDArray[np.float64] | None
-    orders: tuple[int, ...]
-    reference_z: float | None
-
-    @cached_property
-    def start(self) -> NDArray[np.float64]:
-        """What remains of the engine with its own masses, over ω², as real numbers."""
-        return self._vector(self.engine)
-
-    @cached_property
-    def kinds(self) -> tuple[Kind, ...]:
-        """Deviations of the parts from their means, and what a unit of each does."""
-        count = len(self.engine)
-        reciprocating = np.stack([self._influence(k, rotating=False) for k in range(count)])
-        found = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
-        if self.rods is not None:
-            rotating = np.stack([self._influence(k, rotating=True) for k in range(count)])
-            both = np.stack([reciprocating, rotating], axis=1)
-            found.append(Kind(self.rods - self.rods.mean(axis=0), both))
-        return tuple(found)
-
-    def _influence(self, place: int, *, rotating: bool) -> NDArray[np.float64]:
-        """Return what a kilogram more in one cylinder adds: what remains is linear in masses."""
-        engine = self.engine
-        if rotating:
-            masses = engine.rotating_mass.copy()
-            masses[place] += 1.0
-            return self._vector(engine.replace(rotating_mass=masses)) - self.start
-        cylinders = list(engine.cylinders)
-        mass = cylinders[place].reciprocating_mass
-        cylinders[place] = cylinders[place].replace(reciprocating_mass=mass + 1.0)
-        return self._vector(engine.replace(cylinder=cylinders)) - self.start
-
-    def _vector(self, engine: Engine) -> NDArray[np.float64]:
-        plane = self.engine.reference_z if self.reference_z is None else self.reference_z
-        found = balance(
-            engine, UNIT_SPEED, orders=self.orders, reference_z=plane, torque=False
-        )  # fmt: skip
-        half = 0.5 * (self.engine.z.max() - self.engine.z.min())
-        parts = [found.force.forward, found.force.backward]
-        if half > 0.0:
-            parts += [found.moment.forward / half, found.moment.backward / half]
-        together = np.concatenate(parts)
-        return np.concatenate([together.real, together.imag])
-
-    def chosen(self, assignment: Assignment) -> tuple[NDArray[np.intp], ...]:
-        """Return the places of the parts in the lists of this bin."""
-        lists = [each for each in assignment if each is not None]
-        return tuple(np.array(each, dtype=np.intp) - 1 for each in lists)
-
-    def value(self, objective: str, assignment: Assignment) -> float:
-        """Return the objective of one engine."""
-        chosen = self.chosen(assignment)
-        if objective == "balance":
-            return matching.remains(self.start, self.kinds, chosen)
-        sums = self.pistons[chosen[0]]
-        if self.rods is not None:
-            sums = sums + self.rods[chosen[1], 0]
-        return float(np.ptp(sums))
-
-    def engine_of(self, assignment: Assignment, name: str) -> Engine:
-        """Return the engine with these parts."""
-        chosen, engine = self.chosen(assignment), self.engine
-        more = (self.pistons - self.pistons.mean())[chosen[0]]
-        rotating = engine.rotating_mass
-        if self.rods is not None:
-            ends = (self.rods - self.rods.mean(axis=0))[chosen[1]]
-            more, rotating = more + ends[:, 0], rotating + ends[:, 1]
-        cylinders = [
-            cylinder.replace(reciprocating_mass=cylinder.reciprocating_mass + float(mass))
-            for cylinder, mass in zip(engine.cylinders, more, strict=True)
-        ]
-        # A throw that is balanced may be too light: that is an unbalance opposite its pin.
-        opposite = [
-            Unbalance(-mass * cylinders[k].crank_radius, float(engine.z[k]), 180, pin=k + 1)
-            for k, mass in enumerate(rotating.tolist())
-            if mass < 0.0
-        ]
-        return engine.replace(
-            cylinder=cylinders,
-            rotating_mass=np.maximum(rotating, 0.0),
-            counterweights=[*engine.counterweights, *opposite],
-            name=name,
-        )
-
-
-def _assignment(*chosen: NDArray[np.intp]) -> Assignment:
-    numbers = [tuple((each + 1).tolist()) for each in chosen]
-    return Assignment(numbers[0], numbers[1] if len(numbers) > 1 else None)
-
-
 # --- the search -----------------------------------------------------------------------------------
 
 
-def _by_spread(parts: Bin, sets: int) -> tuple[list[Assignment], bool]:
+def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]:
     """Return sets of pistons, and of rods, whose sums are most alike, and whether that is proved.
 
     Sorted against each other, pistons and rods of one engine have the least largest and the largest
@@ -268,33 +154,34 @@ def _by_spread(parts: Bin, sets: int) -> tuple[list[Assignment], bool]:
     count = len(parts.engine)
     pistons = matching.windows(parts.pistons, count, sets)
     if parts.rods is None:
-        return [_assignment(each) for each in pistons], True
+        return [assignment_of(each) for each in pistons], True
     small = parts.rods[:, 0]
     # The lightest pistons with the heaviest rods.
     rods = matching.windows(small, count, sets)[::-1]
-    found = [
-        _assignment(ours, theirs[::-1]) for ours, theirs in zip(pistons, rods, strict=True)
-    ]
+    found = [assignment_of(ours, theirs[::-1]) for ours, theirs in zip(pistons, rods, strict=True)]
     everything = len(parts.pistons) == len(small) == count * sets
     if everything:
-        rising, falling = np.argsort(parts.pistons, kind="stable"), np.argsort(-small, kind="stable")
+        rising, falling = (
+            np.argsort(parts.pistons, kind="stable"),
+            np.argsort(-small, kind="stable"),
+        )
         together = matching.windows(parts.pistons[rising] + small[falling], count, sets)
-        others = [_assignment(rising[each], falling[each]) for each in together]
+        others = [assignment_of(rising[each], falling[each]) for each in together]
         found = min(
             [found, others], key=lambda those: sum(parts.value("spread", each) for each in those)
         )
     return found, everything and sets == 1
 
 
-def _by_balance(parts: Bin, sets: int, seed: int) -> tuple[list[Assignment], bool, float]:
+def _by_balance(parts: MeasuredParts, sets: int, seed: int) -> tuple[list[Assignment], bool, float]:
     """Return assignments that leave little, whether that is proved the least, and a lower bound."""
     start, kinds = parts.start, parts.kinds
     lowest = sets * matching.lower_bound(start, kinds)
     if sets == 1:
         found = matching.best(start, kinds, seed=seed)
-        # All arrangements were compared, or a bound says that none is better.
-        bound = found.value if found.exact else min(lowest, found.value)
-        return [_assignment(*found.chosen)], found.exact, bound
+        assignment = assignment_of(*found.chosen)
+        value = parts.value("balance", assignment)
+        return [assignment], found.exact, value if found.exact else min(lowest, value)
     # Alike within a set, then each set in its best order.
     groups = [matching.windows(parts.pistons, len(parts.engine), sets)]
     if parts.rods is not None:
@@ -306,7 +193,7 @@ def _by_balance(parts: Bin, sets: int, seed: int) -> tuple[list[Assignment], boo
         )
         found = matching.best(start, own, seed=seed)
         pairs = zip(of_set, found.chosen, strict=True)
-        chosen.append(_assignment(*(each[order] for each, order in pairs)))
+        chosen.append(assignment_of(*(each[order] for each, order in pairs)))
     return chosen, False, lowest
 
 
@@ -318,7 +205,7 @@ class Match(Frozen):
 
     _fields: ClassVar[tuple[str, ...]] = ("parts", "objective", "assignment", "bound", "exact")
 
-    parts: Bin
+    parts: MeasuredParts
     """The measured parts and the engine."""
     objective: Objective
     """``"balance"`` or ``"spread"``."""
@@ -331,17 +218,15 @@ class Match(Frozen):
 
     def __init__(
         self,
-        parts: Bin,
+        parts: MeasuredParts,
         objective: str,
         assignment: tuple[Assignment, ...],
         bound: float,
-        exact: bool,  # noqa: FBT001 - a field
+        exact: bool,
     ) -> None:
-        if not isinstance(parts, Bin):
+        if not isinstance(parts, MeasuredParts):
             raise InputError(f"Match({inputs.shorten(parts)}): use crankpin.match_parts")
-        self._set(
-            parts=parts, objective=objective, assignment=assignment, bound=bound, exact=exact
-        )
+        self._set(parts=parts, objective=objective, assignment=assignment, bound=bound, exact=exact)
 
     @property
     def engine(self) -> Engine:
@@ -370,7 +255,7 @@ class Match(Frozen):
         given = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
         return sum(
             self.parts.value(
-                self.objective, _assignment(*([each] * (1 if self.parts.rods is None else 2)))
+                self.objective, assignment_of(*([each] * (1 if self.parts.rods is None else 2)))
             )
             for each in given
         )
@@ -380,7 +265,9 @@ class Match(Frozen):
         """The engines with their parts: masses are the engine's own and the parts' deviations."""
         several = len(self.assignment) > 1
         return tuple(
-            self.parts.engine_of(each, f"{self.engine.name}, set {k}" if several else self.engine.name)
+            self.parts.engine_of(
+                each, f"{self.engine.name}, set {k}" if several else self.engine.name
+            )
             for k, each in enumerate(self.assignment, start=1)
         )
 
@@ -425,7 +312,9 @@ class Match(Frozen):
         title = f"{WORDS[self.objective]}: {self.value:.4g} {self.unit}, {known}"
         rows = self._rows()
         title += f"; as given {self.as_given:.4g}"
-        return Table(title, header, [names for names, _ in rows], np.array([row for _, row in rows]))
+        return Table(
+            title, header, [names for names, _ in rows], np.array([row for _, row in rows])
+        )
 
     def __repr__(self) -> str:
         return self.table().text()

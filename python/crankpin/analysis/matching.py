@@ -41,7 +41,8 @@ class Kind(NamedTuple):
 
     def sums(self, places: Places, chosen: Places) -> Array:
         """Return what arrangements (n, n_places) in some places add: (n, n_dimensions)."""
-        return np.einsum("njf,jfd->nd", self.parts[chosen], self.influences[places])
+        added = np.einsum("njf,jfd->nd", self.parts[chosen], self.influences[places])
+        return np.asarray(added)
 
 
 class Found(NamedTuple):
@@ -148,7 +149,9 @@ def _of_all(start: Array, kinds: tuple[Kind, ...]) -> Found:
     return Found(best[1], remains(start, kinds, best[1]), exact=True)
 
 
-def _choices(parts: list[range] | list[list[int]], count: int) -> Iterator[tuple[tuple[int, ...], ...]]:
+def _choices(
+    parts: list[range] | list[list[int]], count: int
+) -> Iterator[tuple[tuple[int, ...], ...]]:
     """Yield the sets of so many parts of every kind."""
     return itertools.product(*(itertools.combinations(each, count) for each in parts))
 
@@ -194,7 +197,7 @@ def _closest(a: Array, b: Array, known: float) -> list[tuple[int, int]]:
 
 
 def _by_exchanges(start: Array, kinds: tuple[Kind, ...], seed: int) -> Found:
-    """Exchange two parts, or a part and an unused one, as long as that is better; several starts."""
+    """Exchange two parts, or a part and an unused one, while that is better; several starts."""
     random = np.random.default_rng(seed)
     count = len(kinds[0].influences)
     best: tuple[float, tuple[Places, ...]] = (np.inf, ())
@@ -207,9 +210,7 @@ def _by_exchanges(start: Array, kinds: tuple[Kind, ...], seed: int) -> Found:
                 kind.sums(np.arange(count), each[None])[0]
                 for kind, each in zip(kinds, chosen, strict=True)
             )
-            steps = [
-                _exchange(now, kind, order) for kind, order in zip(kinds, orders, strict=True)
-            ]
+            steps = [_exchange(now, kind, order) for kind, order in zip(kinds, orders, strict=True)]
             which = int(np.argmin([length for length, _, _ in steps]))
             length, i, j = steps[which]
             value = float(np.linalg.norm(now))

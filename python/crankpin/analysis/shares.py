@@ -71,7 +71,9 @@ class Shares(Frozen):
             for by, shares, rest in zip(self.by, self.values, self.interaction, strict=True)
             for name, share in zip((*self.tolerances, "interaction"), [*shares, rest], strict=True)
         ]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=["by", "tolerance", "share"])
+        table: pd.DataFrame = optional.pandas().DataFrame(
+            rows, columns=["by", "tolerance", "share"]
+        )
         return table
 
     def table(self) -> Table:

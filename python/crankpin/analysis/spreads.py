@@ -53,7 +53,9 @@ class Spreads:
         groups = layout.crankpins(engine_core(engine)) if pins is None else _pins(engine, pins)
         values = []
         for name in FIGURES:
-            items, count = ("crankpin", len(groups)) if name in OF_PINS else ("cylinder", len(engine))
+            items, count = (
+                ("crankpin", len(groups)) if name in OF_PINS else ("cylinder", len(engine))
+            )
             spreads = inputs.per_item(name, given[name], count)
             if len(spreads) != count:
                 raise InputError(

@@ -8,13 +8,13 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import balance, firing, presets, rank, streams, sweep
+from crankpin.cli import balance, firing, presets, rank, streams, sweep, tolerances
 from crankpin.cli.parser import PROG, Parser
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (presets, balance, sweep, rank, firing)
+COMMANDS = (presets, balance, sweep, rank, firing, tolerances)
 """Modules of the commands, in the order of the help: each adds its parser and runs it."""
 
 

@@ -183,7 +183,10 @@ impl Tolerances {
         let mut tasks = memory::room(count.div_ceil(CHUNK))?;
         for (k, ((force, moment), peaks)) in planar.zip(peaks.chunks_mut(CHUNK)).enumerate() {
             let torque = torque.next().unwrap_or_default();
-            tasks.push((samples.start + k * CHUNK, Chunk { planar: [force, moment], torque, peaks }));
+            tasks.push((
+                samples.start + k * CHUNK,
+                Chunk { planar: [force, moment], torque, peaks },
+            ));
         }
         let work = |(first, out): (usize, Chunk)| {
             self.write(first, &finder, out, cancel)?;
@@ -199,13 +202,7 @@ impl Tolerances {
     }
 
     /// Writes the samples of a chunk.
-    fn write(
-        &self,
-        first: usize,
-        finder: &PeakFinder,
-        out: Chunk,
-        cancel: &Cancel,
-    ) -> Result<()> {
+    fn write(&self, first: usize, finder: &PeakFinder, out: Chunk, cancel: &Cancel) -> Result<()> {
         let orders = self.nominal.orders.len();
         let sums = self.terms.sums(&self.draws, first, cancel)?;
         let Chunk { planar: [force, moment], torque, peaks } = out;
@@ -233,15 +230,15 @@ impl Tolerances {
                 if self.nominal.has_torque {
                     let nominal = &self.nominal.wrenches[k].torque;
                     let nominal = [nominal.roll, nominal.crank];
-                    let sum = |which: usize| {
-                        nominal[which] + at(&sums.torque[which], i) * self.square
-                    };
+                    let sum =
+                        |which: usize| nominal[which] + at(&sums.torque[which], i) * self.square;
                     torque[i * orders + k] = [sum(0), sum(1)];
                     [torques[k], torques[orders + k]] = torque[i * orders + k];
                 }
             }
-            let [[x, y], [about_x, about_y], [roll, crank]] =
-                [force_xy, moment_xy, torques].map(|both| both.split_at(orders)).map(<[_; 2]>::from);
+            let [[x, y], [about_x, about_y], [roll, crank]] = [force_xy, moment_xy, torques]
+                .map(|both| both.split_at(orders))
+                .map(<[_; 2]>::from);
             let on_block = finder.along_axis(roll);
             // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
             let opposite = roll.iter().zip(&*crank).all(|(roll, crank)| *roll == -crank);
@@ -309,12 +306,7 @@ fn pins(pin_of: &[usize]) -> usize {
 }
 
 /// As many spreads as cylinders or pins, each zero or more; or none.
-fn check_spreads(
-    engine: &Engine,
-    pin_of: &[usize],
-    figure: Figure,
-    spreads: &[f64],
-) -> Result<()> {
+fn check_spreads(engine: &Engine, pin_of: &[usize], figure: Figure, spreads: &[f64]) -> Result<()> {
     let (expected, item) = match figure.of_pin() {
         true => (pins(pin_of), "crankpin"),
         false => (engine.placements().len(), "cylinder"),
@@ -356,7 +348,8 @@ fn check_reach(engine: &Engine, pin_of: &[usize], draws: &Draws) -> Result<()> {
         let shrunk = largest * (radius + rod);
         if (radius > 0.0 && smallest < limits::SMALLEST) || (shrunk > 0.0 && shrunk >= slack) {
             let figure = if radius >= rod { Figure::CrankRadius } else { Figure::RodLength };
-            let cure = format!("a draw may keep the crank of cylinder {number} from turning; give less");
+            let cure =
+                format!("a draw may keep the crank of cylinder {number} from turning; give less");
             return Err(Error::figure(name(figure), radius.max(rod), cure));
         }
     }

@@ -15,7 +15,10 @@ fn angle(degrees: f64) -> Angle {
 
 /// Unlike cylinders, one with an offset and one with a rod of inertia; weights, and a shaft.
 fn engine() -> Engine {
-    let place = |[radius, rod, mass, offset, inertia]: [f64; 5], [tdc, bank], z, rotating_mass| {
+    let place = |[radius, rod, mass, offset, inertia]: [f64; 5],
+                 [tdc, bank]: [f64; 2],
+                 z,
+                 rotating_mass| {
         let cylinder = Cylinder::new(radius, rod, mass, offset).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
         Placement { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
@@ -94,8 +97,8 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
     for distribution in [Distribution::Normal, Distribution::Uniform] {
         let tolerances = made(spreads(), distribution, 11);
         let found = sample(&tolerances, 0..40);
-        let [masses, rotating, radii, angles, places, rods] = Figure::ALL
-            .map(|figure| tolerances.deviations(figure, 0..40, &Cancel::new()).unwrap());
+        let [masses, rotating, radii, angles, places, rods] =
+            Figure::ALL.map(|figure| tolerances.deviations(figure, 0..40, &Cancel::new()).unwrap());
         for s in 0..40 {
             let engine = engine();
             let drawn = engine.placements().iter().enumerate().map(|(i, p)| {
@@ -119,16 +122,19 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             // A mass below zero is no engine's; its unbalance points the other way.
             let placements: Vec<Placement> = drawn.collect();
             let mut weights = engine.counterweights().to_vec();
-            weights.extend(placements.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
-                |(i, p)| Unbalance {
-                    amount: -p.rotating_mass * p.cylinder.crank_radius(),
-                    angle: Angle::HALF_TURN,
-                    z: p.z,
-                    pin: Some(i),
-                },
-            ));
-            let placements =
-                placements.into_iter().map(|p| Placement { rotating_mass: p.rotating_mass.max(0.0), ..p });
+            weights.extend(
+                placements.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
+                    |(i, p)| Unbalance {
+                        amount: -p.rotating_mass * p.cylinder.crank_radius(),
+                        angle: Angle::HALF_TURN,
+                        z: p.z,
+                        pin: Some(i),
+                    },
+                ),
+            );
+            let placements = placements
+                .into_iter()
+                .map(|p| Placement { rotating_mass: p.rotating_mass.max(0.0), ..p });
             let drawn = Engine::new("", "", placements.collect())
                 .and_then(|made| made.with_counterweights(weights))
                 .and_then(|made| made.with_shafts(engine.shafts().to_vec()))
@@ -186,13 +192,12 @@ fn draws_do_not_depend_on_what_else_spreads() {
         let drawn = |of: &Tolerances| of.deviations(figure, 3..300, &Cancel::new()).unwrap();
         assert_eq!(drawn(&all), drawn(&alone));
         assert_ne!(drawn(&all), drawn(&other_seed));
-        let mut fewer = all.deviations(figure, 0..300, &Cancel::new()).unwrap();
-        fewer.slice_collapse(ndarray::s![3.., ..]);
-        assert_eq!(drawn(&all), fewer);
+        let more = all.deviations(figure, 0..300, &Cancel::new()).unwrap();
+        assert_eq!(drawn(&all), more.view().split_at(ndarray::Axis(0), 3).1);
     }
     let none = made(NONE, Distribution::Normal, 5);
     let zeros = none.deviations(Figure::Pin, 0..4, &Cancel::new()).unwrap();
-    assert_eq!(zeros, Array2::zeros((4, 3)));
+    assert_eq!(zeros, Array2::<f64>::zeros((4, 3)));
 }
 
 #[test]
@@ -232,8 +237,7 @@ fn spreads_that_leave_no_engine_are_rejected() {
     assert_eq!(error(Figure::RotatingMass, vec![9.0; 4], normal), "");
     for pins in [&[0, 0, 1][..], &[0, 0, 2, 2], &[0, 0, 0, 9]] {
         let drawn = (normal, 0);
-        let made =
-            Tolerances::new(&engine(), &REQUEST, &ORDERS, NONE, drawn, pins, &Cancel::new());
+        let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, NONE, drawn, pins, &Cancel::new());
         assert!(made.is_err(), "{pins:?}");
     }
 }
