@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
 from crankpin.analysis import objectives
 from crankpin.analysis.tolerance_samples import QUANTILES, Tolerances
-from crankpin.plot.axes import entitle, label_x, label_y, one_panel
+from crankpin.plot.axes import entitle, inches_of, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, foreground, muted, series
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_BINS = 80
+LEAST_SHARE = 0.5
+"""Percent below which a tolerance has no entry in the legend."""
 NOMINAL = "nominal"
 
 
@@ -58,7 +61,9 @@ def _tolerances(
 
 def _words(result: Tolerances, words: str) -> str:
     """Return what is drawn, of which orders."""
-    orders = labels.orders_text(result.orders)
+    first, last = result.orders[0], result.orders[-1]
+    whole = result.orders == tuple(range(first, last + 1)) and last > first + 1
+    orders = f"orders {first} to {last}" if whole else labels.orders_text(result.orders)
     return f"{words.replace('all orders', orders)}, {labels.value_text('rpm', result.rpm)}"
 
 
@@ -74,7 +79,7 @@ def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], labe
     heights = np.interp(at := np.quantile(values, QUANTILES), edges[:-1], parts)
     thin = look | {"linewidth": 0.8, "linestyle": "-"}
     ax.vlines(at, 0.0, heights, colors=thin["color"], linewidth=0.8, label=_quantile_label(ax))
-    label_y(ax, f"samples in {edges[1] - edges[0]:.3g} wide intervals, %")
+    label_y(ax, "samples, %")
 
 
 def _of_patches(look: dict[str, Any]) -> dict[str, Any]:
@@ -92,7 +97,7 @@ def _ecdf(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: st
     quantiles = 100.0 * np.array(QUANTILES)
     ax.plot(at, quantiles, color=look["color"], label=_quantile_label(ax), gid="", **dots)
     ax.set_ylim(0.0, 100.0)
-    label_y(ax, "samples up to the value, %")
+    label_y(ax, "samples up to a value, %")
 
 
 def _quantile_label(ax: Axes) -> str:
@@ -112,21 +117,29 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     """Draw bars from 0 on, one after the other; what they lack of 100 % is interaction."""
     shares = result.shares_of(result.by if by is None else (by,))
     rows = np.arange(len(shares.by))
+    ax.set_yticks(rows, [plain_text(name) for name in shares.by])
+    _fit_rows(ax, len(rows))
+    entitle(ax, name_of(result.engine), "shares in the variance")
     left = np.zeros(len(rows))
     looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
     for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):
-        title = labels.TOLERANCES[name][0]
+        seen = bool((values >= LEAST_SHARE).any())
         bars = {"height": 0.62, "color": look["color"]} | style
+        title = labels.TOLERANCES[name][0] if seen else "_"
         ax.barh(rows, values, left=left, label=title, gid=SERIES, **bars)
         left = left + values
     ax.axvline(100.0, color=muted(ax), linewidth=0.8)
-    ax.set_yticks(rows, [plain_text(name) for name in shares.by])
     ax.set_ylim(len(rows) - 0.5, -0.5)
-    ax.tick_params(axis="y", length=0)
     ax.set_xlim(0.0, max(100.0, 1.04 * float(left.max(initial=0.0))))
     numeric(ax.xaxis)
-    spread = "share of each tolerance in the variance"
-    entitle(ax, name_of(result.engine), f"{spread}, {labels.value_text('rpm', result.rpm)}")
-    label_x(ax, "%, 100 less interaction")
+    label_x(ax, f"%, {labels.value_text('rpm', result.rpm)}")
     legend_below(ax)
     return ax
+
+
+def _fit_rows(ax: Axes, rows: int) -> None:
+    """Write the names of rows in type that is no higher than a row."""
+    # Title and legend will leave a third of the height of short axes.
+    points = 0.33 * 72.0 * inches_of(ax, "height") / rows
+    usual = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
+    ax.tick_params(axis="y", length=0, labelsize=min(usual, max(4.5, points)))

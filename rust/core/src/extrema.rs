@@ -19,6 +19,8 @@ const MOST_PARTS: f64 = 4096.0;
 /// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
 const EXCURSION_OVER_SAMPLED: f64 = 0.51;
 
+/// Points of a grid evaluated side by side; a grid has whole lanes of them.
+const LANES: usize = 16;
 /// Most values of waves that a grid keeps: half a mebibyte.
 const MOST_WAVE_VALUES: usize = 1 << 15;
 
@@ -61,7 +63,7 @@ impl PeakFinder {
     /// max over θ of |Re Σ Pₙ e^{inθ}|, phasors in the order of the orders.
     #[must_use]
     pub fn along_axis(&self, phasors: &[Complex64]) -> f64 {
-        let mut heights = Heights::new(self.heights(&self.linear, phasors));
+        let mut heights = self.heights(&self.linear, phasors);
         let terms = self.waves.iter().zip(phasors).map(|(&wave, phasor)| (wave, phasor.norm()));
         let bounds = Bounds::new(&heights, terms);
         let up = Self::peak(&self.linear, &heights, bounds, 0.0, &|unit| self.sum(phasors, unit));
@@ -83,10 +85,7 @@ impl PeakFinder {
                 |phasors: &[Complex64]| phasors.iter().map(|z| z / largest).collect::<Vec<_>>();
             return self.of_vector(&scaled(x), &scaled(y)) * largest;
         }
-        let mut heights = self.heights(&self.quadratic, x);
-        let across = self.heights(&self.quadratic, y);
-        heights.iter_mut().zip(across).for_each(|(x, y)| *x = *x * *x + y * y);
-        let heights = Heights::new(heights);
+        let heights = self.squares(&self.quadratic, x, y);
         let bounds = Bounds::new(&heights, self.squared_terms(x, y).into_iter());
         let squared = |unit| self.squared_length(x, y, unit);
         Self::peak(&self.quadratic, &heights, bounds, 0.0, &squared).sqrt()
@@ -115,22 +114,42 @@ impl PeakFinder {
     }
 
     /// The sum's real part at the points of a grid.
-    fn heights(&self, grid: &Grid, phasors: &[Complex64]) -> Vec<f64> {
+    fn heights(&self, grid: &Grid, phasors: &[Complex64]) -> Heights {
         if grid.waves.is_empty() {
-            return grid.units.iter().map(|&unit| self.sum(phasors, unit)[0]).collect();
+            let heights = grid.units.iter().map(|&unit| self.sum(phasors, unit)[0]);
+            return Heights::new(heights.collect());
         }
         let mut heights = vec![0.0; grid.units.len()];
         vectorised(
             #[inline(always)]
             || {
-                for ([cos, sin], phasor) in grid.waves.iter().zip(phasors) {
-                    for ((height, cos), sin) in heights.iter_mut().zip(cos).zip(sin) {
-                        *height += phasor.re * cos - phasor.im * sin;
+                for (k, out) in heights.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+                    *out = grid.lanes(phasors, k);
+                }
+            },
+        );
+        Heights::new(heights)
+    }
+
+    /// The square of a vector's length at the points of a grid.
+    fn squares(&self, grid: &Grid, x: &[Complex64], y: &[Complex64]) -> Heights {
+        if grid.waves.is_empty() {
+            let squares = grid.units.iter().map(|&unit| self.squared_length(x, y, unit)[0]);
+            return Heights::new(squares.collect());
+        }
+        let mut squares = vec![0.0; grid.units.len()];
+        vectorised(
+            #[inline(always)]
+            || {
+                for (k, out) in squares.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+                    let (x, y) = (grid.lanes(x, k), grid.lanes(y, k));
+                    for i in 0..LANES {
+                        out[i] = x[i] * x[i] + y[i] * y[i];
                     }
                 }
             },
         );
-        heights
+        Heights::new(squares)
     }
 
     /// The square of a vector's length, and its derivatives.
@@ -201,18 +220,27 @@ impl PeakFinder {
             found
         };
         let mut rest = Vec::new();
-        let near = |k: usize| heights[k] + most_hidden > best && most_hidden > negligible;
-        let mut next_is_near = near(0);
-        for k in 0..heights.len() {
-            let next = if k + 1 == heights.len() { 0 } else { k + 1 };
-            let is_near = std::mem::replace(&mut next_is_near, near(next));
-            if is_near || next_is_near {
-                let ends = [jet(0, k), jet(1, next)];
-                let interval = Interval { from: k as f64 * step, width: step, ends };
-                if may_hold_more(&interval, best) {
-                    rest.push(interval);
-                }
+        let mut look = |k: usize| {
+            let ends = [jet(0, k), jet(1, if k + 1 == heights.len() { 0 } else { k + 1 })];
+            let interval = Interval { from: k as f64 * step, width: step, ends };
+            if may_hold_more(&interval, best) {
+                rest.push(interval);
             }
+        };
+        let needed = if most_hidden > negligible { best - most_hidden } else { f64::INFINITY };
+        let mut looked = 0;
+        for (part, lanes) in heights.as_chunks::<LANES>().0.iter().enumerate() {
+            // Most lanes have no point that is high enough.
+            if !lanes.iter().fold(false, |any, &height| any | (height > needed)) {
+                continue;
+            }
+            for k in (part * LANES..).take(LANES).filter(|&k| heights[k] > needed) {
+                (k.saturating_sub(1).max(looked)..=k).for_each(&mut look);
+                looked = k + 1;
+            }
+        }
+        if heights[0] > needed && looked < heights.len() {
+            look(heights.len() - 1);
         }
         // The last is the first to be looked at: a peak found rules out others.
         rest.sort_by(|a, b| {
@@ -246,10 +274,8 @@ struct Heights {
 
 impl Heights {
     fn new(values: Vec<f64>) -> Self {
-        // Side by side: one after the other each comparison would wait for the one before.
-        const LANES: usize = 8;
         let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
-        // Grids have whole waves of points.
+        // Side by side: one after the other each comparison would wait for the one before.
         let (parts, _) = values.as_chunks::<LANES>();
         vectorised(
             #[inline(always)]
@@ -387,6 +413,19 @@ impl Interval {
 }
 
 impl Grid {
+    /// A sum's real part at the points of the k-th lanes.
+    #[inline(always)]
+    fn lanes(&self, phasors: &[Complex64], k: usize) -> [f64; LANES] {
+        let mut heights = [0.0; LANES];
+        for ([cos, sin], phasor) in self.waves.iter().zip(phasors) {
+            let (cos, sin) = (&cos.as_chunks::<LANES>().0[k], &sin.as_chunks::<LANES>().0[k]);
+            for i in 0..LANES {
+                heights[i] += phasor.re * cos[i] - phasor.im * sin[i];
+            }
+        }
+        heights
+    }
+
     fn new(points: usize, waves: &[u32]) -> Self {
         let units: Vec<Complex64> =
             (0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)).collect();

@@ -161,15 +161,13 @@ fn few_values_are_needed() {
                 jet
             };
             let along = |unit| counted(finder.sum(&x, unit));
-            let heights = Heights::new(finder.heights(&finder.linear, &x));
+            let heights = finder.heights(&finder.linear, &x);
             let norms = finder.waves.iter().zip(&x).map(|(&n, p)| (n, p.norm()));
             let bounds = Bounds::new(&heights, norms);
             PeakFinder::peak(&finder.linear, &heights, bounds, 0.0, &along);
             of_sums += calls.replace(0);
             let squared = |unit| counted(finder.squared_length(&x, &y, unit));
-            let both = [&x, &y].map(|phasors| finder.heights(&finder.quadratic, phasors));
-            let squares = both[0].iter().zip(&both[1]).map(|(x, y)| x * x + y * y);
-            let heights = Heights::new(squares.collect());
+            let heights = finder.squares(&finder.quadratic, &x, &y);
             let bounds = Bounds::new(&heights, finder.squared_terms(&x, &y).into_iter());
             PeakFinder::peak(&finder.quadratic, &heights, bounds, 0.0, &squared);
             of_vectors += calls.replace(0);

@@ -1,11 +1,12 @@
 //! What remains of an engine's balance when its parts deviate from their figures: Monte Carlo samples.
 //!
-//! Imports run downwards: `random` → `draws`, `amplitudes` → `terms` → here.
+//! Imports run downwards: `random` → `draws`, `amplitudes` → `terms`, `totals` → here.
 
 mod amplitudes;
 mod draws;
 mod random;
 mod terms;
+mod totals;
 
 use std::ops::Range;
 
@@ -14,6 +15,8 @@ use rayon::prelude::*;
 
 use self::draws::{CHUNK, Column, Draws};
 use self::terms::Terms;
+use self::totals::Totals;
+pub use self::totals::largest_sums;
 use crate::Complex64;
 use crate::balance::{Balance, Orders, Request, Vector, angular_speed, balance};
 use crate::cancel::Cancel;
@@ -22,7 +25,6 @@ use crate::error::{Error, Result};
 use crate::extrema::PeakFinder;
 use crate::limits;
 use crate::memory;
-use crate::order::{self, Order};
 use crate::pool;
 use crate::wrench::Planar;
 
@@ -91,6 +93,7 @@ pub struct Tolerances {
     draws: Draws,
     terms: Terms,
     nominal: Balance,
+    totals: Totals,
     /// ω².
     square: f64,
 }
@@ -135,7 +138,8 @@ impl Tolerances {
         let reference = engine.reference(request.reference_z)?;
         let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
         let omega = angular_speed(request.rpm)?;
-        Ok(Self { draws, terms, nominal, square: omega * omega })
+        let totals = Totals::new(&nominal);
+        Ok(Self { draws, terms, nominal, totals, square: omega * omega })
     }
 
     /// Deviations of a figure in some samples: (samples, cylinders or pins); zero where it does not
@@ -236,30 +240,10 @@ impl Tolerances {
                     [torques[k], torques[orders + k]] = torque[i * orders + k];
                 }
             }
-            let [[x, y], [about_x, about_y], [roll, crank]] = [force_xy, moment_xy, torques]
-                .map(|both| both.split_at(orders))
-                .map(<[_; 2]>::from);
-            let on_block = finder.along_axis(roll);
-            // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
-            let opposite = roll.iter().zip(&*crank).all(|(roll, crank)| *roll == -crank);
-            let on_crank = if opposite { on_block } else { finder.along_axis(crank) };
-            let [force, moment] = [finder.of_vector(x, y), finder.of_vector(about_x, about_y)];
-            *peaks = [force, moment, on_block, on_crank];
+            *peaks = self.totals.peaks(finder, &by_component);
         }
         Ok(())
     }
-}
-
-/// Largest magnitude over the turn of each sum of orders: rows of peak phasors, one of each order.
-pub fn largest_sums(orders: &[Order], phasors: &[Complex64], cancel: &Cancel) -> Result<Vec<f64>> {
-    order::check_list(orders)?;
-    let finder = PeakFinder::new(orders);
-    let rows: Vec<&[Complex64]> = phasors.chunks_exact(orders.len()).collect();
-    let chunks = pool::map(cancel, rows.chunks(CHUNK).collect(), |rows| {
-        cancel.check()?;
-        Ok(rows.iter().map(|row| finder.along_axis(row)).collect::<Vec<_>>())
-    })?;
-    Ok(chunks.concat())
 }
 
 /// Buffers of the samples of a chunk, as those of [`Sampled`].

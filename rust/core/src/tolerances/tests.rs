@@ -1,4 +1,5 @@
 use super::*;
+use crate::Order;
 use crate::engine::{Placement, Shaft, Unbalance};
 use crate::{Angle, Cylinder};
 
