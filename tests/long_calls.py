@@ -98,6 +98,14 @@ CALLS: dict[str, Callable[[], object]] = {
     "waveforms of a sweep from kinematics": lambda: waveforms(exact=True),
     "vanishing orders": lambda: repr(V8.vanishing_orders()),
     "ranking": ranking,
+    "tolerances": lambda: (
+        cp.tolerances(
+            V6, rpm=5000, reciprocating_mass=0.005, pin_deg=0.1, rod_length=1e-4, samples=3000
+        ).total.moment.peak
+    ),
+    "peaks of tolerances along axes": lambda: (
+        cp.tolerances(V8, rpm=5000, crank_radius=1e-4, z=1e-4, samples=3000).total.force.peak_xy
+    ),
     "search": lambda: cp.search_arrangements(14).bank_angles_deg,
     "search, angles in a window": lambda: (
         cp.search_arrangements(22).within(60, 60.01).bank_angles_deg

@@ -17,10 +17,12 @@ from crankpin.analysis.bob_weight import bob_weight
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.counterweights import counterweights
 from crankpin.analysis.design.design import design
+from crankpin.analysis.match_parts import match_parts
 from crankpin.analysis.rank import rank
 from crankpin.analysis.search import search_arrangements
 from crankpin.analysis.sweep import sweep
 from crankpin.analysis.throws import throws
+from crankpin.analysis.tolerances import tolerances
 from crankpin.analysis.two_plane import two_plane_correction
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
@@ -41,12 +43,14 @@ __all__ = [
     "compare",
     "counterweights",
     "design",
+    "match_parts",
     "presets",
     "rank",
     "search_arrangements",
     "slider_crank_harmonics",
     "sweep",
     "throws",
+    "tolerances",
     "two_plane_correction",
     "types",
 ]

@@ -17,6 +17,7 @@ __all__ = [
     "InputError",
     "Search",
     "Sweep",
+    "Tolerances",
     "__version__",
     "angular_speed",
     "arrangement",
@@ -34,6 +35,7 @@ __all__ = [
     "motion",
     "near_miss",
     "offset_table",
+    "peaks_of_sums",
     "port_timing",
     "rod_parts",
     "valve_timing",
@@ -236,6 +238,27 @@ class Sweep:
         out: _Real,
         progress: _Progress | None,
     ) -> None: ...
+
+@final
+class Tolerances:
+    def __new__(
+        cls,
+        engine: Engine,
+        rpm: float,
+        orders: Sequence[int],
+        reference_z: float | None,
+        torque: bool,
+        spreads: Sequence[Sequence[float]],
+        distribution: str,
+        seed: int,
+        pins: Sequence[int],
+    ) -> Tolerances: ...
+    def sample(
+        self, first: int, count: int, progress: _Progress | None
+    ) -> tuple[_Complex, _Complex, _Complex, _Real]: ...
+    def deviations(self, name: str, first: int, count: int) -> _Real: ...
+
+def peaks_of_sums(orders: Sequence[int], phasors: _Complex) -> _Real: ...
 
 _Timing: TypeAlias = tuple[str, str, str, str]
 _PortOpenings: TypeAlias = tuple[str, str]

@@ -15,14 +15,17 @@ from crankpin.analysis.fitted_shaft import FittedShaft
 from crankpin.analysis.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.lanchester import PairHeights
+from crankpin.analysis.match_parts import Match
 from crankpin.analysis.planes import Turning
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking import Ranking
 from crankpin.analysis.search import Arrangement, ArrangementSearch
+from crankpin.analysis.shares import Shares
 from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweep import Sweep
 from crankpin.analysis.sweep_waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
+from crankpin.analysis.tolerance_samples import Tolerances
 from crankpin.analysis.two_plane import TwoPlaneCorrection
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
@@ -58,6 +61,7 @@ __all__ = [
     "ForwardPart",
     "Gap",
     "Image",
+    "Match",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
@@ -71,10 +75,12 @@ __all__ = [
     "Ranking",
     "Remainder",
     "Scalar",
+    "Shares",
     "Straight",
     "Sweep",
     "SweepWaveform",
     "Throws",
+    "Tolerances",
     "Total",
     "TotalQuantity",
     "TotalVector",

@@ -60,6 +60,9 @@ LONG_CALLS = {
         "[cp.sweep(near(0.999, 1e-6), rpm=1000, orders=range(1, 10_001)).torque.phasor "
         "for _ in range(10_000)]"
     ),
+    "tolerances": (
+        "[cp.tolerances(v6, rpm=1000, rod_length=1e-4, samples=400_000) for _ in range(10_000)]"
+    ),
     "waveform as a sum of orders": (
         "v6.waveform(1000, theta_deg=np.linspace(0, 720, 20_000_000), orders=range(1, 300))"
     ),

@@ -20,6 +20,7 @@ pytest.importorskip("matplotlib")
 import harmonics
 import orders
 import peaks
+import tolerances
 
 pytestmark = pytest.mark.slow
 
@@ -169,3 +170,13 @@ def test_one_command_runs_them_all() -> None:
     for name in charts.present():
         text = (FOLDER / f"{name}.py").read_text(encoding="utf-8")
         assert all(f'"{option}"' in text for option in ("--out", *charts.COMMANDS[name]))
+
+
+def test_tolerances(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(tolerances, "interleaved", once)
+    monkeypatch.setattr("sys.argv", ["tolerances", "--quick", "--out", str(tmp_path)])
+    tolerances.main()
+    assert [row["engine"] for row in read(tmp_path / "tolerances.csv")] == [*tolerances.ENGINES]
+    assert "NumPy / crankpin" in capsys.readouterr().out

@@ -65,6 +65,16 @@ HELD = {
 }
 """Value of ``hold`` → description."""
 
+TOLERANCES = {
+    "reciprocating_mass": ("reciprocating mass", "kg"),
+    "rotating_mass": ("rotating mass", "kg"),
+    "crank_radius": ("crank radius", "m"),
+    "pin_deg": ("crankpin angle", "°"),
+    "z": ("position", "m"),
+    "rod_length": ("rod length", "m"),
+}
+"""Figure that may spread → its name and unit."""
+
 NEGLIGIBLE = 1e-6
 """Orders whose peaks are all below this part of a quantity's largest peak are not shown."""
 

@@ -20,6 +20,7 @@ from crankpin.cli import (
     shafts,
     streams,
     sweep,
+    tolerances,
     view,
 )
 from crankpin.cli.parser import PROG, Parser
@@ -37,6 +38,7 @@ COMMANDS = (
     bob_weight,
     shafts,
     design,
+    tolerances,
     view,
     gallery,
 )

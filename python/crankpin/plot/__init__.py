@@ -18,6 +18,7 @@ from crankpin.plot import (
     search,
     sweep,
     sweep_waveform,
+    tolerances,
     waveform,
 )
 from crankpin.plot.dispatch import draw
@@ -39,5 +40,6 @@ __all__ = [
     "search",
     "sweep",
     "sweep_waveform",
+    "tolerances",
     "waveform",
 ]

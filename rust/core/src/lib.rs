@@ -7,8 +7,9 @@
 //! - [`cylinder`]: one cylinder's running gear and its harmonics;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
-//! - readings of that list: [`balance`] (few or given orders), [`waveform`], [`sweep`], and
-//!   [`exact`] (which orders vanish, closed forms); [`extrema`] finds peaks of sums of orders;
+//! - readings of that list: [`balance`] (few or given orders), [`waveform`], [`sweep`],
+//!   [`tolerances`] (of samples of an engine), and [`exact`] (which orders vanish, closed forms);
+//!   [`extrema`] finds peaks of sums of orders;
 //! - [`firing`] and [`search`].
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
@@ -41,6 +42,7 @@ pub mod ring;
 pub mod search;
 mod simd;
 pub mod sweep;
+pub mod tolerances;
 pub mod waveform;
 pub mod wrench;
 

@@ -255,7 +255,10 @@ impl Load {
     }
 
     /// `e^{−inφ}` of a piston at order n, and of an unbalance at its own order.
-    fn phasor(&self, order: u32) -> Option<Complex64> {
+    ///
+    /// Where its crankpin stands δ further ahead, φ is less by δ: of a load that follows the pin this is
+    /// multiplied by `e^{inδ}` (n = 1 of an unbalance).
+    pub fn phasor(&self, order: u32) -> Option<Complex64> {
         match self.source {
             Source::Piston { .. } => Some(self.phase.cis(-i64::from(order))),
             Source::Unbalance { ratio, .. } => {
@@ -264,8 +267,8 @@ impl Load {
         }
     }
 
-    /// Force over ω², weight and the channel's factor.
-    fn planar(&self, phase: Complex64) -> (Channel, Planar) {
+    /// Force over ω², weight and the channel's factor, given its [`Load::phasor`].
+    pub fn planar(&self, phase: Complex64) -> (Channel, Planar) {
         match self.source {
             Source::Piston { motion, .. } => {
                 let half = phase * 0.5;

@@ -26,7 +26,7 @@ impl From<core::Engine> for Engine {
 }
 
 /// One of a few words.
-fn choice<T>(argument: &str, value: &str, choices: &[(&str, T)]) -> PyResult<T>
+pub fn choice<T>(argument: &str, value: &str, choices: &[(&str, T)]) -> PyResult<T>
 where
     T: Copy,
 {

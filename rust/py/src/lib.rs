@@ -16,6 +16,7 @@ mod interrupt;
 mod search;
 mod slider_crank;
 mod sweep;
+mod tolerances;
 mod vanishing;
 mod waveform;
 
@@ -32,6 +33,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<waveform::CrankAngles>()?;
     module.add_class::<firing::Firing>()?;
+    module.add_class::<tolerances::Tolerances>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(convert::near_miss, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;
@@ -54,5 +56,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(closed_form::closed_form, module)?)?;
     module.add_function(wrap_pyfunction!(search::arrangement, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
+    module.add_function(wrap_pyfunction!(tolerances::peaks_of_sums, module)?)?;
     Ok(())
 }

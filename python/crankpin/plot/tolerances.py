@@ -1,0 +1,145 @@
+"""Tolerances: the distribution of what remains, and the shares of the tolerances."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+
+from crankpin._support import inputs, labels
+from crankpin.analysis import objectives
+from crankpin.analysis.tolerance_samples import QUANTILES, Tolerances
+from crankpin.plot.axes import entitle, inches_of, label_x, label_y, one_panel
+from crankpin.plot.dispatch import draw
+from crankpin.plot.legend import legend_below
+from crankpin.plot.style import SERIES, foreground, muted, series
+from crankpin.plot.ticks import from_zero, numeric
+from crankpin.plot.words import name_of, plain_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+MOST_BINS = 80
+LEAST_SHARE = 0.5
+"""Percent below which a tolerance has no entry in the legend."""
+NOMINAL = "nominal"
+
+
+@draw.register(Tolerances)
+def _tolerances(
+    result: Tolerances,
+    ax: Axes | None = None,
+    *,
+    kind: str = "histogram",
+    by: str | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of the kind
+) -> Axes:
+    kinds = {"histogram": _histogram, "ecdf": _ecdf, "shares": None}
+    distribution = kinds[inputs.one_of("kind", kind, kinds)]
+    if distribution is None:
+        return _shares(result, one_panel(ax), by, style)
+    name = result.by[0] if by is None else by
+    values = result.values(name)
+    ax = one_panel(ax)
+    objective = objectives.named(name)
+    entitle(ax, name_of(result.engine), _words(result, objective.words))
+    (look,) = series(ax, 1, mpl.cbook.normalize_kwargs(style, Line2D))
+    distribution(ax, values, look, label or f"{result.samples} samples")
+    _nominal(ax, result.nominal_value(name))
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    label_x(ax, f"{name}, {objective.unit}")
+    legend_below(ax, last=NOMINAL)
+    return ax
+
+
+def _words(result: Tolerances, words: str) -> str:
+    """Return what is drawn, of which orders."""
+    first, last = result.orders[0], result.orders[-1]
+    whole = result.orders == tuple(range(first, last + 1)) and last > first + 1
+    orders = f"orders {first} to {last}" if whole else labels.orders_text(result.orders)
+    return f"{words.replace('all orders', orders)}, {labels.value_text('rpm', result.rpm)}"
+
+
+def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: str) -> None:
+    """Draw the part of the samples in each of equal intervals; a line at quantiles."""
+    bins = min(MOST_BINS, len(np.histogram_bin_edges(values, "auto")) - 1)
+    counts, edges = np.histogram(values, bins)
+    parts = 100.0 * counts / len(values)
+    ax.stairs(parts, edges, fill=True, color=look["color"], alpha=0.3)
+    ax.stairs(parts, edges, gid=SERIES, label=label, **_of_patches(look))
+    before = ax.get_ylim()[1] if len(ax.patches) > 2 else 0.0
+    from_zero(ax, max(float(parts.max()), before / 1.08))
+    heights = np.interp(at := np.quantile(values, QUANTILES), edges[:-1], parts)
+    thin = look | {"linewidth": 0.8, "linestyle": "-"}
+    ax.vlines(at, 0.0, heights, colors=thin["color"], linewidth=0.8, label=_quantile_label(ax))
+    label_y(ax, "samples, %")
+
+
+def _of_patches(look: dict[str, Any]) -> dict[str, Any]:
+    kept = {key: look[key] for key in ("linestyle", "linewidth", "alpha", "zorder") if key in look}
+    return {"edgecolor": look["color"], "fill": False} | kept
+
+
+def _ecdf(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: str) -> None:
+    """Draw the part of the samples up to each value; dots at quantiles."""
+    ordered = np.sort(values)
+    parts = 100.0 * np.arange(1, len(values) + 1) / len(values)
+    ax.plot(ordered, parts, drawstyle="steps-post", gid=SERIES, label=label, **look)
+    at = np.quantile(values, QUANTILES)
+    dots: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linestyle": "", "zorder": 4}
+    quantiles = 100.0 * np.array(QUANTILES)
+    ax.plot(at, quantiles, color=look["color"], label=_quantile_label(ax), gid="", **dots)
+    ax.set_ylim(0.0, 100.0)
+    label_y(ax, "samples up to a value, %")
+
+
+def _quantile_label(ax: Axes) -> str:
+    """Return the entry of the legend for quantiles, once."""
+    text = ", ".join(f"{100 * q:g}" for q in QUANTILES) + " % quantiles"
+    return "_" if text in ax.get_legend_handles_labels()[1] else text
+
+
+def _nominal(ax: Axes, value: float) -> None:
+    label = "_" if NOMINAL in ax.get_legend_handles_labels()[1] else NOMINAL
+    ax.axvline(
+        value, color=foreground(ax), linewidth=1.2, linestyle=(0, (4, 2)), label=label, gid=""
+    )
+
+
+def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any]) -> Axes:
+    """Draw bars from 0 on, one after the other; what they lack of 100 % is interaction."""
+    shares = result.shares_of(result.by if by is None else (by,))
+    rows = np.arange(len(shares.by))
+    ax.set_yticks(rows, [plain_text(name) for name in shares.by])
+    _fit_rows(ax, len(rows))
+    entitle(ax, name_of(result.engine), "shares in the variance")
+    left = np.zeros(len(rows))
+    looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
+    for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):
+        seen = bool((values >= LEAST_SHARE).any())
+        bars = {"height": 0.62, "color": look["color"]} | style
+        title = labels.TOLERANCES[name][0] if seen else "_"
+        ax.barh(rows, values, left=left, label=title, gid=SERIES, **bars)
+        left = left + values
+    ax.axvline(100.0, color=muted(ax), linewidth=0.8)
+    ax.set_ylim(len(rows) - 0.5, -0.5)
+    ax.set_xlim(0.0, max(100.0, 1.04 * float(left.max(initial=0.0))))
+    numeric(ax.xaxis)
+    label_x(ax, f"%, {labels.value_text('rpm', result.rpm)}")
+    legend_below(ax)
+    return ax
+
+
+def _fit_rows(ax: Axes, rows: int) -> None:
+    """Write the names of rows in type that is no higher than a row."""
+    # Title and legend will leave a third of the height of short axes.
+    points = 0.33 * 72.0 * inches_of(ax, "height") / rows
+    usual = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
+    ax.tick_params(axis="y", length=0, labelsize=min(usual, max(4.5, points)))

@@ -1,0 +1,222 @@
+use super::*;
+use proptest::prelude::*;
+
+fn finder(orders: &[u32]) -> PeakFinder {
+    PeakFinder::new(&Order::all_whole(orders).unwrap())
+}
+
+fn sampled(orders: &[u32], phasors: &[Complex64], points: usize) -> f64 {
+    let at = |k: usize| {
+        let θ = k as f64 * TAU / points as f64;
+        let term = |(&n, p): (&u32, &Complex64)| (p * Complex64::cis(f64::from(n) * θ)).re;
+        orders.iter().zip(phasors).map(term).sum::<f64>().abs()
+    };
+    (0..points).map(at).fold(0.0, f64::max)
+}
+
+#[test]
+fn one_order_peaks_at_its_magnitude() {
+    let finder = finder(&[3]);
+    let p = Complex64::new(3.0, -4.0);
+    // 16 roundings of half a unit at most
+    assert!((finder.along_axis(&[p]) - 5.0).abs() < 1e-14);
+    let i = Complex64::i();
+    assert!((finder.of_vector(&[p], &[-i * p]) - 5.0).abs() < 1e-14);
+    assert_eq!(finder.along_axis(&[Complex64::default()]), 0.0);
+}
+
+#[test]
+fn a_flat_maximum_is_found() {
+    // cos θ − cos 2θ / 4 has T'' = 0 at θ = 0
+    let finder = finder(&[1, 2]);
+    let phasors = [Complex64::new(1.0, 0.0), Complex64::new(-0.25, 0.0)];
+    // its largest magnitude is at θ = π
+    assert!((finder.along_axis(&phasors) - 1.25).abs() < 1e-15);
+    let quartic = [Complex64::new(4.0 / 3.0, 0.0), Complex64::new(-1.0 / 3.0, 0.0)];
+    assert!((finder.of_vector(&quartic, &[Complex64::default(); 2]) - 5.0 / 3.0).abs() < 1e-14);
+}
+
+#[test]
+fn vectors_are_longest_where_samples_are() {
+    let orders = [1, 2, 5];
+    let parts = |a: f64| {
+        orders.map(|n| Complex64::new((a * f64::from(n)).sin(), (a + f64::from(n * n)).cos()))
+    };
+    for k in 0..20 {
+        let (x, y) = (parts(0.37 * f64::from(k)), parts(1.0 + 0.61 * f64::from(k)));
+        let length = |sample: u32| {
+            let θ = f64::from(sample) * TAU / 20_000.0;
+            let along = |phasors: &[Complex64; 3]| -> f64 {
+                let terms = orders.iter().zip(phasors);
+                terms.map(|(&n, p)| (p * Complex64::cis(f64::from(n) * θ)).re).sum()
+            };
+            along(&x).hypot(along(&y))
+        };
+        let dense = (0..20_000).map(length).fold(0.0, f64::max);
+        // Large and small vectors alike: they are scaled.
+        for scale in [1.0, 1e-200, 1e200] {
+            let scaled = |phasors: [Complex64; 3]| phasors.map(|p| p * scale);
+            let peak = finder(&orders).of_vector(&scaled(x), &scaled(y)) / scale;
+            // Rounding of twelve terms; half a step of 20 000 at order 5, of a length below 5.
+            assert!(dense <= peak + 1e-13 && peak <= dense + 2e-6, "{dense} {peak}");
+        }
+    }
+    assert_eq!(finder(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
+}
+
+#[test]
+fn derivatives_are_those_of_the_sum() {
+    // Not in ascending order, and with a common factor that is left out.
+    let finder = finder(&[4, 6, 8, 2]);
+    let phasors = |a: f64| {
+        [1.0, 2.0, 3.0, 4.0].map(|k| Complex64::new((a * k).sin() + 0.1, (a + k * k).cos()))
+    };
+    let (x, y) = (phasors(0.7), phasors(1.9));
+    for k in 0..10 {
+        let θ = 0.6 * f64::from(k);
+        let along = |θ: f64| finder.sum(&x, Complex64::cis(θ));
+        let squared = |θ: f64| finder.squared_length(&x, &y, Complex64::cis(θ));
+        let waves = [2.0, 3.0, 4.0, 1.0].iter().zip(&x);
+        let value: f64 = waves.map(|(n, p)| (p * Complex64::cis(n * θ)).re).sum();
+        assert!((along(θ)[0] - value).abs() < 1e-14);
+        let other = finder.sum(&y, Complex64::cis(θ))[0];
+        assert!((squared(θ)[0] - (value * value + other * other)).abs() < 1e-13);
+        for jet in [&along as &dyn Fn(f64) -> Jet, &squared] {
+            let (before, here, after) = (jet(θ - 1e-5), jet(θ), jet(θ + 1e-5));
+            for order in 1..3 {
+                let slope = (after[order - 1] - before[order - 1]) / 2e-5;
+                // A sixth of 1e-10 of a fourth derivative below 8⁴·50, and rounding over 1e-5.
+                assert!((here[order] - slope).abs() < 1e-5, "{order} {θ}");
+            }
+        }
+    }
+}
+
+/// cos θ − (1 + s)/9 cos 3θ has two peaks either side of a dip, a good √s apart, where s = 0 has one
+/// without second derivative; some sin θ makes one of them higher.
+#[test]
+fn of_two_peaks_close_together_the_higher_counts() {
+    let finder = finder(&[1, 3]);
+    for (exponent, tilt) in (0..16).flat_map(|k| [(k, 0.0), (k, 0.2), (k, -0.2)]) {
+        let s = 0.5_f64.powi(exponent);
+        let c = -(1.0 + s) / 9.0;
+        let tilt = tilt * s.powf(1.5);
+        let at = |θ: f64| θ.cos() + c * (3.0 * θ).cos() + tilt * θ.sin();
+        // 2e-4 of the distance between the peaks, which cover ±√s: half a step's square is 1e-8 s
+        // of a second derivative below 3s.
+        let near = |k: i32| at(f64::from(k) * 1e-4 * s.sqrt());
+        let peak = (-15_000..=15_000).map(near).fold(0.0, f64::max);
+        for k in 0..24 {
+            // Wherever they lie between points of the grid, also in the middle of two, in any unit.
+            let turn = f64::from(k) * TAU / 48.0 / 24.0;
+            let unit = [1.0, 1e-9, 1e9][k as usize % 3];
+            let first = Complex64::new(1.0, -tilt) * Complex64::cis(turn);
+            let phasors = [first, c * Complex64::cis(3.0 * turn)].map(|p| p * unit);
+            let vector = finder.of_vector(&phasors, &[Complex64::default(); 2]);
+            for found in [finder.along_axis(&phasors), vector] {
+                let apart = found / unit - peak;
+                // A few roundings of three terms; the samples miss the peak.
+                let allowed = -2e-15..=2e-15 + 1e-8 * s * s;
+                assert!(allowed.contains(&apart), "{s} {tilt} {k}: {apart:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn high_orders_peak_where_they_meet() {
+    let finder = finder(&[999, 1000]);
+    for k in 0..40 {
+        let at = 0.151 * f64::from(k);
+        let phasors = [999.0, 1000.0].map(|n| Complex64::cis(-n * at));
+        // The thousandth power of e^{iθ} has a thousand times its rounding.
+        let peak = finder.along_axis(&phasors);
+        assert!((peak - 2.0).abs() < 5e-13, "{k}: {peak}");
+    }
+}
+
+/// Besides the heights at the points of the grid, on average: a few steps of Newton's method for each peak that may be the highest,
+/// and what rules out the rest. No bound of anything but time.
+#[test]
+fn few_values_are_needed() {
+    let calls = std::cell::Cell::new(0);
+    // Means of fifty sums, as measured: of a force's, and of a vector's squared length.
+    let most = [(1_u32, [8, 16]), (2, [9, 11]), (5, [10, 13]), (12, [16, 18]), (40, [24, 20])];
+    for (degree, most) in most {
+        let orders: Vec<u32> = (1..=degree).collect();
+        let finder = finder(&orders);
+        calls.set(0);
+        let (mut of_sums, mut of_vectors) = (0_usize, 0);
+        for k in 0..50 {
+            let parts = |a: f64| -> Vec<Complex64> {
+                let part = |&n: &u32| {
+                    let n = f64::from(n);
+                    Complex64::new((a + 3.7 * n * n).sin(), (1.3 * a * n).cos()) / n
+                };
+                orders.iter().map(part).collect()
+            };
+            let (x, y) = (parts(0.7 + 1.1 * f64::from(k)), parts(5.1 + 0.3 * f64::from(k)));
+            let counted = |jet: Jet| {
+                calls.set(calls.get() + 1);
+                jet
+            };
+            let along = |unit| counted(finder.sum(&x, unit));
+            let heights = finder.heights(&finder.linear, &x);
+            let norms = finder.waves.iter().zip(&x).map(|(&n, p)| (n, p.norm()));
+            let bounds = Bounds::new(&heights, norms);
+            PeakFinder::peak(&finder.linear, &heights, bounds, 0.0, &along);
+            of_sums += calls.replace(0);
+            let squared = |unit| counted(finder.squared_length(&x, &y, unit));
+            let heights = finder.squares(&finder.quadratic, &x, &y);
+            let bounds = Bounds::new(&heights, finder.squared_terms(&x, &y).into_iter());
+            PeakFinder::peak(&finder.quadratic, &heights, bounds, 0.0, &squared);
+            of_vectors += calls.replace(0);
+        }
+        let mean = [of_sums, of_vectors].map(|calls| calls.div_ceil(50));
+        assert!(mean.iter().zip(most).all(|(mean, most)| *mean <= most), "{degree}: {mean:?}");
+    }
+}
+
+#[test]
+fn a_dip_is_not_taken_for_a_peak() {
+    // −(θ² − 1/100)² between −1/4 and 1/4, where the slope in the middle is exactly zero.
+    let hump = |unit: Complex64| {
+        let θ = unit.arg();
+        let rest = θ * θ - 0.01;
+        [-rest * rest, -4.0 * θ * rest, -4.0 * (rest + 2.0 * θ * θ)]
+    };
+    let ends = [hump(Complex64::cis(-0.25)), hump(Complex64::cis(0.25))];
+    let interval = Interval { from: -0.25, width: 0.5, ends };
+    assert!(interval.rises_then_falls());
+    let peak = interval.polish(&hump);
+    // The peak is zero, the dip −1e-4; 1e-9 of the width off the top is its square.
+    assert!((-1e-17..=0.0).contains(&peak), "{peak}");
+}
+
+#[test]
+fn orders_in_any_order_and_with_a_common_factor() {
+    let phasors = [1.0, 0.7, -0.4].map(|re| Complex64::new(re, 0.3 * re * re));
+    let [a, b, c] = phasors;
+    let peak = finder(&[2, 6, 8]).along_axis(&phasors);
+    assert!((finder(&[8, 2, 6]).along_axis(&[c, a, b]) - peak).abs() < 1e-14);
+    assert!((finder(&[1, 3, 4]).along_axis(&phasors) - peak).abs() < 1e-14);
+    assert!((sampled(&[2, 6, 8], &phasors, 20_000) - peak).abs() < 1e-5);
+}
+
+proptest! {
+    #[test]
+    fn no_sample_is_higher_and_a_dense_one_as_high(
+        orders in proptest::sample::subsequence((1_u32..12).collect::<Vec<_>>(), 1..6),
+        parts in proptest::collection::vec((-1.0..1.0, -1.0..1.0), 6),
+    ) {
+        let phasors: Vec<_> =
+            orders.iter().zip(&parts).map(|(_, &(re, im))| Complex64::new(re, im)).collect();
+        let peak = finder(&orders).along_axis(&phasors);
+        let dense = sampled(&orders, &phasors, 20_000);
+        let size: f64 = phasors.iter().map(|p| p.norm()).sum();
+        // rounding of six terms, and of θ·n at the samples
+        prop_assert!(dense <= peak + 1e-13 * size);
+        // half a step of 20 000 at order 11: (11·1.6e-4)²/2 = 1.5e-6 of the size
+        prop_assert!(peak <= dense + 2e-6 * size);
+    }
+}

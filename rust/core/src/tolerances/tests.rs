@@ -1,0 +1,265 @@
+use super::*;
+use crate::Order;
+use crate::engine::{Placement, Shaft, Unbalance};
+use crate::{Angle, Cylinder};
+
+const ORDERS: [u32; 4] = [1, 2, 3, 4];
+const REQUEST: Request =
+    Request { rpm: 3000.0, reference_z: Some(0.1), spectrum: None, torque: true };
+const NONE: [Vec<f64>; FIGURES] = [const { Vec::new() }; FIGURES];
+/// Cylinders 0 and 1 share a pin.
+const PINS: [usize; 4] = [0, 0, 1, 2];
+
+fn angle(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees).unwrap()
+}
+
+/// Unlike cylinders, one with an offset and one with a rod of inertia; weights, and a shaft.
+fn engine() -> Engine {
+    let place = |[radius, rod, mass, offset, inertia]: [f64; 5],
+                 [tdc, bank]: [f64; 2],
+                 z,
+                 rotating_mass| {
+        let cylinder = Cylinder::new(radius, rod, mass, offset).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
+        Placement { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
+    };
+    let places = vec![
+        place([0.05, 0.16, 0.5, 0.0, 0.0], [0.0, 60.0], 0.0, 0.3),
+        place([0.05, 0.15, 0.6, 0.0, -2e-4], [60.0, 120.0], 0.01, 0.0),
+        place([0.045, 0.16, 0.4, 0.003, 0.0], [130.0, 60.0], 0.1, 0.5),
+        place([0.05, 0.16, 0.5, 0.0, 0.0], [300.0, 120.0], 0.2, 0.4),
+    ];
+    let weight = |amount, degrees, z, pin| Unbalance { amount, angle: angle(degrees), z, pin };
+    let shaft = Shaft {
+        name: String::new(),
+        ratio: -2,
+        axis: [0.1, -0.05],
+        unbalances: vec![weight(0.002, 20.0, 0.1, None)],
+    };
+    Engine::new("", "", places)
+        .and_then(|e| {
+            e.with_counterweights(vec![
+                weight(0.02, 170.0, 0.05, Some(2)),
+                weight(0.01, 30.0, 0.0, None),
+            ])
+        })
+        .and_then(|e| e.with_shafts(vec![shaft]))
+        .unwrap()
+}
+
+fn spreads() -> [Vec<f64>; FIGURES] {
+    [
+        vec![0.01, 0.02, 0.0, 0.01],
+        vec![0.03, 0.01, 0.02, 0.02],
+        vec![1e-4, 2e-4, 1e-4],
+        vec![0.5, 0.1, 0.3],
+        vec![1e-3, 2e-3, 1e-3, 0.0],
+        vec![3e-4, 2e-4, 1e-4, 1e-4],
+    ]
+}
+
+fn made(spreads: [Vec<f64>; FIGURES], distribution: Distribution, seed: u64) -> Tolerances {
+    let drawn = (distribution, seed);
+    Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, drawn, &PINS, &Cancel::new()).unwrap()
+}
+
+fn sample(tolerances: &Tolerances, samples: Range<usize>) -> Sampled {
+    tolerances.sample(samples, &Cancel::new()).unwrap()
+}
+
+fn nominal(engine: &Engine) -> Balance {
+    balance(engine, &REQUEST, &Orders::whole(&ORDERS).unwrap(), &Cancel::new()).unwrap()
+}
+
+#[test]
+fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
+    let zeros = spreads().map(|values| vec![0.0; values.len()]);
+    let known = nominal(&engine());
+    for spreads in [NONE, zeros] {
+        let found = sample(&made(spreads, Distribution::Normal, 3), 7..9);
+        for (i, row) in found.force.iter().zip(&found.moment).zip(&found.torque).enumerate() {
+            let ((force, moment), torque) = row;
+            let k = i % ORDERS.len();
+            for (found, vector) in [(force, Vector::Force), (moment, Vector::Moment)] {
+                let ([x, y], planar) = (known.xy(vector, k), known.planar(vector, k));
+                assert_eq!(*found, [x, y, planar.forward, planar.backward()]);
+            }
+            assert_eq!(*torque, [known.wrenches[k].torque.roll, known.wrenches[k].torque.crank]);
+        }
+        let [roll, crank] = known.torque_peaks();
+        let peaks = [known.peak(Vector::Force), known.peak(Vector::Moment), roll, crank];
+        assert_eq!(found.peaks, [peaks; 2]);
+    }
+}
+
+#[test]
+fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
+    for distribution in [Distribution::Normal, Distribution::Uniform] {
+        let tolerances = made(spreads(), distribution, 11);
+        let found = sample(&tolerances, 0..40);
+        let [masses, rotating, radii, angles, places, rods] =
+            Figure::ALL.map(|figure| tolerances.deviations(figure, 0..40, &Cancel::new()).unwrap());
+        for s in 0..40 {
+            let engine = engine();
+            let drawn = engine.placements().iter().enumerate().map(|(i, p)| {
+                let (c, pin) = (p.cylinder, PINS[i]);
+                let cylinder = Cylinder::new(
+                    c.crank_radius() + radii[[s, pin]],
+                    c.rod_length() + rods[[s, i]],
+                    c.reciprocating_mass() + masses[[s, i]],
+                    c.pin_offset(),
+                );
+                Placement {
+                    cylinder: cylinder
+                        .and_then(|made| made.with_rod_inertia_excess(c.rod_inertia_excess()))
+                        .unwrap(),
+                    tdc: angle(p.tdc.degrees() - angles[[s, pin]]),
+                    bank: p.bank,
+                    z: p.z + places[[s, i]],
+                    rotating_mass: p.rotating_mass + rotating[[s, i]],
+                }
+            });
+            // A mass below zero is no engine's; its unbalance points the other way.
+            let placements: Vec<Placement> = drawn.collect();
+            let mut weights = engine.counterweights().to_vec();
+            weights.extend(
+                placements.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
+                    |(i, p)| Unbalance {
+                        amount: -p.rotating_mass * p.cylinder.crank_radius(),
+                        angle: Angle::HALF_TURN,
+                        z: p.z,
+                        pin: Some(i),
+                    },
+                ),
+            );
+            let placements = placements
+                .into_iter()
+                .map(|p| Placement { rotating_mass: p.rotating_mass.max(0.0), ..p });
+            let drawn = Engine::new("", "", placements.collect())
+                .and_then(|made| made.with_counterweights(weights))
+                .and_then(|made| made.with_shafts(engine.shafts().to_vec()))
+                .unwrap();
+            let known = nominal(&drawn);
+            for k in 0..ORDERS.len() {
+                let row = s * ORDERS.len() + k;
+                // Rounding of a sum of twenty terms, and of the deviations added to figures.
+                for (found, vector) in
+                    [(found.force[row], Vector::Force), (found.moment[row], Vector::Moment)]
+                {
+                    let planar = known.planar(vector, k);
+                    let ([x, y], size) = (known.xy(vector, k), 3e-14 * (planar.size + 1e-9));
+                    let there = [x, y, planar.forward, planar.backward()];
+                    for (found, known) in found.iter().zip(there) {
+                        assert!((found - known).norm() <= size, "{s} {k}: {found} {known}");
+                    }
+                }
+                let torque = known.wrenches[k].torque;
+                for (found, known) in found.torque[row].iter().zip([torque.roll, torque.crank]) {
+                    let apart = (found - known).norm();
+                    assert!(apart <= 3e-14 * torque.size, "{s} {k}: {found} {known}");
+                }
+            }
+            let [roll, crank] = known.torque_peaks();
+            let peaks = [known.peak(Vector::Force), known.peak(Vector::Moment), roll, crank];
+            for (found, known) in found.peaks[s].iter().zip(peaks) {
+                assert!((found - known).abs() <= 1e-12 * known, "{s}: {found} {known}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sample_is_the_same_whichever_others_are_evaluated_with_it() {
+    let tolerances = made(spreads(), Distribution::Normal, 5);
+    // By the pool; in pieces by the calling thread.
+    let whole = sample(&tolerances, 0..1000);
+    let pieces = [0..1, 1..130, 130..400, 400..750, 750..1000];
+    let pieces = pieces.map(|range| sample(&tolerances, range));
+    assert_eq!(whole.force, pieces.each_ref().map(|p| p.force.clone()).concat());
+    assert_eq!(whole.moment, pieces.each_ref().map(|p| p.moment.clone()).concat());
+    assert_eq!(whole.torque, pieces.each_ref().map(|p| p.torque.clone()).concat());
+    assert_eq!(whole.peaks, pieces.each_ref().map(|p| p.peaks.clone()).concat());
+}
+
+#[test]
+fn draws_do_not_depend_on_what_else_spreads() {
+    let all = made(spreads(), Distribution::Normal, 5);
+    for figure in Figure::ALL {
+        let mut only = NONE;
+        only[figure as usize].clone_from(&spreads()[figure as usize]);
+        let alone = made(only, Distribution::Normal, 5);
+        let other_seed = made(spreads(), Distribution::Normal, 6);
+        let drawn = |of: &Tolerances| of.deviations(figure, 3..300, &Cancel::new()).unwrap();
+        assert_eq!(drawn(&all), drawn(&alone));
+        assert_ne!(drawn(&all), drawn(&other_seed));
+        let more = all.deviations(figure, 0..300, &Cancel::new()).unwrap();
+        assert_eq!(drawn(&all), more.view().split_at(ndarray::Axis(0), 3).1);
+    }
+    let none = made(NONE, Distribution::Normal, 5);
+    let zeros = none.deviations(Figure::Pin, 0..4, &Cancel::new()).unwrap();
+    assert_eq!(zeros, Array2::<f64>::zeros((4, 3)));
+}
+
+#[test]
+fn uniform_draws_fill_their_width_and_no_more() {
+    let tolerances = made(spreads(), Distribution::Uniform, 1);
+    let drawn = tolerances.deviations(Figure::Pin, 0..4000, &Cancel::new()).unwrap();
+    for (column, half) in drawn.columns().into_iter().zip(&spreads()[Figure::Pin as usize]) {
+        let largest = column.iter().map(|value| value.abs()).fold(0.0, f64::max);
+        assert!(largest <= *half && largest > 0.99 * half);
+    }
+}
+
+#[test]
+fn spreads_that_leave_no_engine_are_rejected() {
+    let error = |figure: Figure, values: Vec<f64>, distribution| {
+        let mut spreads = NONE;
+        spreads[figure as usize] = values;
+        let drawn = (distribution, 0);
+        let made =
+            Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, drawn, &PINS, &Cancel::new());
+        made.err().map(|error| error.to_string()).unwrap_or_default()
+    };
+    let normal = Distribution::Normal;
+    let uniform = Distribution::Uniform;
+    let masses = error(Figure::ReciprocatingMass, vec![0.0, 0.0, 0.4 / 8.0, 0.0], normal);
+    assert!(masses.starts_with("reciprocating_mass = 0.05: a draw may take more than"), "{masses}");
+    assert_eq!(error(Figure::ReciprocatingMass, vec![0.4; 4], uniform), "");
+    // The longest crank on the shortest rod: 0.05 and 0.15 m.
+    assert_eq!(error(Figure::CrankRadius, vec![0.0499, 0.0, 0.0], uniform), "");
+    assert!(error(Figure::CrankRadius, vec![0.0, 0.0, 0.051], uniform).contains("turning"));
+    assert!(error(Figure::RodLength, vec![0.0, 0.1, 0.0, 0.0], uniform).contains("cylinder 2"));
+    assert!(error(Figure::Pin, vec![30.0, 0.0, 0.0], normal).contains("half a turn"));
+    assert!(error(Figure::Pin, vec![1.0; 4], normal).contains("one for each crankpin"));
+    assert!(error(Figure::Z, vec![1.0, 1.0], normal).contains("one for each cylinder"));
+    assert!(error(Figure::Z, vec![1.0, -1.0, 0.0, 0.0], normal).starts_with("z = -1.0:"));
+    // Any deviation of a rotating mass is an unbalance.
+    assert_eq!(error(Figure::RotatingMass, vec![9.0; 4], normal), "");
+    for pins in [&[0, 0, 1][..], &[0, 0, 2, 2], &[0, 0, 0, 9]] {
+        let drawn = (normal, 0);
+        let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, NONE, drawn, pins, &Cancel::new());
+        assert!(made.is_err(), "{pins:?}");
+    }
+}
+
+#[test]
+fn a_request_to_stop_is_met() {
+    let cancel = Cancel::new();
+    let tolerances = made(spreads(), Distribution::Normal, 5);
+    cancel.raise();
+    assert_eq!(tolerances.sample(0..10_000, &cancel), Err(Error::Cancelled));
+    assert_eq!(tolerances.deviations(Figure::Z, 0..10_000, &cancel), Err(Error::Cancelled));
+}
+
+#[test]
+fn sums_of_many_rows_peak_as_each_by_itself() {
+    let orders = Order::all_whole(&ORDERS).unwrap();
+    let rows: Vec<Complex64> =
+        (0..1200).map(|k| Complex64::cis(0.7 * f64::from(k)) / f64::from(1 + k % 7)).collect();
+    let found = largest_sums(&orders, &rows, &Cancel::new()).unwrap();
+    let finder = PeakFinder::new(&orders);
+    for (found, row) in found.iter().zip(rows.chunks(4)) {
+        assert_eq!(*found, finder.along_axis(row));
+    }
+}

@@ -1,0 +1,124 @@
+//! Samples of an engine whose figures deviate.
+
+use crankpin_core as core;
+use crankpin_core::tolerances::{Distribution, FIGURES, Figure, largest_sums};
+use crankpin_core::{Complex64, Error, Order, Request};
+use ndarray::{Array, Array3, IntoDimension};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::convert::{OrRaise, frozen, python_error};
+use crate::engine::{Engine, choice};
+use crate::interrupt;
+
+/// An engine, the spreads of its figures, and what is asked of its samples.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct Tolerances {
+    tolerances: core::tolerances::Tolerances,
+    orders: usize,
+    torque: bool,
+}
+
+/// Force and moment (samples, orders, x y forward backward), torques (samples, orders, block crank),
+/// peaks of all orders together (samples, force moment block crank).
+type Samples<'py> = (
+    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyArray3<Complex64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+fn shaped<T, S: IntoDimension>(shape: S, values: Vec<T>) -> PyResult<Array<T, S::Dim>> {
+    let shape = shape.into_dimension();
+    let text = format!("{shape:?}");
+    Array::from_shape_vec(shape, values)
+        .map_err(|error| python_error(Error::value("samples", text, error.to_string())))
+}
+
+#[pymethods]
+impl Tolerances {
+    #[new]
+    #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+    fn new(
+        py: Python<'_>,
+        engine: &Bound<'_, Engine>,
+        rpm: f64,
+        orders: Vec<u32>,
+        reference_z: Option<f64>,
+        torque: bool,
+        spreads: [Vec<f64>; FIGURES],
+        distribution: &str,
+        seed: u64,
+        pins: Vec<usize>,
+    ) -> PyResult<Self> {
+        let distributions = [("normal", Distribution::Normal), ("uniform", Distribution::Uniform)];
+        let distribution = choice("distribution", distribution, &distributions)?;
+        let request = Request { rpm, reference_z, spectrum: None, torque };
+        let engine = &engine.get().0;
+        let tolerances = interrupt::run(py, |cancel| {
+            core::tolerances::Tolerances::new(
+                engine,
+                &request,
+                &orders,
+                spreads,
+                (distribution, seed),
+                &pins,
+                cancel,
+            )
+        })?;
+        Ok(Self { tolerances, orders: orders.len(), torque })
+    }
+
+    /// So many samples from one on.
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        first: usize,
+        count: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Samples<'py>> {
+        let samples = first..first.saturating_add(count);
+        let found = interrupt::watched(py, progress.as_ref(), |cancel| {
+            self.tolerances.sample(samples, cancel)
+        })?;
+        let planar = |pairs: Vec<[Complex64; 4]>| -> PyResult<Array3<Complex64>> {
+            shaped((count, self.orders, 4), pairs.into_flattened())
+        };
+        let with_torque = if self.torque { count } else { 0 };
+        let torque = shaped((with_torque, self.orders, 2), found.torque.into_flattened())?;
+        Ok((
+            frozen(py, planar(found.force)?),
+            frozen(py, planar(found.moment)?),
+            frozen(py, torque),
+            frozen(py, shaped((count, 4), found.peaks.into_flattened())?),
+        ))
+    }
+
+    /// Deviations of a figure of each cylinder or pin, in so many samples from one on.
+    fn deviations<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        first: usize,
+        count: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let figure = choice("name", name, &Figure::ALL.map(|figure| (figure.name(), figure)))?;
+        let samples = first..first.saturating_add(count);
+        let values =
+            interrupt::run(py, |cancel| self.tolerances.deviations(figure, samples, cancel))?;
+        Ok(frozen(py, values))
+    }
+}
+
+/// Largest magnitude over the turn of each row of peak phasors, one of each order.
+#[pyfunction]
+pub fn peaks_of_sums<'py>(
+    py: Python<'py>,
+    orders: Vec<u32>,
+    phasors: PyReadonlyArray2<'_, Complex64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let orders = Order::all_whole(&orders).or_raise()?;
+    let phasors = phasors.as_slice()?;
+    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, cancel))?;
+    Ok(frozen(py, peaks.into()))
+}

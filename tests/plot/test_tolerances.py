@@ -1,0 +1,88 @@
+"""Do the pictures of tolerances show the numbers of the samples?"""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from typing import TYPE_CHECKING
+
+from matplotlib import pyplot as plt
+from matplotlib.patches import Rectangle, StepPatch
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+T = cp.tolerances(
+    cp.Engine.preset("i6"), rpm=6000, reciprocating_mass=0.002, pin_deg=0.1, samples=400
+)
+
+
+@pytest.fixture
+def ax() -> Axes:
+    return plt.subplots()[1]
+
+
+def vertical(ax: Axes, label: str) -> float:
+    (line,) = (line for line in ax.lines if line.get_label() == label)
+    return float(line.get_xdata()[0])  # type: ignore[index]
+
+
+def test_a_histogram_has_all_samples_and_the_nominal_value(ax: Axes) -> None:
+    assert T.plot(ax) is ax
+    steps = [patch for patch in ax.patches if isinstance(patch, StepPatch)]
+    values, edges, _ = steps[-1].get_data()
+    found = np.histogram(T.values(), edges)[0]
+    np.testing.assert_allclose(values, 100.0 * found / 400)
+    assert values.sum() == pytest.approx(100.0)
+    assert vertical(ax, "nominal") == T.nominal_value()
+    lines = ax.collections[0].get_segments()  # type: ignore[attr-defined]
+    assert [line[0, 0] for line in lines] == T.quantile().tolist()
+    assert ax.get_xlabel() == "total.force.peak, N"
+
+
+def test_an_ecdf_rises_by_a_sample_at_each_value(ax: Axes) -> None:
+    T.plot(ax, kind="ecdf", by="[1].force.forward", label="2 g", color="tab:green")
+    curve = next(line for line in ax.lines if line.get_label() == "2 g")
+    np.testing.assert_array_equal(curve.get_xdata(), np.sort(T.values("[1].force.forward")))
+    np.testing.assert_allclose(curve.get_ydata(), 100.0 * np.arange(1, 401) / 400)
+    assert curve.get_color() == "tab:green"
+    dots = next(line for line in ax.lines if "quantiles" in str(line.get_label()))
+    assert np.array(dots.get_xdata()).tolist() == T.quantile(by="[1].force.forward").tolist()
+
+
+def test_shares_are_bars_one_after_the_other(ax: Axes) -> None:
+    T.plot(ax, kind="shares")
+    bars = [patch for patch in ax.patches if isinstance(patch, Rectangle)]
+    widths = np.array([bar.get_width() for bar in bars]).reshape(len(T.shares.tolerances), -1)
+    np.testing.assert_allclose(widths.T, 100.0 * T.shares.values)
+    second = bars[len(T.by) :]
+    for bar, before in zip(second, widths[0], strict=True):
+        assert bar.get_x() == pytest.approx(before)
+    assert [text.get_text() for text in ax.get_yticklabels()] == list(T.by)
+
+
+def test_two_results_share_axes_in_successive_colours(ax: Axes) -> None:
+    other = cp.tolerances(T.engine, rpm=6000, reciprocating_mass=0.004, samples=400)
+    for result, label in ((T, "2 g"), (other, "4 g")):
+        result.plot(ax, kind="ecdf", label=label)
+    curves = [line for line in ax.lines if line.get_label() in ("2 g", "4 g")]
+    assert curves[0].get_color() != curves[1].get_color()
+    legend = ax.get_legend()
+    assert legend is not None
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert texts == ["2 g", "5, 50, 95 % quantiles", "4 g", "nominal"]
+
+
+def test_new_axes_and_errors() -> None:
+    ax = T.plot(kind="shares", by="total.force.peak")
+    assert len(ax.patches) == len(T.shares.tolerances)
+    plt.close("all")
+    with pytest.raises(cp.InputError, match=r'kind = .pie.: give "histogram" or "ecdf"'):
+        T.plot(kind="pie")
+    with pytest.raises(cp.InputError, match="by = "):
+        T.plot(by="weight")
+    assert not plt.get_fignums()
