@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import sys
 from typing import Any, Literal
 
 import crankpin as cp
@@ -479,6 +480,20 @@ def test_bounds_and_drilling_places_together() -> None:
     assert fitted.exact
     assert fitted.largest <= bound * (1 + 1e-9)
     assert couple(fitted.engine)[0] == 0.0
+
+
+def test_scipy_is_needed_where_it_is_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    assert cp.counterweights(CROSSPLANE, planes="webs", bound=2.0).exact
+    assert cp.counterweights(I4, planes="webs", target="internal").exact
+    options: list[dict[str, Any]] = [
+        {"minimise": "largest"},
+        {"bound": 0.1},
+        {"angles_deg": [0, 90]},
+    ]
+    for option in options:
+        with pytest.raises(ImportError, match=r'pip install "crankpin\[optimize\]"'):
+            cp.counterweights(CROSSPLANE, planes="webs", **option)
 
 
 # --- laws ----------------------------------------------------------------------------------------
