@@ -71,6 +71,8 @@ def test_a_bob_weight_is_rotating_and_a_part_of_reciprocating_mass_and_oil() -> 
             ),
             [(1, 3), (2, 4)],
         ),
+        # Two cylinders of one bank have two throws, however close.
+        (cp.Engine.inline(UNIT, throws_deg=[0, 0], spacing=0.5), [(1,), (2,)]),
         # A radial has all its rods on one pin.
         (
             cp.Engine.from_lists(
@@ -301,5 +303,10 @@ def test_arguments_that_do_not_fit_are_named(given_: dict[str, Any], words: str)
     arguments: dict[str, Any] = {"engine": v_twin(90)} | given_
     with pytest.raises(cp.InputError, match=words):
         cp.bob_weight(**arguments)
+    bob = cp.bob_weight(v_twin(90))
     with pytest.raises(cp.InputError, match="quantity = 'torque'"):
-        cp.bob_weight(v_twin(90)).stays("torque")
+        bob.stays("torque")
+    with pytest.raises(cp.InputError, match=r"factor = .*inf.*give a part"):
+        bob.stays("force", [0.1, np.inf])
+    with pytest.raises(cp.InputError, match=r"factors = .*-1.*give a part"):
+        bob.table_of_factors([-1])

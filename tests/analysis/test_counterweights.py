@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import sys
 from typing import Any, Literal
 
 import crankpin as cp
@@ -301,6 +302,12 @@ def test_one_plane_is_exact_only_where_that_is_proved() -> None:
     assert not cp.counterweights(single, planes=[0.1]).exact
     assert not cp.counterweights(single, planes=[0.1, 0.1]).exact
     assert cp.counterweights(single, planes=[0.1, 0.2]).exact
+    # A tenth of a nanometre beside the plane: next to nothing is left, which is not zero.
+    twin = cp.Engine.vee(UNIT, bank_angle_deg=90, throws_deg=[0], spacing=1.0, bank_stagger=1e-10)
+    beside = cp.counterweights(twin, planes=[0.0], length=1.0)
+    assert not beside.exact
+    assert beside.verdicts.moment.forward == "remains"
+    assert not beside.vanishes
     unequal = {"force": 1.0, "moment": 0.5}
     # In the plane of the cylinder there is no moment, of which half is as good as all.
     assert cp.counterweights(single, planes=[0.0], fraction=unequal).exact
@@ -349,7 +356,10 @@ def test_internal_weights_count_those_there_are() -> None:
     fitted = cp.counterweights(
         I4.with_counterweights(there), planes="webs", target="internal", fraction=1.0
     )
-    # The one beyond the last bearing belongs to no bay.
+    # The bays together, and the weight beyond the last bearing, are the engine.
+    before = fitted.before.balance(UNIT_SPEED, orders=[1])[1]
+    together = sum(load.force for load in fitted.bay_loads_before) + 0.1
+    assert together == pytest.approx(complex(before.force.forward))
     assert all(load.force == load.moment == 0.0 for load in fitted.bay_loads)
     assert fitted.engine.counterweights[:3] == tuple(there)
 
@@ -470,6 +480,20 @@ def test_bounds_and_drilling_places_together() -> None:
     assert fitted.exact
     assert fitted.largest <= bound * (1 + 1e-9)
     assert couple(fitted.engine)[0] == 0.0
+
+
+def test_scipy_is_needed_where_it_is_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    assert cp.counterweights(CROSSPLANE, planes="webs", bound=2.0).exact
+    assert cp.counterweights(I4, planes="webs", target="internal").exact
+    options: list[dict[str, Any]] = [
+        {"minimise": "largest"},
+        {"bound": 0.1},
+        {"angles_deg": [0, 90]},
+    ]
+    for option in options:
+        with pytest.raises(ImportError, match=r'pip install "crankpin\[optimize\]"'):
+            cp.counterweights(CROSSPLANE, planes="webs", **option)
 
 
 # --- laws ----------------------------------------------------------------------------------------

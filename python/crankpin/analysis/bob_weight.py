@@ -78,9 +78,7 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     """
     engine_core(engine)
     part, of_oil = inputs.number("factor", factor), inputs.number("oil", oil)
-    if not 0.0 <= part <= LARGEST_FACTOR:
-        remedy = f"give a part of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
-        raise InputError(f"factor = {part}: {remedy}")
+    _check("factor", part)
     if not 0.0 <= of_oil <= 1e6:
         raise InputError(f"oil = {of_oil}: give the oil of a crankpin in kilograms, 0 or more")
     return BobWeight(engine, part, of_oil)
@@ -230,9 +228,10 @@ class BobWeight(Frozen):
             Fields are numbers, or arrays of the shape of ``factor``.
         """
         parts = self._parts(quantity)
-        if factor is None:
-            return Ellipse(*(float(each) for each in _ellipse(*parts, np.array(self.factor))))
-        return _ellipse(*parts, inputs.array("factor", factor))
+        factors = inputs.array("factor", self.factor if factor is None else factor)
+        _check("factor", factors)
+        ellipse = _ellipse(*parts, factors)
+        return ellipse if factors.ndim else Ellipse(*map(float, ellipse))
 
     def least(self, quantity: str) -> float | None:
         """Return the factor of the least longest vector: 0.5 without pin offset.
@@ -253,7 +252,7 @@ class BobWeight(Frozen):
         """Return the factors that leave a vector along a straight line, and its direction.
 
         They are ½(1 ± |backward|/|forward|) without pin offset; none if either part is zero, and
-        those below 0 are left out.
+        those below 0 or above 10 are left out.
 
         Parameters
         ----------
@@ -274,7 +273,7 @@ class BobWeight(Frozen):
         roots = [0.0 if abs(each) < 1e-12 else each for each in (middle - apart, middle + apart)]
         found = []
         for factor in dict.fromkeys(roots):
-            if factor >= 0.0:
+            if 0.0 <= factor <= LARGEST_FACTOR:
                 ellipse = _ellipse(start, change, backward, np.array(factor))
                 direction = round(float(ellipse.tilt_deg), 9) + 0.0  # no −0
                 found.append(Straight(factor, direction, 2.0 * abs(backward)))
@@ -334,6 +333,7 @@ class BobWeight(Frozen):
             line.
         """
         given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
+        _check("factors", given)
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
         for factor, text in self._remarkable() if factors is None else ():
             # 0.5 comes out as 0.49999999999999994 at times.
@@ -379,6 +379,14 @@ class BobWeight(Frozen):
             Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
+
+
+def _check(name: str, factor: ArrayLike) -> None:
+    """Raise an InputError unless factors are parts of the reciprocating mass."""
+    listed = np.asarray(factor)
+    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+        remedy = f"give a part of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
+        raise InputError(f"{name} = {inputs.shorten(factor)}: {remedy}")
 
 
 def _ellipse(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -83,16 +82,12 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
         z=engine.z[places],
         rotating_mass=engine.rotating_mass[places],
         counterweights=[
-            _in_bay(engine, bay, weight) for weight in engine.counterweights if bay.holds(weight.z)
+            _in_bay(engine, weight) for weight in engine.counterweights if bay.holds(weight.z)
         ],
     )
 
 
-def _in_bay(engine: Engine, bay: Bay, weight: Unbalance) -> Unbalance:
-    """Return a weight with its pin's number in the bay, or turned if that is elsewhere."""
-    if weight.pin is None:
-        return weight
-    if weight.pin in bay.cylinders:
-        return dataclasses.replace(weight, pin=bay.cylinders.index(weight.pin) + 1)
-    turned = float(engine.pin_deg[weight.pin - 1]) + correction_planes.degrees(weight.angle_deg)
-    return Unbalance(weight.amount, weight.z, turned)
+def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
+    """Return a weight at its own angle: its pin has another number in a bay, or none."""
+    start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
+    return Unbalance(weight.amount, weight.z, start + correction_planes.degrees(weight.angle_deg))

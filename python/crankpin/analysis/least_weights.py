@@ -34,6 +34,8 @@ MOST_AGAIN = 8
 """Fans of one distance between angles that are tried where the best was at the end of the last."""
 REACHED = 1e-9
 """What may be missing where weights make the target, relative to it."""
+NOTHING = 1e-200
+"""Targets below this are none."""
 UNBOUNDED = 1e9
 """Bounds above this multiple of the target bind nowhere; those below its inverse leave nothing."""
 
@@ -94,11 +96,12 @@ class Columns(NamedTuple):
 def least(problem: Problem) -> Weights:
     """Return the least of the weights that come nearest to the target."""
     scale = float(np.abs(problem.target).max(initial=0.0))
-    bounds = problem.bounds / scale if scale else np.zeros(len(problem.bounds))
+    wanted = scale > NOTHING
+    bounds = problem.bounds / scale if wanted else np.zeros(len(problem.bounds))
     kept = np.flatnonzero(bounds > 1.0 / UNBOUNDED)
     if not kept.size:
         nothing = np.empty(0, dtype=np.intp)
-        return Weights(nothing, nothing, nothing.astype(np.complex128), reached=scale == 0.0)
+        return Weights(nothing, nothing, nothing.astype(np.complex128), reached=not wanted)
     scaled = Problem(
         problem.matrix[:, kept],
         problem.target / scale,
