@@ -2,7 +2,7 @@
 
 Both draw the deviations, evaluate the exact harmonics of every slider-crank and the sums of each
 order, and find the peaks of all orders together. That in NumPy (tests/rederivation/tolerances.py)
-polishes the best point of a grid; crankpin's peaks are proved to be the highest.
+polishes the three highest points of a grid; crankpin's peaks are proved to be the highest.
 """
 
 from __future__ import annotations

@@ -19,6 +19,8 @@ Complex = NDArray[np.complex128]
 
 NEWTON_STEPS = 5
 GRID_PER_WAVE = 16
+TOPS = 3
+"""Local maxima of a grid that are polished: the highest of the grid may not be the highest."""
 
 
 @dataclass(frozen=True)
@@ -132,21 +134,22 @@ def harmonics(rod_ratio: Array, orders: Sequence[int], terms: int = 8) -> tuple[
 
 
 def largest(phasors: Complex, orders: Sequence[int]) -> Array:
-    """Largest magnitude over the turn of each row: the best grid point, then Newton's method."""
-    return np.maximum(_highest(phasors, orders), _highest(-phasors, orders))
-
-
-def _highest(phasors: Complex, orders: Sequence[int]) -> Array:
+    """Largest magnitude over the turn of each row."""
     n = np.array(orders)
     theta = np.linspace(0.0, 2.0 * np.pi, GRID_PER_WAVE * max(orders), endpoint=False)
     angles = np.outer(n, theta)
     grid = phasors.real @ np.cos(angles) - phasors.imag @ np.sin(angles)
-    at = theta[grid.argmax(axis=1)]
-    for _ in range(NEWTON_STEPS):
-        terms = phasors * np.exp(1j * np.outer(at, n))
-        slope, bend = -(n * terms.imag).sum(axis=1), -(n * n * terms.real).sum(axis=1)
-        at = at - np.divide(slope, bend, out=np.zeros_like(slope), where=bend < 0.0)
-    return np.asarray((phasors * np.exp(1j * np.outer(at, n))).sum(axis=1).real)
+    best = np.abs(grid).max(axis=1)
+    for sign in (1.0, -1.0):
+        for start in _tops(sign * grid):
+            at = theta[start]
+            for _ in range(NEWTON_STEPS):
+                terms = sign * phasors * np.exp(1j * np.outer(at, n))
+                slope, bend = -(n * terms.imag).sum(axis=1), -(n * n * terms.real).sum(axis=1)
+                at = at + _step(slope, bend, theta[1])
+            value = (sign * phasors * np.exp(1j * np.outer(at, n))).sum(axis=1).real
+            best = np.maximum(best, value)
+    return np.asarray(best)
 
 
 def longest(forward: Complex, backward: Complex, orders: Sequence[int]) -> Array:
@@ -156,14 +159,28 @@ def longest(forward: Complex, backward: Complex, orders: Sequence[int]) -> Array
     theta = np.linspace(0.0, 2.0 * np.pi, 2 * GRID_PER_WAVE * max(orders), endpoint=False)
     vector = parts @ np.exp(1j * np.outer(n, theta))
     grid = vector.real**2 + vector.imag**2
-    at = theta[grid.argmax(axis=1)]
-    for _ in range(NEWTON_STEPS):
-        terms = parts * np.exp(1j * np.outer(at, n))
-        v, dv, ddv = terms.sum(axis=1), (1j * n * terms).sum(axis=1), -(n * n * terms).sum(axis=1)
-        slope = (v.conj() * dv).real
-        bend = (dv.conj() * dv + v.conj() * ddv).real
-        # Where the length hardly varies a step may be of rounding alone.
-        step = np.divide(slope, bend, out=np.zeros_like(slope), where=bend < 0.0)
-        at = at - np.clip(step, -0.5 * theta[1], 0.5 * theta[1])
-    polished = np.abs((parts * np.exp(1j * np.outer(at, n))).sum(axis=1))
-    return np.maximum(polished, np.sqrt(grid.max(axis=1)))
+    best = np.sqrt(grid.max(axis=1))
+    for start in _tops(grid):
+        at = theta[start]
+        for _ in range(NEWTON_STEPS):
+            terms = parts * np.exp(1j * np.outer(at, n))
+            v, dv = terms.sum(axis=1), (1j * n * terms).sum(axis=1)
+            ddv = -(n * n * terms).sum(axis=1)
+            slope, bend = (v.conj() * dv).real, (dv.conj() * dv + v.conj() * ddv).real
+            at = at + _step(slope, bend, theta[1])
+        value = np.abs((parts * np.exp(1j * np.outer(at, n))).sum(axis=1))
+        best = np.maximum(best, value)
+    return np.asarray(best)
+
+
+def _tops(grid: Array) -> list[NDArray[np.intp]]:
+    """Places of the highest local maxima of each row, which one is highest tells the polish."""
+    local = (grid >= np.roll(grid, 1, axis=1)) & (grid >= np.roll(grid, -1, axis=1))
+    heights = np.where(local, grid, -np.inf)
+    return list(np.argpartition(-heights, range(TOPS), axis=1)[:, :TOPS].T)
+
+
+def _step(slope: Array, bend: Array, longest_step: float) -> Array:
+    """Newton's step towards a maximum; none where rounding is all there is."""
+    step = np.divide(-slope, bend, out=np.zeros_like(slope), where=bend < 0.0)
+    return np.asarray(np.clip(step, -longest_step, longest_step))

@@ -86,23 +86,33 @@ impl PeakFinder {
             return self.of_vector(&scaled(x), &scaled(y)) * largest;
         }
         let heights = self.squares(&self.quadratic, x, y);
-        let bounds = Bounds::new(&heights, self.squared_terms(x, y).into_iter());
+        let bounds = self.squared_bounds(&heights, x, y);
         let squared = |unit| self.squared_length(x, y, unit);
         Self::peak(&self.quadratic, &heights, bounds, 0.0, &squared).sqrt()
     }
 
-    /// Waves of a vector's squared length and their amplitudes.
+    /// Bounds of a vector's squared length.
     ///
     /// Of x + iy = Σ vⱼ e^{ijθ} it has order d from every two terms that are d apart.
-    fn squared_terms(&self, x: &[Complex64], y: &[Complex64]) -> Vec<(u32, f64)> {
+    fn squared_bounds(&self, heights: &Heights, x: &[Complex64], y: &[Complex64]) -> Bounds {
+        /// Orders up to which everything fits on the stack.
+        const FEW: usize = 16;
         let i = Complex64::i();
         let highest = self.waves.iter().copied().max().unwrap_or(0) as usize;
-        let parts = self.waves.iter().zip(x).zip(y).flat_map(|((&wave, x), y)| {
-            let (forward, backward) = (0.5 * (x + i * y), 0.5 * (x.conj() + i * y.conj()));
-            [(i64::from(wave), forward), (-i64::from(wave), backward)]
-        });
-        let parts: Vec<_> = parts.filter(|(_, part)| *part != Complex64::default()).collect();
-        let mut terms = vec![Complex64::default(); 2 * highest + 1];
+        let (mut few, mut few_parts) = ([Complex64::default(); 2 * FEW + 1], [(0, i); 2 * FEW]);
+        let (mut many, mut many_parts) = (Vec::new(), Vec::new());
+        let (terms, parts) = if highest <= FEW {
+            (&mut few[..], &mut few_parts[..])
+        } else {
+            many.resize(2 * highest + 1, Complex64::default());
+            many_parts.resize(2 * self.waves.len(), (0, i));
+            (&mut many[..], &mut many_parts[..])
+        };
+        for (k, ((&wave, x), y)) in self.waves.iter().zip(x).zip(y).enumerate() {
+            parts[2 * k] = (i64::from(wave), 0.5 * (x + i * y));
+            parts[2 * k + 1] = (-i64::from(wave), 0.5 * (x.conj() + i * y.conj()));
+        }
+        let parts = &parts[..2 * self.waves.len()];
         for (k, (wave, part)) in parts.iter().enumerate() {
             for (other, of_other) in &parts[k + 1..] {
                 let (above, below) = if wave > other { (part, of_other) } else { (of_other, part) };
@@ -110,7 +120,8 @@ impl PeakFinder {
             }
         }
         // Their squares are within range: a tenth of what `norm` takes.
-        (0..).zip(&terms).map(|(wave, term)| (wave, 2.0 * term.norm_sqr().sqrt())).collect()
+        let amplitudes = terms.iter().map(|term| 2.0 * term.norm_sqr().sqrt());
+        Bounds::new(heights, (0..).zip(amplitudes))
     }
 
     /// The sum's real part at the points of a grid.
@@ -207,8 +218,8 @@ impl PeakFinder {
         let negligible = 0.25 * f64::EPSILON * highest;
         let mut best = highest.max(known);
         let may_hold_more = |interval: &Interval, best: f64| {
-            let hidden = bounds.hidden(interval);
-            hidden > negligible && interval.highest_end() + hidden > best
+            let ceiling = bounds.ceiling(interval);
+            ceiling - interval.highest_end() > negligible && ceiling > best
         };
         // Slopes are evaluated only where values leave room for a peak.
         let most_hidden = bounds.hidden_in_bracket(step).max(step.powi(3) / 12.0 * bounds.third);
@@ -231,7 +242,7 @@ impl PeakFinder {
         let mut looked = 0;
         for (part, lanes) in heights.as_chunks::<LANES>().0.iter().enumerate() {
             // Most lanes have no point that is high enough.
-            if !lanes.iter().fold(false, |any, &height| any | (height > needed)) {
+            if lanes.iter().map(|&height| u32::from(height > needed)).sum::<u32>() == 0 {
                 continue;
             }
             for k in (part * LANES..).take(LANES).filter(|&k| heights[k] > needed) {
@@ -294,7 +305,9 @@ impl Heights {
     }
 
     fn negate(&mut self) {
-        self.values.iter_mut().for_each(|value| *value = -*value);
+        for value in &mut self.values {
+            *value = -*value;
+        }
         (self.lowest, self.highest) = (-self.highest, -self.lowest);
     }
 }
@@ -327,17 +340,23 @@ impl Bounds {
         }
     }
 
-    /// How far the sum may rise above both ends.
-    fn hidden(&self, interval: &Interval) -> f64 {
-        if interval.rises_then_falls() {
-            return self.hidden_in_bracket(interval.width);
+    /// A value that the sum does not exceed between the ends.
+    fn ceiling(&self, interval: &Interval) -> f64 {
+        let width = interval.width;
+        if !interval.rises_then_falls() {
+            // It rises from a dip to a peak: between two zeros of the slope, by the third derivative.
+            return interval.highest_end() + width.powi(3) / 12.0 * self.third;
         }
-        // It rises from a dip to a peak: between two zeros of the slope, by the third derivative.
-        interval.width.powi(3) / 12.0 * self.third
+        // In either half the parabola at its end, and what the third derivative adds.
+        let [left, right] = interval.ends.map(|[value, slope, bend]| {
+            if bend < 0.0 { value - 0.5 * slope * slope / bend } else { f64::INFINITY }
+        });
+        let by_parabolas = left.max(right) + width.powi(3) / 48.0 * self.third;
+        by_parabolas.min(interval.highest_end() + self.hidden_in_bracket(width))
     }
 
-    /// The same where it rises at one end and falls at the other, from one peak to the nearer end by
-    /// the second derivative.
+    /// How far the sum may rise above both ends where it rises at one and falls at the other: from one
+    /// peak to the nearer end by the second derivative.
     fn hidden_in_bracket(&self, width: f64) -> f64 {
         width.powi(2) / 8.0 * self.second
     }

@@ -168,7 +168,7 @@ fn few_values_are_needed() {
             of_sums += calls.replace(0);
             let squared = |unit| counted(finder.squared_length(&x, &y, unit));
             let heights = finder.squares(&finder.quadratic, &x, &y);
-            let bounds = Bounds::new(&heights, finder.squared_terms(&x, &y).into_iter());
+            let bounds = finder.squared_bounds(&heights, &x, &y);
             PeakFinder::peak(&finder.quadratic, &heights, bounds, 0.0, &squared);
             of_vectors += calls.replace(0);
         }

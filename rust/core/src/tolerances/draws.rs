@@ -56,10 +56,14 @@ impl Draws {
                     match self.distribution {
                         Distribution::Normal => random::normals(column),
                         Distribution::Uniform => {
-                            column.iter_mut().for_each(|value| *value = 2.0 * *value - 1.0);
+                            for value in column.iter_mut() {
+                                *value = 2.0 * *value - 1.0;
+                            }
                         }
                     }
-                    column.iter_mut().for_each(|value| *value *= spread);
+                    for value in column.iter_mut() {
+                        *value *= spread;
+                    }
                 }
             },
         );

@@ -291,9 +291,10 @@ fn pins(pin_of: &[usize]) -> usize {
 
 /// As many spreads as cylinders or pins, each zero or more; or none.
 fn check_spreads(engine: &Engine, pin_of: &[usize], figure: Figure, spreads: &[f64]) -> Result<()> {
-    let (expected, item) = match figure.of_pin() {
-        true => (pins(pin_of), "crankpin"),
-        false => (engine.placements().len(), "cylinder"),
+    let (expected, item) = if figure.of_pin() {
+        (pins(pin_of), "crankpin")
+    } else {
+        (engine.placements().len(), "cylinder")
     };
     if !spreads.is_empty() && spreads.len() != expected {
         return Err(Error::Length {

@@ -178,7 +178,9 @@ impl Terms {
                 for (turns, angles) in turns.iter_mut().zip(angles) {
                     for ([cos, sin], &n) in turns.iter_mut().zip(&self.orders) {
                         let mut degrees = *angles;
-                        degrees.iter_mut().for_each(|angle| *angle *= f64::from(n));
+                        for angle in &mut degrees {
+                            *angle *= f64::from(n);
+                        }
                         sin_cos_degrees(&degrees, sin, cos);
                     }
                 }
@@ -316,7 +318,11 @@ fn turned(weight: &Column, amplitude: &Parts, turn: Option<&[Column; 2]>) -> [Co
     let [mut re, mut im] = [*weight; 2];
     for (column, values) in [&mut re, &mut im].into_iter().zip(amplitude) {
         match values[..] {
-            [value] => column.iter_mut().for_each(|weight| *weight *= value),
+            [value] => {
+                for weight in column.iter_mut() {
+                    *weight *= value;
+                }
+            }
             _ => column.iter_mut().zip(values).for_each(|(weight, value)| *weight *= value),
         }
     }
@@ -337,7 +343,9 @@ fn at_rest(weight: f64, amplitude: &Parts) -> [f64; 2] {
 #[inline(always)]
 fn less(mut values: [Column; 2], base: [f64; 2]) -> [Column; 2] {
     for (values, base) in values.iter_mut().zip(base) {
-        values.iter_mut().for_each(|value| *value -= base);
+        for value in values.iter_mut() {
+            *value -= base;
+        }
     }
     values
 }

@@ -52,21 +52,21 @@ impl Totals {
             let range = component * orders..(component + count) * orders;
             (&phasors[range.clone()], self.phasors[range.clone()] == phasors[range])
         };
-        let vector = |k: usize| match of(2 * k, 2) {
-            (_, true) => self.peaks[k],
-            (both, false) => {
-                let (x, y) = both.split_at(orders);
-                finder.of_vector(x, y)
-            }
+        let vector = |k: usize| {
+            let (both, same) = of(2 * k, 2);
+            let (x, y) = both.split_at(orders);
+            if same { self.peaks[k] } else { finder.of_vector(x, y) }
         };
         let ((roll, same_roll), (crank, same_crank)) = (of(4, 1), of(5, 1));
         let on_block = if same_roll { self.peaks[2] } else { finder.along_axis(roll) };
         // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
         let opposite = || roll.iter().zip(crank).all(|(roll, crank)| *roll == -crank);
-        let on_crank = match same_crank {
-            true => self.peaks[3],
-            false if opposite() => on_block,
-            false => finder.along_axis(crank),
+        let on_crank = if same_crank {
+            self.peaks[3]
+        } else if opposite() {
+            on_block
+        } else {
+            finder.along_axis(crank)
         };
         [vector(0), vector(1), on_block, on_crank]
     }
