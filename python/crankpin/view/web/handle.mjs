@@ -2,7 +2,7 @@
 
 import { DEGREE, reduced } from "./complex.mjs";
 import { fixed, svg } from "./dom.mjs";
-import { place } from "./scene.mjs";
+import { boreEnds, place } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
 const BORE_NUMBER = 9; // pixels beyond the head
@@ -11,15 +11,15 @@ const CLOSE = 24; // degrees between pins whose numbers would overlap
 const MOST_IN_LINE = 4;
 
 export class Handle {
-  /** `turnBy` is told of every drag, in degrees. */
-  constructor(scene, turnBy) {
+  /** A drag begins at `angle()` and tells `turnTo` where it has come, in tenths of a degree. */
+  constructor(scene, angle, turnTo) {
     this.scene = scene;
     this.hit = svg("circle", { class: "handle" });
     this.circle = svg("circle", { class: "pin-circle" });
     this.sense = svg("path", { class: "sense" });
     this.numbers = svg("g");
     scene.overlay.append(this.circle, this.sense, this.numbers, this.hit);
-    this.drag(turnBy);
+    this.drag(angle, turnTo);
   }
 
   layout(engine) {
@@ -37,11 +37,11 @@ export class Handle {
     this.pins = pinNumbers(engine);
     const bores = boreGroups(engine).map(({ numbers, cylinder }) => {
       const [dx, dy] = cylinder.direction;
-      const reached = heads(cylinder, projection.scale) + BORE_NUMBER;
+      const { top, axis } = boreEnds(cylinder);
+      const [headX, headY] = projection.point([axis[0] + top * dx, axis[1] + top * dy, 0]);
       const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
       const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
-      const x = cx + reached * dx - projection.scale * cylinder.pin_offset * dy;
-      const y = cy - reached * dy - projection.scale * cylinder.pin_offset * dx + 4;
+      const [x, y] = [headX + BORE_NUMBER * dx, headY - BORE_NUMBER * dy + 4];
       const lines = Math.ceil(numbers.length / MOST_IN_LINE);
       for (let k = 0; k < lines; k++) {
         const part = numbers.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
@@ -64,35 +64,33 @@ export class Handle {
     }
   }
 
-  drag(turnBy) {
+  drag(angle, turnTo) {
     let last = null;
-    const angle = (event) => {
+    let reached = 0;
+    const pointed = (event) => {
       // The picture may be scaled: back from the screen to its own pixels.
       const at = new DOMPoint(event.clientX, event.clientY)
         .matrixTransform(this.scene.element.getScreenCTM().inverse());
       return Math.atan2(this.centre[1] - at.y, at.x - this.centre[0]) / DEGREE;
     };
     this.hit.addEventListener("pointerdown", (event) => {
-      last = angle(event);
+      last = pointed(event);
+      reached = angle();
       this.hit.setPointerCapture(event.pointerId);
       event.preventDefault();
     });
     this.hit.addEventListener("pointermove", (event) => {
       if (last === null) return;
-      const now = angle(event);
+      const now = pointed(event);
       const turned = now - last;
       last = now;
-      turnBy(turned - 360 * Math.round(turned / 360));
+      reached += turned - 360 * Math.round(turned / 360);
+      turnTo(Number(reached.toFixed(1)));
     });
     for (const end of ["pointerup", "pointercancel"]) {
       this.hit.addEventListener(end, () => { last = null; });
     }
   }
-}
-
-/** Distance of a head from the crank axis in pixels. */
-function heads({ crank_radius: r, rod_length: l }, scale) {
-  return (l + 1.95 * r) * scale;
 }
 
 /** Numbers of the cylinders at each crankpin, further out beside a close one; none for one pin. */
@@ -105,7 +103,8 @@ function pinNumbers({ cylinders }) {
   let level = 0;
   return groups.map((group, k) => {
     level = k && angle(group) - angle(groups[k - 1]) < CLOSE ? (level + 1) % 3 : 0;
-    return { first: group.first, level, text: svg("text", { class: "pin-numbers" }, ...listed(group.numbers)) };
+    const text = svg("text", { class: "pin-numbers" }, ...listed(group.numbers));
+    return { first: group.first, level, text };
   });
 }
 
