@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import crankpin as cp
+from chromium import browser, open_engine, open_file  # noqa: F401 - fixtures
 from rederivation import ijesc
 
 DATA = Path(__file__).parent / "data"

@@ -26,6 +26,11 @@ def sympy() -> Any:  # noqa: ANN401 - a module
     return _imported("sympy", "exact")
 
 
+def anywidget() -> Any:  # noqa: ANN401 - a module
+    """Return anywidget, or raise an ImportError that names the extra to install."""
+    return _imported("anywidget", "view")
+
+
 def _imported(name: str, extra: str | None = None) -> Any:  # noqa: ANN401 - a module
     try:
         return importlib.import_module(name)

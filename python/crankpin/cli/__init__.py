@@ -1,4 +1,4 @@
-"""The command line: tables and pictures of balances, sweeps and firings."""
+"""The command line: tables and pictures of balances, sweeps and firings, and pages."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import balance, firing, presets, rank, streams, sweep
+from crankpin.cli import balance, firing, gallery, presets, rank, streams, sweep, view
 from crankpin.cli.parser import PROG, Parser
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-COMMANDS = (presets, balance, sweep, rank, firing)
+COMMANDS = (presets, balance, sweep, rank, firing, view, gallery)
 """Modules of the commands, in the order of the help: each adds its parser and runs it."""
 
 

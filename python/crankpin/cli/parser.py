@@ -68,7 +68,14 @@ def orders_and_rtol(parser: Parser) -> None:
 
 
 def cylinder_and_output(parser: Parser) -> None:
-    """Add ``--reference-z``, ``--spectrum``, ``--csv`` and ``--plot``."""
+    """Add what :func:`loads` adds, ``--csv`` and ``--plot``."""
+    loads(parser)
+    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+
+
+def loads(parser: Parser) -> None:
+    """Add ``--reference-z`` and ``--spectrum``."""
     parser.add_argument(
         "--reference-z",
         metavar="Z",
@@ -80,5 +87,3 @@ def cylinder_and_output(parser: Parser) -> None:
         help="one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
         "1=9.0,2=3.75",
     )
-    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")

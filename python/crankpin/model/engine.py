@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.waveform import Waveform
     from crankpin.model.builders import FiringRule, Numbering, Side
     from crankpin.model.shafts import Shaft, Unbalance
+    from crankpin.view.widget import EngineWidget
 
 Hold: TypeAlias = Literal["pins", "firing"]
 
@@ -1132,6 +1133,70 @@ class Engine(Frozen):
         from crankpin.analysis.closed_form import closed_form
 
         return closed_form(self, order, quantity, reference_z=reference_z)
+
+    # --- pages ----------------------------------------------------------------------------------
+
+    def view(
+        self,
+        rpm: float = 3000.0,
+        *,
+        reference_z: float | None = None,
+        spectrum: Spectrum | None = None,
+    ) -> EngineWidget:
+        """Return the engine turning, as a widget for notebooks (needs anywidget).
+
+        Its traits ``angle_deg``, ``rpm``, ``bank_angle_deg``, ``rod_ratio`` and ``hold`` move the
+        page when they are set, and follow its reader.
+
+        Parameters
+        ----------
+        rpm
+            Crank speed at first.
+        reference_z
+            Plane about which moments are taken, m; by default midway between the first and the last
+            cylinder.
+        spectrum
+            As in :meth:`balance`: order → amplitude of one cylinder's force over ω², in kg·m. The
+            page has no torque then.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+        ImportError
+            If anywidget is not installed.
+        """
+        from crankpin.view.widget import EngineWidget
+
+        return EngineWidget(self, rpm, reference_z=reference_z, spectrum=spectrum)
+
+    def save_html(
+        self,
+        path: str | Path,
+        *,
+        rpm: float = 3000.0,
+        reference_z: float | None = None,
+        spectrum: Spectrum | None = None,
+    ) -> None:
+        """Write the engine turning, as a page that needs a browser alone and loads nothing.
+
+        Parameters
+        ----------
+        path
+            Name of the file, such as ``"v8.html"``.
+        rpm, reference_z, spectrum
+            As in :meth:`view`.
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+        OSError
+            If the file cannot be written.
+        """
+        from crankpin.view.page import save_html
+
+        save_html(self, path, rpm=rpm, reference_z=reference_z, spectrum=spectrum)
 
 
 def _allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:

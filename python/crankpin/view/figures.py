@@ -1,0 +1,154 @@
+"""What a page is told of an engine: its own figures, and the core's numbers of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._support import inputs
+from crankpin.analysis.balance import mean_piston_speed
+from crankpin.view.settings import Settings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from crankpin._support.inputs import Spectrum
+    from crankpin.analysis.quantities import PlaneVector
+    from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Unbalance
+
+HIGHEST_ORDER = 24
+"""Highest order of the pistons whose phasors a page has."""
+CURVE_STEP = 2.0
+"""Degrees between the samples of a curve."""
+
+
+def figures(
+    engine: Engine, rpm: float, *, reference_z: float | None, spectrum: Spectrum | None
+) -> dict[str, Any]:
+    """Return an engine as plain lists and numbers: metres, kilograms, degrees.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    """
+    Settings.of(engine, rpm).check(engine)
+    inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
+    plane = inputs.optional_number("reference_z", reference_z)
+    pairs = inputs.spectrum(spectrum)
+    angle = getattr(engine, "bank_angle_deg", None)
+    right = engine.bank_deg[next(iter(engine.banks.values()))[0] - 1]
+    return {
+        "name": engine.name,
+        "strokes": engine.strokes,
+        "rpm": float(rpm),
+        "reference_z": engine.reference_z if plane is None else plane,
+        "highest_order": HIGHEST_ORDER,
+        "bank_angle_deg": angle,
+        "bisector_deg": None if angle is None else float(right) + 0.5 * angle,
+        "cylinders": _cylinders(engine),
+        "counterweights": _unbalances(engine.counterweights),
+        "shafts": [
+            {
+                "ratio": shaft.ratio,
+                "x": shaft.x,
+                "y": shaft.y,
+                "unbalances": _unbalances(shaft.unbalances),
+            }
+            for shaft in engine.shafts
+        ],
+        "firing_order": engine.firing_order,
+        "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
+        "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
+    }
+
+
+def core_numbers(
+    engine: Engine, settings: Settings, *, reference_z: float | None, spectrum: Spectrum | None
+) -> dict[str, Any]:
+    """Return the core's phasors by order and its curves over a turn, of an engine at settings.
+
+    In the form in which the page computes its own: forces in N, moments and torques in N·m.
+    """
+    changed = settings.applied(engine)
+    ratios = {abs(shaft.ratio) for shaft in engine.shafts}
+    orders = sorted({*range(1, HIGHEST_ORDER + 1), *ratios, *(spectrum or ())})
+    balance = changed.balance(
+        settings.rpm, orders=orders, reference_z=reference_z, spectrum=spectrum, torque=False
+    )
+    waveform = changed.waveform(
+        settings.rpm,
+        theta_deg=np.arange(0.0, 361.0, CURVE_STEP),
+        orders=None if spectrum is None else orders,
+        reference_z=reference_z,
+        spectrum=spectrum,
+        torque=spectrum is None,
+    )
+    planar = {"force": balance.force, "moment": balance.moment}
+    none = [None] * len(waveform.theta_deg)
+    return {
+        "settings": dataclasses.asdict(settings),
+        "orders": [
+            {"order": order, **{name: _phasors(vector, k) for name, vector in planar.items()}}
+            for k, order in enumerate(balance.orders)
+        ],
+        "curve": {
+            "force": np.asarray(waveform.force).tolist(),
+            "moment": np.asarray(waveform.moment).tolist(),
+            "torque": none if spectrum is not None else np.asarray(waveform.torque).tolist(),
+        },
+    }
+
+
+def _cylinders(engine: Engine) -> list[dict[str, Any]]:
+    banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
+    return [
+        {
+            "number": number,
+            "bank": banks[number],
+            "crank_radius": cylinder.crank_radius,
+            "rod_length": cylinder.rod_length,
+            "reciprocating_mass": cylinder.reciprocating_mass,
+            "pin_offset": cylinder.pin_offset,
+            "rod_inertia_excess": cylinder.rod_inertia_excess,
+            "rotating_mass": rotating,
+            "tdc_deg": tdc,
+            "bank_deg": bore,
+            "z": z,
+        }
+        for number, (cylinder, tdc, bore, z, rotating) in enumerate(
+            zip(
+                engine.cylinders,
+                engine.tdc_deg.tolist(),
+                engine.bank_deg.tolist(),
+                engine.z.tolist(),
+                engine.rotating_mass.tolist(),
+                strict=True,
+            ),
+            start=1,
+        )
+    ]
+
+
+def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:
+    return [
+        {
+            "amount": each.amount,
+            "angle_deg": float(Fraction(each.angle_deg)),
+            "z": each.z,
+            "pin": None if each.pin is None else each.pin - 1,
+        }
+        for each in unbalances
+    ]
+
+
+def _phasors(vector: PlaneVector, k: int) -> dict[str, list[float]]:
+    return {"forward": _pair(vector.forward[k]), "backward": _pair(vector.backward[k])}
+
+
+def _pair(value: complex) -> list[float]:
+    return [float(value.real), float(value.imag)]

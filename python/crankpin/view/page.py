@@ -1,0 +1,76 @@
+"""Files that need a browser alone: modules, style and figures put together into one page."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from pathlib import Path
+from string import Template
+from typing import TYPE_CHECKING, Any
+
+from crankpin.view.figures import figures
+
+if TYPE_CHECKING:
+    from crankpin._support.inputs import Spectrum
+    from crankpin.model.engine import Engine
+
+WEB = Path(__file__).parent / "web"
+IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
+COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
+EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
+
+
+def save_html(
+    engine: Engine,
+    path: str | Path,
+    *,
+    rpm: float = 3000.0,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+) -> None:
+    """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
+    known = figures(engine, rpm, reference_z=reference_z, spectrum=spectrum)
+    text = document(engine.name or "Engine", "page.mjs", f"page({as_json(known)});")
+    Path(path).write_text(text, encoding="utf-8")
+
+
+def document(title: str, entry: str, call: str, body: str = "") -> str:
+    """Return a page that loads nothing: a module and what it imports, and a call of it."""
+    return Template(_read("page.html")).substitute(
+        title=html.escape(title), style=style(), script=f"{module(entry)}\n{call}", body=body
+    )
+
+
+def style() -> str:
+    """Return the style sheet; it styles elements within class ``crankpin`` alone."""
+    return _read("view.css")
+
+
+def module(entry: str) -> str:
+    """Return a module with all that it imports, as one module.
+
+    The modules import each other by name, without renaming, and no two have a name in common: one
+    after the other, without ``import`` and ``export``, they are one module. Comments are left out.
+    """
+    found: dict[str, str] = {}
+
+    def visit(name: str) -> None:
+        if name in found:
+            return
+        text = _read(name)
+        for each in IMPORT.findall(text):
+            visit(each)
+        found[name] = EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text)))
+
+    visit(entry)
+    return "\n".join(found.values())
+
+
+def as_json(value: Any) -> str:  # noqa: ANN401 - whatever JSON can hold
+    """Return JSON that may stand in a script element: no text in it can end the element."""
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _read(name: str) -> str:
+    return (WEB / name).read_text(encoding="utf-8")

@@ -1,0 +1,30 @@
+// Complex numbers as pairs [re, im], and unit vectors of angles in degrees.
+
+export const DEGREE = Math.PI / 180;
+
+export const add = ([a, b], [c, d]) => [a + c, b + d];
+export const multiply = ([a, b], [c, d]) => [a * c - b * d, a * d + b * c];
+export const scale = ([a, b], factor) => [a * factor, b * factor];
+export const conjugate = ([a, b]) => [a, -b];
+export const magnitude = ([a, b]) => Math.hypot(a, b);
+
+/** e^{i·angle}, exact at multiples of 90° and as accurate at large angles as at small ones. */
+export function unit(degrees) {
+  const reduced = degrees % 360;
+  const quarters = Math.round(reduced / 90);
+  const rest = (reduced - 90 * quarters) * DEGREE;
+  const cos = Math.cos(rest);
+  const sin = Math.sin(rest);
+  switch (((quarters % 4) + 4) % 4) {
+    case 0: return [cos, sin];
+    case 1: return [-sin, cos];
+    case 2: return [-cos, -sin];
+    default: return [sin, -cos];
+  }
+}
+
+/** Degrees reduced to [0, cycle). */
+export function reduced(degrees, cycle = 360) {
+  const rest = degrees % cycle;
+  return rest < 0 ? rest + cycle : rest;
+}

@@ -1,0 +1,194 @@
+// The reader's controls: the crank angle and how it plays, and the engine's settings.
+
+import { html, numbered, show, svg } from "./dom.mjs";
+import { rodRatioLimits } from "./engine.mjs";
+import { STRINGS } from "./strings.mjs";
+
+/** Exaggerations of the rocking; the first is none. */
+const FACTORS = [0, ...[1, 10, 100, 1e3, 1e4].flatMap((ten) => [1, 2, 5].map((n) => n * ten))];
+const ICONS = {
+  play: "M4 2.5v11l9-5.5z",
+  stop: "M3.5 3.5h9v9h-9z",
+  stepBack: "M11.5 3v10L5 8zM3.5 3v10",
+  stepForward: "M4.5 3v10L11 8zM12.5 3v10",
+  reverse: "M13 8A5 5 0 1 1 8 3M8 .8v4.4L4.8 3z",
+};
+
+/** The bar with the crank angle. */
+export class Transport {
+  constructor(view) {
+    this.view = view;
+    const button = (name, act, attributes = {}) => {
+      const icon = svg("svg", { viewBox: "0 0 16 16", "aria-hidden": "true" },
+        svg("path", { d: ICONS[name] }));
+      const element = html("button", { type: "button", ...attributes },
+        icon, html("span", {}, STRINGS[name]));
+      element.addEventListener("click", act);
+      return element;
+    };
+    this.play = button("play", () => view.set({ playing: true }));
+    this.stop = button("stop", () => view.set({ playing: false }));
+    this.reverse = button("reverse", () => view.set({ reverse: !view.state.reverse }));
+    this.angle = html("input", {
+      type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
+    });
+    this.slider = slider(STRINGS.turn, 0, 720, 1, (value) => {
+      const { angle_deg: angle } = view.state;
+      const { cycle } = view.engine;
+      view.set({ angle_deg: Math.floor(angle / cycle) * cycle + value, playing: false });
+    });
+    this.step = html("select", { "aria-label": STRINGS.step },
+      ...[0.1, 1, 5, 10, 90].map((size) => html("option", { value: size }, `${size}°`)));
+    this.step.addEventListener("change", () => view.set({ step: Number(this.step.value) }));
+    this.pace = slider(STRINGS.pace, 1, 120, 1, (pace) => view.set({ pace }));
+    this.paceShown = numbered(html, "output", "pace");
+    typed(this.angle, (value) => view.set({ angle_deg: value, playing: false }), () => view.pose());
+    this.element = html("div", { class: "transport" },
+      html("div", { class: "buttons" }, this.play, this.stop,
+        button("stepBack", () => view.step(-1)), button("stepForward", () => view.step(1)),
+        this.step, this.reverse),
+      html("div", { class: "pace" }, html("span", {}, STRINGS.paceShort), this.pace, this.paceShown),
+      html("div", { class: "angle" },
+        html("label", {}, html("span", {}, STRINGS.angle), this.angle),
+        html("i", {}, STRINGS.degrees)),
+      this.slider,
+    );
+  }
+
+  layout({ cycle }) {
+    this.slider.max = cycle;
+  }
+
+  /** Show the state; the field is left alone while the reader types in it. */
+  show(state, within) {
+    const { angle_deg: angle } = state;
+    write(this.angle, angle);
+    this.slider.value = within;
+    this.slider.setAttribute("aria-valuetext", `${Math.round(within)}${STRINGS.degrees}`);
+  }
+
+  /** Show what changes seldom. */
+  showSettings({ playing, reverse, pace, step }) {
+    this.play.setAttribute("aria-pressed", playing);
+    this.reverse.setAttribute("aria-pressed", reverse);
+    this.pace.value = pace;
+    this.step.value = step;
+    show(this.paceShown, pace, `${pace} ${STRINGS.rpm}`);
+  }
+}
+
+/** Speed, bank angle, rod ratio, and the rocking. */
+export class Settings {
+  constructor(view) {
+    this.view = view;
+    const { figures } = view;
+    const [least, most] = rodRatioLimits(figures);
+    const fastest = Math.max(1.5 * figures.rpm, figures.rpm < 1000 ? 0 : 8000) || 8000;
+    const settle = () => this.show(view.state);
+    this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, 10, STRINGS.rpm,
+      (rpm) => view.set({ rpm }), settle, Infinity);
+    this.bank = pair(STRINGS.bankAngle, STRINGS.bankAngleField, "bank-angle", 0, 180, 0.5,
+      STRINGS.degrees, (bank_angle_deg) => view.set({ bank_angle_deg }), settle);
+    this.rod = pair(STRINGS.rodRatio, STRINGS.rodRatioField, "rod-ratio", least, most, 0.001, "",
+      (rod_ratio) => view.set({ rod_ratio }), settle);
+    this.hold = html("select", {},
+      ...Object.entries(STRINGS.holds).map(([value, name]) => html("option", { value }, name)));
+    this.hold.addEventListener("change", () => view.set({ hold: this.hold.value }));
+    const held = html("label", { class: "hold" }, html("span", {}, STRINGS.hold), this.hold);
+    this.factor = slider(STRINGS.exaggeration, 0, FACTORS.length - 1, 1,
+      (k) => view.set({ exaggeration: FACTORS[k] }));
+    this.factorShown = numbered(html, "output", "exaggeration");
+    this.orders = html("span", {
+      class: "rocking-orders", role: "group", "aria-label": STRINGS.rockingOrders,
+    });
+    const vee = figures.bank_angle_deg !== null;
+    this.element = html("div", { class: "settings" },
+      this.rpm.element, this.rod.element, ...(vee ? [this.bank.element, held] : []),
+      html("div", { class: "setting" },
+        html("span", {}, STRINGS.rocking), this.factor, this.factorShown),
+      this.orders,
+    );
+  }
+
+  /** Offer the orders that rock the engine. */
+  layout(orders) {
+    const listed = orders.map(({ order }) => order).join();
+    if (listed === this.listed) return;
+    this.listed = listed;
+    this.boxes = orders.map(({ order }) => {
+      const box = html("input", { type: "checkbox", name: "rocking-order", value: order });
+      box.addEventListener("change", () => {
+        const left = new Set(this.view.state.still);
+        if (box.checked) left.delete(order);
+        else left.add(order);
+        this.view.set({ still: left });
+      });
+      const number = numbered(html, "span", "order");
+      show(number, order, `${order}`);
+      return [box, html("label", {}, box, `${STRINGS.order} `, number)];
+    });
+    this.orders.replaceChildren(...this.boxes.map(([, label]) => label));
+  }
+
+  show(state) {
+    this.rpm.show(state.rpm);
+    this.rod.show(state.rod_ratio);
+    this.bank.show(state.bank_angle_deg);
+    this.hold.value = state.hold;
+    const factor = state.exaggeration;
+    this.factor.value = Math.max(0, FACTORS.findLastIndex((each) => each <= factor));
+    show(this.factorShown, factor, factor ? `× ${factor}` : STRINGS.off);
+    for (const [box] of this.boxes ?? []) box.checked = !state.still.has(Number(box.value));
+  }
+}
+
+/** A slider and a field for the same number. */
+function pair(label, described, name, least, most, step, unit, act, settle, limit = most) {
+  const range = slider(label, least, most, step, act);
+  const field = html("input", {
+    type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": described,
+    "data-name": name, "data-value": "",
+  });
+  typed(field, act, settle, (value) => value >= least && value <= limit);
+  return {
+    element: html("div", { class: "setting" },
+      html("span", {}, label), range, html("span", { class: "field" }, field, html("i", {}, unit))),
+    show(value) {
+      if (value === null) return;
+      range.value = value;
+      field.setAttribute("data-value", value);
+      write(field, value);
+    },
+  };
+}
+
+function slider(label, min, max, step, act) {
+  const element = html("input", { type: "range", "aria-label": label, min, max, step });
+  element.addEventListener("input", () => act(Number(element.value)));
+  return element;
+}
+
+/** Up to six decimals; `data-value` has all digits. What the reader is typing is left alone. */
+function write(field, value) {
+  if (field.hasAttribute("aria-invalid")) return;
+  if (document.activeElement === field && Number(field.value) === value) return;
+  field.value = String(Number(value.toFixed(6)));
+}
+
+/** Act on every number that is typed; mark what is none until the field is left, then `settle`. */
+function typed(field, act, settle, allowed = () => true) {
+  field.addEventListener("input", () => {
+    const text = field.value.trim().replace("−", "-").replace(",", ".");
+    const value = Number(text);
+    if (text !== "" && Number.isFinite(value) && allowed(value)) {
+      field.removeAttribute("aria-invalid");
+      act(value);
+    } else {
+      field.setAttribute("aria-invalid", "true");
+    }
+  });
+  field.addEventListener("change", () => {
+    field.removeAttribute("aria-invalid");
+    settle();
+  });
+}

@@ -1,0 +1,45 @@
+// Elements of HTML and SVG; text is always text, never markup.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** An HTML element with attributes, and children or texts. */
+export function html(tag, attributes = {}, ...children) {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+/** An SVG element. */
+export function svg(tag, attributes = {}, ...children) {
+  return filled(document.createElementNS(SVG, tag), attributes, children);
+}
+
+function filled(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+/** Show a number: text for people, its value in SI units with all digits for scripts. */
+export function show(element, value, text) {
+  const full = `${value}`;
+  if (element.getAttribute("data-value") !== full) element.setAttribute("data-value", full);
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** A place for a number that scripts find by name. */
+export function numbered(make, tag, name, attributes = {}) {
+  return make(tag, { "data-name": name, "data-value": "", ...attributes });
+}
+
+/** A number that does not change, such as a tick or a cylinder's. */
+export function fixed(make, tag, name, value, text, attributes = {}) {
+  return make(tag, { "data-name": name, "data-value": value, ...attributes }, text);
+}
+
+/** The path through points; closed if wanted. */
+export function path(points, closed = false) {
+  let d = "";
+  for (const [x, y] of points) d += `${d ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`;
+  return closed && d ? `${d}Z` : d;
+}

@@ -1,0 +1,33 @@
+// Readable numbers: units that fit a quantity's largest value, and digits that do not jump.
+
+/** Significant digits of the largest value. */
+const DIGITS = 4;
+
+const PREFIXES = [[1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+
+/** A way of writing values up to `largest`: text without the unit, and the unit. */
+export function scaleFor(largest, unit) {
+  // Thousands from ten thousand on: 9999 N reads better than 9.999 kN.
+  const [factor, prefix] = largest > 0
+    ? PREFIXES.find(([size]) => largest >= (size > 1 ? 10 * size : size)) ?? PREFIXES.at(-1)
+    : [1, ""];
+  const places = largest > 0 ? DIGITS - 1 - Math.floor(Math.log10(largest / factor)) : 0;
+  const decimals = Math.min(Math.max(places, 0), 9);
+  return { unit: `${prefix}${unit}`, text: (value) => signed((value / factor).toFixed(decimals)) };
+}
+
+/** A number with this many decimals at most. */
+export function short(value, decimals) {
+  return signed(String(Number(value.toFixed(decimals))));
+}
+
+/** A true minus sign, and none before a zero. */
+export function signed(text) {
+  return text.replace(/^-(?=[0.]*$)/, "").replace("-", "−");
+}
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above a value. */
+export function roundBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [5, 2, 1].find((step) => step * power <= value * (1 + 1e-12)) * power;
+}

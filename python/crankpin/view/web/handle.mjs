@@ -1,0 +1,142 @@
+// What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
+
+import { DEGREE, reduced } from "./complex.mjs";
+import { fixed, svg } from "./dom.mjs";
+import { place } from "./scene.mjs";
+
+const PIN_NUMBER = 13; // pixels beyond the pin's circle
+const BORE_NUMBER = 9; // pixels beyond the head
+const LINE = 12; // pixels
+const CLOSE = 24; // degrees between pins whose numbers would overlap
+const MOST_IN_LINE = 4;
+
+export class Handle {
+  /** `turnBy` is told of every drag, in degrees. */
+  constructor(scene, turnBy) {
+    this.scene = scene;
+    this.hit = svg("circle", { class: "handle" });
+    this.circle = svg("circle", { class: "pin-circle" });
+    this.sense = svg("path", { class: "sense" });
+    this.numbers = svg("g");
+    scene.overlay.append(this.circle, this.sense, this.numbers, this.hit);
+    this.drag(turnBy);
+  }
+
+  layout(engine) {
+    const { projection, dimensions } = this.scene;
+    const [cx, cy] = projection.point([0, 0, 0]);
+    const reach = dimensions.radius * projection.scale;
+    this.centre = [cx, cy];
+    for (const circle of [this.hit, this.circle]) {
+      circle.setAttribute("cx", cx);
+      circle.setAttribute("cy", cy);
+    }
+    this.circle.setAttribute("r", reach);
+    this.hit.setAttribute("r", 1.7 * reach);
+    this.sense.setAttribute("d", senseArrow(cx, cy, 1.62 * reach));
+    this.pins = pinNumbers(engine);
+    const bores = boreGroups(engine).map(({ numbers, cylinder }) => {
+      const [dx, dy] = cylinder.direction;
+      const reached = heads(cylinder, projection.scale) + BORE_NUMBER;
+      const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
+      const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
+      const x = cx + reached * dx - projection.scale * cylinder.pin_offset * dy;
+      const y = cy - reached * dy - projection.scale * cylinder.pin_offset * dx + 4;
+      const lines = Math.ceil(numbers.length / MOST_IN_LINE);
+      for (let k = 0; k < lines; k++) {
+        const part = numbers.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
+        const line = svg("tspan", {}, ...listed(part));
+        place(line, [x, y - (lines - 1 - k) * LINE]);
+        text.append(line);
+      }
+      return text;
+    });
+    this.numbers.replaceChildren(...bores, ...this.pins.map(({ text }) => text));
+  }
+
+  pose({ cylinders }) {
+    const [cx, cy] = this.centre;
+    for (const { first, text, level } of this.pins) {
+      const [x, y] = cylinders[first].crankpin;
+      const length = Math.hypot(x, y);
+      const reach = length * this.scene.projection.scale + PIN_NUMBER + level * LINE;
+      place(text, [cx + (reach * x) / length, cy - (reach * y) / length + 4]);
+    }
+  }
+
+  drag(turnBy) {
+    let last = null;
+    const angle = (event) => {
+      // The picture may be scaled: back from the screen to its own pixels.
+      const at = new DOMPoint(event.clientX, event.clientY)
+        .matrixTransform(this.scene.element.getScreenCTM().inverse());
+      return Math.atan2(this.centre[1] - at.y, at.x - this.centre[0]) / DEGREE;
+    };
+    this.hit.addEventListener("pointerdown", (event) => {
+      last = angle(event);
+      this.hit.setPointerCapture(event.pointerId);
+      event.preventDefault();
+    });
+    this.hit.addEventListener("pointermove", (event) => {
+      if (last === null) return;
+      const now = angle(event);
+      const turned = now - last;
+      last = now;
+      turnBy(turned - 360 * Math.round(turned / 360));
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      this.hit.addEventListener(end, () => { last = null; });
+    }
+  }
+}
+
+/** Distance of a head from the crank axis in pixels. */
+function heads({ crank_radius: r, rod_length: l }, scale) {
+  return (l + 1.95 * r) * scale;
+}
+
+/** Numbers of the cylinders at each crankpin, further out beside a close one; none for one pin. */
+function pinNumbers({ cylinders }) {
+  const groups = grouped(cylinders, ({ pin, crank_radius: r }) =>
+    pin.map((part) => (part * r).toFixed(9)).join(" "));
+  if (groups.length === 1) return [];
+  const angle = ({ cylinder }) => reduced(cylinder.pin_deg);
+  groups.sort((a, b) => angle(a) - angle(b));
+  let level = 0;
+  return groups.map((group, k) => {
+    level = k && angle(group) - angle(groups[k - 1]) < CLOSE ? (level + 1) % 3 : 0;
+    return { first: group.first, level, text: svg("text", { class: "pin-numbers" }, ...listed(group.numbers)) };
+  });
+}
+
+/** Cylinders whose bores have one direction and one offset. */
+function boreGroups({ cylinders }) {
+  return grouped(cylinders, ({ bank, direction, pin_offset: e }) =>
+    [bank, ...direction.map((part) => part.toFixed(9)), e].join(" "));
+}
+
+function grouped(cylinders, keyOf) {
+  const groups = new Map();
+  cylinders.forEach((cylinder, first) => {
+    const key = keyOf(cylinder);
+    if (!groups.has(key)) groups.set(key, { numbers: [], first, cylinder });
+    groups.get(key).numbers.push(cylinder.number);
+  });
+  return [...groups.values()];
+}
+
+function listed(numbers) {
+  return numbers.flatMap((number, k) => [
+    ...(k ? [" "] : []), fixed(svg, "tspan", "cylinder", number, `${number}`),
+  ]);
+}
+
+/** An arc with a head, counter-clockwise. */
+function senseArrow(cx, cy, r) {
+  const at = (degrees, by = 0) => {
+    const angle = degrees * DEGREE;
+    return [cx + (r + by) * Math.cos(angle), cy - (r + by) * Math.sin(angle)]
+      .map((part) => part.toFixed(2)).join(" ");
+  };
+  return `M${at(-62)}A${r} ${r} 0 0 0 ${at(-28)}M${at(-38, -5)}L${at(-28)}L${at(-37, 5)}`;
+}

@@ -1,0 +1,10 @@
+// The file: a view that fills the page.
+
+import { View } from "./view.mjs";
+
+/** Show an engine in the page, and give its view to scripts as `crankpin`. */
+export function page(figures) {
+  const view = new View(figures, { keysOn: document });
+  document.body.append(view.element);
+  globalThis.crankpin = view;
+}

@@ -1,0 +1,27 @@
+// Boxes that the page is made of.
+
+import { html, svg } from "./dom.mjs";
+
+/** A picture under its title. */
+export function panel(title, ...children) {
+  return html("figure", { class: "panel" }, html("figcaption", {}, title), ...children);
+}
+
+/** A part of the page as wide as the page. */
+export function section(title, ...children) {
+  return html("section", {}, html("h2", {}, title), ...children);
+}
+
+/** Names of classes, each beside its mark. */
+export function legend(names, words) {
+  return html("p", { class: "legend" }, ...names.flatMap((name) => [mark(name), words[name]]));
+}
+
+/** The mark of a class in a legend. */
+export function mark(name) {
+  const shape = name === "fires"
+    ? svg("path", { class: "fires", d: "M6 1l4.5 5l-4.5 5l-4.5-5z" })
+    : name === "tdc" ? svg("path", { class: "tdc", d: "M6 0v12" })
+      : svg("rect", { class: `key ${name}`, x: 0, y: 1, width: 12, height: 10, rx: 2 });
+  return svg("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, shape);
+}

@@ -1,0 +1,91 @@
+// Everything at one crank angle: where the parts stand, and the force, moment and torque they make.
+
+import { multiply, unit } from "./complex.mjs";
+import { motion, swing } from "./motion.mjs";
+
+export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
+
+/**
+ * Places in metres, force in N, moment and torque in N·m, at a crank angle in degrees.
+ *
+ * Exact kinematics; an engine with a given spectrum sums `orders`, and its torque is null.
+ */
+export function poseAt(engine, orders, thetaDeg) {
+  const crank = unit(thetaDeg);
+  const cylinders = engine.cylinders.map((each) => cylinderPose(each, crank));
+  const weights = engine.unbalances.map((each) => multiply(each.start, turnedBy(crank, each.ratio)));
+  const square = angularSpeed(engine.settings.rpm) ** 2;
+  const loads = engine.spectrum
+    ? ordersAt(orders, crank)
+    : exactLoads(engine, cylinders, weights, square);
+  return { thetaDeg, crank, cylinders, weights, ...loads };
+}
+
+/** e^{inθ} of e^{iθ} for a whole n. */
+export function turnedBy(crank, n) {
+  let power = [1, 0];
+  for (let k = 0; k < Math.abs(n); k++) power = multiply(power, crank);
+  return n < 0 ? [power[0], -power[1]] : power;
+}
+
+function cylinderPose(cylinder, crank) {
+  const [cos, sin] = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
+  const moved = motion(cylinder.proportions, cos, sin);
+  const [dx, dy] = cylinder.direction;
+  const height = cylinder.crank_radius * moved.position;
+  const offset = cylinder.pin_offset;
+  return {
+    cos,
+    sin,
+    moved,
+    height,
+    crankpin: multiply(crank, cylinder.pin).map((part) => part * cylinder.crank_radius),
+    // The path of the piston pin lies left of the bore's direction by the offset.
+    wrist: [height * dx - offset * dy, height * dy + offset * dx],
+  };
+}
+
+function exactLoads(engine, cylinders, weights, square) {
+  const force = [0, 0];
+  const moment = [0, 0];
+  let torque = 0;
+  const apply = (fx, fy, z) => {
+    const lever = z - engine.reference;
+    force[0] += fx;
+    force[1] += fy;
+    moment[0] -= lever * fy;
+    moment[1] += lever * fx;
+  };
+  engine.cylinders.forEach((cylinder, k) => {
+    const { cos, sin, moved } = cylinders[k];
+    const { crank_radius: r, reciprocating_mass: m, rod_inertia_excess: inertia } = cylinder;
+    const along = -m * r * square * moved.acceleration;
+    apply(along * cylinder.direction[0], along * cylinder.direction[1], cylinder.z);
+    torque -= along * r * (moved.velocity + cylinder.proportions.offset);
+    if (inertia) {
+      const { velocity, acceleration } = swing(cylinder.proportions, cos, sin);
+      torque += inertia * square * acceleration * (1 + velocity);
+    }
+  });
+  engine.unbalances.forEach(({ ratio, axis, amount, z }, k) => {
+    const size = amount * ratio * ratio * square;
+    const [fx, fy] = [size * weights[k][0], size * weights[k][1]];
+    apply(fx, fy, z);
+    torque += axis[0] * fy - axis[1] * fx;
+  });
+  return { force, moment, torque };
+}
+
+/** Sum of orders: x + iy = Σ forward·e^{inθ} + backward·e^{−inθ}. */
+export function ordersAt(orders, crank) {
+  const sums = { force: [0, 0], moment: [0, 0], torque: null };
+  for (const { order, force, moment } of orders) {
+    const [forward, backward] = [turnedBy(crank, order), turnedBy(crank, -order)];
+    for (const [sum, parts] of [[sums.force, force], [sums.moment, moment]]) {
+      const [a, b] = [multiply(parts.forward, forward), multiply(parts.backward, backward)];
+      sum[0] += a[0] + b[0];
+      sum[1] += a[1] + b[1];
+    }
+  }
+  return sums;
+}

@@ -1,0 +1,360 @@
+// The engine drawn in a projection, from its geometry: bores, pistons, rods, crank, weights, shafts.
+
+import { add, multiply, scale, unit } from "./complex.mjs";
+import { fixed, path, svg } from "./dom.mjs";
+import { Projection } from "./projection.mjs";
+import { STRINGS } from "./strings.mjs";
+
+// What inertia does not depend on, in crank radii: chosen to look like an engine.
+const BORE = 1.7;
+const CROWN = 0.8; // above the piston pin
+const SKIRT = 0.6; // below it
+const BAND = 0.28; // of the crown, coloured by the stroke
+const HEAD = 0.1; // between the highest crown and the head
+const WEIGHT = 1.3; // radius of the largest counterweight
+const SHAFT_WEIGHT = 0.55;
+
+/** What is drawn over what at the same depth. */
+const RANKS = {
+  end: ["shaft", "bore", "journal", "weight", "piston", "rod", "throw"],
+  other: ["shaft", "bore", "journal", "weight", "throw", "rod", "piston"],
+};
+
+/** How much lengths along the crank are stretched where cylinders stand closer than bores allow. */
+export function stretchAlong({ cylinders }) {
+  let least = Infinity;
+  for (const a of cylinders) {
+    for (const b of cylinders) {
+      const apart = Math.abs(a.z - b.z);
+      if (a !== b && a.bank === b.bank && apart > 0) {
+        least = Math.min(least, apart / (BORE * Math.max(a.crank_radius, b.crank_radius)));
+      }
+    }
+  }
+  return Math.max(1, 1.1 / least);
+}
+
+export class Scene {
+  /** `frame` names a projection; the picture is `size` pixels before it is scaled. */
+  constructor(frame, size, margin = [14, 14]) {
+    this.size = size;
+    this.margin = margin;
+    this.engineLayer = svg("g");
+    this.overlay = svg("g");
+    this.element = svg("svg", { viewBox: `0 0 ${size.join(" ")}`, role: "img" },
+      this.engineLayer, this.overlay);
+    this.items = null;
+    this.look(frame);
+  }
+
+  /** Look at the engine in another projection, once it is laid out anew. */
+  look(frame) {
+    this.projection = new Projection(frame);
+    this.element.setAttribute("class", `scene ${frame}`);
+    this.element.setAttribute("aria-label", STRINGS.described[frame]);
+  }
+
+  /** Draw an engine, to be posed next; the same one as before at any settings. */
+  layout(engine) {
+    const { projection } = this;
+    this.dimensions = dimensions(engine);
+    projection.fit(extremes(engine, this.dimensions), this.size, this.margin,
+      this.dimensions.stretch);
+    this.items ??= this.parts(engine);
+    this.shapes = new Map();
+    const ranks = projection.name === "cross" ? RANKS.end : RANKS.other;
+    for (const item of this.items) item.depth = item.layout(engine);
+    const order = [...this.items].sort(
+      (a, b) => a.depth - b.depth || ranks.indexOf(a.kind) - ranks.indexOf(b.kind));
+    // Moving elements about takes longer than drawing them.
+    if (order.some(({ element }, k) => this.engineLayer.childNodes[k] !== element)) {
+      this.engineLayer.replaceChildren(...order.map(({ element }) => element));
+    }
+  }
+
+  /** Move everything to a pose; `shift` is the displacement of the crank axis at z, in metres. */
+  pose(pose, strokes, shift) {
+    for (const item of this.items) item.pose(pose, strokes, shift);
+  }
+
+  /** A place in metres, displaced with the engine. */
+  at([x, y], z, shift) {
+    const [dx, dy] = shift(z);
+    return this.projection.point([x + dx, y + dy, z]);
+  }
+
+  // Each part is an element, how it is laid out (which returns its depth), and how it is posed.
+
+  parts({ cylinders, shafts, unbalances }) {
+    const gaps = new Set(cylinders.map((each) => each.z)).size + 1;
+    return [
+      ...cylinders.flatMap((_, k) => [this.bore(k), this.throw(k), this.rod(k), this.piston(k)]),
+      ...Array.from({ length: gaps }, (_, k) => this.journal(k)),
+      ...shafts.map((_, k) => this.shaft(k)),
+      ...unbalances.flatMap(({ kind }, k) => (kind === "pin" ? [] : [this.weight(k)])),
+    ];
+  }
+
+  bore(k) {
+    const element = svg("path", { class: "bore" });
+    let ends;
+    let z;
+    return {
+      kind: "bore",
+      element,
+      layout: ({ cylinders }) => {
+        const { crank_radius: r, direction } = cylinders[k];
+        z = cylinders[k].z;
+        ends = boreEnds(cylinders[k]);
+        const places = this.projection.tube(direction, ends.low, ends.top, (BORE / 2) * r);
+        element.setAttribute("d", path(places, true));
+        return this.projection.depth([direction[0] * ends.low, direction[1] * ends.low, z]);
+      },
+      pose: (_pose, _strokes, shift) => translate(element, this.at(ends.axis, z, shift)),
+    };
+  }
+
+  piston(k) {
+    const [body, band, top] = ["body", "band", "crown"].map((name) => svg("path", { class: name }));
+    const element = svg("g", { class: "piston" }, body, band, top);
+    let number = null;
+    let stroke = null;
+    let z;
+    return {
+      kind: "piston",
+      element,
+      layout: ({ cylinders }) => {
+        const { projection } = this;
+        const { crank_radius: r, direction, rod_length: l, number: name } = cylinders[k];
+        const shape = this.pistonShape(direction, r);
+        z = cylinders[k].z;
+        body.setAttribute("d", shape.body);
+        band.setAttribute("d", shape.band);
+        top.setAttribute("d", shape.crown);
+        if (projection.name !== "cross") {
+          if (!number) {
+            number = fixed(svg, "text", "cylinder", name, `${name}`, { class: "on-piston" });
+            element.append(number);
+          }
+          place(number, shape.middle);
+          number.setAttribute("font-size", Math.min(Math.max(0.8 * r * projection.scale, 7), 15));
+        }
+        return projection.depth([...direction.map((part) => part * l), z]);
+      },
+      pose: (pose, strokes, shift) => {
+        translate(element, this.at(pose.cylinders[k].wrist, z, shift));
+        if (strokes[k] !== stroke) {
+          stroke = strokes[k];
+          element.setAttribute("class", `piston ${stroke ?? ""}`);
+        }
+      },
+    };
+  }
+
+  /** Outlines of a piston about its pin, and where its number stands: once for all that are alike. */
+  pistonShape(direction, r) {
+    const key = `${direction} ${r}`;
+    if (!this.shapes.has(key)) {
+      const { projection } = this;
+      const radius = (BORE / 2) * r;
+      const outline = (from, to) => path(projection.tube(direction, from * r, to * r, radius), true);
+      const [cx, cy] = projection.vector([...direction.map((part) => part * CROWN * r), 0]);
+      const facing = projection.depth([...direction, 0]) > 0;
+      const crown = projection.ellipse(direction, radius).arc(0, 2 * Math.PI, 28);
+      this.shapes.set(key, {
+        body: outline(-SKIRT, CROWN),
+        band: outline(CROWN - BAND, CROWN),
+        crown: facing ? path(crown.map(([x, y]) => [x + cx, y + cy]), true) : "",
+        middle: facing ? [cx, cy] : [0, 0],
+      });
+    }
+    return this.shapes.get(key);
+  }
+
+  rod(k) {
+    const bar = new Bar("rod");
+    let z;
+    return {
+      kind: "rod",
+      element: bar.element,
+      layout: ({ cylinders }) => {
+        const { direction, rod_length: length, crank_radius: r } = cylinders[k];
+        z = cylinders[k].z;
+        bar.width = 0.3 * r * this.projection.scale;
+        return this.projection.depth([...direction.map((part) => part * 0.5 * length), z]);
+      },
+      pose: ({ cylinders }, _strokes, shift) => {
+        const { crankpin, wrist } = cylinders[k];
+        bar.draw([this.at(crankpin, z, shift), this.at(wrist, z, shift)]);
+      },
+    };
+  }
+
+  throw(k) {
+    const bar = new Bar("throw");
+    let z;
+    return {
+      kind: "throw",
+      element: bar.element,
+      layout: ({ cylinders }) => {
+        z = cylinders[k].z;
+        bar.width = 0.46 * cylinders[k].crank_radius * this.projection.scale;
+        return this.projection.depth([0, 0, z]);
+      },
+      pose: ({ cylinders }, _strokes, shift) => {
+        const { crankpin } = cylinders[k];
+        const half = this.dimensions.halfThrow;
+        bar.draw([
+          this.at([0, 0], z - half, shift), this.at(crankpin, z - half, shift),
+          this.at(crankpin, z + half, shift), this.at([0, 0], z + half, shift),
+        ]);
+      },
+    };
+  }
+
+  /** The crank's axis between two throws, or beyond the first and the last. */
+  journal(k) {
+    const bar = new Bar("journal");
+    let start;
+    let stop;
+    return {
+      kind: "journal",
+      element: bar.element,
+      layout: () => {
+        const { places, halfThrow, ends, radius } = this.dimensions;
+        start = k ? places[k - 1] + halfThrow : ends[0];
+        stop = k < places.length ? places[k] - halfThrow : ends[1];
+        bar.width = 0.52 * radius * this.projection.scale;
+        return this.projection.depth([0, 0, 0.5 * (start + stop)]);
+      },
+      pose: (_pose, _strokes, shift) =>
+        bar.draw([this.at([0, 0], start, shift), this.at([0, 0], stop, shift)]),
+    };
+  }
+
+  shaft(k) {
+    const bar = new Bar("shaft");
+    let axis;
+    return {
+      kind: "shaft",
+      element: bar.element,
+      layout: ({ shafts }) => {
+        axis = [shafts[k].x, shafts[k].y];
+        bar.width = 0.22 * this.dimensions.radius * this.projection.scale;
+        return this.projection.depth([...axis, this.dimensions.ends[0]]);
+      },
+      pose: (_pose, _strokes, shift) =>
+        bar.draw(this.dimensions.ends.map((z) => this.at(axis, z, shift))),
+    };
+  }
+
+  weight(k) {
+    const element = svg("path");
+    const rim = [-60, -40, -20, 0, 20, 40, 60].map((angle) => unit(angle));
+    let axis;
+    let reach;
+    let z;
+    return {
+      kind: "weight",
+      element,
+      layout: ({ unbalances }) => {
+        const { kind, amount } = unbalances[k];
+        const { radius, largestWeight } = this.dimensions;
+        ({ axis, z } = unbalances[k]);
+        const size = (kind === "shaft" ? SHAFT_WEIGHT : WEIGHT) * radius;
+        // The area of the picture goes with the unbalance.
+        reach = size * Math.sqrt(amount / largestWeight[kind] || 0);
+        element.setAttribute("class", `weight ${kind}`);
+        return this.projection.depth([...axis, z]);
+      },
+      pose: ({ weights }, _strokes, shift) => {
+        const points = [axis, ...rim.map((by) => add(axis, scale(multiply(weights[k], by), reach)))];
+        element.setAttribute("d", path(points.map((point) => this.at(point, z, shift)), true));
+      },
+    };
+  }
+}
+
+/** A round bar along points, outlined. */
+class Bar {
+  constructor(name) {
+    this.casing = svg("path", { class: "casing" });
+    this.core = svg("path", { class: "core" });
+    this.element = svg("g", { class: name }, this.casing, this.core);
+  }
+
+  set width(pixels) {
+    const width = Math.max(pixels, 2);
+    if (width === this.drawnWidth) return;
+    this.drawnWidth = width;
+    this.casing.setAttribute("stroke-width", (width + 2).toFixed(2));
+    this.core.setAttribute("stroke-width", width.toFixed(2));
+  }
+
+  draw(points) {
+    const d = path(points);
+    if (d === this.drawn) return;
+    this.drawn = d;
+    this.casing.setAttribute("d", d);
+    this.core.setAttribute("d", d);
+  }
+}
+
+function dimensions(engine) {
+  const { cylinders, unbalances } = engine;
+  const radius = Math.max(...cylinders.map((each) => each.crank_radius));
+  const places = [...new Set(cylinders.map((each) => each.z))].sort((a, b) => a - b);
+  const stretch = stretchAlong(engine);
+  const gaps = places.slice(1).map((z, k) => z - places[k]);
+  const halfThrow = 0.3 * Math.min(BORE * radius / stretch, ...gaps);
+  const overhang = (0.75 * BORE * radius) / stretch;
+  const others = unbalances.filter(({ kind }) => kind !== "pin");
+  const all = [...places, ...others.map((each) => each.z)];
+  const largestWeight = {};
+  for (const { kind, amount } of others) {
+    largestWeight[kind] = Math.max(largestWeight[kind] ?? 0, amount);
+  }
+  const ends = [Math.min(...all) - overhang, Math.max(...all) + overhang];
+  return { radius, places, stretch, halfThrow, ends, largestWeight };
+}
+
+/** Lower end and head of a bore, and where its axis passes the crank's. */
+function boreEnds({ crank_radius: r, rod_length: l, pin_offset: e, direction: [dx, dy] }) {
+  const highest = Math.sqrt((l + r) ** 2 - e ** 2);
+  const lowest = Math.sqrt((l - r) ** 2 - e ** 2);
+  return {
+    low: Math.max(lowest - SKIRT * r, 1.1 * r),
+    top: highest + (CROWN + HEAD) * r,
+    axis: [-e * dy, e * dx],
+  };
+}
+
+/** Points that a picture of the engine must contain. */
+function extremes(engine, { radius, ends, stretch }) {
+  const around = (x, y, z, reach) => [[x - reach, y - reach, z], [x + reach, y + reach, z],
+    [x - reach, y + reach, z], [x + reach, y - reach, z]];
+  const points = ends.flatMap((z) => around(0, 0, z, WEIGHT * radius));
+  for (const { x, y } of engine.shafts) {
+    points.push(...ends.flatMap((z) => around(x, y, z, SHAFT_WEIGHT * radius)));
+  }
+  for (const cylinder of engine.cylinders) {
+    const { direction: [dx, dy], crank_radius: r, z } = cylinder;
+    const { top, axis } = boreEnds(cylinder);
+    const half = (BORE / 2) * r;
+    for (const side of [-half, half]) {
+      for (const along of [z - half / stretch, z + half / stretch]) {
+        points.push([axis[0] + top * dx - side * dy, axis[1] + top * dy + side * dx, along]);
+      }
+    }
+  }
+  return points;
+}
+
+export function translate(element, [x, y]) {
+  element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+}
+
+export function place(element, [x, y]) {
+  element.setAttribute("x", x.toFixed(2));
+  element.setAttribute("y", y.toFixed(2));
+}

@@ -1,0 +1,72 @@
+// One turn of the crank: the curves that are drawn, and how far they reach.
+
+import { angularSpeed, poseAt } from "./pose.mjs";
+
+/** Degrees between the samples of a curve. */
+const STEP = 2;
+
+/** Peaks below this part of what all cylinders make one by one are rounding, and zero. */
+const NOISE = 1e-11;
+
+/** The highest order that matters loses less than this part of its peak between two samples. */
+const BETWEEN = 0.03;
+
+/** Forces, moments and torques of a turn, its last sample that of the first. */
+export function turn(engine, orders) {
+  const curve = { force: [], moment: [], torque: [] };
+  for (let theta = 0; theta <= 360; theta += STEP) {
+    const { force, moment, torque } = poseAt(engine, orders, theta);
+    curve.force.push(force);
+    curve.moment.push(moment);
+    curve.torque.push(torque);
+  }
+  return curve;
+}
+
+/** Longest force and moment and largest torque of a turn; zero if they are rounding. */
+export function peaks(engine, orders, { force, moment, torque }) {
+  const { cylinders, reference, settings } = engine;
+  const square = angularSpeed(settings.rpm) ** 2;
+  const size = (lever) => cylinders.reduce((sum, each) => sum + square * lever(each)
+    * (each.reciprocating_mass + each.rotating_mass) * each.crank_radius, 0);
+  const length = ([x, y]) => Math.hypot(x, y);
+  const at = (value) => (theta) => value(poseAt(engine, orders, theta));
+  const above = (value, whole) => (value > NOISE * whole ? value : 0);
+  return {
+    force: above(peak(force.map(length), at((pose) => length(pose.force))), size(() => 1)),
+    moment: above(
+      peak(moment.map(length), at((pose) => length(pose.moment))),
+      size(({ z }) => Math.abs(z) + Math.abs(reference)),
+    ),
+    torque: above(
+      peak(torque.map(Math.abs), at((pose) => Math.abs(pose.torque))),
+      size((each) => each.crank_radius),
+    ),
+  };
+}
+
+/** Largest value: the samples near the top are followed to the maximum beside them. */
+function peak(samples, valueAt) {
+  const top = Math.max(...samples);
+  const flat = 1e-12 * top;
+  let largest = top;
+  for (let k = 0; k < samples.length - 1; k++) {
+    const before = samples[k ? k - 1 : samples.length - 2];
+    const rises = samples[k] > before + flat && samples[k] >= samples[k + 1] - flat;
+    if (rises && samples[k] > (1 - BETWEEN) * top) {
+      largest = Math.max(largest, followed(k * STEP, valueAt));
+    }
+  }
+  return largest;
+}
+
+/** The maximum beside an angle, by parabolas ever closer to it. */
+function followed(theta, valueAt) {
+  let middle = theta;
+  for (const reach of [STEP, STEP / 8, STEP / 64]) {
+    const [a, b, c] = [-reach, 0, reach].map((by) => valueAt(middle + by));
+    const bend = a - 2 * b + c;
+    if (bend < 0) middle += Math.min(Math.max((0.5 * reach * (a - c)) / bend, -reach), reach);
+  }
+  return valueAt(middle);
+}

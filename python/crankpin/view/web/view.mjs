@@ -1,0 +1,350 @@
+// The page: one state, from which every picture and every number follows.
+
+import { ownSettings, configure, strokesAt } from "./engine.mjs";
+import { Settings, Transport } from "./controls.mjs";
+import { reduced, scale, unit } from "./complex.mjs";
+import { fixed, html, numbered, show } from "./dom.mjs";
+import { Ends } from "./ends.mjs";
+import { roundBelow, scaleFor, short } from "./format.mjs";
+import { Handle } from "./handle.mjs";
+import { phasors, shown } from "./orders.mjs";
+import { Phasors } from "./phasors.mjs";
+import { Player } from "./player.mjs";
+import { poseAt } from "./pose.mjs";
+import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
+import { Scene } from "./scene.mjs";
+import { STRINGS } from "./strings.mjs";
+import { Timeline } from "./timeline.mjs";
+import { peaks, turn } from "./turn.mjs";
+import { legend, mark, panel, section } from "./panels.mjs";
+import { Arrow, Orbits, Twist } from "./vectors.mjs";
+
+/** Orders that are shown at most. */
+const MOST_ORDERS = 6;
+
+/** The state's entries that change the engine. */
+const SETTINGS = ["rpm", "bank_angle_deg", "rod_ratio", "hold"];
+
+/** Those that change what it looks like. */
+const GEOMETRY = ["bank_angle_deg", "rod_ratio", "hold", "side", "space"];
+
+/** Where an engine is looked at from: from above if its bores lie rather than stand. */
+function frames({ cylinders }) {
+  const sum = (part) => cylinders.reduce(
+    (total, { bank_deg: deg }) => total + Math.abs(unit(deg)[part]), 0);
+  const inLine = cylinders.every(({ bank_deg: deg }) => deg === cylinders[0].bank_deg);
+  return {
+    side: sum(0) > 0.99 * sum(1) ? "above" : "left",
+    // Bores at 45° would be seen from the side or end on.
+    space: inLine ? "isometric" : "oblique",
+  };
+}
+
+/** A choice of one entry of the state, as wide as a title. */
+function choice(key, names, view) {
+  const element = html("select", { "aria-label": STRINGS[`${key}Of`] },
+    ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
+  element.value = view.state[key];
+  element.addEventListener("change", () => view.set({ [key]: element.value }));
+  return element;
+}
+
+/** An engine that turns. `figures` are what Python writes of the engine. */
+export class View {
+  constructor(figures, { keysOn } = {}) {
+    this.figures = figures;
+    this.listeners = new Set();
+    this.state = {
+      angle_deg: 0, playing: false, reverse: false, pace: 20, step: 1,
+      exaggeration: null, still: new Set(), ...frames(figures), ...ownSettings(figures),
+    };
+    this.core = null;
+    this.width = 900;
+    this.build();
+    this.player = new Player(this.element, (seconds) => this.advance(seconds));
+    this.resized = new ResizeObserver(([entry]) => {
+      this.width = entry.contentRect.width;
+      this.layoutTimeline();
+      this.timeline.pose(this.last);
+    });
+    this.resized.observe(this.timelineBox);
+    this.keysOn = keysOn ?? this.element;
+    this.onKey = (event) => this.key(event);
+    this.keysOn.addEventListener("keydown", this.onKey);
+    this.configure();
+    this.pose();
+  }
+
+  /** Change entries of the state; everything that is shown follows before this returns. */
+  set(changes) {
+    const changed = Object.keys(changes).filter((key) => changes[key] !== this.state[key]);
+    if (!changed.length) return;
+    Object.assign(this.state, changes);
+    ["side", "space"].forEach((key, k) => {
+      if (!changed.includes(key)) return;
+      this.frames[k].value = this.state[key];
+      this.scenes[k + 1].look(this.state[key]);
+    });
+    const geometry = changed.some((key) => GEOMETRY.includes(key));
+    if (geometry || changed.includes("rpm")) this.configure(!geometry);
+    else if (changed.some((key) => ["exaggeration", "still"].includes(key))) this.layoutRocking();
+    if (changed.includes("playing")) this.player.set(this.state.playing);
+    if (changed.some((key) => key !== "angle_deg")) this.transport.showSettings(this.state);
+    this.pose();
+    for (const listener of this.listeners) listener(changed);
+  }
+
+  /** Take orders and curves from the library in place of the page's own, for these settings. */
+  useCore(core) {
+    this.core = core;
+    this.configure(true);
+    this.pose();
+  }
+
+  step(sense, times = 1) {
+    const { angle_deg: angle, step } = this.state;
+    // In decimals, so that ten steps of 0.1 are 1.
+    const stepped = Number((angle + sense * times * step).toFixed(9));
+    this.set({ angle_deg: stepped, playing: false });
+  }
+
+  advance(seconds) {
+    const { angle_deg: angle, pace, reverse } = this.state;
+    const turned = seconds * pace * 6 * (reverse ? -1 : 1);
+    this.set({ angle_deg: Number((angle + turned).toFixed(3)) });
+  }
+
+  destroy() {
+    this.player.destroy();
+    this.resized.disconnect();
+    this.keysOn.removeEventListener("keydown", this.onKey);
+    this.listeners.clear();
+    this.element.remove();
+  }
+
+  // --- what there is ----------------------------------------------------------------------------
+
+  build() {
+    const { figures } = this;
+    this.transport = new Transport(this);
+    this.settings = new Settings(this);
+    const { side, space } = this.state;
+    this.scenes = [
+      new Scene("cross", [390, 350], [40, 26]),
+      new Scene(side, [480, 345]),
+      new Scene(space, [480, 345], [14, 22]),
+    ];
+    this.frames = [choice("side", STRINGS.side, this), choice("space", STRINGS.space, this)];
+    this.handle = new Handle(this.scenes[0], (turned) =>
+      this.set({ angle_deg: this.state.angle_deg + turned, playing: false }));
+    this.ends = new Ends(this.scenes[2]);
+    this.force = new Arrow(STRINGS.force, "force");
+    this.moment = new Arrow(STRINGS.moment, "moment");
+    this.orbits = new Orbits(STRINGS.crankEnds, ["front", "flywheel"]);
+    this.twist = new Twist(STRINGS.torque);
+    this.phasors = new Phasors();
+    this.timeline = new Timeline((within) => {
+      const { angle_deg: angle } = this.state;
+      const { cycle } = this.engine;
+      this.set({ angle_deg: Math.floor(angle / cycle) * cycle + within, playing: false });
+    });
+    this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
+    this.readouts = Object.fromEntries(
+      ["crank-angle", "force-x", "force-y", "moment-x", "moment-y", "torque"]
+        .map((name) => [name, numbered(html, "output", name, { "aria-live": "off" })]));
+    this.longest = Object.fromEntries(["force", "moment", "torque"]
+      .map((name) => [name, numbered(html, "span", `${name}-longest`)]));
+    this.intervals = numbered(html, "span", "firing-intervals");
+    this.stretched = numbered(html, "span", "stretch");
+    this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
+    this.element = html("div", { class: "crankpin", tabindex: "0" },
+      this.header(), this.transport.element, this.settings.element,
+      html("div", { class: "views" },
+        panel(STRINGS.crossSection, this.readouts["crank-angle"], this.scenes[0].element),
+        panel(this.frames[0], this.scenes[1].element),
+        panel(this.frames[1], this.scenes[2].element)),
+      this.stretchedLine,
+      html("div", { class: "dials" }, ...this.dials()),
+      section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
+      section(STRINGS.timeline,
+        figures.firing_deg ? legend(["power", "exhaust", "intake", "compression"]
+          .filter((name) => figures.strokes === 4 || name === "power" || name === "compression"),
+        STRINGS.strokes) : "",
+        html("p", { class: "legend" },
+          ...(figures.firing_deg ? [mark("fires"), STRINGS.fires] : []), mark("tdc"), STRINGS.tdc),
+        this.timelineBox),
+      html("p", { class: "hint" }, STRINGS.block),
+      html("p", { class: "hint" }, STRINGS.keys),
+    );
+  }
+
+  header() {
+    const { name, firing_order: order } = this.figures;
+    const title = name || STRINGS.unnamed;
+    return html("header", {},
+      html("h1", {}, fixed(html, "span", "engine-name", title, title)),
+      ...(order ? [html("p", {}, `${STRINGS.firingOrder} `,
+        fixed(html, "span", "firing-order", order, order), " ", this.intervals)] : []),
+    );
+  }
+
+  dials() {
+    const components = (quantity) => html("dl", {},
+      ...["x", "y"].flatMap((axis, k) => [
+        html("dt", { class: axis }, STRINGS.components[quantity][k]),
+        html("dd", {}, this.readouts[`${quantity}-${axis}`]),
+      ]),
+      html("dt", { class: "longest" }, STRINGS.longest),
+      html("dd", { class: "longest" }, this.longest[quantity]));
+    return [
+      panel(STRINGS.force, this.force.element, components("force")),
+      panel(STRINGS.moment, this.moment.element, components("moment")),
+      panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends)),
+      panel(STRINGS.torque, this.twist.element, html("dl", {},
+        html("dt", { class: "torque" }, STRINGS.about), html("dd", {}, this.readouts.torque),
+        html("dt", { class: "longest" }, STRINGS.largest),
+        html("dd", { class: "longest" }, this.longest.torque))),
+    ];
+  }
+
+  // --- what changes with the settings -----------------------------------------------------------
+
+  /** Follow new settings; the engine looks the same where nothing but its speed changes. */
+  configure(looksTheSame = false) {
+    const { state } = this;
+    this.engine = configure(this.figures, state);
+    const core = this.core && SETTINGS.every((key) => this.core.settings[key] === state[key])
+      ? this.core : null;
+    this.orders = core ? core.orders : phasors(this.engine, this.figures.highest_order);
+    this.curve = core ? core.curve : turn(this.engine, this.orders);
+    this.peaks = peaks(this.engine, this.orders, this.curve);
+    this.scales = {};
+    for (const [quantity, largest] of Object.entries(this.peaks)) {
+      this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
+      const { text, unit: name } = this.scales[quantity];
+      show(this.longest[quantity], largest, `${text(largest)} ${name}`);
+    }
+    this.shown = shown(this.orders, MOST_ORDERS);
+    if (!looksTheSame) {
+      this.scenes.forEach((scene) => scene.layout(this.engine));
+      this.handle.layout(this.engine);
+    }
+    const { stretch } = this.scenes[0].dimensions;
+    show(this.stretched, stretch, short(stretch, 1));
+    this.stretchedLine.hidden = stretch === 1;
+    this.transport.layout(this.engine);
+    this.settings.layout(this.shown);
+    this.phasors.layout(this.shown);
+    this.force.layout(this.curve.force, this.peaks.force);
+    this.moment.layout(this.curve.moment, this.peaks.moment);
+    this.twist.layout(this.peaks.torque);
+    this.layoutRocking();
+    this.layoutFiring();
+    this.layoutTimeline();
+    this.transport.showSettings(state);
+  }
+
+  layoutRocking() {
+    const { state, engine, scenes } = this;
+    const chosen = this.shown.filter(({ order }) => !state.still.has(order));
+    this.rocking = rocking(engine, chosen);
+    const { ends, radius } = scenes[2].dimensions;
+    const largest = Math.max(...ends.map((z) => largestDisplacement(this.rocking, z)));
+    if (state.exaggeration === null) {
+      // At first the engine rocks by up to a third of the crank radius.
+      state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
+    }
+    const turned = Array.from({ length: 91 }, (_, k) => unit(4 * k));
+    const moved = turned.map((crank) => displacement(this.rocking, crank));
+    const traced = ends.map((z) => moved.map((at) => at(z)));
+    this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
+    const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
+    this.orbits.layout(traced, reach);
+    this.settings.show(state);
+  }
+
+  layoutFiring() {
+    const { cylinders, cycle, firing } = this.engine;
+    if (!firing) return;
+    const angles = cylinders.map((each) => reduced(each.strokes[0][1], cycle)).sort((a, b) => a - b);
+    const intervals = angles.map((angle, k) => (angles[k + 1] ?? angles[0] + cycle) - angle);
+    const texts = intervals.map((interval) => short(interval, 2));
+    const even = texts.every((text) => text === texts[0]);
+    show(this.intervals, intervals.join(" "),
+      even ? `(every ${texts[0]}°)` : `(intervals ${texts.join("-")}°)`);
+  }
+
+  layoutTimeline() {
+    const { curve, scales, peaks: largest } = this;
+    const component = (quantity, k) => ({
+      name: "xy"[k], label: STRINGS.components[quantity][k],
+      samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
+    });
+    const histories = ["force", "moment"].map((quantity) => ({
+      title: STRINGS[quantity], largest: largest[quantity], scale: scales[quantity],
+      curves: [component(quantity, 0), component(quantity, 1)],
+      missing: largest[quantity] ? "" : STRINGS.balanced,
+    }));
+    const known = curve.torque[0] !== null;
+    histories.push({
+      title: STRINGS.torque, largest: largest.torque, scale: scales.torque,
+      curves: [{ name: "torque", samples: curve.torque, value: (pose) => pose.torque }],
+      missing: known ? (largest.torque ? "" : STRINGS.balanced) : STRINGS.noTorque,
+    });
+    this.timeline.layout(this.engine, histories, Math.max(this.width, 300));
+  }
+
+  // --- what changes with the angle --------------------------------------------------------------
+
+  pose() {
+    const { engine, state, scales } = this;
+    const { angle_deg: angle, exaggeration } = state;
+    const pose = poseAt(engine, this.orders, angle);
+    this.last = pose;
+    const strokes = strokesAt(engine, angle);
+    const still = () => [0, 0];
+    const moved = displacement(this.rocking, pose.crank);
+    const rocks = (z) => scale(moved(z), exaggeration);
+    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : still));
+    this.handle.pose(pose);
+    this.ends.pose(rocks);
+    this.force.pose(pose.force);
+    this.moment.pose(pose.moment);
+    this.twist.pose(pose.torque);
+    this.orbits.pose(this.scenes[2].dimensions.ends.map(moved));
+    this.phasors.pose(pose.crank);
+    this.timeline.pose(pose);
+    this.transport.show(state, reduced(angle, engine.cycle));
+    this.readout("crank-angle", angle, `${short(angle, 3)}°`);
+    for (const quantity of ["force", "moment"]) {
+      const { text, unit: name } = scales[quantity];
+      pose[quantity].forEach((value, k) =>
+        this.readout(`${quantity}-${"xy"[k]}`, value, `${text(value)} ${name}`));
+    }
+    if (pose.torque === null) this.readout("torque", "", STRINGS.noTorque);
+    else this.readout("torque", pose.torque, `${scales.torque.text(pose.torque)} ${scales.torque.unit}`);
+  }
+
+  readout(name, value, text) {
+    show(this.readouts[name], value, text);
+  }
+
+  key(event) {
+    const { target } = event;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target.closest?.("input, select, textarea")) return;
+    const times = event.shiftKey ? 10 : 1;
+    const actions = {
+      " ": () => this.set({ playing: !this.state.playing }),
+      ArrowRight: () => this.step(1, times),
+      ArrowLeft: () => this.step(-1, times),
+      r: () => this.set({ reverse: !this.state.reverse }),
+      Home: () => this.set({ angle_deg: 0, playing: false }),
+    };
+    const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    // Space on a button presses the button.
+    if (!act || (event.key === " " && target.closest?.("button"))) return;
+    event.preventDefault();
+    act();
+  }
+}

@@ -1,0 +1,198 @@
+"""Are the page's numbers the library's?
+
+The page computes in JavaScript what the core computes in Rust, both in double precision: they
+differ by rounding alone. A tolerance of 1e-9 of what the cylinders make one by one is far above
+that, and far below a digit that is shown.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from chromium import Open, values
+from view_engines import everything, radial
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+ENGINES = {
+    **{
+        name: cp.Engine.preset(name)
+        for name in (
+            "single", "i4", "i5", "v6-60", "v6-90-odd-fire", "vr6", "v8-crossplane", "boxer-6",
+            "w12", "v14-9.13", "v16-45", "i4-ebook",
+        )
+    },
+    "everything": everything(),
+    "radial": radial(),
+}  # fmt: skip
+ANGLES = [0.0, 90.0, 97.25, -1234.5, 33.3333333, 1e6 + 0.125]
+WITHIN = 1e-9
+
+
+def moved(
+    engine: cp.Engine, bank_angle: float | None, hold: str, rod_ratio: float | None
+) -> cp.Engine:
+    """Return what the page shows, by the library."""
+    if bank_angle is not None:
+        engine = engine.with_bank_angle(bank_angle, hold=hold)  # type: ignore[arg-type]
+    if rod_ratio is not None:
+        engine = engine.replace(
+            cylinder=[c.replace(rod_length=c.crank_radius / rod_ratio) for c in engine.cylinders]
+        )
+    return engine
+
+
+def sizes(engine: cp.Engine, rpm: float) -> dict[str, float]:
+    """Return what all cylinders make one by one: N, N·m."""
+    square = (rpm * np.pi / 30) ** 2
+    masses = np.array([c.reciprocating_mass for c in engine.cylinders]) + engine.rotating_mass
+    radii = np.array([c.crank_radius for c in engine.cylinders])
+    force = float((masses * radii).sum()) * square
+    return {
+        "force": force,
+        "moment": force * max(np.ptp(engine.z), 0.1),
+        "torque": force * float(radii.max()),
+    }
+
+
+def assert_agree(page: Page, engine: cp.Engine, rpm: float, angle: float) -> None:
+    found = values(page, "[data-name]:not([data-name=tick])")
+    assert found["crank-angle"] == angle
+    wave = engine.waveform(rpm, theta_deg=[angle])
+    scale = sizes(engine, rpm)
+    for quantity in ("force", "moment"):
+        expected = np.asarray(getattr(wave, quantity))[0]
+        shown = [found[f"{quantity}-x"], found[f"{quantity}-y"]]
+        np.testing.assert_allclose(shown, expected, rtol=0, atol=WITHIN * scale[quantity])
+    np.testing.assert_allclose(
+        found["torque"], np.asarray(wave.torque)[0], rtol=0, atol=WITHIN * scale["torque"]
+    )
+    heights = [
+        float(cylinder.position(angle % 360 - tdc))
+        for cylinder, tdc in zip(engine.cylinders, engine.tdc_deg, strict=True)
+    ]
+    shown = [found[f"piston-{number}"] for number in range(1, len(engine) + 1)]
+    np.testing.assert_allclose(shown, heights, rtol=WITHIN)
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_any_angle(open_engine: Open, name: str) -> None:
+    engine = ENGINES[name]
+    rpm = 10.0 if "ebook" in name else 3000.0
+    page = open_engine(engine, rpm=rpm)
+    field = page.get_by_label("crank angle")
+    for angle in ANGLES:
+        field.fill(f"{angle}")
+        assert_agree(page, engine, rpm, angle)
+
+
+@pytest.mark.parametrize("name", ["v6-60", "vr6", "v8-crossplane", "boxer-6", "everything"])
+def test_any_setting(open_engine: Open, name: str) -> None:
+    engine = ENGINES[name]
+    page = open_engine(engine)
+    page.get_by_label("crank angle").fill("97.25")
+    settings = itertools.product([0.0, 33.3, 180.0], ["pins", "firing"], [0.2, 0.45])
+    for (bank_angle, hold, ratio), rpm in zip(settings, itertools.cycle([777.7, 6000.0])):
+        for field, value in [("bank-angle", bank_angle), ("rod-ratio", ratio), ("rpm", rpm)]:
+            page.locator(f"[data-name={field}]").fill(f"{value}")
+        page.get_by_label("held as the banks turn").select_option(hold)
+        assert_agree(page, moved(engine, bank_angle, hold, ratio), rpm, 97.25)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.6, 0.9, 0.99])
+def test_any_rod_ratio(open_engine: Open, ratio: float) -> None:
+    engine = ENGINES["i4"]
+    page = open_engine(engine)
+    page.locator("[data-name=rod-ratio]").fill(f"{ratio}")
+    page.get_by_label("crank angle").fill("181.5")
+    assert_agree(page, moved(engine, None, "pins", ratio), 3000.0, 181.5)
+
+
+def assert_orders_agree(
+    orders: list[dict[str, Any]], engine: cp.Engine, rpm: float, **asked: object
+) -> None:
+    numbers = [each["order"] for each in orders]
+    assert numbers == sorted(numbers)
+    balance = engine.balance(rpm, orders=numbers, torque=False, **asked)  # type: ignore[arg-type]
+    scale = sizes(engine, rpm)
+    for k, each in enumerate(orders):
+        for quantity, part in itertools.product(["force", "moment"], ["forward", "backward"]):
+            shown = complex(*each[quantity][part])
+            expected = getattr(getattr(balance, quantity), part)[k]
+            assert abs(shown - expected) <= WITHIN * scale[quantity]
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_phasors(open_engine: Open, name: str) -> None:
+    engine = ENGINES[name]
+    page = open_engine(engine, rpm=1000.0 if "ebook" not in name else 10.0)
+    rpm = values(page)["rpm"]
+    assert_orders_agree(page.evaluate("crankpin.orders"), engine, rpm)
+    # What is written of them.
+    found = values(page)
+    for each in page.evaluate("crankpin.shown"):
+        for quantity, part in itertools.product(["force", "moment"], ["forward", "backward"]):
+            written = found[f"{quantity}-{part}-{each['order']}"]
+            assert written == pytest.approx(abs(complex(*each[quantity][part])), rel=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.7, 0.99])
+@pytest.mark.parametrize("offset", [0.0, 1e-9, 0.0004, -0.0004])
+def test_phasors_of_any_proportions(open_engine: Open, ratio: float, offset: float) -> None:
+    cylinder = cp.Cylinder(0.045, 0.158, 0.5, pin_offset=offset)
+    engine = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.1)
+    page = open_engine(engine)
+    page.evaluate("ratio => crankpin.set({ rod_ratio: ratio })", ratio)
+    shown = [complex(*each["force"]["forward"]) for each in page.evaluate("crankpin.orders")]
+    changed = moved(engine, None, "pins", ratio).balance(3000.0, orders=range(1, 25), torque=False)
+    # Relative to each order, however small: 1e-10, as the root loses digits near λ = 1.
+    np.testing.assert_allclose(shown, changed.force.forward, rtol=1e-10, atol=1e-300)
+
+
+@pytest.mark.parametrize("name", ["i4", "v6-60", "v8-crossplane", "w12", "everything"])
+def test_longest_vectors_are_those_of_the_turn(open_engine: Open, name: str) -> None:
+    engine = ENGINES[name]
+    found = values(open_engine(engine))
+    total = engine.balance(3000.0).total
+    for quantity in ("force", "moment", "torque"):
+        # Followed by parabolas to their tops: beyond the digits shown.
+        expected = getattr(total, quantity).peak
+        assert found[f"{quantity}-longest"] == pytest.approx(expected, rel=1e-6, abs=1e-6)
+
+
+def test_spectrum_is_summed_by_orders(open_engine: Open) -> None:
+    engine, spectrum = ENGINES["v6-60"], {1: 0.067, 2: 0.02 + 0.001j, 3: 0.004j}
+    asked = {"spectrum": spectrum, "reference_z": 0.05}
+    page = open_engine(engine, save=asked)
+    page.get_by_label("crank angle").fill("97.25")
+    wave = engine.waveform(3000.0, theta_deg=[97.25], orders=[1, 2, 3], torque=False, **asked)  # type: ignore[arg-type]
+    found = values(page)
+    for quantity in ("force", "moment"):
+        shown = [found[f"{quantity}-x"], found[f"{quantity}-y"]]
+        expected = np.asarray(getattr(wave, quantity))[0]
+        np.testing.assert_allclose(
+            shown, expected, rtol=0, atol=1e-9 * sizes(engine, 3000)["force"]
+        )
+    assert "torque" not in found
+    torque = page.locator("output[data-name=torque]")
+    assert torque.text_content() == "not determined by a spectrum"
+    assert_orders_agree(page.evaluate("crankpin.orders"), engine, 3000.0, **asked)
+
+
+def test_digits_shown_are_the_value_s(open_engine: Open) -> None:
+    page = open_engine(ENGINES["v8-crossplane"])
+    page.get_by_label("crank angle").fill("40")
+    units = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "N·m": 1.0, "kN·m": 1e3, "mm": 1e-3}
+    names = ["force-x", "force-y", "moment-x", "moment-y", "torque", "piston-1", "piston-8"]
+    for name in names:
+        element = page.locator(f"[data-name={name}]")
+        number, unit = (element.text_content() or "").split()
+        value = float(element.get_attribute("data-value") or "nan")
+        decimals = len(number.partition(".")[2])
+        shown = float(number.replace("−", "-")) * units[unit]
+        assert shown == pytest.approx(value, abs=0.5000001 * 10.0**-decimals * units[unit])
