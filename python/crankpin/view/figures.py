@@ -61,7 +61,6 @@ def figures(
             }
             for shaft in engine.shafts
         ],
-        "firing_order": engine.firing_order,
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
         "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
     }

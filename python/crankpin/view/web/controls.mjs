@@ -1,11 +1,15 @@
 // The reader's controls: the crank angle and how it plays, and the engine's settings.
 
-import { html, numbered, show, svg } from "./dom.mjs";
+import { fixed, html, numbered, show, svg } from "./dom.mjs";
 import { rodRatioLimits } from "./engine.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** Exaggerations of the rocking; the first is none. */
 const FACTORS = [0, ...[1, 10, 100, 1e3, 1e4].flatMap((ten) => [1, 2, 5].map((n) => n * ten))];
+
+/** Degrees of a single step. */
+const STEPS = [0.1, 1, 5, 10, 90];
+
 const ICONS = {
   play: "M4 2.5v11l9-5.5z",
   stop: "M3.5 3.5h9v9h-9z",
@@ -38,7 +42,7 @@ export class Transport {
       view.set({ angle_deg: Math.floor(angle / cycle) * cycle + value, playing: false });
     });
     this.step = html("select", { "aria-label": STRINGS.step },
-      ...[0.1, 1, 5, 10, 90].map((size) => html("option", { value: size }, `${size}°`)));
+      ...STEPS.map((size) => fixed(html, "option", "step", size, `${size}°`, { value: size })));
     this.step.addEventListener("change", () => view.set({ step: Number(this.step.value) }));
     this.pace = slider(STRINGS.pace, 1, 120, 1, (pace) => view.set({ pace }));
     this.paceShown = numbered(html, "output", "pace");

@@ -41,7 +41,7 @@ class Card {
     this.pictures = QUANTITIES.map((quantity) => new Picture(order, quantity));
     this.element = html("div", { class: "card" },
       html("h3", {}, `${STRINGS.order} `, fixed(html, "span", "order", order, `${order}`)),
-      ...this.pictures.map((each) => each.element));
+      html("div", { class: "pictures" }, ...this.pictures.map((each) => each.element)));
   }
 
   layout(parts) {

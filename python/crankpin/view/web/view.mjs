@@ -154,6 +154,7 @@ export class View {
         .map((name) => [name, numbered(html, "output", name, { "aria-live": "off" })]));
     this.longest = Object.fromEntries(["force", "moment", "torque"]
       .map((name) => [name, numbered(html, "span", `${name}-longest`)]));
+    this.firingOrder = numbered(html, "span", "firing-order");
     this.intervals = numbered(html, "span", "firing-intervals");
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
@@ -179,12 +180,12 @@ export class View {
   }
 
   header() {
-    const { name, firing_order: order } = this.figures;
+    const { name, firing_deg: firing } = this.figures;
     const title = name || STRINGS.unnamed;
     return html("header", {},
       html("h1", {}, fixed(html, "span", "engine-name", title, title)),
-      ...(order ? [html("p", {}, `${STRINGS.firingOrder} `,
-        fixed(html, "span", "firing-order", order, order), " ", this.intervals)] : []),
+      ...(firing ? [html("p", {}, `${STRINGS.firingOrder} `,
+        this.firingOrder, " ", this.intervals)] : []),
     );
   }
 
@@ -266,8 +267,14 @@ export class View {
   layoutFiring() {
     const { cylinders, cycle, firing } = this.engine;
     if (!firing) return;
-    const angles = cylinders.map((each) => reduced(each.strokes[0][1], cycle)).sort((a, b) => a - b);
-    const intervals = angles.map((angle, k) => (angles[k + 1] ?? angles[0] + cycle) - angle);
+    const [first] = cylinders[0].strokes[0].slice(1);
+    // From cylinder 1 on; rounding must not put one that fires with it last.
+    const found = cylinders.map(({ number, strokes }) =>
+      ({ number, after: Number(reduced(strokes[0][1] - first, cycle).toFixed(9)) % cycle }));
+    found.sort((a, b) => a.after - b.after || a.number - b.number);
+    const intervals = found.map(({ after }, k) => (found[k + 1]?.after ?? cycle) - after);
+    const order = found.map(({ number }, k) => (k ? (intervals[k - 1] ? "-" : "+") : "") + number);
+    show(this.firingOrder, order.join(""), order.join(""));
     const texts = intervals.map((interval) => short(interval, 2));
     const even = texts.every((text) => text === texts[0]);
     show(this.intervals, intervals.join(" "),

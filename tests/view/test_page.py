@@ -1,0 +1,481 @@
+"""Does the page do what its reader asks, and nothing else?"""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import numpy as np
+import pytest
+from chromium import Open, values
+from crankpin.view.figures import figures
+from view_engines import everything, radial
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+V8 = cp.Engine.preset("v8-crossplane")
+V16 = cp.Engine.preset("v16-45")
+
+MOVING = """() => {
+    const all = (selector, name) => [...document.querySelectorAll(selector)]
+        .map(each => each.getAttribute(name)).join();
+    const scenes = [...document.querySelectorAll(".scene")].map((scene) =>
+        [...scene.querySelectorAll(".piston")].map(each => each.getAttribute("transform")).join());
+    return [
+        ...scenes,
+        all(".throw .core", "d"),
+        all(".arrow.moment", "d"),
+        all(".arrow.forward", "d"),
+        all(".dial .dot", "cx"),
+        all(".twist", "d"),
+        all(".cursor", "d"),
+        all(".timeline .dot", "cy"),
+        all("[data-name^=piston]", "data-value"),
+        all("output[data-name=moment-x]", "data-value"),
+        all("output[data-name=torque]", "data-value"),
+    ];
+}"""
+"""What must move with the crank: every picture and every number, each as a text."""
+
+
+def angle(page: Page) -> float:
+    return values(page, "[data-name=crank-angle]")["crank-angle"]
+
+
+def freeze(page: Page) -> None:
+    """Let time pass in the page when the test says so, and not else."""
+    page.clock.install(time=0)
+    page.clock.pause_at(1000)
+
+
+def wait(page: Page, condition: str) -> None:
+    """Wait for what the browser reports by itself; the page's policy forbids ``eval``."""
+    for _ in range(200):
+        if page.evaluate(condition):
+            return
+        time.sleep(0.02)
+    pytest.fail(f"waited in vain for {condition}")
+
+
+# --- one file -----------------------------------------------------------------------------------
+
+
+def test_asks_the_network_for_nothing(open_engine: Open) -> None:
+    page = open_engine(V8)
+    page.get_by_role("button", name="play").click()
+    page.wait_for_timeout(300)
+    assert page.asked == [page.url]  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("name", cp.presets())
+def test_is_at_most_100_kb_beside_its_figures(name: str, tmp_path: Path) -> None:
+    engine, file = cp.Engine.preset(name), tmp_path / "engine.html"
+    engine.save_html(file, rpm=10)
+    known = figures(engine, 10, reference_z=None, spectrum=None)
+    own = len(json.dumps(known, ensure_ascii=False, separators=(",", ":")).encode())
+    assert file.stat().st_size - own <= 100_000
+
+
+def test_names_stay_text(open_engine: Open) -> None:
+    name = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&amp;"
+    page = open_engine(V8.replace(name=name))
+    page.on("dialog", lambda dialog: pytest.fail(dialog.message))
+    assert page.title() == name
+    assert page.locator("h1").text_content() == name
+    assert page.locator("img").count() == 0
+    assert page.evaluate("document.scripts.length") == 1
+
+
+def test_errors_name_what_is_wrong(tmp_path: Path) -> None:
+    for wrong in ({"rpm": -1}, {"rpm": float("nan")}, {"reference_z": "a"}, {"spectrum": {0: 1.0}}):
+        with pytest.raises(cp.InputError, match=f"^{next(iter(wrong))}"):
+            V8.save_html(tmp_path / "v8.html", **wrong)  # type: ignore[arg-type]
+    with pytest.raises(OSError, match="nowhere"):
+        V8.save_html(tmp_path / "nowhere" / "v8.html")
+
+
+# --- one source of truth ------------------------------------------------------------------------
+
+
+def test_everything_follows_the_angle(open_engine: Open) -> None:
+    page = open_engine(V8)
+    field = page.get_by_label("crank angle")
+    slider = page.get_by_label("turn the crank")
+
+    def drag() -> None:
+        box = page.locator(".scene.cross .handle").bounding_box()
+        assert box is not None
+        x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, box["width"] / 3
+        page.mouse.move(x + reach, y)
+        page.mouse.down()
+        for dx, dy in [(0.7, -0.7), (0.0, -1.0), (-0.7, -0.7)]:
+            page.mouse.move(x + reach * dx, y + reach * dy)
+        page.mouse.up()
+
+    acts = {
+        "type": lambda: field.fill("33.5"),
+        "slide": lambda: slider.fill("200"),
+        "step on": lambda: page.get_by_role("button", name="step on").click(),
+        "step back": lambda: page.get_by_role("button", name="step back").click(),
+        "drag": drag,
+        "point": lambda: page.locator(".timeline").click(position={"x": 400, "y": 100}),
+        "script": lambda: page.evaluate("crankpin.set({ angle_deg: -77 })"),
+    }
+    seen = page.evaluate(MOVING)
+    reached = {}
+    for name, act in acts.items():
+        act()
+        moved = page.evaluate(MOVING)
+        still = [k for k, (a, b) in enumerate(zip(seen, moved, strict=True)) if a == b]
+        assert still == [], name
+        reached[name] = (angle(page), moved)
+        assert slider.input_value() == f"{round(angle(page) % 720)}"
+        seen = moved
+    assert [reached[name][0] for name in ("type", "slide", "step on", "step back")] == [
+        33.5,
+        200.0,
+        201.0,
+        200.0,
+    ]
+    assert reached["drag"][0] == pytest.approx(335, abs=0.5)  # counter-clockwise
+    # The same angle gives the same page, however it was reached.
+    for turned, moved in reached.values():
+        field.fill(f"{turned!r}")
+        assert page.evaluate(MOVING) == moved
+
+
+def test_what_is_no_number_moves_nothing(open_engine: Open) -> None:
+    page = open_engine(V8)
+    field = page.get_by_label("crank angle")
+    field.fill("12.5")
+    seen = page.evaluate(MOVING)
+    for text in ("", "a", "1e999", "12.5.3", "NaN"):
+        field.fill(text)
+        assert field.get_attribute("aria-invalid") == "true"
+        assert page.evaluate(MOVING) == seen
+    field.blur()
+    assert field.get_attribute("aria-invalid") is None
+    assert field.input_value() == "12.5"
+    for text, value in [("-3,5", -3.5), ("1e3", 1000.0), (" 7 ", 7.0), ("−8", -8.0)]:
+        field.fill(text)
+        assert angle(page) == value
+    for name, outside in [("bank-angle", "181"), ("rod-ratio", "1"), ("rpm", "-1")]:
+        page.locator(f"[data-name={name}]").fill(outside)
+        assert page.locator(f"[data-name={name}]").get_attribute("aria-invalid") == "true"
+
+
+def test_steps_of_a_tenth_add_up(open_engine: Open) -> None:
+    page = open_engine(V8)
+    page.get_by_label("degrees a step").select_option("0.1")
+    for _ in range(10):
+        page.get_by_role("button", name="step on").click()
+    assert angle(page) == 1.0
+
+
+# --- playing ------------------------------------------------------------------------------------
+
+
+def test_play_advances_and_stop_stops(open_engine: Open) -> None:
+    page = open_engine(V8)
+    freeze(page)
+    play, stop = (page.get_by_role("button", name=name) for name in ("play", "stop"))
+    page.clock.run_for(500)
+    assert angle(page) == 0.0  # nothing moves by itself
+    play.click()
+    page.clock.run_for(1000)
+    reached = angle(page)
+    assert reached == pytest.approx(120, abs=6)  # 20 turns a minute
+    assert play.get_attribute("aria-pressed") == "true"
+    page.get_by_label("turns a minute").fill("60")
+    page.clock.run_for(1000)
+    assert angle(page) - reached == pytest.approx(360, abs=12)
+    page.get_by_role("button", name="reverse").click()
+    before = angle(page)
+    page.clock.run_for(500)
+    assert angle(page) - before == pytest.approx(-180, abs=12)
+    stop.click()
+    stopped = page.evaluate(MOVING), angle(page)
+    page.clock.run_for(1000)
+    assert (page.evaluate(MOVING), angle(page)) == stopped
+    assert play.get_attribute("aria-pressed") == "false"
+
+
+def test_pauses_while_it_cannot_be_seen(open_engine: Open) -> None:
+    page = open_engine(V8)
+    freeze(page)
+    page.get_by_role("button", name="play").click()
+
+    def advanced() -> float:
+        before = angle(page)
+        page.clock.run_for(500)
+        return angle(page) - before
+
+    assert advanced() > 50
+    hide = """hidden => {
+        Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+        document.dispatchEvent(new Event("visibilitychange"));
+    }"""
+    page.evaluate(hide, arg=True)
+    assert advanced() == 0
+    page.evaluate(hide, arg=False)
+    assert advanced() > 50
+    # Scrolled away.
+    page.evaluate("document.body.style.paddingTop = '5000px'")
+    wait(page, "!crankpin.player.onScreen")
+    assert advanced() == 0
+    page.evaluate("document.body.style.paddingTop = '0'")
+    wait(page, "crankpin.player.onScreen")
+    assert advanced() > 50
+
+
+def test_reduced_motion_changes_the_picture_twice_a_second(open_engine: Open) -> None:
+    page = open_engine(V8, reduced_motion="reduce")
+    freeze(page)
+    page.get_by_role("button", name="play").click()
+    seen = []
+    for _ in range(40):
+        page.clock.run_for(50)
+        seen.append(angle(page))
+    assert len({*seen}) in (4, 5)
+    assert seen[-1] == pytest.approx(240, abs=70)
+
+
+def test_keys(open_engine: Open) -> None:
+    page = open_engine(V8)
+    freeze(page)
+    for key, reached in [
+        ("ArrowRight", 1),
+        ("Shift+ArrowRight", 11),
+        ("ArrowLeft", 10),
+        ("Home", 0),
+        ("Shift+ArrowLeft", -10),
+    ]:
+        page.keyboard.press(key)
+        assert angle(page) == reached
+    page.keyboard.press("Space")
+    page.clock.run_for(500)
+    assert angle(page) > 20
+    page.keyboard.press("r")
+    page.keyboard.press("Space")
+    stopped = angle(page)
+    page.clock.run_for(500)
+    assert angle(page) == stopped
+    assert page.get_by_role("button", name="reverse").get_attribute("aria-pressed") == "true"
+    # A key that is typed, or that presses a button, does no more than that.
+    page.get_by_label("crank angle").fill("5")
+    page.get_by_label("crank angle").press("ArrowLeft")
+    assert angle(page) == 5
+    page.get_by_role("button", name="stop").press("Space")
+    page.clock.run_for(500)
+    assert angle(page) == 5
+
+
+# --- settings -----------------------------------------------------------------------------------
+
+
+def test_engine_follows_its_settings(open_engine: Open) -> None:
+    page = open_engine(V8)
+    bores = "[...document.querySelectorAll('.cross .bore')].map(each => each.getAttribute('d'))"
+    before, found = page.evaluate(bores), values(page)
+    page.get_by_label("bank angle", exact=True).fill("60")
+    assert page.evaluate(bores) != before
+    assert values(page)["bank-angle"] == 60
+    # With the pins held the firing moves, and held it does not.
+    intervals = page.locator("[data-name=firing-intervals]")
+    held = V8.with_bank_angle(60, hold="pins").firing()
+    assert intervals.text_content() == f"(intervals {held.intervals_text}°)"
+    order = page.locator("[data-name=firing-order]")
+    assert order.text_content() == held.firing_order == V8.firing_order
+    page.get_by_label("held as the banks turn").select_option("firing")
+    assert intervals.text_content() == "(every 90°)"
+    page.get_by_label("engine speed").fill("6000")
+    page.get_by_label("bank angle", exact=True).fill("90")
+    assert values(page)["moment-longest"] == pytest.approx(4 * found["moment-longest"], rel=1e-9)
+
+
+def test_firing_follows_the_library_s(open_engine: Open) -> None:
+    """Offsets and rods move the highest point of a piston, and with it the firing."""
+    engine = cp.Engine.preset("vr6")
+    page = open_engine(engine)
+    changed = engine.replace(
+        cylinder=[c.replace(rod_length=c.crank_radius / 0.4) for c in engine.cylinders]
+    )
+    for ratio, expected in [(None, engine), (0.4, changed)]:
+        if ratio:
+            page.locator("[data-name=rod-ratio]").fill(f"{ratio}")
+        fires = page.evaluate("crankpin.engine.cylinders.map(each => each.strokes[0][1] % 720)")
+        assert fires == pytest.approx(expected.firing().angles_deg.tolist(), abs=1e-9)
+        strokes = page.evaluate("crankpin.engine.cylinders.map(each => each.strokes)")
+        periods = expected.firing().strokes_deg()
+        for cylinder, each in enumerate(strokes):
+            for name, begin, end in each:
+                known = periods[name][cylinder]
+                assert begin % 720 == pytest.approx(known[0], abs=1e-9)
+                assert end - begin == pytest.approx(known[1] - known[0], abs=1e-9)
+
+
+def test_rocking_is_that_of_a_free_block(open_engine: Open) -> None:
+    engine = cp.Engine.preset("i3").replace(rotating_mass=0.2)
+    page = open_engine(engine)
+    page.get_by_label("crank angle").fill("50")
+    orders = [each["order"] for each in page.evaluate("crankpin.shown")]
+    balance = engine.balance(3000.0, orders=orders, torque=False)
+    turned = np.exp(1j * np.array(orders) * np.radians(50))
+    square = (np.array(orders) * 3000.0 * np.pi / 30) ** 2
+    force = balance.force.forward * turned + balance.force.backward / turned
+    moment = balance.moment.forward * turned + balance.moment.backward / turned
+    # A bar of 50 times the reciprocating masses, half a height beyond the outer cylinders.
+    mass, height = 50 * 3 * 0.45, 2 * 0.043 + 0.145
+    inertia = mass * ((0.2 + height) ** 2 + height**2) / 12
+
+    def shown() -> list[complex]:
+        at = page.evaluate(
+            """crankpin.orbits.parts.map(({ dot }) => ["cx", "cy"].map((name, k) => (1 - 2 * k)
+                * (Number(dot.getAttribute(name)) - 100) / crankpin.orbits.dial.scale))"""
+        )
+        return [complex(*each) for each in at]
+
+    for still in ([], [1], orders[1:]):
+        page.evaluate("still => crankpin.set({ still: new Set(still) })", still)
+        kept = ~np.isin(orders, still)
+        expected = []
+        for z in page.evaluate("crankpin.scenes[2].dimensions.ends"):
+            tilt = -moment / (inertia * square)
+            moved = -force / (mass * square) - 1j * (z - engine.reference_z) * tilt
+            expected.append(moved[kept].sum())
+        reach = page.evaluate("84 / crankpin.orbits.dial.scale")
+        assert shown() == pytest.approx(expected, abs=1e-3 * reach)  # hundredths of a pixel
+    assert page.get_by_role("checkbox", name="order 1", exact=True).is_checked()
+    page.get_by_role("checkbox", name="order 1", exact=True).uncheck()
+    assert 1 in page.evaluate("[...crankpin.state.still]")
+
+
+def test_exaggeration_moves_the_picture_in_proportion(open_engine: Open) -> None:
+    page = open_engine(cp.Engine.preset("i3"))
+    page.get_by_label("crank angle").fill("50")
+    where = """() => { const [dot] = document.querySelectorAll(".scene.isometric .dot");
+        return ["cx", "cy"].map(name => Number(dot.getAttribute(name))); }"""
+
+    def at(factor: float) -> np.ndarray:
+        page.evaluate("factor => crankpin.set({ exaggeration: factor })", factor)
+        assert values(page)["exaggeration"] == factor
+        return np.array(page.evaluate(where))
+
+    still, once, twice = at(0), at(500), at(1000)
+    assert np.abs(once - still).max() > 1
+    np.testing.assert_allclose(twice - still, 2 * (once - still), atol=0.03)
+    assert page.locator("[data-name=exaggeration]").text_content() == "× 1000"
+
+
+# --- for every reader ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("engine", [V8, V16, cp.Engine.preset("w16"), everything(), radial()])
+def test_a_phone_s_width_needs_no_scrolling(open_engine: Open, engine: cp.Engine) -> None:
+    page = open_engine(engine, viewport={"width": 360, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    wide = page.eval_on_selector_all(
+        ".crankpin *",
+        """found => found.filter(each => !each.closest("svg") || each.tagName === "svg")
+            .filter(each => each.getBoundingClientRect().right > 361)
+            .map(each => each.outerHTML)""",
+    )
+    assert wide == []
+
+
+@pytest.mark.parametrize("engine", [V8, everything()])
+def test_every_number_has_a_name_and_a_value(open_engine: Open, engine: cp.Engine) -> None:
+    page = open_engine(engine)
+    nameless = page.evaluate(
+        """() => {
+            const texts = document.createTreeWalker(
+                document.querySelector(".crankpin"), NodeFilter.SHOW_TEXT);
+            const found = [];
+            while (texts.nextNode()) {
+                const { data, parentElement } = texts.currentNode;
+                const named = parentElement.closest("[data-name][data-value]");
+                if (/\\d/.test(data) && !named) found.push(data);
+            }
+            return found;
+        }"""
+    )
+    assert nameless == []
+    once = ["crank-angle", "force-x", "force-y", "moment-x", "moment-y", "torque", "piston-1"]
+    for name in [*once, f"piston-{len(engine)}", "rpm", "bank-angle", "rod-ratio"]:
+        assert page.locator(f"[data-name={name}]").count() == 1
+        assert name in values(page)
+
+
+def test_controls_and_pictures_have_names(open_engine: Open) -> None:
+    page = open_engine(V8)
+    for name in ("play", "stop", "step back", "step on", "reverse"):
+        assert page.get_by_role("button", name=name, exact=True).count() == 1
+    assert page.get_by_label("crank angle").count() == 1
+    nameless = page.eval_on_selector_all(
+        ".crankpin :is(button, input, select, svg[role=img])",
+        """found => found.filter(each => !(each.getAttribute("aria-label")
+            || each.labels?.[0]?.textContent.trim() || each.textContent.trim()))
+            .map(each => each.outerHTML.slice(0, 80))""",
+    )
+    assert nameless == []
+
+
+def test_light_and_dark(open_engine: Open) -> None:
+    colours = {}
+    for scheme in ("light", "dark"):
+        page = open_engine(V8, color_scheme=scheme)
+        colours[scheme] = page.eval_on_selector(
+            ".crankpin",
+            "each => [getComputedStyle(each).backgroundColor, getComputedStyle(each).color]",
+        )
+    (light_paper, light_ink), (dark_paper, dark_ink) = colours["light"], colours["dark"]
+
+    def brightness(colour: str) -> int:
+        return sum(int(part) for part in re.findall(r"\d+", colour)[:3])
+
+    assert brightness(light_paper) > brightness(light_ink) + 500
+    assert brightness(dark_ink) > brightness(dark_paper) + 500
+
+
+# --- for long -----------------------------------------------------------------------------------
+
+
+def test_ten_thousand_frames_leak_nothing(open_engine: Open) -> None:
+    page = open_engine(V8)
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable")
+
+    def measured() -> tuple[float, float]:
+        session.send("HeapProfiler.collectGarbage")
+        found = session.send("Performance.getMetrics")["metrics"]
+        numbers = {each["name"]: each["value"] for each in found}
+        return numbers["Nodes"], numbers["JSHeapUsedSize"]
+
+    frames = "for (let k = 0; k < %d; k++) crankpin.set({ angle_deg: 1.7 * k })"
+    page.evaluate(frames % 200)
+    nodes, heap = measured()
+    page.evaluate(frames % 10_000)
+    more_nodes, more_heap = measured()
+    assert more_nodes <= nodes
+    assert more_heap < heap + 500_000  # fifty bytes a frame
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", cp.presets())
+def test_every_preset_turns(open_engine: Open, name: str) -> None:
+    page = open_engine(cp.Engine.preset(name), rpm=10.0 if name.endswith("-ebook") else 3000.0)
+    piston = page.locator(".scene.cross .piston").first
+    before = piston.get_attribute("transform")
+    page.get_by_label("crank angle").fill("123")
+    assert piston.get_attribute("transform") != before
+    odd = page.eval_on_selector_all(
+        ".crankpin *",
+        """found => found.flatMap(each => [...each.attributes]).filter(({ value }) =>
+            /NaN|undefined|Infinity/.test(value)).map(({ name, value }) => `${name}=${value}`)""",
+    )
+    assert odd == []
