@@ -2,6 +2,7 @@
 
 import { configure, ownSettings, strokesAt } from "./engine.mjs";
 import { fixed, html } from "./dom.mjs";
+import { frames } from "./frames.mjs";
 import { poseAt } from "./pose.mjs";
 import { Scene } from "./scene.mjs";
 
@@ -13,7 +14,7 @@ export function gallery(engines) {
   const list = html("ul", { class: "gallery" });
   for (const { href, figures, description } of engines) {
     const engine = configure(figures, ownSettings(figures));
-    const scene = new Scene("isometric", [240, 190]);
+    const scene = new Scene(frames(figures).space, [240, 190]);
     scene.layout(engine);
     scene.pose(poseAt(engine, [], ANGLE), strokesAt(engine, ANGLE), () => [0, 0]);
     list.append(html("li", {}, html("a", { href }, scene.element,

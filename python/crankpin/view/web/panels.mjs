@@ -14,11 +14,11 @@ export function section(title, ...children) {
 
 /** Names of classes, each beside its mark. */
 export function legend(names, words) {
-  return html("p", { class: "legend" }, ...names.flatMap((name) => [mark(name), words[name]]));
+  return html("p", { class: "legend" },
+    ...names.map((name) => html("span", {}, mark(name), words[name])));
 }
 
-/** The mark of a class in a legend. */
-export function mark(name) {
+function mark(name) {
   const shape = name === "fires"
     ? svg("path", { class: "fires", d: "M6 1l4.5 5l-4.5 5l-4.5-5z" })
     : name === "tdc" ? svg("path", { class: "tdc", d: "M6 0v12" })

@@ -20,7 +20,7 @@ const FRAMES = {
   right: seen([1, 0, 0], [0, 1, 0]),
   above: seen([0, 1, 0], [1, 0, 0]),
   isometric: seen([1, 1, 1], [0, 1, 0]),
-  oblique: seen([0.42, 0.5, 0.76], [0, 1, 0]),
+  oblique: seen([0.22, 0.55, 0.8], [0, 1, 0]),
 };
 
 /** A projection: metres to pixels of a picture, y downwards. */

@@ -59,8 +59,7 @@ export const STRINGS = {
   strokes: {
     power: "power", exhaust: "exhaust", intake: "intake", compression: "compression",
   },
-  fires: "fires",
-  tdc: "top dead centre",
+  marks: { fires: "fires", tdc: "top dead centre" },
   firingOrder: "fires",
   keys: "Keys: space plays and stops, ← → step, shift ten times as far, R reverses, home returns to the start",
   units: { force: "N", moment: "N·m", torque: "N·m" },

@@ -27,7 +27,7 @@ export class Timeline {
     const narrow = width < NARROW;
     this.cycle = engine.cycle;
     this.left = narrow ? 48 : 64;
-    this.right = width - (narrow ? 66 : 84);
+    this.right = width - (narrow ? 80 : 84);
     this.dots = [];
     const top = 20 + histories.length * (CURVE + GAP);
     this.bottom = top + engine.cylinders.length * ROW;
@@ -132,7 +132,7 @@ export class Timeline {
       const x = this.x(angle);
       return [
         svg("path", { class: "grid", d: `M${x} 4V${top + 3}` }),
-        fixed(svg, "text", "tick", angle, `${angle}°`, { class: "angle", x, y: top + 16 }),
+        fixed(svg, "text", "tick", angle, `${angle}°`, { class: "degrees", x, y: top + 16 }),
       ];
     });
   }

@@ -1,11 +1,12 @@
 // The page: one state, from which every picture and every number follows.
 
-import { ownSettings, configure, strokesAt } from "./engine.mjs";
+import { configure, ownSettings, strokesAt } from "./engine.mjs";
 import { Settings, Transport } from "./controls.mjs";
 import { reduced, scale, unit } from "./complex.mjs";
 import { fixed, html, numbered, show } from "./dom.mjs";
 import { Ends } from "./ends.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
+import { frames } from "./frames.mjs";
 import { Handle } from "./handle.mjs";
 import { phasors, shown } from "./orders.mjs";
 import { Phasors } from "./phasors.mjs";
@@ -16,7 +17,7 @@ import { Scene } from "./scene.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Timeline } from "./timeline.mjs";
 import { peaks, turn } from "./turn.mjs";
-import { legend, mark, panel, section } from "./panels.mjs";
+import { legend, panel, section } from "./panels.mjs";
 import { Arrow, Orbits, Twist } from "./vectors.mjs";
 
 /** Orders that are shown at most. */
@@ -27,18 +28,6 @@ const SETTINGS = ["rpm", "bank_angle_deg", "rod_ratio", "hold"];
 
 /** Those that change what it looks like. */
 const GEOMETRY = ["bank_angle_deg", "rod_ratio", "hold", "side", "space"];
-
-/** Where an engine is looked at from: from above if its bores lie rather than stand. */
-function frames({ cylinders }) {
-  const sum = (part) => cylinders.reduce(
-    (total, { bank_deg: deg }) => total + Math.abs(unit(deg)[part]), 0);
-  const inLine = cylinders.every(({ bank_deg: deg }) => deg === cylinders[0].bank_deg);
-  return {
-    side: sum(0) > 0.99 * sum(1) ? "above" : "left",
-    // Bores at 45° would be seen from the side or end on.
-    space: inLine ? "isometric" : "oblique",
-  };
-}
 
 /** A choice of one entry of the state, as wide as a title. */
 function choice(key, names, view) {
@@ -131,7 +120,7 @@ export class View {
     const { side, space } = this.state;
     this.scenes = [
       new Scene("cross", [390, 350], [40, 26]),
-      new Scene(side, [480, 345]),
+      new Scene(side, [480, 345], [14, 20]),
       new Scene(space, [480, 345], [14, 22]),
     ];
     this.frames = [choice("side", STRINGS.side, this), choice("space", STRINGS.space, this)];
@@ -171,8 +160,7 @@ export class View {
         figures.firing_deg ? legend(["power", "exhaust", "intake", "compression"]
           .filter((name) => figures.strokes === 4 || name === "power" || name === "compression"),
         STRINGS.strokes) : "",
-        html("p", { class: "legend" },
-          ...(figures.firing_deg ? [mark("fires"), STRINGS.fires] : []), mark("tdc"), STRINGS.tdc),
+        legend(figures.firing_deg ? ["fires", "tdc"] : ["tdc"], STRINGS.marks),
         this.timelineBox),
       html("p", { class: "hint" }, STRINGS.block),
       html("p", { class: "hint" }, STRINGS.keys),

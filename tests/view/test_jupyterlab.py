@@ -1,0 +1,130 @@
+"""Does the widget turn in JupyterLab?"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import numpy as np
+import pytest
+from chromium import values
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        importlib.util.find_spec("jupyterlab") is None
+        and os.environ.get("CRANKPIN_REQUIRE_BROWSER") != "1",
+        reason="needs JupyterLab: pip install jupyterlab",
+    ),
+]
+
+CELLS = [
+    "import crankpin as cp\nwidget = cp.Engine.preset('v8-crossplane').view(rpm=5000)\nwidget",
+    "widget.angle_deg, widget.bank_angle_deg = 97.25, 60",
+    "print(widget.angle_deg, widget.rod_ratio, widget.engine.cylinders[0].rod_ratio)",
+]
+
+
+@pytest.fixture
+def notebook(tmp_path: Path) -> Iterator[str]:
+    """Address of a notebook with these cells, served by JupyterLab on this machine alone."""
+    cells = [
+        {
+            "cell_type": "code",
+            "id": f"cell-{k}",
+            "metadata": {},
+            "execution_count": None,
+            "outputs": [],
+            "source": source,
+        }
+        for k, source in enumerate(CELLS)
+    ]
+    kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
+    content = {"cells": cells, "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
+    (tmp_path / "engine.ipynb").write_text(json.dumps(content))
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    options = [
+        "--no-browser",
+        "--allow-root",
+        f"--port={port}",
+        f"--ServerApp.root_dir={tmp_path}",
+        "--IdentityProvider.token=",
+        "--LabApp.news_url=None",
+        "--LabApp.extension_manager=readonly",
+    ]
+    home = dict.fromkeys(("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "HOME"), f"{tmp_path}")
+    server = subprocess.Popen(  # noqa: S603 - JupyterLab of this environment
+        [sys.executable, "-m", "jupyterlab", *options],
+        env=os.environ | home,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        root = f"http://127.0.0.1:{port}"
+        _wait(f"{root}/api", server)
+        yield f"{root}/lab/tree/engine.ipynb"
+    finally:
+        server.terminate()
+        server.wait(30)
+
+
+def _wait(address: str, server: subprocess.Popen[bytes]) -> None:
+    for _ in range(600):
+        assert server.poll() is None, "JupyterLab has ended"
+        try:
+            urllib.request.urlopen(address, timeout=5)  # noqa: S310 - this machine
+        except (urllib.error.URLError, ConnectionError, TimeoutError):
+            time.sleep(0.1)
+        else:
+            return
+    pytest.fail("JupyterLab does not answer")
+
+
+def test_widget_and_kernel_move_each_other(browser: Browser, notebook: str) -> None:
+    page = browser.new_page(viewport={"width": 1400, "height": 1000})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(f"{error}"))
+    page.set_default_timeout(120_000)
+    page.goto(notebook)
+    page.locator(".jp-Notebook .jp-InputArea-editor").first.click()
+    page.get_by_text("Python 3 (ipykernel)").first.wait_for()
+    page.keyboard.press("Shift+Enter")
+    page.locator(".crankpin").wait_for()
+    # From Python.
+    page.keyboard.press("Shift+Enter")
+    page.locator("[data-name=crank-angle][data-value='97.25']").wait_for()
+    engine = cp.Engine.preset("v8-crossplane").with_bank_angle(60, hold="pins")
+    wave = engine.waveform(5000, theta_deg=[97.25])
+    expected = [*np.asarray(wave.force)[0], *np.asarray(wave.moment)[0], np.asarray(wave.torque)[0]]
+    found = values(page)
+    names = ["force-x", "force-y", "moment-x", "moment-y", "torque"]
+    np.testing.assert_allclose([found[name] for name in names], expected, rtol=1e-9, atol=1e-6)
+    # To Python.
+    page.get_by_label("crank angle").fill("77.5")
+    page.locator("[data-name=rod-ratio]").fill("0.25")
+    # Keys that turn the crank do nothing else: two of "d" would delete the cell.
+    page.locator(".crankpin").focus()
+    for key in ("ArrowRight", "d", "d"):
+        page.keyboard.press(key)
+    assert page.locator(".jp-Notebook .jp-CodeCell").count() == len(CELLS)
+    page.locator(".jp-Notebook .jp-InputArea-editor").nth(2).click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("78.5 0.25 0.25").wait_for()
+    assert errors == []
+    page.close()
