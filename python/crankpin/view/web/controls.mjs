@@ -7,6 +7,9 @@ import { STRINGS } from "./strings.mjs";
 /** Exaggerations of the rocking; the first is none. */
 const FACTORS = [0, ...[1, 10, 100, 1e3, 1e4].flatMap((ten) => [1, 2, 5].map((n) => n * ten))];
 
+/** Highest engine speed that can be typed. */
+const FASTEST = 1e6;
+
 /** Degrees of a single step. */
 const STEPS = [0.1, 1, 5, 10, 90];
 
@@ -90,15 +93,13 @@ export class Settings {
     const fastest = Math.max(1.5 * figures.rpm, figures.rpm < 1000 ? 0 : 8000) || 8000;
     const settle = () => this.show(view.state);
     this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, 10, STRINGS.rpm,
-      (rpm) => view.set({ rpm }), settle, Infinity);
+      (rpm) => view.set({ rpm }), settle, FASTEST);
     this.bank = pair(STRINGS.bankAngle, STRINGS.bankAngleField, "bank-angle", 0, 180, 0.5,
       STRINGS.degrees, (bank_angle_deg) => view.set({ bank_angle_deg }), settle);
     this.rod = pair(STRINGS.rodRatio, STRINGS.rodRatioField, "rod-ratio", least, most, 0.001, "",
       (rod_ratio) => view.set({ rod_ratio }), settle);
-    this.hold = html("select", {},
-      ...Object.entries(STRINGS.holds).map(([value, name]) => html("option", { value }, name)));
-    this.hold.addEventListener("change", () => view.set({ hold: this.hold.value }));
-    const held = html("label", { class: "hold" }, html("span", {}, STRINGS.hold), this.hold);
+    this.hold = choice("hold", STRINGS.holds, view);
+    const held = html("div", { class: "hold" }, html("span", {}, STRINGS.choices.hold), this.hold);
     this.factor = slider(STRINGS.exaggeration, 0, FACTORS.length - 1, 1,
       (k) => view.set({ exaggeration: FACTORS[k] }));
     this.factorShown = numbered(html, "output", "exaggeration");
@@ -164,6 +165,15 @@ function pair(label, described, name, least, most, step, unit, act, settle, limi
       write(field, value);
     },
   };
+}
+
+/** A choice of one entry of the view's state. */
+export function choice(key, names, view) {
+  const element = html("select", { "aria-label": STRINGS.choices[key] },
+    ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
+  element.value = view.state[key];
+  element.addEventListener("change", () => view.set({ [key]: element.value }));
+  return element;
 }
 
 function slider(label, min, max, step, act) {

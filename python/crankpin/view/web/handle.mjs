@@ -11,15 +11,15 @@ const CLOSE = 24; // degrees between pins whose numbers would overlap
 const MOST_IN_LINE = 4;
 
 export class Handle {
-  /** `turnBy` is told of every drag, in degrees. */
-  constructor(scene, turnBy) {
+  /** A drag begins at `angle()` and tells `turnTo` where it has come, in tenths of a degree. */
+  constructor(scene, angle, turnTo) {
     this.scene = scene;
     this.hit = svg("circle", { class: "handle" });
     this.circle = svg("circle", { class: "pin-circle" });
     this.sense = svg("path", { class: "sense" });
     this.numbers = svg("g");
     scene.overlay.append(this.circle, this.sense, this.numbers, this.hit);
-    this.drag(turnBy);
+    this.drag(angle, turnTo);
   }
 
   layout(engine) {
@@ -64,25 +64,28 @@ export class Handle {
     }
   }
 
-  drag(turnBy) {
+  drag(angle, turnTo) {
     let last = null;
-    const angle = (event) => {
+    let reached = 0;
+    const pointed = (event) => {
       // The picture may be scaled: back from the screen to its own pixels.
       const at = new DOMPoint(event.clientX, event.clientY)
         .matrixTransform(this.scene.element.getScreenCTM().inverse());
       return Math.atan2(this.centre[1] - at.y, at.x - this.centre[0]) / DEGREE;
     };
     this.hit.addEventListener("pointerdown", (event) => {
-      last = angle(event);
+      last = pointed(event);
+      reached = angle();
       this.hit.setPointerCapture(event.pointerId);
       event.preventDefault();
     });
     this.hit.addEventListener("pointermove", (event) => {
       if (last === null) return;
-      const now = angle(event);
+      const now = pointed(event);
       const turned = now - last;
       last = now;
-      turnBy(turned - 360 * Math.round(turned / 360));
+      reached += turned - 360 * Math.round(turned / 360);
+      turnTo(Number(reached.toFixed(1)));
     });
     for (const end of ["pointerup", "pointercancel"]) {
       this.hit.addEventListener(end, () => { last = null; });

@@ -1,23 +1,25 @@
 // The page: one state, from which every picture and every number follows.
 
-import { configure, ownSettings, strokesAt } from "./engine.mjs";
-import { Settings, Transport } from "./controls.mjs";
 import { reduced, scale, unit } from "./complex.mjs";
-import { fixed, html, numbered, show } from "./dom.mjs";
+import { choice, Settings, Transport } from "./controls.mjs";
+import { html, numbered, show } from "./dom.mjs";
 import { Ends } from "./ends.mjs";
-import { roundBelow, scaleFor, short } from "./format.mjs";
+import { configure, ownSettings, strokesAt } from "./engine.mjs";
+import { roundBelow, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
 import { Handle } from "./handle.mjs";
+import { Header } from "./header.mjs";
 import { phasors, shown } from "./orders.mjs";
+import { legend, panel, section } from "./panels.mjs";
 import { Phasors } from "./phasors.mjs";
 import { Player } from "./player.mjs";
 import { poseAt } from "./pose.mjs";
+import { Readouts } from "./readouts.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { Scene } from "./scene.mjs";
 import { STRINGS } from "./strings.mjs";
 import { Timeline } from "./timeline.mjs";
 import { peaks, turn } from "./turn.mjs";
-import { legend, panel, section } from "./panels.mjs";
 import { Arrow, Orbits, Twist } from "./vectors.mjs";
 
 /** Orders that are shown at most. */
@@ -28,15 +30,6 @@ const SETTINGS = ["rpm", "bank_angle_deg", "rod_ratio", "hold"];
 
 /** Those that change what it looks like. */
 const GEOMETRY = ["bank_angle_deg", "rod_ratio", "hold", "side", "space"];
-
-/** A choice of one entry of the state, as wide as a title. */
-function choice(key, names, view) {
-  const element = html("select", { "aria-label": STRINGS[`${key}Of`] },
-    ...Object.entries(names).map(([value, name]) => html("option", { value }, name)));
-  element.value = view.state[key];
-  element.addEventListener("change", () => view.set({ [key]: element.value }));
-  return element;
-}
 
 /** An engine that turns. `figures` are what Python writes of the engine. */
 export class View {
@@ -115,6 +108,7 @@ export class View {
 
   build() {
     const { figures } = this;
+    const title = figures.name || STRINGS.unnamed;
     this.transport = new Transport(this);
     this.settings = new Settings(this);
     const { side, space } = this.state;
@@ -124,8 +118,8 @@ export class View {
       new Scene(space, [480, 345], [14, 22]),
     ];
     this.frames = [choice("side", STRINGS.side, this), choice("space", STRINGS.space, this)];
-    this.handle = new Handle(this.scenes[0], (turned) =>
-      this.set({ angle_deg: this.state.angle_deg + turned, playing: false }));
+    this.handle = new Handle(this.scenes[0], () => this.state.angle_deg,
+      (angle) => this.set({ angle_deg: angle, playing: false }));
     this.ends = new Ends(this.scenes[2]);
     this.force = new Arrow(STRINGS.force, "force");
     this.moment = new Arrow(STRINGS.moment, "moment");
@@ -138,19 +132,14 @@ export class View {
       this.set({ angle_deg: Math.floor(angle / cycle) * cycle + within, playing: false });
     });
     this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
-    this.readouts = Object.fromEntries(
-      ["crank-angle", "force-x", "force-y", "moment-x", "moment-y", "torque"]
-        .map((name) => [name, numbered(html, "output", name, { "aria-live": "off" })]));
-    this.longest = Object.fromEntries(["force", "moment", "torque"]
-      .map((name) => [name, numbered(html, "span", `${name}-longest`)]));
-    this.firingOrder = numbered(html, "span", "firing-order");
-    this.intervals = numbered(html, "span", "firing-intervals");
+    this.readouts = new Readouts();
+    this.header = new Header(title, figures.firing_deg !== null);
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
-    this.element = html("div", { class: "crankpin", tabindex: "0" },
-      this.header(), this.transport.element, this.settings.element,
+    this.element = html("div", { class: "crankpin", tabindex: "0", role: "region", "aria-label": title },
+      this.header.element, this.transport.element, this.settings.element,
       html("div", { class: "views" },
-        panel(STRINGS.crossSection, this.readouts["crank-angle"], this.scenes[0].element),
+        panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
         panel(this.frames[1], this.scenes[2].element)),
       this.stretchedLine,
@@ -167,32 +156,13 @@ export class View {
     );
   }
 
-  header() {
-    const { name, firing_deg: firing } = this.figures;
-    const title = name || STRINGS.unnamed;
-    return html("header", {},
-      html("h1", {}, fixed(html, "span", "engine-name", title, title)),
-      ...(firing ? [html("p", {}, `${STRINGS.firingOrder} `,
-        this.firingOrder, " ", this.intervals)] : []),
-    );
-  }
-
   dials() {
-    const components = (quantity) => html("dl", {},
-      ...["x", "y"].flatMap((axis, k) => [
-        html("dt", { class: axis }, STRINGS.components[quantity][k]),
-        html("dd", {}, this.readouts[`${quantity}-${axis}`]),
-      ]),
-      html("dt", { class: "longest" }, STRINGS.longest),
-      html("dd", { class: "longest" }, this.longest[quantity]));
+    const { readouts } = this;
     return [
-      panel(STRINGS.force, this.force.element, components("force")),
-      panel(STRINGS.moment, this.moment.element, components("moment")),
+      panel(STRINGS.force, this.force.element, readouts.listOf("force")),
+      panel(STRINGS.moment, this.moment.element, readouts.listOf("moment")),
       panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends)),
-      panel(STRINGS.torque, this.twist.element, html("dl", {},
-        html("dt", { class: "torque" }, STRINGS.about), html("dd", {}, this.readouts.torque),
-        html("dt", { class: "longest" }, STRINGS.largest),
-        html("dd", { class: "longest" }, this.longest.torque))),
+      panel(STRINGS.torque, this.twist.element, readouts.listOfTorque()),
     ];
   }
 
@@ -207,12 +177,7 @@ export class View {
     this.orders = core ? core.orders : phasors(this.engine, this.figures.highest_order);
     this.curve = core ? core.curve : turn(this.engine, this.orders);
     this.peaks = peaks(this.engine, this.orders, this.curve);
-    this.scales = {};
-    for (const [quantity, largest] of Object.entries(this.peaks)) {
-      this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
-      const { text, unit: name } = this.scales[quantity];
-      show(this.longest[quantity], largest, `${text(largest)} ${name}`);
-    }
+    this.readouts.layout(this.peaks);
     this.shown = shown(this.orders, MOST_ORDERS);
     if (!looksTheSame) {
       this.scenes.forEach((scene) => scene.layout(this.engine));
@@ -228,7 +193,7 @@ export class View {
     this.moment.layout(this.curve.moment, this.peaks.moment);
     this.twist.layout(this.peaks.torque);
     this.layoutRocking();
-    this.layoutFiring();
+    this.header.layout(this.engine);
     this.layoutTimeline();
     this.transport.showSettings(state);
   }
@@ -252,25 +217,8 @@ export class View {
     this.settings.show(state);
   }
 
-  layoutFiring() {
-    const { cylinders, cycle, firing } = this.engine;
-    if (!firing) return;
-    const [first] = cylinders[0].strokes[0].slice(1);
-    // From cylinder 1 on; rounding must not put one that fires with it last.
-    const found = cylinders.map(({ number, strokes }) =>
-      ({ number, after: Number(reduced(strokes[0][1] - first, cycle).toFixed(9)) % cycle }));
-    found.sort((a, b) => a.after - b.after || a.number - b.number);
-    const intervals = found.map(({ after }, k) => (found[k + 1]?.after ?? cycle) - after);
-    const order = found.map(({ number }, k) => (k ? (intervals[k - 1] ? "-" : "+") : "") + number);
-    show(this.firingOrder, order.join(""), order.join(""));
-    const texts = intervals.map((interval) => short(interval, 2));
-    const even = texts.every((text) => text === texts[0]);
-    show(this.intervals, intervals.join(" "),
-      even ? `(every ${texts[0]}°)` : `(intervals ${texts.join("-")}°)`);
-  }
-
   layoutTimeline() {
-    const { curve, scales, peaks: largest } = this;
+    const { curve, peaks: largest, readouts: { scales } } = this;
     const component = (quantity, k) => ({
       name: "xy"[k], label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
@@ -292,7 +240,7 @@ export class View {
   // --- what changes with the angle --------------------------------------------------------------
 
   pose() {
-    const { engine, state, scales } = this;
+    const { engine, state } = this;
     const { angle_deg: angle, exaggeration } = state;
     const pose = poseAt(engine, this.orders, angle);
     this.last = pose;
@@ -310,18 +258,7 @@ export class View {
     this.phasors.pose(pose.crank);
     this.timeline.pose(pose);
     this.transport.show(state, reduced(angle, engine.cycle));
-    this.readout("crank-angle", angle, `${short(angle, 3)}°`);
-    for (const quantity of ["force", "moment"]) {
-      const { text, unit: name } = scales[quantity];
-      pose[quantity].forEach((value, k) =>
-        this.readout(`${quantity}-${"xy"[k]}`, value, `${text(value)} ${name}`));
-    }
-    if (pose.torque === null) this.readout("torque", "", STRINGS.noTorque);
-    else this.readout("torque", pose.torque, `${scales.torque.text(pose.torque)} ${scales.torque.unit}`);
-  }
-
-  readout(name, value, text) {
-    show(this.readouts[name], value, text);
+    this.readouts.pose(pose);
   }
 
   key(event) {

@@ -14,31 +14,35 @@ function render({ model, el }) {
   view.element.setAttribute("data-lm-suppress-shortcuts", "true");
   el.append(view.element);
 
-  const receive = () => view.set(Object.fromEntries(SHARED.map((key) => [key, model.get(key)])));
-  const receiveCore = () => view.useCore(model.get("core"));
-  for (const key of SHARED) model.on(`change:${key}`, receive);
-  model.on("change:core", receiveCore);
-  receive();
-  receiveCore();
+  const heard = Object.fromEntries(
+    SHARED.map((key) => [`change:${key}`, () => view.set({ [key]: model.get(key) })]));
+  heard["change:core"] = () => view.useCore(model.get("core"));
+  for (const [event, act] of Object.entries(heard)) {
+    model.on(event, act);
+    act();
+  }
 
+  const unsent = new Set();
   let waiting = null;
   const send = () => {
     clearTimeout(waiting);
     waiting = null;
-    for (const key of SHARED) {
-      if (model.get(key) !== view.state[key]) model.set(key, view.state[key]);
-    }
+    for (const key of unsent) model.set(key, view.state[key]);
+    unsent.clear();
     model.save_changes();
   };
   view.listeners.add((changed) => {
-    if (!changed.some((key) => SHARED.includes(key) || key === "playing")) return;
+    for (const key of changed) {
+      // What comes from Python is not sent back.
+      if (SHARED.includes(key) && view.state[key] !== model.get(key)) unsent.add(key);
+    }
+    if (!unsent.size) return;
     if (!view.state.playing) send();
     else waiting ??= setTimeout(send, PACE);
   });
   return () => {
     clearTimeout(waiting);
-    for (const key of SHARED) model.off(`change:${key}`, receive);
-    model.off("change:core", receiveCore);
+    for (const [event, act] of Object.entries(heard)) model.off(event, act);
     view.destroy();
   };
 }

@@ -1,0 +1,67 @@
+// The numbers of the engine as a whole, now and over a turn.
+
+import { html, numbered, show } from "./dom.mjs";
+import { scaleFor, short } from "./format.mjs";
+import { STRINGS } from "./strings.mjs";
+
+const VECTORS = ["force", "moment"];
+const AXES = ["x", "y"];
+
+export class Readouts {
+  constructor() {
+    const output = (name) => numbered(html, "output", name, { "aria-live": "off" });
+    this.angle = output("crank-angle");
+    this.torque = output("torque");
+    this.vectors = Object.fromEntries(VECTORS.map((quantity) =>
+      [quantity, AXES.map((axis) => output(`${quantity}-${axis}`))]));
+    this.longest = Object.fromEntries([...VECTORS, "torque"].map((quantity) =>
+      [quantity, numbered(html, "span", `${quantity}-longest`)]));
+  }
+
+  /** A list of the components of a vector and of its length at most. */
+  listOf(quantity) {
+    return html("dl", {},
+      ...AXES.flatMap((axis, k) => [
+        html("dt", { class: axis }, STRINGS.components[quantity][k]),
+        html("dd", {}, this.vectors[quantity][k]),
+      ]),
+      ...this.most(STRINGS.longest, quantity));
+  }
+
+  listOfTorque() {
+    return html("dl", {},
+      html("dt", {}, STRINGS.about), html("dd", {}, this.torque),
+      ...this.most(STRINGS.largest, "torque"));
+  }
+
+  most(word, quantity) {
+    return [
+      html("dt", { class: "longest" }, word),
+      html("dd", { class: "longest" }, this.longest[quantity]),
+    ];
+  }
+
+  /** Choose units and digits for the largest values of a turn. */
+  layout(peaks) {
+    this.scales = {};
+    for (const [quantity, largest] of Object.entries(peaks)) {
+      this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
+      this.write(this.longest[quantity], quantity, largest);
+    }
+  }
+
+  pose({ thetaDeg, torque, ...vectors }) {
+    show(this.angle, thetaDeg, `${short(thetaDeg, 3)}${STRINGS.degrees}`);
+    for (const quantity of VECTORS) {
+      vectors[quantity].forEach((value, k) =>
+        this.write(this.vectors[quantity][k], quantity, value));
+    }
+    if (torque === null) show(this.torque, "", STRINGS.noTorque);
+    else this.write(this.torque, "torque", torque);
+  }
+
+  write(element, quantity, value) {
+    const { text, unit } = this.scales[quantity];
+    show(element, value, `${text(value)} ${unit}`);
+  }
+}
