@@ -95,6 +95,9 @@ def test_errors_name_what_is_wrong(tmp_path: Path) -> None:
     for wrong in ({"rpm": -1}, {"rpm": float("nan")}, {"reference_z": "a"}, {"spectrum": {0: 1.0}}):
         with pytest.raises(cp.InputError, match=f"^{next(iter(wrong))}"):
             V8.save_html(tmp_path / "v8.html", **wrong)  # type: ignore[arg-type]
+    for path in ("v8.txt", None):
+        with pytest.raises(cp.InputError, match=r"^path = .*: .*a page ends in \.html$"):
+            V8.save_html(path)  # type: ignore[arg-type]
     with pytest.raises(OSError, match="nowhere"):
         V8.save_html(tmp_path / "nowhere" / "v8.html")
 
@@ -321,6 +324,7 @@ def test_firing_follows_the_library_s(open_engine: Open) -> None:
 
 def test_rocking_is_that_of_a_free_block(open_engine: Open) -> None:
     engine = cp.Engine.preset("i3").replace(rotating_mass=0.2)
+    engine = engine.with_counterweights([cp.Unbalance(0.01, 0, 30)])  # for a force
     page = open_engine(engine)
     page.get_by_label("crank angle").fill("50")
     orders = [each["order"] for each in page.evaluate("crankpin.shown")]

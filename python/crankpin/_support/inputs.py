@@ -9,6 +9,7 @@ import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -183,6 +184,17 @@ def text(name: str, value: object, cure: str = "give text") -> str:
     except UnicodeEncodeError as error:
         raise InputError(f"{name} = {shorten(value)}: {cure} ({reason(error)})") from None
     return value
+
+
+def file_path(path: object, endings: tuple[str, ...], cure: str) -> Path:
+    """Return the path of a file whose name has one of these endings, ``.toml`` or the like."""
+    try:
+        file = Path(path)  # type: ignore[arg-type]
+    except TypeError:
+        raise InputError(f"path = {shorten(path)}: give a path; {cure}") from None
+    if file.suffix.lower() not in endings:
+        raise InputError(f"path = {shorten(str(path))}: {cure}")
+    return file
 
 
 def whole(name: str, value: object) -> int:

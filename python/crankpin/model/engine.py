@@ -1183,14 +1183,14 @@ class Engine(Frozen):
         Parameters
         ----------
         path
-            Name of the file, such as ``"v8.html"``.
+            Name of the file, which ends in ``.html``.
         rpm, reference_z, spectrum
             As in :meth:`view`.
 
         Raises
         ------
         InputError
-            If an argument is out of range.
+            If an argument is out of range, or the name ends otherwise.
         OSError
             If the file cannot be written.
         """

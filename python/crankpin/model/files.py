@@ -50,11 +50,4 @@ def _text(text: object) -> str:
 
 
 def _path(path: object) -> Path:
-    cure = "an engine file ends in .toml or .json"
-    try:
-        file = Path(path)  # type: ignore[arg-type]
-    except TypeError:
-        raise InputError(f"path = {inputs.shorten(path)}: give a path; {cure}") from None
-    if file.suffix.lower() not in (".toml", ".json"):
-        raise InputError(f"path = {inputs.shorten(str(path))}: {cure}")
-    return file
+    return inputs.file_path(path, (".toml", ".json"), "an engine file ends in .toml or .json")

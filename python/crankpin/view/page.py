@@ -9,6 +9,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
+from crankpin._support import inputs
 from crankpin.view.figures import figures
 
 if TYPE_CHECKING:
@@ -30,9 +31,10 @@ def save_html(
     spectrum: Spectrum | None = None,
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
+    file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
     known = figures(engine, rpm, reference_z=reference_z, spectrum=spectrum)
     text = document(engine.name or "Engine", "page.mjs", f"page({as_json(known)});")
-    Path(path).write_text(text, encoding="utf-8")
+    file.write_text(text, encoding="utf-8")
 
 
 def document(title: str, entry: str, call: str, body: str = "") -> str:

@@ -90,9 +90,11 @@ export class Settings {
     this.view = view;
     const { figures } = view;
     const [least, most] = rodRatioLimits(figures);
-    const fastest = Math.max(1.5 * figures.rpm, figures.rpm < 1000 ? 0 : 8000) || 8000;
+    // Cars' engines reach 8000 r/min, slow ones half as much again as they are shown at first.
+    const slow = figures.rpm > 0 && figures.rpm < 1000;
+    const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);
     const settle = () => this.show(view.state);
-    this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, 10, STRINGS.rpm,
+    this.rpm = pair(STRINGS.speed, STRINGS.speedField, "rpm", 0, fastest, slow ? 0.1 : 10, STRINGS.rpm,
       (rpm) => view.set({ rpm }), settle, FASTEST);
     this.bank = pair(STRINGS.bankAngle, STRINGS.bankAngleField, "bank-angle", 0, 180, 0.5,
       STRINGS.degrees, (bank_angle_deg) => view.set({ bank_angle_deg }), settle);

@@ -2,7 +2,7 @@
 
 import { DEGREE, reduced } from "./complex.mjs";
 import { fixed, svg } from "./dom.mjs";
-import { place } from "./scene.mjs";
+import { boreEnds, place } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
 const BORE_NUMBER = 9; // pixels beyond the head
@@ -37,11 +37,11 @@ export class Handle {
     this.pins = pinNumbers(engine);
     const bores = boreGroups(engine).map(({ numbers, cylinder }) => {
       const [dx, dy] = cylinder.direction;
-      const reached = heads(cylinder, projection.scale) + BORE_NUMBER;
+      const { top, axis } = boreEnds(cylinder);
+      const [headX, headY] = projection.point([axis[0] + top * dx, axis[1] + top * dy, 0]);
       const anchor = Math.abs(dx) < 0.05 ? "middle" : dx > 0 ? "start" : "end";
       const text = svg("text", { class: "bore-numbers", "text-anchor": anchor });
-      const x = cx + reached * dx - projection.scale * cylinder.pin_offset * dy;
-      const y = cy - reached * dy - projection.scale * cylinder.pin_offset * dx + 4;
+      const [x, y] = [headX + BORE_NUMBER * dx, headY - BORE_NUMBER * dy + 4];
       const lines = Math.ceil(numbers.length / MOST_IN_LINE);
       for (let k = 0; k < lines; k++) {
         const part = numbers.slice(k * MOST_IN_LINE, (k + 1) * MOST_IN_LINE);
@@ -93,11 +93,6 @@ export class Handle {
   }
 }
 
-/** Distance of a head from the crank axis in pixels. */
-function heads({ crank_radius: r, rod_length: l }, scale) {
-  return (l + 1.95 * r) * scale;
-}
-
 /** Numbers of the cylinders at each crankpin, further out beside a close one; none for one pin. */
 function pinNumbers({ cylinders }) {
   const groups = grouped(cylinders, ({ pin, crank_radius: r }) =>
@@ -108,7 +103,8 @@ function pinNumbers({ cylinders }) {
   let level = 0;
   return groups.map((group, k) => {
     level = k && angle(group) - angle(groups[k - 1]) < CLOSE ? (level + 1) % 3 : 0;
-    return { first: group.first, level, text: svg("text", { class: "pin-numbers" }, ...listed(group.numbers)) };
+    const text = svg("text", { class: "pin-numbers" }, ...listed(group.numbers));
+    return { first: group.first, level, text };
   });
 }
 

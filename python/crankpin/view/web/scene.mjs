@@ -319,7 +319,7 @@ function dimensions(engine) {
 }
 
 /** Lower end and head of a bore, and where its axis passes the crank's. */
-function boreEnds({ crank_radius: r, rod_length: l, pin_offset: e, direction: [dx, dy] }) {
+export function boreEnds({ crank_radius: r, rod_length: l, pin_offset: e, direction: [dx, dy] }) {
   const highest = Math.sqrt((l + r) ** 2 - e ** 2);
   const lowest = Math.sqrt((l - r) ** 2 - e ** 2);
   return {
