@@ -340,6 +340,10 @@ def test_the_result_is_a_table() -> None:
 def test_ties_share_a_place() -> None:
     found = design(10, bank_angle_deg=90, counterweights=True, by="[1].moment.peak")
     assert [each.place for each in found] == [1] * 8
+    # Couples of √2, √8 and √10; in phase all cylinders would make 8.
+    for tolerance, places in ((0.04, [1, 2, 3]), (0.05, [1, 2, 2]), (0.25, [1, 1, 1])):
+        found = design(8, bank_angle_deg=90, by="[1].moment.peak", tie_rtol=tolerance)
+        assert [each.place for each in found] == places
 
 
 def test_units_are_warned_of_once() -> None:
@@ -365,3 +369,14 @@ def test_another_bank_angle_is_that_of_the_library() -> None:
     np.testing.assert_allclose(
         found.over_bank_angle(angles)[0], abs(swept[1].moment.backward), rtol=1e-9, atol=1e-6
     )
+
+
+@pytest.mark.parametrize(
+    ("limits", "splits"),
+    [((-180, 180), {-60, 60, 180}), ((-90, 0), {-60}), ((0, 90), {60}), ((100, 180), {180})],
+)
+def test_splits_stay_within_their_limits(limits: tuple[int, int], splits: set[int]) -> None:
+    found = design(
+        6, bank_angle_deg=60, even_firing=True, pin_split_deg=limits, by="[1].moment.peak"
+    )
+    assert {each.pin_split_deg[0] for each in found} == splits

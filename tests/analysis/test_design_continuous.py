@@ -250,3 +250,15 @@ def test_an_angle_that_is_no_round_number_is_not_rounded() -> None:
     for each in inside:
         beside = found.over_bank_angle(np.array([each.bank_angle_deg + d for d in (-1e-3, 1e-3)]))
         assert (each.value <= beside[0] * (1 + 1e-9)).all()
+
+
+def test_the_best_few_are_the_first_of_all() -> None:
+    # Between two angles of the grid, 90.25°, first-order couples vanish: only there the second
+    # order, whose sequence of cranks is the reverse, decides.
+    given = {"bank_angle_deg": (80, 100), "pin_split_deg": 0.5, "counterweights": True}
+    given |= {"by": "[1].moment.backward,[2].moment.peak"}
+    every = design(10, **given, count=1000)
+    assert len(every) == 8
+    assert {each.bank_angle_deg for each in every} == {90.25}
+    for count in (1, 2, 4):
+        assert design(10, **given, count=count).designs == every.designs[:count]
