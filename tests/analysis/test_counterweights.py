@@ -412,7 +412,9 @@ def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool
         method="SLSQP",
         options={"maxiter": 500, "ftol": 1e-14},
     )
-    assert found.success
+    # 8: no step goes further down than rounding.
+    assert found.status in (0, 8), found.message
+    assert np.abs(missing(found.x)).max() <= 1e-9 * np.abs(wanted).max()
     ours = amounts.max() ** 2 if largest else (amounts**2).sum()
     assert ours == pytest.approx(found.fun, rel=1e-7)
 

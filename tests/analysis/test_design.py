@@ -313,7 +313,10 @@ def test_a_function_where_nothing_varies() -> None:
     by = [lambda b: b.total.moment.peak, "unevenness_deg"]
     found = design(6, bank_angle_deg=60, by=by)
     named = design(6, bank_angle_deg=60, by="total.moment.peak")
-    assert [each.value for each in found] == [each.value for each in named]
+    # A function is called with a balance, a name is read from a sweep: other roundings.
+    assert [each.value for each in found] == pytest.approx(
+        [each.value for each in named], rel=1e-13
+    )
     with pytest.raises(cp.InputError, match="give the name of a force"):
         found.over_bank_angle(np.array([60.0]))
 

@@ -460,32 +460,6 @@ def test_to_pandas_and_xarray() -> None:
     np.testing.assert_array_equal(alone.to_xarray().bank_angle_deg, [60.0, np.nan])
 
 
-def test_curves_and_rings() -> None:
-    ranking = paper(refine=True)
-    ax = ranking.plot()
-    *curves, rings = ax.lines
-    for curve, values in zip(curves, ranking.values, strict=True):
-        np.testing.assert_array_equal(curve.get_xydata(), np.c_[ijesc.V_ANGLES_DEG, values])
-    best = [(choice.bank_angles_deg[0], choice.value) for choice in ranking]
-    np.testing.assert_array_equal(rings.get_xydata(), best)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == NAMES
-    assert ax.get_ylabel() == "total.moment.peak, N·m"
-    assert ax.get_xlabel() == "bank angle, pins held"
-    assert ranking.plot(ax) is ax
-
-
-def test_engines_as_they_are_are_dots() -> None:
-    search = cp.search_arrangements(8)
-    ranking = cp.rank(search, cylinder=IJESC, spacing=0.1, rpm=3000, by="total.moment.peak")
-    dots, rings = ranking.plot().lines
-    assert len(dots.get_xdata()) == len(search)
-    first = [choice for choice in ranking if choice.place == 1]
-    assert len(rings.get_xdata()) == len(first)
-    names = ["I4", "I6"]
-    ax = cp.rank({"I4": I4, "I6": cp.Engine.preset("i6")}, rpm=3000, by="total.torque.peak").plot()
-    assert [text.get_text() for text in ax.get_yticklabels()] == names
-
-
 # --- the rest -----------------------------------------------------------------------------------
 
 

@@ -78,7 +78,7 @@ def test_ellipses_are_those_before_and_after() -> None:
 
 def test_a_summary_has_a_panel_for_what_is_not_zero() -> None:
     panels = FITTED.plot().ravel()
-    assert [title_of(ax) for ax in panels] == ["weights, arrows at θ = 0", "rocking moment"]
+    assert [title_of(ax) for ax in panels] == ["weights at θ = 0", "rocking moment"]
     assert legend_texts(figure_of(panels)) == ["before", "after"]
     single = cp.counterweights(cp.Engine.preset("single"), planes=[0.0])
     assert [title_of(ax) for ax in single.plot().ravel()[1:]] == ["shaking force"]

@@ -88,7 +88,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
         figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
     )
     panels = made.axes.ravel()
-    head(panels[0], "weights, arrows at θ = 0")
+    head(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
     for panel, name in zip(panels[1:], shown, strict=True):
         head(panel, labels.NAMES[name])

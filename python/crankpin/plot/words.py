@@ -86,7 +86,7 @@ def width_of(text: str, font: FontProperties) -> float:
     """Return the width of a line of text at screen resolution, points."""
     if not text.strip():
         return 0.0
-    path = TextPath((0.0, 0.0), text, size=font.get_size_in_points(), prop=font)
+    path = TextPath((0.0, 0.0), plain_text(text), size=font.get_size_in_points(), prop=font)
     return HINTED * float(path.get_extents().x1)
 
 
