@@ -14,7 +14,7 @@ use crate::interrupt;
 /// An engine, the spreads of its figures, and what is asked of its samples.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Tolerances {
-    tolerances: core::tolerances::Tolerances,
+    plan: core::tolerances::Tolerances,
     orders: usize,
     torque: bool,
 }
@@ -55,7 +55,7 @@ impl Tolerances {
         let distribution = choice("distribution", distribution, &distributions)?;
         let request = Request { rpm, reference_z, spectrum: None, torque };
         let engine = &engine.get().0;
-        let tolerances = interrupt::run(py, |cancel| {
+        let plan = interrupt::run(py, |cancel| {
             core::tolerances::Tolerances::new(
                 engine,
                 &request,
@@ -66,7 +66,7 @@ impl Tolerances {
                 cancel,
             )
         })?;
-        Ok(Self { tolerances, orders: orders.len(), torque })
+        Ok(Self { plan, orders: orders.len(), torque })
     }
 
     /// So many samples from one on.
@@ -78,9 +78,8 @@ impl Tolerances {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Samples<'py>> {
         let samples = first..first.saturating_add(count);
-        let found = interrupt::watched(py, progress.as_ref(), |cancel| {
-            self.tolerances.sample(samples, cancel)
-        })?;
+        let found =
+            interrupt::watched(py, progress.as_ref(), |cancel| self.plan.sample(samples, cancel))?;
         let planar = |pairs: Vec<[Complex64; 4]>| -> PyResult<Array3<Complex64>> {
             shaped((count, self.orders, 4), pairs.into_flattened())
         };
@@ -104,8 +103,7 @@ impl Tolerances {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let figure = choice("name", name, &Figure::ALL.map(|figure| (figure.name(), figure)))?;
         let samples = first..first.saturating_add(count);
-        let values =
-            interrupt::run(py, |cancel| self.tolerances.deviations(figure, samples, cancel))?;
+        let values = interrupt::run(py, |cancel| self.plan.deviations(figure, samples, cancel))?;
         Ok(frozen(py, values))
     }
 }
