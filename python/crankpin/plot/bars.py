@@ -118,7 +118,7 @@ def _panel(
         look = {"color": colour, "hatch": HATCHES[k % len(HATCHES)], "edgecolor": background(ax)}
         look |= {"linewidth": 0.0, "label": f"order {order}"} | style
         ax.barh(up, values, 0.92 * height, **look)
-        ax.plot(
+        (hollow,) = ax.plot(
             np.zeros(int((values == 0.0).sum())),
             up[values == 0.0],
             linestyle="",
@@ -129,6 +129,8 @@ def _panel(
             clip_on=False,
             zorder=3,
         )
+        # The layout would make room for a line without points at the figure's corner.
+        hollow.set_in_layout(bool((values == 0.0).any()))
     numeric(ax.xaxis)
     ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
     ax.set_xlabel(f"peak, {labels.UNITS[quantity]}")

@@ -76,7 +76,7 @@ def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) 
     (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **of_series)
     zeros = orders[peaks == 0.0]
     known = ZERO in ax.get_legend_handles_labels()[1]
-    ax.plot(
+    (hollow,) = ax.plot(
         zeros,
         np.zeros_like(zeros),
         linestyle="",
@@ -90,6 +90,8 @@ def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) 
         gid=ZEROS,
         label=ZERO if zeros.size and not known else "",
     )
+    # The layout would make room for a line without points at the figure's corner.
+    hollow.set_in_layout(bool(zeros.size))
 
 
 def _of(ax: Axes, gid: str) -> list[Line2D]:
