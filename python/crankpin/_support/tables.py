@@ -19,7 +19,7 @@ Label: TypeAlias = "str | Sequence[str | float]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, repr=False)
 class Table:
     """Labelled rows of numbers under a title."""
 
@@ -56,6 +56,12 @@ class Table:
             for line in lines
         )
         return "\n".join(filter(None, [self.title, *body, self.note]))
+
+    def __repr__(self) -> str:
+        return self.text()
+
+    def _repr_html_(self) -> str:
+        return self.html()
 
     def html(self) -> str:
         """Return the table as HTML for notebooks."""

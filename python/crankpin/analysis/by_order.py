@@ -227,6 +227,11 @@ class AllOrders(Quantities):
             reason = f"is not among the orders of this result ({there})"
             if order in self.omitted:
                 reason = f"was omitted as negligible; give orders=[{order}] to have it ({there})"
+            elif self.source.request.orders is None and isinstance(order, (int, np.integer)):
+                reason = (
+                    f"is exactly zero, or above all that matter ({there}); "
+                    f"give orders=[{order}] to have it"
+                )
             raise InputError(f"order = {inputs.shorten(order)}: {reason}")
         return OrderBalance(self.source, self.orders.index(int(order)))
 

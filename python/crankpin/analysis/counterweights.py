@@ -296,7 +296,11 @@ class Counterweights(Frozen):
 
     @property
     def vanishes(self) -> bool:
-        """True if all force and moment of order 1 is proved to vanish."""
+        """True if all force and moment of order 1 is proved to vanish.
+
+        The forward parts by the rank of the equations, which the weights solve; the weights as
+        rounded numbers leave :meth:`Engine.vanishing_orders` of the fitted engine undecided.
+        """
         return all(word == "vanishes" for parts in self.verdicts for word in parts)
 
     @property

@@ -53,7 +53,8 @@ def match_parts(
     Parameters
     ----------
     engine
-        The engine; with its counterweights and balance shafts if it has any.
+        The engine, with its counterweights and balance shafts: what they would remove hides what
+        the parts make (see :func:`crankpin.counterweights`).
     pistons
         Measured masses of pistons with pins and rings, kg: (n_pistons,), at least one for each
         cylinder of each engine.

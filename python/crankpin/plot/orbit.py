@@ -47,6 +47,9 @@ def orbit(
     where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm, {summed(result, name)}"
     entitle(ax, name_of(result.engine), where)
     values, theta = getattr(result, name), result.theta_deg
+    # A second turn would fill the gaps of dashes.
+    first_turn = theta <= theta.min(initial=np.inf) + 360.0
+    values, theta = values[first_turn], theta[first_turn]
     curve = values[:, 0] + 1j * values[:, 1]
     alone = not count_series(ax)
     text = label or name_of(result.engine)
@@ -71,7 +74,7 @@ def orbit(
 def _places(theta: NDArray[np.float64], step: float) -> NDArray[np.intp]:
     """Return the places of multiples of a step in the first turn."""
     angles = np.round(theta / step) * step
-    within = (abs(theta - angles) < 1e-9) & (theta - theta.min(initial=0.0) < 360.0 - 1e-9)
+    within = (abs(theta - angles) < 1e-9) & (theta - theta.min(initial=np.inf) < 360.0 - 1e-9)
     return np.flatnonzero(within)
 
 
