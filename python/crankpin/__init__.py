@@ -11,19 +11,19 @@ counter-clockwise. Classes of results are in :mod:`crankpin.types`.
 
 from crankpin import types
 from crankpin._core import InputError, __version__
-from crankpin.analysis.balance_shafts import balance_shafts
-from crankpin.analysis.balancer_options import balancer_options
-from crankpin.analysis.bob_weight import bob_weight
+from crankpin.analysis.arrangements.search import search_arrangements
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
+from crankpin.analysis.balancing.balancer_options import balancer_options
+from crankpin.analysis.balancing.bob_weight import bob_weight
+from crankpin.analysis.balancing.counterweights import counterweights
+from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.comparison import compare
-from crankpin.analysis.counterweights import counterweights
 from crankpin.analysis.design.design import design
-from crankpin.analysis.match_parts import match_parts
-from crankpin.analysis.rank import rank
-from crankpin.analysis.search import search_arrangements
-from crankpin.analysis.sweep import sweep
+from crankpin.analysis.ranking.rank import rank
+from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.throws import throws
-from crankpin.analysis.tolerances import tolerances
-from crankpin.analysis.two_plane import two_plane_correction
+from crankpin.analysis.tolerances.match_parts import match_parts
+from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets

@@ -1,32 +1,32 @@
 """Classes of results, for annotations and ``isinstance``; functions and engines make them."""
 
+from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.balancers import BalancerOption, BalancerOptions
-from crankpin.analysis.bob_weight import BobWeight, Straight
+from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
+from crankpin.analysis.balancing.bob_weight import BobWeight, Straight
+from crankpin.analysis.balancing.counterweights import Counterweights, PartVerdict, Remainder
+from crankpin.analysis.balancing.first_order import BayLoad, Ellipses, ForwardPart
+from crankpin.analysis.balancing.fitted_shaft import FittedShaft
+from crankpin.analysis.balancing.fitted_shafts import BalanceShafts, PartLeft
+from crankpin.analysis.balancing.lanchester import PairHeights
+from crankpin.analysis.balancing.planes import Turning
+from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
-from crankpin.analysis.choices import Choice
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
-from crankpin.analysis.counterweights import Counterweights, PartVerdict, Remainder
 from crankpin.analysis.design.designs import Design, Designs, Image
 from crankpin.analysis.firing import Firing, Gap
-from crankpin.analysis.first_order import BayLoad, Ellipses, ForwardPart
-from crankpin.analysis.fitted_shaft import FittedShaft
-from crankpin.analysis.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
-from crankpin.analysis.lanchester import PairHeights
-from crankpin.analysis.match_parts import Match
-from crankpin.analysis.planes import Turning
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
-from crankpin.analysis.ranking import Ranking
-from crankpin.analysis.search import Arrangement, ArrangementSearch
-from crankpin.analysis.shares import Shares
+from crankpin.analysis.ranking.choices import Choice
+from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.analysis.source import ErrorBound
-from crankpin.analysis.sweep import Sweep
-from crankpin.analysis.sweep_waveform import SweepWaveform
+from crankpin.analysis.sweeps.sweep import Sweep
+from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
-from crankpin.analysis.tolerance_samples import Tolerances
-from crankpin.analysis.two_plane import TwoPlaneCorrection
+from crankpin.analysis.tolerances.match_parts import Match
+from crankpin.analysis.tolerances.samples import Tolerances
+from crankpin.analysis.tolerances.shares import Shares
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,

@@ -32,9 +32,13 @@ examples = settings(max_examples=60, deadline=None, derandomize=True)
 def scales(engine: cp.Engine) -> dict[str, float]:
     """What rtol is relative to."""
     pairs = list(zip(engine.cylinders, engine.rotating_mass, strict=True))
-    each = [max(c.reciprocating_mass, mass) * c.crank_radius for c, mass in pairs]
-    force = max(each) * OMEGA**2
-    torque = max(f * c.crank_radius for f, (c, _) in zip(each, pairs, strict=True)) * OMEGA**2
+    radius = max(c.crank_radius for c in engine.cylinders)
+    turning = max(mass * c.crank_radius for c, mass in pairs)
+    force = max(turning, *(c.reciprocating_mass * c.crank_radius for c, _ in pairs)) * OMEGA**2
+    torque = (
+        max(turning * radius, *(c.reciprocating_mass * c.crank_radius**2 for c, _ in pairs))
+        * OMEGA**2
+    )
     lever = float(np.abs(engine.z - engine.reference_z).max())
     return {"force": force, "moment": force * lever, "torque": torque}
 

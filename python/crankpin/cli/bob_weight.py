@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from crankpin.analysis.bob_weight import bob_weight
+from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:

@@ -8,13 +8,13 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin.analysis.counterweights import counterweights
+from crankpin.analysis.balancing.counterweights import counterweights
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:
     import argparse
 
-    from crankpin.analysis.correction_planes import Planes
+    from crankpin.analysis.balancing.correction_planes import Planes
     from crankpin.cli.parser import Commands
 
 

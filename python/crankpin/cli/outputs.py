@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 
 def printed(tables: list[Table], *, csv: bool) -> str:

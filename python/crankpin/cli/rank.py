@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin.analysis.rank import rank
+from crankpin.analysis.ranking.rank import rank
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:

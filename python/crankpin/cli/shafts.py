@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin.analysis.balance_shafts import balance_shafts
-from crankpin.analysis.balancer_options import balancer_options
-from crankpin.analysis.fitted_shafts import OVER_SPEED
-from crankpin.analysis.shaft_wishes import REMOVE
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
+from crankpin.analysis.balancing.balancer_options import balancer_options
+from crankpin.analysis.balancing.fitted_shafts import OVER_SPEED
+from crankpin.analysis.balancing.shaft_wishes import REMOVE
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:

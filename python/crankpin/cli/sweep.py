@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels, tables
-from crankpin.analysis.sweep import Sweep, engine_titles, sweep
+from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin.analysis.spreads import FIGURES, SPREADS
-from crankpin.analysis.tolerances import tolerances
+from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
+from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:

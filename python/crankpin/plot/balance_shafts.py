@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
-from crankpin.analysis.fitted_shafts import OVER_SPEED, BalanceShafts
+from crankpin.analysis.balancing.fitted_shafts import OVER_SPEED, BalanceShafts
 from crankpin.plot.axes import entitle, label_x, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below

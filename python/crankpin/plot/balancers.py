@@ -8,7 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin.analysis.balancers import BalancerOptions
+from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.plot.axes import entitle, label_x, one_panel, say_zero
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.balancers import BalancerOption
+    from crankpin.analysis.balancing.balancers import BalancerOption
 
 MOST_SETS = 24
 """Largest number of sets shown below each other, those with the fewest shafts."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin.analysis.bob_weight import BobWeight
+from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 MOST_DASHES = 4
 """Number of dashes that are used beside colours of another meaning."""

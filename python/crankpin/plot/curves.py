@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 FEW_POINTS = 40
 """Up to so many points of a curve are marked."""

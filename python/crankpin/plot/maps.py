@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 MOST_ENGINES = 4
 """Engines with a row of their own."""

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from crankpin._support import labels
-from crankpin.analysis.ranking import Ranking
+from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.bundle import engine_looks
 from crankpin.plot.dispatch import draw
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.choices import Choice
+    from crankpin.analysis.ranking.choices import Choice
 
 MOST_ENGINES = 24
 """Engines shown below each other, the best ones."""

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.source import PLANE_VECTORS
-from crankpin.analysis.sweep import engine_titles
+from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.plot.orders import MOST, largest
 from crankpin.plot.words import numbers, short_names
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 
 class Row(NamedTuple):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin.analysis.search import ArrangementSearch
+from crankpin.analysis.arrangements.search import ArrangementSearch
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below

@@ -6,7 +6,7 @@ from typing import Any
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.sweep import Sweep
+from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.axes import check_one_place
 from crankpin.plot.bars import bars
 from crankpin.plot.curves import curves

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
 from crankpin.analysis.source import PLANE_VECTORS
-from crankpin.analysis.sweep_waveform import SweepWaveform
+from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.plot.axes import (
     check_one_place,
     entitle,

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
-from crankpin.analysis import objectives
-from crankpin.analysis.tolerance_samples import QUANTILES, Tolerances
+from crankpin.analysis.ranking import objectives
+from crankpin.analysis.tolerances.samples import QUANTILES, Tolerances
 from crankpin.plot.axes import entitle, inches_of, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.font_manager import FontProperties
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin.analysis.sweep_waveform import SweepWaveform
+    from crankpin.analysis.sweeps.waveform import SweepWaveform
     from crankpin.analysis.waveform import Waveform
     from crankpin.model.engine import Engine
 

@@ -176,8 +176,8 @@ pub(crate) fn tail(
 }
 
 /// What a tolerance is relative to, over ω²: the largest m·r of a cylinder or unbalance, times the
-/// longest lever, times its crank radius. Where rod inertia makes more of order 1, what it makes:
-/// about J·r/l.
+/// longest lever, times its crank radius (of an unbalance, the engine's largest or its shaft's
+/// distance from the crank). Where rod inertia makes more of order 1, what it makes: about J·r/l.
 pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
     let mut largest = [0.0_f64; 3];
     for gear in engine.gears() {

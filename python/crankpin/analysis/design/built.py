@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs
-from crankpin.analysis.design.cranks import Crank
-from crankpin.analysis.sweep import sweep
+from crankpin.analysis.arrangements.cranks import Crank
+from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
 from crankpin.model.shafts import Shaft, Unbalance
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from crankpin.analysis.design.question import Question
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 RPM = 60.0
 """Speed at which shafts are fitted: what they need does not depend on it."""

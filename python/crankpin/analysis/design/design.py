@@ -13,7 +13,7 @@ from crankpin.analysis.design import built
 from crankpin.analysis.design.designs import Designs
 from crankpin.analysis.design.question import checked
 from crankpin.analysis.design.search import Search
-from crankpin.analysis.objectives import listed as listed_objectives
+from crankpin.analysis.ranking.objectives import listed as listed_objectives
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Angles, Orders
     from crankpin._support.progress import Progress
     from crankpin.analysis.design.question import Kind, Range
-    from crankpin.analysis.objectives import Measure
+    from crankpin.analysis.ranking.objectives import Measure
     from crankpin.model.cylinder import Cylinder
 
 

@@ -14,20 +14,20 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
+from crankpin.analysis.arrangements.cranks import HALF, Crank, exact
 from crankpin.analysis.design import built
-from crankpin.analysis.design.cranks import HALF, Crank, exact
 from crankpin.analysis.design.question import Question
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.objectives import named
-from crankpin.analysis.ranking import SHOWN, SHOWN_IN_NOTEBOOKS
-from crankpin.analysis.sweep import sweep
+from crankpin.analysis.ranking.objectives import named
+from crankpin.analysis.ranking.ranking import SHOWN, SHOWN_IN_NOTEBOOKS
+from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.objectives import Objective
+    from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine
 
 NEARBY = "*"

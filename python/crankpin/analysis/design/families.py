@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
-from crankpin.analysis.design.cranks import TURN, Crank, Exact
+from crankpin.analysis.arrangements.cranks import TURN, Crank, Exact
+from crankpin.analysis.arrangements.throw_orders import (
+    MOST_CRANKS,
+    permutations,
+    throw_orders,
+    too_many,
+)
 
 if TYPE_CHECKING:
     from crankpin.analysis.design.question import Question
-
-MOST_CRANKS = 50_000
-"""Cranks that are tried one by one: all orders of nine different throws are 40 320."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,7 +70,7 @@ def families(question: Question) -> tuple[list[Family], int]:
             continue
         everything.add(family)
         if len(everything) > MOST_CRANKS:
-            raise _too_many(question.count)
+            raise too_many(question.count)
         fixed = not family.variables
         base = question.symmetries.first(family.base, exchange=fixed)
         found.setdefault(dataclasses.replace(family, base=base))
@@ -80,18 +82,11 @@ def families(question: Question) -> tuple[list[Family], int]:
     return list(found), len(everything)
 
 
-def _too_many(throws: int) -> InputError:
-    return InputError(
-        f"{throws} throws have more than {MOST_CRANKS} cranks: give fewer different throws_deg, or "
-        "leave pins shared, or split alike"
-    )
-
-
 def _all(question: Question) -> Iterator[Family]:
     if question.tdcs is None:
         yield from _of_throws(question)
     elif question.banks == 1:
-        for tdcs in orders(question.tdcs):
+        for tdcs in throw_orders(question.tdcs):
             yield Family(Crank.of([-each for each in tdcs]))
     else:
         seen: set[tuple[Exact, ...]] = set()
@@ -131,33 +126,8 @@ def _of_throws(question: Question) -> Iterator[Family]:
         base = Crank.of([0] * count, splits, angle)
         yield Family(base, (*variables, *turning))
         return
-    for throws in orders(question.throws):
+    for throws in throw_orders(question.throws):
         yield Family(Crank.of(throws, splits, angle), tuple(variables))
-
-
-def orders(angles: Sequence[Exact]) -> Iterator[tuple[Exact, ...]]:
-    """Yield all orders of some angles, of those that differ by a rotation at least one."""
-    counts = Counter(angles)
-    turns = [
-        turn
-        for turn in ((each - angles[0]) % TURN for each in counts)
-        if Counter((each + turn) % TURN for each in angles) == counts
-    ]
-    number = math.factorial(len(angles)) // math.prod(map(math.factorial, counts.values()))
-    if number > MOST_CRANKS * len(turns):
-        raise _too_many(len(angles))
-    firsts = [each for each in counts if each == min((each + turn) % TURN for turn in turns)]
-    for first in firsts:
-        for rest in _permutations(counts - Counter([first])):
-            yield (first, *rest)
-
-
-def _permutations(counts: Counter[Exact]) -> Iterator[tuple[Exact, ...]]:
-    if not counts:
-        yield ()
-    for first in counts:
-        for rest in _permutations(counts - Counter([first])):
-            yield (first, *rest)
 
 
 # --- a given firing -----------------------------------------------------------------------------
@@ -171,15 +141,15 @@ def _pairs(
     counts = Counter(question.tdcs)
     if not question.same_split:
         for half in _halves(counts, question.count):
-            for right in orders(tuple(half.elements())):
-                for left in _permutations(counts - half):
+            for right in throw_orders(tuple(half.elements())):
+                for left in permutations(counts - half):
                     yield right, left
         return
     first = question.tdcs[0]
     steps = {(each - first) % TURN for each in counts} | {(first - each) % TURN for each in counts}
     for step in sorted(steps):
         for half in shifted_halves(counts, step):
-            for right in orders(tuple(half.elements())):
+            for right in throw_orders(tuple(half.elements())):
                 yield right, tuple((each + step) % TURN for each in right)
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.analysis.design.phasors import Phasors
-    from crankpin.analysis.objectives import Objective
+    from crankpin.analysis.ranking.objectives import Objective
 
     Complex = NDArray[np.complex128]
     Real = NDArray[np.float64]

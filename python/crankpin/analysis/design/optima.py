@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import optional
-from crankpin.analysis.design.cranks import HALF, TURN, Crank, Exact, simple
+from crankpin.analysis.arrangements.cranks import HALF, TURN, Crank, Exact, simple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin.analysis.design.cranks import Symmetries
+    from crankpin.analysis.arrangements.cranks import Symmetries
     from crankpin.analysis.design.families import Family
     from crankpin.analysis.design.merit import Merit
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.design.cranks import HALF, TURN, Exact, Symmetries, exact, simple
+from crankpin.analysis.arrangements.cranks import HALF, TURN, Exact, Symmetries, exact, simple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,13 +10,13 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import progress as progress_bar
 from crankpin.analysis.balance import balance
-from crankpin.analysis.choices import groups
 from crankpin.analysis.design import built, optima
 from crankpin.analysis.design.designs import Design, Image
 from crankpin.analysis.design.families import families
 from crankpin.analysis.design.merit import Merit, rows_of, term
 from crankpin.analysis.design.phasors import Phasors
-from crankpin.analysis.sweep import sweep
+from crankpin.analysis.ranking.choices import groups
+from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.progress import Progress
-    from crankpin.analysis.design.cranks import Crank
+    from crankpin.analysis.arrangements.cranks import Crank
     from crankpin.analysis.design.families import Family
     from crankpin.analysis.design.optima import Optimum
     from crankpin.analysis.design.question import Question
-    from crankpin.analysis.objectives import Objective
-    from crankpin.analysis.sweep import Sweep
+    from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 
 GUIDING = 1e-6

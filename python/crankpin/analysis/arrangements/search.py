@@ -1,0 +1,449 @@
+"""Search of all crank arrangements of a vee for bank angles that a counterweight can balance."""
+
+from __future__ import annotations
+
+import dataclasses
+import heapq
+import math
+import operator
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._support import inputs, optional
+from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
+from crankpin.analysis.arrangements.shared_pins import SharedPinAngles, SharedPins
+from crankpin.analysis.drawing import draw
+from crankpin.model.builders import parts
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Angles
+    from crankpin._support.progress import Progress
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Hold
+
+_WHOLE = (0.0, 180.0)
+_LARGE = 1 << 21
+"""Distinct arrangements beyond which bank angles are computed window by window."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Arrangement:
+    """A bank angle at which first-order moment is all forward, and the phases of both banks."""
+
+    bank_angle_deg: float
+    """Angle between the banks, degrees."""
+    first_deg: tuple[float, ...]
+    """Phases of the right bank's throws, front to flywheel, degrees: pins, or minus the TDCs."""
+    second_deg: tuple[float, ...]
+    """Phases of the left bank's throws."""
+    counterweight: float
+    """First-order moment that a counterweight cancels, over m·r·ω²·spacing."""
+    second_order: tuple[float, float]
+    """Second-order moments about x and about y, over m·r·ω²·spacing·a₂ (a₂ ≈ rod ratio)."""
+    hold: Hold = "firing"
+    """``"firing"`` if phases are minus the TDCs, ``"pins"`` if they are the crankpins."""
+
+    def __post_init__(self) -> None:
+        for name in ("bank_angle_deg", "counterweight"):
+            object.__setattr__(self, name, inputs.number(name, getattr(self, name)))
+        for name in ("first_deg", "second_deg", "second_order"):
+            values = getattr(self, name)
+            if type(values) is not tuple or any(type(value) is not float for value in values):
+                object.__setattr__(self, name, tuple(inputs.vector(name, values).tolist()))
+        inputs.one_of("hold", self.hold, ("firing", "pins"))
+
+    @property
+    def near_circular(self) -> bool:
+        """True if the two second-order moments differ by at most a tenth of the larger."""
+        low, high = sorted(self.second_order)
+        return high - low <= 0.1 * high
+
+    def engine(self, cylinder: Cylinder, *, spacing: float) -> Engine:
+        """Return the vee, numbered along the crank, odd cylinders in the right bank.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        spacing
+            Distance between neighbouring throws, m.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> (best,) = cp.search_arrangements(cylinders=14).best(within=(60, 90))
+        >>> engine = best.engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
+        >>> abs(engine.balance(rpm=6000, orders=[1]).moment.backward)
+        array([0.])
+        """
+        angle = inputs.number("bank_angle_deg", self.bank_angle_deg)
+        banks = (
+            inputs.angles("first_deg", self.first_deg),
+            inputs.angles("second_deg", self.second_deg),
+        )
+        distance = inputs.number("spacing", spacing)
+        held = inputs.text("hold", self.hold)
+        return Engine(_core.arrangement(held, angle, *banks, parts(cylinder), distance))
+
+
+def search_arrangements(
+    cylinders: int,
+    *,
+    alternating: bool = False,
+    phases_deg: Angles | None = None,
+    hold: Hold = "firing",
+    shared_pins: bool = False,
+    progress: Progress = False,
+) -> ArrangementSearch:
+    """Search all pairs of bank arrangements for those with a balanced bank angle.
+
+    With every top dead centre held and Z = Σ s exp(i·phase) over a bank's throws, s the distance
+    from the middle, first-order moment is all forward at α = arg(−Z₂/Z₁), which exists where
+    ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a
+    whole combination of roots of unity. Angles are told apart exactly too.
+
+    Parameters
+    ----------
+    cylinders
+        Of the vee: an even number, 4 to 30.
+    alternating
+        Only arrangements in which, in firing order, front and rear halves of a bank take turns and
+        a central throw stands between a rear and a front one.
+    phases_deg
+        Phases of one bank's throws, rational parts of a turn; by default those of the even-firing
+        four-stroke: an odd number of throws n has n phases, an even one n/2, each twice.
+    hold
+        What phases are of as the bank angle changes: ``"firing"``, the top dead centres (Ito and
+        Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
+    shared_pins
+        Only arrangements whose banks share their crankpins, with ``hold="pins"``: all are balanced
+        at 90°. Every order of the throws is enumerated, up to nine different ones; those that are
+        mirror images are listed once, so that the same bank angle is listed for each.
+    progress
+        True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
+        steps in all, some 50 times a second, while a long search runs.
+
+    Returns
+    -------
+    ArrangementSearch
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or the search would take more than 8 GiB.
+
+    Notes
+    -----
+    A V-22 (11!² pairs) takes a fraction of a second. A V-26 (13!² pairs) takes 2 GB, and has more
+    bank angles than can be listed: ask for those :meth:`ArrangementSearch.within` a window.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> search = cp.search_arrangements(cylinders=14, alternating=True)
+    >>> search.candidates, search.qualifying, len(search)
+    (254016, 12936, 218)
+    >>> round(search.at(49.54)[0].counterweight, 4)
+    1.5363
+    """
+    try:
+        count = operator.index(cylinders)
+    except TypeError:
+        cure = "give a whole number, such as 14"
+        raise _core.InputError(f"cylinders = {inputs.shorten(cylinders)}: {cure}") from None
+    if not 0 <= count < 2**32:
+        raise _core.InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
+    phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
+    rule = inputs.flag("alternating", alternating)
+    shared = inputs.flag("shared_pins", shared_pins)
+    held = inputs.text("hold", hold, 'give "firing" or "pins"')
+    watched = progress_bar.checked(progress)
+    if shared:
+        if held != "pins" or rule:
+            raise _core.InputError(
+                'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
+                "centres held pins are split at all but one bank angle"
+            )
+        return ArrangementSearch(SharedPins(count, phases), count, rule, phases, hold)
+    with progress_bar.shown(watched, f"V{count}") as told:
+        core = _core.Search(count, rule, phases, held, told)
+    return ArrangementSearch(core, count, rule, phases, hold, progress=watched)
+
+
+class ArrangementSearch(Frozen):
+    """Result of a search: counts, and the balanced bank angles with an arrangement for each.
+
+    A sequence of :class:`Arrangement`, one for each bank angle, ascending. Made by
+    :func:`crankpin.search_arrangements`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> search = cp.search_arrangements(cylinders=6)
+    >>> search.bank_angles_deg.round(9)
+    array([  0.,  60., 120., 180.])
+    >>> engine = search[2].engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
+    >>> abs(engine.balance(rpm=6000, orders=[1]).moment.backward)
+    array([0.])
+    """
+
+    cylinders: int
+    """Number of cylinders of the vee."""
+    alternating: bool
+    """True if front and rear halves take turns to fire."""
+    hold: Hold
+    """What is held as the bank angle changes: top dead centres or crankpins."""
+
+    window_deg: tuple[float, float]
+    """Range of the bank angles listed, degrees."""
+
+    def __init__(
+        self,
+        core: object,
+        cylinders: int,
+        alternating: bool,
+        phases: list[str] | None,
+        hold: Hold,
+        window_deg: tuple[float, float] = _WHOLE,
+        progress: Progress = False,
+    ) -> None:
+        if not isinstance(core, (_core.Search, SharedPins)):
+            cure = "use crankpin.search_arrangements"
+            raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {cure}")
+        self._set(
+            _search=core,
+            cylinders=cylinders,
+            alternating=alternating,
+            _phases=phases,
+            hold=hold,
+            window_deg=window_deg,
+            _progress=progress,
+        )
+
+    _search: _core.Search | SharedPins
+    _phases: list[str] | None
+    _progress: Progress
+
+    @property
+    def candidates(self) -> int:
+        """Pairs of bank arrangements that were searched."""
+        return self._search.candidates
+
+    @property
+    def qualifying(self) -> int:
+        """Pairs with a balanced bank angle, a bank with itself included; at any bank angle."""
+        return self._search.qualifying
+
+    @property
+    def balanced(self) -> int:
+        """Pairs without any first-order moment, balanced at every bank angle."""
+        return self._search.balanced
+
+    @property
+    def shared_pins(self) -> bool:
+        """True if both banks share their crankpins."""
+        return isinstance(self._search, SharedPins)
+
+    @cached_property
+    def _angles(self) -> _core.BankAngles | SharedPinAngles:
+        if isinstance(self._search, SharedPins):
+            return SharedPinAngles(self._search, self.window_deg)
+        with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as told:
+            return _core.BankAngles(self._search, self.window_deg, told)
+
+    @cached_property
+    def bank_angles_deg(self) -> NDArray[np.float64]:
+        """Balanced bank angles in the window, ascending, degrees: (n_angles,)."""
+        return self._angles.degrees()
+
+    def within(self, low: float, high: float) -> ArrangementSearch:
+        """Return the same search with only the bank angles from ``low`` to ``high``, degrees.
+
+        The search is not repeated, and angles outside are not computed: for searches with too many
+        angles to list.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.search_arrangements(cylinders=14).within(60, 60.2).bank_angles_deg.round(2)
+        array([60.09, 60.13])
+        """
+        ends = (_bank_angle("low", low), _bank_angle("high", high))
+        window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
+        rest = (self.cylinders, self.alternating, self._phases, self.hold, window)
+        return ArrangementSearch(self._search, *rest, progress=self._progress)
+
+    def __len__(self) -> int:
+        return len(self._angles)
+
+    def __getitem__(self, index: int) -> Arrangement:
+        angle, first, second, counterweight, second_order = self._angles.solution(
+            self._index(index)
+        )
+        return Arrangement(
+            angle, tuple(first), tuple(second), counterweight, second_order, self.hold
+        )
+
+    def __iter__(self) -> Iterator[Arrangement]:
+        return (self[k] for k in range(len(self)))
+
+    def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
+        """Return the arrangements within a tolerance of a bank angle; empty if there are none."""
+        angle = inputs.number("bank_angle_deg", bank_angle_deg)
+        tolerance = inputs.number("tolerance_deg", tolerance_deg)
+        return tuple(self._from(angle - tolerance, angle + tolerance))
+
+    def best(
+        self,
+        by: str | Callable[[Arrangement], float] = "second_order",
+        *,
+        within: tuple[float, float] = (0.0, 180.0),
+        count: int = 1,
+    ) -> tuple[Arrangement, ...]:
+        """Return the arrangements that minimise an objective, the best first.
+
+        Parameters
+        ----------
+        by
+            ``"second_order"``: the larger of the two second-order moments;
+            ``"counterweight"``: the first-order moment that a counterweight has to take away;
+            or any function of an :class:`Arrangement`.
+        within
+            Range of bank angles, degrees.
+        count
+            Number of arrangements.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> search = cp.search_arrangements(cylinders=14, alternating=True)
+        >>> round(search.best(within=(5, 60))[0].bank_angle_deg, 2)
+        9.13
+        """
+        measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
+        cure = "give a whole number, 0 or more"
+        try:
+            wanted = operator.index(count)
+        except TypeError:
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}") from None
+        if wanted < 0:
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}")
+        return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
+
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+        """Draw the second-order moment that remains over the bank angles; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        **options
+            ``label``, for a legend of several searches on the same axes; colour, marker and other
+            properties of matplotlib lines.
+        """
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
+
+    def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
+        """Return the arrangements as a table, one row a bank angle (needs pandas)."""
+        pandas = optional.pandas()
+        rows = list(self._from(*_window(within)))
+        columns = {
+            "first_deg": [row.first_deg for row in rows],
+            "second_deg": [row.second_deg for row in rows],
+            "counterweight": [row.counterweight for row in rows],
+            "second_order_x": [row.second_order[0] for row in rows],
+            "second_order_y": [row.second_order[1] for row in rows],
+            "near_circular": [row.near_circular for row in rows],
+        }
+        index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
+        table: pd.DataFrame = pandas.DataFrame(columns, index=index)
+        return table
+
+    def _from(self, low: float, high: float) -> Iterator[Arrangement]:
+        """Yield the arrangements in a window; of a large search nothing else is computed."""
+        if self._search.distinct > _LARGE and "_angles" not in self.__dict__:
+            yield from self.within(low, high)
+            return
+        first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
+        stop = int(np.searchsorted(self.bank_angles_deg, high, side="right"))
+        yield from (self[k] for k in range(first, stop))
+
+    def _index(self, index: int) -> int:
+        try:
+            position = operator.index(index)
+        except TypeError:
+            given = inputs.shorten(index)
+            raise _core.InputError(f"index = {given}: give a whole number") from None
+        if not -len(self) <= position < len(self):
+            # IndexError is what ends iteration over a sequence.
+            given = inputs.shorten(position)
+            raise IndexError(f"index = {given}: there are {len(self)} bank angles")
+        return position % len(self)
+
+    def __repr__(self) -> str:
+        rule = ", alternating" if self.alternating else ""
+        rule += " on shared pins" if self.shared_pins else ""
+        found = f"{self.qualifying} of {self.candidates} pairs"
+        low, high = self.window_deg
+        part = "" if self.window_deg == _WHOLE else f", bank angles {low:g} to {high:g}"
+        return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}{part}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ArrangementSearch) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash((self.cylinders, self.alternating))
+
+    def _key(self) -> tuple[Any, ...]:
+        phases = None if self._phases is None else tuple(self._phases)
+        given = (self.cylinders, self.alternating, phases, self.hold)
+        return (*given, self.shared_pins, self.window_deg)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_again, self._key())
+
+
+def _again(
+    cylinders: int,
+    alternating: bool,
+    phases: tuple[str, ...] | None,
+    hold: Hold,
+    shared_pins: bool,
+    window_deg: tuple[float, float],
+) -> ArrangementSearch:
+    found = search_arrangements(
+        cylinders, alternating=alternating, phases_deg=phases, hold=hold, shared_pins=shared_pins
+    )
+    return found.within(*window_deg)
+
+
+def _window(within: object) -> tuple[float, float]:
+    cure = "give two bank angles, such as (45, 90)"
+    ends = inputs.items("within", within, cure)
+    if len(ends) != 2:
+        raise _core.InputError(f"within = {inputs.shorten(within)}: {cure}")
+    low, high = (_bank_angle("within", end) for end in ends)
+    return low, high
+
+
+def _bank_angle(name: str, value: object) -> float:
+    angle = inputs.number(name, value)
+    if math.isnan(angle):
+        raise _core.InputError(f"{name} = nan: give a bank angle in degrees")
+    return angle
+
+
+_MEASURES: dict[str, Callable[[Arrangement], float]] = {
+    "second_order": lambda found: max(found.second_order),
+    "counterweight": lambda found: found.counterweight,
+}

@@ -1,0 +1,223 @@
+"""Sets of balancing hardware compared: hardware against what stays."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.absent import AbsentError
+from crankpin._support.frozen import Frozen
+from crankpin._support.tables import Table
+from crankpin.analysis.balance import balance
+from crankpin.analysis.drawing import draw
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+    from crankpin._support.inputs import Orders
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.balancing.fitted_shaft import FittedShaft
+    from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Unbalance
+
+SHOWN = 30
+"""Sets shown in text."""
+
+
+@dataclasses.dataclass(frozen=True)
+class BalancerOption:
+    """A set of balancing hardware, and what it leaves."""
+
+    name: str
+    """The set in words, such as ``"counterweights + shaft −1"``."""
+    counterweights: tuple[Unbalance, ...]
+    """Counterweights that were added."""
+    shafts: tuple[FittedShaft, ...]
+    """Shafts that were added."""
+    engine: Engine
+    """The engine with them."""
+    unbalance: float
+    """Sum of the amounts of all unbalances that were added, kg·m."""
+    values: tuple[float, ...]
+    """What stays: the value of each objective, in its unit."""
+    on_front: bool
+    """True if no other set has as few shafts, as little unbalance and as little left."""
+    reaches: bool
+    """True if the target is reached; False without one."""
+
+
+class BalancerOptions(Frozen):
+    """Sets of balancing hardware, fewest shafts and least unbalance first.
+
+    A sequence of :class:`~crankpin.types.BalancerOption`. Made by
+    :func:`crankpin.balancer_options`, which says what is compared.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
+    >>> [(each.name, len(each.shafts)) for each in options.front]
+    [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
+    >>> float(options[-1].engine.balance(rpm=6000, orders=[2])[2].force.peak)
+    0.0
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = (
+        "before", "rpm", "plane", "objectives", "targets", "options",
+    )  # fmt: skip
+
+    before: Engine
+    """The engine as it was given."""
+    rpm: float
+    """Crank speed, rpm."""
+    plane: float | None
+    """The reference plane that was given, m, or None."""
+    objectives: tuple[Objective, ...]
+    """What is left, to be small."""
+    targets: tuple[tuple[str, float], ...]
+    """Objective and the value that it must not exceed, in its unit."""
+    options: tuple[BalancerOption, ...]
+    """All sets."""
+
+    def __init__(
+        self,
+        before: Engine,
+        rpm: float,
+        plane: float | None,
+        objectives: tuple[Objective, ...],
+        targets: tuple[tuple[str, float], ...],
+        options: tuple[BalancerOption, ...],
+    ) -> None:
+        if not options or not all(isinstance(each, BalancerOption) for each in options):
+            raise InputError(f"options = {inputs.shorten(options)}: use crankpin.balancer_options")
+        self._set(
+            before=before,
+            rpm=rpm,
+            plane=plane,
+            objectives=objectives,
+            targets=targets,
+            options=options,
+        )
+
+    @property
+    def reference_z(self) -> float:
+        """Plane about which moments are taken, m."""
+        return self.before.reference_z if self.plane is None else self.plane
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Names of the objectives."""
+        return tuple(each.label for each in self.objectives)
+
+    @property
+    def front(self) -> tuple[BalancerOption, ...]:
+        """The Pareto front: sets to which no other is equal or better in every respect.
+
+        Respects are the number of shafts, the sum of unbalances and the value of each objective.
+        """
+        return tuple(each for each in self.options if each.on_front)
+
+    @property
+    def least(self) -> BalancerOption | None:
+        """The set with the fewest shafts, then the least unbalance, that reaches the target.
+
+        None if no set does, or no target was given.
+        """
+        return next((each for each in self.options if each.reaches), None)
+
+    @property
+    def engine(self) -> Engine:
+        """The engine with the least hardware that reaches the target; undefined without one."""
+        if self.least is None:
+            what = "no set reaches the target" if self.targets else "no target was given"
+            raise AbsentError(f"engine is undefined: {what}; take one of options, as options[0]")
+        return self.least.engine
+
+    def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
+        """Return what stays with the least hardware that reaches the target."""
+        return balance(self.engine, rpm, orders=orders, rtol=rtol, reference_z=self.plane)
+
+    def __len__(self) -> int:
+        return len(self.options)
+
+    def __getitem__(self, place: int) -> BalancerOption:
+        return self.options[place]
+
+    def __iter__(self) -> Iterator[BalancerOption]:
+        return iter(self.options)
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return all sets as a tidy table, one row a set and objective (needs pandas).
+
+        Columns are name, n_shafts, unbalance (kg·m), on_front, reaches, objective, value and unit.
+        """
+        rows = [
+            (
+                each.name, len(each.shafts), each.unbalance, each.on_front, each.reaches,
+                objective.label, value, objective.unit,
+            )
+            for each in self.options
+            for objective, value in zip(self.objectives, each.values, strict=True)
+        ]  # fmt: skip
+        columns = [
+            "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
+        ]  # fmt: skip
+        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
+        return table
+
+    def plot(self, ax: Axes | None = None, **style: object) -> Axes:
+        """Draw what each set of the front leaves, in per cent of what there is; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        **style
+            Passed on to the markers; ``label`` names the result in a legend.
+        """
+        return draw(self, ax, **style)  # type: ignore[no-any-return]
+
+    def table(self) -> Table:
+        """Return the table that is shown: the Pareto front."""
+        engine = self.before.name or f"{len(self.before)} cylinders"
+        front = self.front[:SHOWN]
+        columns = {
+            "set": [each.name for each in front],
+            "shafts": [str(len(each.shafts)) for each in front],
+        }
+        if self.targets:
+            columns["target"] = ["reached" if each.reaches else "missed" for each in front]
+        heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
+        return Table(
+            f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, "
+            f"{len(self.front)} of {len(self)} sets on the Pareto front",
+            [*columns, "unbalance kg·m", *heads],
+            list(zip(*columns.values(), strict=True)),
+            np.array([(each.unbalance, *each.values) for each in front]),
+            note=self._note(),
+        )
+
+    def _note(self) -> str:
+        if not self.targets:
+            return ""
+        units = {each.label: each.unit for each in self.objectives}
+        wanted = ", ".join(
+            f"{label} ≤ {value:.5g} {units[label]}".strip() for label, value in self.targets
+        )
+        found = "no set reaches it" if self.least is None else f"least {self.least.name}"
+        return f"Target: {wanted}; {found}."
+
+    def __repr__(self) -> str:
+        return self.table().text()
+
+    def _repr_html_(self) -> str:
+        return self.table().html()

@@ -1,0 +1,409 @@
+"""Bob weights: what a crankshaft is balanced against, and what every balance factor leaves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frozen import Frozen, read_only
+from crankpin._support.tables import Table
+from crankpin.analysis.balancing.first_order import first_order
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.quantities import Ellipse
+from crankpin.analysis.request import engine_core
+from crankpin.model.crankpins import Crankpin, crankpins
+from crankpin.model.shafts import Unbalance
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Orders
+    from crankpin.analysis.balance import Balance
+    from crankpin.model.engine import Engine
+
+TABULATED = (0.0, 0.5, 1.0)
+"""Factors in the table of what stays."""
+LARGEST_FACTOR = 10.0
+SMALLEST = 1e-30
+"""Smallest unbalance that engines take, kg·m."""
+
+
+def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
+    """Return the bob weight of every crankpin for a balance factor, and what it leaves.
+
+    A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
+    that of all rods on the pin together. Its counterweights then cancel these masses. Half of the
+    reciprocating mass leaves no forward part of force and moment in any engine without pin offset;
+    the backward part stays whatever the factor.
+
+    Parameters
+    ----------
+    engine
+        The engine; ``rotating_mass`` is what turns with the pin and is not part of the crankshaft:
+        big ends, bolts, bearing shells. Its counterweights are replaced.
+    factor
+        Part κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
+    oil
+        Oil in the bearings and the bore of a crankpin, kg of each pin.
+
+    Returns
+    -------
+    BobWeight
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v8 = cp.Engine.preset("v8-crossplane", rotating_mass=0.5)
+    >>> bob = cp.bob_weight(v8, oil=0.004)
+    >>> bob.grams
+    array([1454., 1454., 1454., 1454.])
+    >>> overbalanced = cp.bob_weight(v8, factor=0.52)
+    >>> before = v8.replace(rotating_mass=0).balance(rpm=6000)[1].moment.peak
+    >>> after = overbalanced.balance(rpm=6000)[1].moment.peak
+    >>> round(float(after / before), 9)  # 2 % too much leaves 4 %
+    0.04
+    """
+    engine_core(engine)
+    part, of_oil = inputs.number("factor", factor), inputs.number("oil", oil)
+    _check("factor", part)
+    if not 0.0 <= of_oil <= 1e6:
+        raise InputError(f"oil = {of_oil}: give the oil of a crankpin in kilograms, 0 or more")
+    return BobWeight(engine, part, of_oil)
+
+
+class Straight(NamedTuple):
+    """A factor that leaves a vector along a straight line."""
+
+    factor: float
+    """Part of the reciprocating mass."""
+    direction_deg: float
+    """Direction of the line from +x, degrees in (−90, 90]."""
+    half: float
+    """Half of its length over ω², kg·m or kg·m²."""
+
+
+class BobWeight(Frozen):
+    """Bob weights of an engine's crankpins, from front to flywheel.
+
+    Made by :func:`crankpin.bob_weight`.
+
+    Examples
+    --------
+    A single shakes along a straight line if nothing or all of its piston is balanced:
+
+    >>> import crankpin as cp
+    >>> single = cp.bob_weight(cp.Engine.preset("single"))
+    >>> [(line.factor, line.direction_deg) for line in single.straight("force")]
+    [(0.0, 90.0), (1.0, 0.0)]
+    >>> single.least("force")
+    0.5
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("before", "factor", "oil")
+
+    before: Engine
+    """The engine that was given."""
+    factor: float
+    """Part κ of the reciprocating mass."""
+    oil: float
+    """Oil of each crankpin, kg."""
+
+    def __init__(self, before: Engine, factor: float, oil: float) -> None:
+        engine_core(before)
+        self._set(before=before, factor=factor, oil=oil)
+
+    @cached_property
+    def crankpins(self) -> tuple[Crankpin, ...]:
+        """The crankpins.
+
+        Cylinders share one if they are of different banks, their pins point the same way, and their
+        places are less than a crank radius apart; split pins are two.
+        """
+        return crankpins(self.before)
+
+    @property
+    def rotating(self) -> NDArray[np.float64]:
+        """Rotating mass of each crankpin's rods, without oil, kg: (n_crankpins,)."""
+        return self._of_pins(self.before.rotating_mass)
+
+    @property
+    def reciprocating(self) -> NDArray[np.float64]:
+        """Reciprocating mass on each crankpin, kg: (n_crankpins,)."""
+        return self._of_pins([each.reciprocating_mass for each in self.before.cylinders])
+
+    def _of_pins(self, masses: ArrayLike) -> NDArray[np.float64]:
+        listed = np.asarray(masses)
+        pins = [[number - 1 for number in pin.cylinders] for pin in self.crankpins]
+        return read_only(np.array([listed[members].sum() for members in pins]))
+
+    @property
+    def mass(self) -> NDArray[np.float64]:
+        """Bob weight of each crankpin, at the crank radius, kg: (n_crankpins,)."""
+        return read_only(self.rotating + self.factor * self.reciprocating + self.oil)
+
+    @property
+    def grams(self) -> NDArray[np.float64]:
+        """Bob weight of each crankpin, g: (n_crankpins,)."""
+        return read_only((1e3 * self.mass).round(9))
+
+    @property
+    def engine(self) -> Engine:
+        """The engine with a crankshaft that is balanced with these weights.
+
+        Its counterweights are opposite the crankpins. The oil turns with the pins and is balanced,
+        so that neither shows.
+        """
+        return self._balanced(self.factor)
+
+    def _balanced(self, factor: float) -> Engine:
+        weights = []
+        for number, (parts, rotating, z) in enumerate(
+            zip(
+                self.before.cylinders,
+                self.before.rotating_mass.tolist(),
+                self.before.z.tolist(),
+                strict=True,
+            ),
+            start=1,
+        ):
+            amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
+            if amount >= SMALLEST:
+                weights.append(Unbalance(amount, z, 180, pin=number))
+        return self.before.with_counterweights(weights)
+
+    # --- what stays -----------------------------------------------------------------------------
+
+    def balance(self, rpm: float, *, orders: Orders = "auto") -> Balance:
+        """Return the balance of the engine with the crankshaft balanced so.
+
+        Parameters
+        ----------
+        rpm
+            Crank speed.
+        orders
+            As in :meth:`Engine.balance`.
+        """
+        return self.engine.balance(rpm, orders=orders)
+
+    @cached_property
+    def _first_order(self) -> dict[str, tuple[complex, complex, complex]]:
+        """Forward part at factor 0, its change to factor 1, and backward part, over ω²."""
+        none, whole = (first_order(self._balanced(factor)) for factor in (0.0, 1.0))
+        found = {}
+        for name in ("force", "moment"):
+            at, after = getattr(none, name), getattr(whole, name)
+            start = complex(at.forward)
+            found[name] = (start, complex(after.forward) - start, complex(at.backward))
+        return found
+
+    def stays(self, quantity: str, factor: ArrayLike | None = None) -> Ellipse:
+        """Return the ellipse of order 1 that factors leave, over ω².
+
+        Without pin offset its half axes are ``|1 − 2κ|·|forward| ± |backward|``, in which forward
+        and backward are those of the pistons alone.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"`` (kg·m) or ``"moment"`` (kg·m²).
+        factor
+            Parts κ of the reciprocating mass; by default the bob weight's own.
+
+        Returns
+        -------
+        Ellipse
+            Fields are numbers, or arrays of the shape of ``factor``.
+        """
+        parts = self._parts(quantity)
+        factors = inputs.array("factor", self.factor if factor is None else factor)
+        _check("factor", factors)
+        ellipse = _ellipse(*parts, factors)
+        return ellipse if factors.ndim else Ellipse(*map(float, ellipse))
+
+    def least(self, quantity: str) -> float | None:
+        """Return the factor of the least longest vector: 0.5 without pin offset.
+
+        None if the factor makes no difference: the pistons have no forward part.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"`` or ``"moment"``.
+        """
+        start, change, _ = self._parts(quantity)
+        if not change:
+            return None
+        return -(start * change.conjugate()).real / abs(change) ** 2
+
+    def straight(self, quantity: str) -> tuple[Straight, ...]:
+        """Return the factors that leave a vector along a straight line, and its direction.
+
+        They are ½(1 ± |backward|/|forward|) without pin offset; none if either part is zero, and
+        those below 0 or above 10 are left out.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"`` or ``"moment"``.
+        """
+        start, change, backward = self._parts(quantity)
+        middle = self.least(quantity)
+        if middle is None or not backward:
+            return ()
+        # |start + κ·change| = |backward|, about the factor at which the left side is least.
+        least = abs(start + middle * change)
+        reach = (abs(backward) - least) * (abs(backward) + least)
+        if reach < 0.0:
+            return ()
+        apart = math.sqrt(reach) / abs(change)
+        # A root of zero comes out beside it.
+        roots = [0.0 if abs(each) < 1e-12 else each for each in (middle - apart, middle + apart)]
+        found = []
+        for factor in dict.fromkeys(roots):
+            if 0.0 <= factor <= LARGEST_FACTOR:
+                ellipse = _ellipse(start, change, backward, np.array(factor))
+                direction = round(float(ellipse.tilt_deg), 9) + 0.0  # no −0
+                found.append(Straight(factor, direction, 2.0 * abs(backward)))
+        return tuple(found)
+
+    def _parts(self, quantity: str) -> tuple[complex, complex, complex]:
+        return self._first_order[inputs.one_of("quantity", quantity, ["force", "moment"])]
+
+    # --- tables ---------------------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the bob weights, one row a crankpin, masses in kg (needs pandas)."""
+        columns = {
+            "cylinders": [_numbers(pin) for pin in self.crankpins],
+            "pin_deg": [pin.pin_deg for pin in self.crankpins],
+            "z": [pin.z for pin in self.crankpins],
+            "rotating": self.rotating,
+            "reciprocating": self.reciprocating,
+            "oil": self.oil,
+            "mass": self.mass,
+        }
+        table: pd.DataFrame = optional.pandas().DataFrame(columns)
+        return table
+
+    def table(self) -> Table:
+        """Return the table of the bob weights in grams."""
+        rows = np.stack(
+            [
+                np.array([pin.pin_deg for pin in self.crankpins]),
+                1e3 * self.rotating,
+                1e3 * self.reciprocating,
+                np.full(len(self.crankpins), 1e3 * self.oil),
+                self.grams,
+            ],
+            axis=1,
+        )
+        name = self.before.name or f"{len(self.before)} cylinders"
+        title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
+        title += " + oil" if self.oil else ""
+        header = [
+            "cylinders",
+            "crankpin °",
+            "rotating g",
+            "reciprocating g",
+            "oil g",
+            "bob weight g",
+        ]
+        return Table(title, header, [(_numbers(pin),) for pin in self.crankpins], rows, decimals=1)
+
+    def table_of_factors(self, factors: ArrayLike | None = None) -> Table:
+        """Return the table of what factors leave of order 1: half axes over ω².
+
+        Parameters
+        ----------
+        factors
+            Parts of the reciprocating mass; by default some usual ones, with those of a straight
+            line.
+        """
+        given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
+        _check("factors", given)
+        words: dict[float, list[str]] = {float(factor): [] for factor in given}
+        for factor, text in self._remarkable() if factors is None else ():
+            # 0.5 comes out as 0.49999999999999994 at times.
+            near = next((each for each in words if abs(each - factor) < 1e-12), factor)
+            words.setdefault(near, []).extend([text] if text else [])
+        listed = sorted(words)
+        # An engine without force or moment of order 1 has no columns of it.
+        quantities = [name for name in labels.OVER_SQUARE if any(self._parts(name))]
+        header, columns = ["factor", ""], []
+        for name in quantities or ["moment"]:
+            stays, unit = self.stays(name, listed), labels.OVER_SQUARE[name]
+            header += [f"{name}, longest {unit}", f"shortest {unit}"]
+            columns += [stays.major, abs(stays.minor)]
+        names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
+        title = "What stays of order 1, half axes over ω²"
+        return Table(title, header, names, np.stack(columns, axis=-1))
+
+    def _remarkable(self) -> Iterator[tuple[float, str]]:
+        """Return the factors that are something special, and what."""
+        yield self.factor, ""
+        for name in labels.OVER_SQUARE:
+            if (least := self.least(name)) is not None:
+                yield least, f"least {name}"
+            for line in self.straight(name):
+                yield line.factor, f"{name} along {line.direction_deg:.4g}°"
+
+    def __repr__(self) -> str:
+        return f"{self.table().text()}\n{self.table_of_factors().text()}"
+
+    def _repr_html_(self) -> str:
+        return self.table().html() + self.table_of_factors().html()
+
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
+        """Draw what stays of order 1 over the factor: longest and shortest vector; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        quantity
+            ``"force"`` or ``"moment"``; by default the force, or the moment if there is no force.
+        **style
+            Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
+        """
+        return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
+
+
+def _check(name: str, factor: ArrayLike) -> None:
+    """Raise an InputError unless factors are parts of the reciprocating mass."""
+    listed = np.asarray(factor)
+    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+        remedy = f"give a part of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
+        raise InputError(f"{name} = {inputs.shorten(factor)}: {remedy}")
+
+
+def _ellipse(
+    start: complex, change: complex, backward: complex, factor: NDArray[np.float64]
+) -> Ellipse:
+    forward = start + factor * change
+    # Rounding of a part that vanishes has no direction.
+    forward = np.where(
+        np.abs(forward) < 1e-14 * (abs(start) + np.abs(factor * change)), 0.0, forward
+    )
+    f, b = np.abs(forward), np.full(factor.shape, abs(backward))
+    tilt = np.angle(forward * backward, deg=True) / 2.0
+    tilt = np.where(tilt <= -90.0, 90.0, np.where((f == 0.0) | (b == 0.0), 0.0, tilt))
+    minor = np.where(np.abs(f - b) < 1e-14 * (f + b), 0.0, f - b)
+    parts = (f + b, minor, tilt)
+    return Ellipse(*map(read_only, parts))
+
+
+def _numbers(pin: Crankpin) -> str:
+    return ", ".join(map(str, pin.cylinders))

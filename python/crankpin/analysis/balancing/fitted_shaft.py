@@ -1,0 +1,121 @@
+"""A balance shaft that was fitted: what it removes, and the loads on its bearings."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.analysis.balancing.planes import Turning, influence, without_rounding
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin.model.shafts import Shaft, Unbalance
+
+
+@dataclasses.dataclass(frozen=True)
+class FittedShaft:
+    """A balance shaft of a :class:`BalanceShafts`, with its bearings."""
+
+    shaft: Shaft
+    """The shaft: its ratio, its axis and its unbalances at θ = 0."""
+    reference_z: float
+    """Plane about which moments are taken, m."""
+    bearings: tuple[float, float] | None
+    """Places of its two bearings, front first, m; None if they are not known."""
+
+    @property
+    def order(self) -> int:
+        """Order that the shaft acts on."""
+        return abs(self.shaft.ratio)
+
+    @property
+    def part(self) -> str:
+        """Part that it acts on: "forward", turning with the crank, or "backward"."""
+        return "forward" if self.shaft.ratio > 0 else "backward"
+
+    @property
+    def unbalance(self) -> float:
+        """Sum of the amounts of its unbalances, kg·m."""
+        return float(sum(each.amount for each in self.shaft.unbalances))
+
+    @property
+    def makes(self) -> Turning:
+        """Force and moment of the shaft, over ω², as vectors x + iy at θ = 0: kg·m, kg·m²."""
+        rows, forces = influence(self._z(), self.reference_z), self._forces()
+        # Two opposite forces leave their rounding errors, not a force.
+        sums = (without_rounding(row @ forces, float(np.abs(row * forces).sum())) for row in rows)
+        return Turning(*(complex(each) for each in sums))
+
+    @property
+    def removed_force(self) -> float:
+        """Force that it balances: length of its own, over ω², kg·m."""
+        return abs(self.makes.force)
+
+    @property
+    def removed_moment(self) -> float:
+        """Moment that it balances: length of its own, over ω², kg·m²."""
+        return abs(self.makes.moment)
+
+    @property
+    def length(self) -> float | None:
+        """Distance between its bearings, m; None if they are not known."""
+        return None if self.bearings is None else self.bearings[1] - self.bearings[0]
+
+    def bearing_loads(self, rpm: float) -> NDArray[np.complex128]:
+        """Return the loads on its two bearings at θ = 0, front first.
+
+        Forces of the unbalances on the bearings, shared by the lever rule, without weight and
+        drive: each keeps its size and turns with the shaft.
+
+        Parameters
+        ----------
+        rpm
+            Crank speed.
+
+        Returns
+        -------
+        numpy.ndarray
+            x + iy, N: (2,).
+
+        Raises
+        ------
+        InputError
+            If the bearings are not known, or the speed is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> fit = cp.balance_shafts(cp.Engine.preset("i3"), -1, bearings=(0.0, 0.3))
+        >>> abs(fit[0].bearing_loads(rpm=6000)).round(1)
+        array([2205.2, 2205.2])
+        """
+        if self.bearings is None:
+            raise InputError("bearings = None: give bearings=(z_front, z_rear) to balance_shafts")
+        front, rear = self.bearings
+        on_rear = (np.array(self._z()) - front) / (rear - front)
+        shares = np.stack([1.0 - on_rear, on_rear])
+        loads: NDArray[np.complex128] = shares @ self._forces() * inputs.angular_speed(rpm) ** 2
+        return loads
+
+    def moved(self, x: float, y: float) -> FittedShaft:
+        """Return the same shaft with its axis at another place, m from the crank axis."""
+        return dataclasses.replace(self, shaft=dataclasses.replace(self.shaft, x=x, y=y))
+
+    def _z(self) -> list[float]:
+        return [each.z for each in self.shaft.unbalances]
+
+    def _forces(self) -> NDArray[np.complex128]:
+        """Return the forces of the unbalances at θ = 0, over ω², kg·m: (n_unbalances,)."""
+        vectors = np.array([_vector(each) for each in self.shaft.unbalances], dtype=complex)
+        return self.shaft.ratio**2 * vectors
+
+
+def _vector(unbalance: Unbalance) -> complex:
+    """Return an unbalance as x + iy at θ = 0, kg·m."""
+    angle = np.deg2rad(float(unbalance.angle_deg))
+    return complex(unbalance.amount * np.exp(1j * angle))

@@ -1,0 +1,221 @@
+"""Counterweights fitted to what turns with the crankshaft at order 1, in kg·m and kg·m².
+
+Forces and moments of order 1 scale with ω², so that one fit serves every speed.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.analysis.balancing import correction_planes
+from crankpin.analysis.balancing.first_order import bay_alone, first_order
+from crankpin.analysis.balancing.least_weights import Problem, least
+from crankpin.model.crankpins import bays
+from crankpin.model.shafts import Unbalance
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from crankpin.model.crankpins import Bay
+    from crankpin.model.engine import Engine
+
+QUANTITIES = ("force", "moment")
+NOTHING = 1e-13
+"""Weights below this part of the largest are rounding."""
+
+Target: TypeAlias = Literal["external", "internal"]
+Minimise: TypeAlias = Literal["squares", "largest"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Fit:
+    """What counterweights are to do, checked."""
+
+    target: Target
+    """Whether the whole engine's force and moment are to go, or those of each bay."""
+    force: float | None
+    """Part of the forward force to remove; None if it does not matter."""
+    moment: float | None
+    """Part of the forward moment to remove; None if it does not matter."""
+    minimise: Minimise
+    """What is least of weights that do the same."""
+    length: float | None
+    """Length by which moments compare with forces, m; None for the longest lever."""
+    reference_z: float | None
+    """Plane about which moments are taken, m; None for midway between first and last cylinder."""
+
+    @classmethod
+    def checked(
+        cls, target: object, fraction: object, minimise: object, length: object, reference_z: object
+    ) -> Fit:
+        """Return the options, or raise an InputError that names the argument at fault."""
+        parts = _parts(fraction)
+        wanted = inputs.one_of("target", target, ["external", "internal"])
+        plane = inputs.optional_number("reference_z", reference_z)
+        if plane is not None and wanted == "internal":
+            remedy = "leave it out: each bay has its own plane"
+            raise InputError(f"reference_z = {inputs.shorten(reference_z)}: {remedy}")
+        comparing = inputs.optional_number("length", length)
+        if comparing is not None and not 1e-6 <= comparing <= 1e6:
+            raise InputError(f"length = {comparing}: give a length in metres, 1e-6 to 1e6")
+        return cls(
+            wanted,  # type: ignore[arg-type]
+            parts.get("force"),
+            parts.get("moment"),
+            inputs.one_of("minimise", minimise, ["squares", "largest"]),  # type: ignore[arg-type]
+            comparing,
+            plane,
+        )
+
+    @property
+    def parts(self) -> dict[str, float]:
+        """Parts to remove by quantity, without those that do not matter."""
+        both = {"force": self.force, "moment": self.moment}
+        return {name: part for name, part in both.items() if part is not None}
+
+
+def _parts(given: object) -> dict[str, float]:
+    by_name: Mapping[str, object]
+    if isinstance(given, dict):
+        by_name = given
+        for name in by_name:
+            inputs.one_of("fraction", name, QUANTITIES)
+        if not by_name:
+            raise InputError('fraction = {}: give a number, or {"force": 1, "moment": 1}')
+    else:
+        by_name = dict.fromkeys(QUANTITIES, given)
+    parts = {name: inputs.number("fraction", part) for name, part in by_name.items()}
+    for part in parts.values():
+        if not 0.0 <= part <= 10.0:
+            raise InputError(f"fraction = {part}: give 0 to 10; 1 removes all")
+    return parts
+
+
+class Fitted(NamedTuple):
+    """Unbalances with the names of their planes, and whether they do all that was wanted."""
+
+    unbalances: tuple[tuple[str, Unbalance], ...]
+    exact: bool
+
+
+# --- the whole engine ---------------------------------------------------------------------------
+
+
+def external(
+    engine: Engine,
+    planes: Mapping[str, float],
+    bounds: Mapping[str, float],
+    angles: Mapping[str, tuple[str, ...]] | None,
+    fit: Fit,
+) -> Fitted:
+    """Return the weights that remove the most of an engine's forward force and moment."""
+    plane = engine.reference_z if fit.reference_z is None else fit.reference_z
+    names, places = list(planes), np.array(list(planes.values()))
+    levers = np.append(places, engine.z) - plane
+    length = fit.length or float(np.abs(levers).max()) or 1.0
+    order_1 = first_order(engine, plane)
+    made = {"force": np.ones(len(places)) + 0j, "moment": 1j * (places - plane) / length}
+    unit = {"force": 1.0, "moment": length}
+    found = least(
+        Problem(
+            np.array([made[name] for name in fit.parts]),
+            np.array(
+                [
+                    -part * complex(getattr(order_1, name).forward) / unit[name]
+                    for name, part in fit.parts.items()
+                ]
+            ),
+            np.array([bounds[name] for name in names]),
+            None
+            if angles is None
+            else tuple(
+                np.deg2rad([correction_planes.degrees(angle) for angle in angles[name]])
+                for name in names
+            ),
+            fit.minimise == "largest",
+        )
+    )
+    amounts = np.abs(found.value)
+    unbalances = []
+    for k in np.flatnonzero(amounts > NOTHING * amounts.max(initial=0.0)):
+        name = names[found.plane[k]]
+        if angles is None:
+            degrees: float | str = float(np.degrees(np.angle(found.value[k])) % 360.0)
+        else:
+            degrees = angles[name][found.angle[k]]
+        unbalances.append((name, Unbalance(float(amounts[k]), planes[name], degrees)))
+    usable = [z for name, z in planes.items() if bounds[name] > 0.0]
+    return Fitted(tuple(unbalances), found.reached and can_remove(engine, usable, fit, plane))
+
+
+def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> bool:
+    """Return whether weights of any size at these places can do all that is wanted.
+
+    Decided without floating-point sums. A weight u at z makes the force u and the moment
+    i(z − z₀)·u: two equations, whose rank is the number of different places, up to two. So two
+    places serve any force and moment. One place z serves a force, or a moment if it is not z₀; it
+    serves both if there is no forward moment about z itself, which is proved in integers.
+    """
+    different = sorted(set(places))
+    order_1 = engine.vanishing_orders([1], reference_z=plane)[1]
+    wanted = [name for name in fit.parts if getattr(order_1, name).forward != "vanishes"]
+    if not wanted or len(different) >= 2:
+        return True
+    if not different:
+        return False
+    (z,) = different
+    if len(fit.parts) == 1:
+        return wanted == ["force"] or z != plane
+    about = engine.vanishing_orders([1], reference_z=z)[1]
+    return about.moment.forward == "vanishes" and (fit.force == fit.moment or z == plane)
+
+
+# --- bay by bay -----------------------------------------------------------------------------------
+
+
+def internal(
+    engine: Engine,
+    planes: Mapping[str, float],
+    bounds: Mapping[str, float],
+    angles: Mapping[str, tuple[str, ...]] | None,
+    fit: Fit,
+) -> Fitted:
+    """Return the weights that remove the most of each bay's forward force and moment."""
+    listed = bays(engine)
+    inside = [_between(bay, planes) for bay in listed]
+    for name, z in planes.items():
+        if not any(name in each for each in inside):
+            ends = f"{listed[0].bearings[0]:.6g} to {listed[-1].bearings[1]:.6g} m"
+            raise InputError(
+                f'planes["{name}"] = {z:.6g}: is beyond the main bearings ({ends}); for '
+                'target="internal" give places between those of a throw'
+            )
+    found = [
+        external(
+            bay_alone(engine, bay),
+            within,
+            bounds,
+            angles,
+            dataclasses.replace(
+                fit,
+                target="external",
+                reference_z=bay.z,
+                length=fit.length or (bay.bearings[1] - bay.bearings[0]) / 2.0,
+            ),
+        )
+        if within
+        else Fitted((), exact=False)
+        for bay, within in zip(listed, inside, strict=True)
+    ]
+    return Fitted(
+        tuple(one for each in found for one in each.unbalances), all(each.exact for each in found)
+    )
+
+
+def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
+    return {name: z for name, z in planes.items() if bay.holds(z)}

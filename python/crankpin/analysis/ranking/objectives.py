@@ -1,0 +1,233 @@
+"""Objectives of a ranking: a number for an engine at a bank angle; the smallest is best."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.balance import Balance, balance
+from crankpin.analysis.sweeps.sweep import sweep
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.sweeps.sweep import Sweep
+
+Measure: TypeAlias = Callable[[Balance], float]
+"""A user's objective."""
+
+MOST_CYLINDERS = 8
+"""Cylinders up to which a table has the unevenness of firing, which takes all firing orders."""
+
+
+class Objective(NamedTuple):
+    """A number for an engine at a bank angle; the smallest is best."""
+
+    label: str
+    """Name, and head of its column."""
+    words: str
+    """Description."""
+    unit: str
+    of_sweep: Callable[[Sweep], NDArray[np.float64]] | None = None
+    """Computes it from a sweep of several engines at one speed: (n_engines, …)."""
+    of_balance: Measure | None = None
+    """Where ``of_sweep`` is None: computes it from one engine at one bank angle."""
+    order: int | None = None
+    """The order that it reads."""
+    quantity: str = ""
+    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; empty for a function."""
+    what: str = ""
+    """``"peak"``, ``"peak_xy"``, ``"forward"`` or ``"backward"``; empty for a function."""
+
+    def values(self, swept: Sweep) -> NDArray[np.float64]:
+        """Return the value of each engine at each bank angle: (n_engines, n_angles)."""
+        if self.order is not None and self.order not in swept.orders:
+            if swept.request.orders is not None:
+                given = inputs.shorten(list(swept.orders))
+                raise InputError(f'orders = {given}: by = "{self.label}" needs order {self.order}')
+            # Left out as negligible, or zero.
+            swept = again(swept, orders=[self.order])
+        if self.of_sweep is not None:
+            found = np.array(self.of_sweep(swept)).reshape(len(swept.engines), -1)
+        else:
+            rows = [[self._value(each) for each in row] for row in balances(swept)]
+            found = np.array(rows, dtype=np.float64)
+        found.setflags(write=False)
+        return found
+
+    def bare(self) -> Objective:
+        """Return the objective without its functions, so that it can be pickled and compared."""
+        return self._replace(of_sweep=None, of_balance=None)
+
+    def _value(self, found: Balance) -> float:
+        assert self.of_balance is not None  # noqa: S101 - one of the two is there
+        value = inputs.number("by", self.of_balance(found))
+        if value == -np.inf:
+            raise InputError("by = -inf: return finite numbers, or inf for an engine to avoid")
+        return value
+
+
+def again(swept: Sweep, **changes: object) -> Sweep:
+    """Return the same sweep of the same list of engines with some arguments changed."""
+    request = swept.request
+    arguments: dict[str, object] = {
+        "engines": list(swept.engines),
+        **swept.axes,
+        "hold": swept.hold,
+        "reference_z": request.reference_z,
+        "spectrum": request.spectrum,
+        "torque": request.torque,
+    }
+    # Orders chosen for the whole serve its parts.
+    arguments |= {"orders": swept.orders} if swept.orders else {"rtol": request.rtol}
+    arguments |= changes
+    if "orders" in changes:
+        arguments.pop("rtol", None)
+    with warnings.catch_warnings():
+        # The first sweep has warned.
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        return sweep(**arguments)  # type: ignore[arg-type]
+
+
+def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
+    """Yield the balances of each engine at each bank angle."""
+    angles = swept.coords.get("bank_angle_deg")
+    request, hold = swept.request, swept.hold
+    chosen = {"orders": swept.orders} if swept.orders else {"rtol": request.rtol}
+    for engine in swept.engines:
+        turned = (
+            [engine]
+            if angles is None or hold is None
+            else (engine.with_bank_angle(float(angle), hold=hold) for angle in angles)
+        )
+        yield (
+            balance(
+                each,
+                swept.fixed["rpm"],
+                reference_z=request.reference_z,
+                spectrum=request.spectrum,
+                torque=request.torque,
+                **chosen,
+            )
+            for each in turned
+        )
+
+
+# --- by name ------------------------------------------------------------------------------------
+
+COMMON = (
+    "total.moment.peak",
+    "total.force.peak",
+    "total.moment.peak_xy",
+    "total.force.peak_xy",
+    "total.torque.peak",
+    "total.crank_torque.peak",
+    "[1].moment.backward",
+    "[1].force.backward",
+    "[2].moment.peak",
+    "unevenness_deg",
+)
+"""Names of objectives; any order may take the place of 1 and 2."""
+_PATH = re.compile(
+    r"(?:total|\[([1-9][0-9]{0,8})\])"
+    r"\.(?:(force|moment)\.(peak|peak_xy|forward|backward)|(torque|crank_torque)\.(peak))"
+)
+
+
+def named(label: str) -> Objective:
+    """Return the objective of this name."""
+    if label == "unevenness_deg":
+        words = "root mean square difference of the firing intervals from equal ones"
+        return Objective(label, words, "°", of_balance=_unevenness)
+    found = _PATH.fullmatch(label)
+    if not found or (found[1] is None and found[3] in ("forward", "backward")):
+        inputs.one_of("by", label, COMMON)
+    assert found is not None  # noqa: S101 - else refused above
+    order = None if found[1] is None else int(found[1])
+    quantity, what = found[2] or found[4], found[3] or found[5]
+    name = labels.NAMES[quantity]
+    sort = {
+        "peak": "largest" if quantity.endswith("torque") else "longest",
+        "peak_xy": "larger peak along (about) x and y of",
+        "forward": "forward part of",
+        "backward": "backward part of",
+    }[what]
+    words = f"{sort} {name}, " + ("all orders" if order is None else f"order {order}")
+    if (what, order) == ("backward", 1):
+        words += " (what the best counterweight leaves)"
+
+    def of_sweep(swept: Sweep) -> NDArray[np.float64]:
+        source = swept.total if order is None else swept[order]
+        values = np.abs(getattr(getattr(source, quantity), what))
+        return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
+
+    return Objective(label, words, labels.UNITS[quantity], of_sweep, None, order, quantity, what)
+
+
+def of_table(swept: Sweep) -> list[Objective]:
+    """Return the objectives of a table of trade-offs, those that need no further argument."""
+    names = [
+        f"{path[0]}.{quantity}.{path[1]}"
+        for quantity in ("moment", "force")
+        for path in (("total", "peak"), ("[1]", "backward"), ("[2]", "peak"))
+    ]
+    if "torque" in swept.request.quantities:
+        names.append("total.torque.peak")
+    if all(len(engine) <= MOST_CYLINDERS for engine in swept.engines):
+        names.append("unevenness_deg")
+    given = swept.request.orders
+    return [each for each in map(named, names) if given is None or each.order in (None, *given)]
+
+
+def _unevenness(found: Balance) -> float:
+    return found.engine.firing_orders()[0].unevenness_deg
+
+
+# --- by function --------------------------------------------------------------------------------
+
+
+def listed(by: object) -> list[Objective]:
+    """Return the objectives that names and functions give."""
+    if by is None:
+        raise InputError(
+            "by = None: give the quantity to minimise, such as "
+            + ", ".join(f'"{name}"' for name in COMMON[:6])
+            + ", or a function of a Balance"
+        )
+    if isinstance(by, str):
+        by = [name.strip() for name in by.split(",")]
+    elif callable(by):
+        by = [by]
+    remedy = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
+    found: list[Objective] = []
+    for each in inputs.items("by", by, remedy):
+        if isinstance(each, str):
+            found.append(named(each))
+        elif callable(each):
+            label = _free(each, found)
+            words = f"{label}, a function given"
+            found.append(Objective(label, words, "", of_balance=each))
+        else:
+            raise InputError(f"by = {inputs.shorten(each)}: {remedy}")
+    if not found:
+        raise InputError(f"by = {inputs.shorten(by)}: {remedy}")
+    twice = {each.label for each in found if [one.label for one in found].count(each.label) > 1}
+    if twice:
+        raise InputError(f"by = {inputs.shorten(by)}: {min(twice)} is given twice; give it once")
+    return found
+
+
+def _free(function: object, taken: list[Objective]) -> str:
+    """Return a name for the column of a function that no other column has."""
+    name = str(getattr(function, "__name__", ""))
+    name = name if name.isidentifier() else "objective"
+    used = {"unevenness_deg", "engine", "bank_angle_deg", *(each.label for each in taken)}
+    if name not in used:
+        return name
+    return next(new for k in range(2, 10**6) if (new := f"{name}_{k}") not in used)

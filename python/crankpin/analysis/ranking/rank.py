@@ -1,0 +1,206 @@
+"""Ranking of engines by objectives over bank angles."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, cast
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
+from crankpin.analysis.ranking.choices import chosen
+from crankpin.analysis.ranking.objectives import listed as listed_objectives
+from crankpin.analysis.ranking.ranking import Ranking
+from crankpin.analysis.sweeps.sweep import sweep
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.analysis.ranking.objectives import Measure
+    from crankpin.analysis.sweeps.sweep import Engines
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.engine import Hold
+
+
+def rank(
+    engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
+    *,
+    rpm: float,
+    by: str | Measure | Sequence[str | Measure] | None = None,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    orders: Orders = "auto",
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    cylinder: Cylinder | None = None,
+    spacing: float | None = None,
+    refine: bool = False,
+    tie_rtol: float = 1e-9,
+) -> Ranking:
+    """Rank engines by an objective, each at the bank angles with its smallest value.
+
+    Parameters
+    ----------
+    engines
+        An engine, several, or a mapping name → engine, such as one for each firing order; or
+        arrangements: some of a search, such as its :meth:`~ArrangementSearch.best`, or all of an
+        :class:`ArrangementSearch`.
+    rpm
+        Crank speed.
+    by
+        Quantity to minimise, required: the name of an objective (see Notes), several names with
+        commas, a function that takes the :class:`Balance` of an engine at a bank angle and returns
+        a number (NaN or inf for an engine to avoid), or a list of these; later ones break ties.
+    bank_angle_deg
+        Bank angles to choose from, 0 to 180; by default each engine is taken unchanged.
+    hold
+        Quantity that a change of bank angle does not change, as in :func:`crankpin.sweep`.
+    orders, rtol, reference_z, spectrum
+        As in :func:`crankpin.sweep`.
+    cylinder, spacing
+        Cylinder and spacing of the engines of arrangements, as in :meth:`Arrangement.engine`.
+    refine
+        Search between the bank angles too: each dip of the first objective is narrowed down to its
+        lowest point. Dips that lie wholly between two neighbouring angles, with no given angle on
+        their slopes below the next ones, are not found.
+    tie_rtol
+        Values tie when they differ by at most this, relative to the largest value of the objective
+        in the whole ranking.
+
+    Returns
+    -------
+    Ranking
+        The best first.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or an engine does not have the two banks to be turned.
+
+    Notes
+    -----
+    Objectives are named by their path from a balance: ``"total.moment.peak"`` minimises
+    ``balance.total.moment.peak``. With given ``orders``, *total* is of the orders given.
+
+    ``total.moment.peak``, ``total.force.peak``
+        Longest rocking moment or shaking force of all orders together; a true extremum.
+    ``total.moment.peak_xy``, ``total.force.peak_xy``
+        The larger of the peaks about (along) x and y of all orders together.
+    ``total.torque.peak``, ``total.crank_torque.peak``
+        Largest roll torque on the block, or inertia torque on the crank.
+    ``[1].moment.backward``, ``[1].force.backward``
+        Magnitude of the first order's backward part, which the best counterweights leave.
+    ``[2].moment.peak``, ``[2].force.peak``, ``[2].torque.peak``
+        Largest of one order, any of which can be named; ``peak_xy``, ``forward`` and ``backward``
+        as well.
+    ``unevenness_deg``
+        Root mean square difference of the firing intervals from equal ones, in the most even
+        four-stroke order that the crank allows; up to 16 cylinders.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import crankpin as cp
+    >>> orders = ("1-3-5-2-4-6", "1-4-5-2-3-6", "1-6-5-4-3-2", "1-5-3-6-2-4")
+    >>> ranking = cp.rank(
+    ...     {order: cp.Engine.preset(f"ijesc-v6-{order}") for order in orders},
+    ...     rpm=5000,
+    ...     bank_angle_deg=np.arange(10, 180, 10),
+    ...     hold="pins",
+    ...     by=["[1].moment.backward", "[2].moment.peak"],
+    ... )
+    >>> for choice in ranking:
+    ...     print(choice.name, choice.bank_angles_deg, np.round(choice.values, 1))
+    1-6-5-4-3-2 (150.0,) [   0.  1160.3]
+    1-3-5-2-4-6 (90.0,) [   0.  1698.9]
+    1-4-5-2-3-6 (30.0,) [   0.  2009.8]
+    1-5-3-6-2-4 (10.0,) [717.3 415.6]
+
+    A function takes the balance of an engine at an angle, and ``refine`` searches between the
+    angles:
+
+    >>> (best,) = cp.rank(
+    ...     cp.Engine.preset("ijesc-v6-1-6-5-4-3-2"),
+    ...     rpm=5000,
+    ...     orders=[1, 2, 4, 6],
+    ...     bank_angle_deg=np.arange(10, 180, 10),
+    ...     hold="pins",
+    ...     by=lambda balance: np.hypot(*balance.total.moment.peak_xy),
+    ...     refine=True,
+    ... )
+    >>> round(best.bank_angles_deg[0], 3)
+    140.657
+    """
+    ranked_by = listed_objectives(by)
+    tolerance = inputs.number("tie_rtol", tie_rtol)
+    if not 0.0 <= tolerance < 1.0:
+        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+    between = inputs.flag("refine", refine)
+    if between and bank_angle_deg is None:
+        raise InputError("refine = True: searches between bank angles; give bank_angle_deg")
+    of_engines = _engines(engines, cylinder, spacing)
+    with warnings.catch_warnings():
+        # Once for the whole call, below.
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        swept = sweep(
+            of_engines,
+            rpm=inputs.number("rpm", rpm),
+            bank_angle_deg=(
+                None if bank_angle_deg is None else inputs.vector("bank_angle_deg", bank_angle_deg)
+            ),
+            hold=hold,
+            orders=orders,
+            rtol=rtol,
+            reference_z=reference_z,
+            spectrum=spectrum,
+        )
+        values = [objective.values(swept) for objective in ranked_by]
+        choices = chosen(swept, ranked_by, values, tolerance, refine=between)
+    inputs.warn_of_units(swept.mean_piston_speed)
+    bare = tuple(objective.bare() for objective in ranked_by)
+    return Ranking(swept, bare, tuple(values), choices)
+
+
+def _engines(
+    given: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
+    cylinder: object,
+    spacing: object,
+) -> Engines:
+    """Return engines, or those of arrangements."""
+    if isinstance(given, ArrangementSearch) and len(given) > inputs.MOST_ITEMS:
+        raise InputError(
+            f"engines is a search with {len(given)} bank angles, more than {inputs.MOST_ITEMS}: "
+            "give some of them, such as its best(count=100) or within(60, 61)"
+        )
+    if isinstance(given, Arrangement):
+        given = [given]
+    is_search = isinstance(given, ArrangementSearch)
+    if not isinstance(given, (Engine, Mapping, ArrangementSearch)):
+        given = inputs.items("engines", given, "give crankpin.Engine objects or arrangements")
+    listed = [] if isinstance(given, (Engine, Mapping)) else list(given)
+    if not listed and not isinstance(given, (Engine, Mapping)):
+        where = "the search has no bank angle in its window" if is_search else "give at least one"
+        raise InputError(f"engines = []: {where}")
+    arrangements = [one for one in listed if isinstance(one, Arrangement)]
+    if not arrangements:
+        for name, value in (("cylinder", cylinder), ("spacing", spacing)):
+            if value is not None:
+                remedy = "is for arrangements; engines have their own, leave it out"
+                raise InputError(f"{name} = {inputs.shorten(value)}: {remedy}")
+        return cast("Engines", [given] if isinstance(given, Engine) else given)
+    for one in listed:
+        if not isinstance(one, Arrangement):
+            raise InputError(
+                f"engines = {inputs.shorten(one)}: give arrangements alone, or engines alone"
+            )
+    for name, value in (("cylinder", cylinder), ("spacing", spacing)):
+        if value is None:
+            raise InputError(f"{name} = None: arrangements need one, as Arrangement.engine does")
+    return {
+        f"arrangement {k}, {one.bank_angle_deg:.6g}°": one.engine(cylinder, spacing=spacing)  # type: ignore[arg-type]
+        for k, one in enumerate(arrangements)
+    }

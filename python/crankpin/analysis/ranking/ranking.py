@@ -1,0 +1,279 @@
+"""Engines ranked by objectives, each at its best bank angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.frozen import Frozen
+from crankpin._support.tables import Table
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.ranking.choices import Choice, angles_of, own_angles
+from crankpin.analysis.ranking.objectives import of_table
+from crankpin.analysis.sweeps.sweep import Sweep
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.model.engine import Engine, Hold
+
+SHOWN = 10
+"""Engines shown in text."""
+SHOWN_IN_NOTEBOOKS = 50
+MOST_ANGLES = 6
+"""Bank angles shown in a cell."""
+
+
+class Ranking(Frozen):
+    """Engines sorted by objectives, each at its best bank angles.
+
+    A sequence of :class:`Choice`, the best first. Made by :func:`crankpin.rank`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> ranking = cp.rank(
+    ...     v6, rpm=5000, by="total.moment.peak", bank_angle_deg=[60, 90, 120], hold="pins"
+    ... )
+    >>> ranking[0].bank_angles_deg
+    (60.0,)
+    >>> ranking.table["[1].moment.backward"].round(1)
+    array([[  0. , 459.4, 795.7]])
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("sweep", "objectives", "values_by", "choices")
+
+    sweep: Sweep
+    """The sweep of the engines over the bank angles."""
+    objectives: tuple[Objective, ...]
+    """The objectives."""
+    values_by: tuple[NDArray[np.float64], ...]
+    """Values of each objective: (n_engines, n_angles), in its unit."""
+    choices: tuple[Choice, ...]
+    """The engines, the best first."""
+
+    def __init__(
+        self,
+        sweep: Sweep,
+        objectives: tuple[Objective, ...],
+        values_by: tuple[NDArray[np.float64], ...],
+        choices: tuple[Choice, ...],
+    ) -> None:
+        if not isinstance(sweep, Sweep):
+            raise InputError(f"Ranking({inputs.shorten(sweep)}): use crankpin.rank")
+        for each in values_by:
+            each.setflags(write=False)
+        self._set(sweep=sweep, objectives=objectives, values_by=values_by, choices=choices)
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Names of the objectives."""
+        return tuple(objective.label for objective in self.objectives)
+
+    @property
+    def engines(self) -> tuple[Engine, ...]:
+        """The engines as they were given."""
+        return self.sweep.engines
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the engines as given; engines with the same name, or none, are numbered."""
+        return tuple(map(str, self.sweep.coords["engine"]))
+
+    @property
+    def hold(self) -> Hold | None:
+        """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
+        return self.sweep.hold
+
+    @cached_property
+    def bank_angles_deg(self) -> NDArray[np.float64] | None:
+        """The bank angles that were given, degrees: (n_angles,); None where none were."""
+        return angles_of(self.sweep)
+
+    @cached_property
+    def own_angles_deg(self) -> NDArray[np.float64]:
+        """Bank angles of the engines as given, degrees; NaN where there are not two banks."""
+        own = own_angles(self.engines)
+        own.setflags(write=False)
+        return own
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """Values of the first objective, in its unit: (n_engines, n_angles).
+
+        Engines in the order given; one column where no bank angles were given.
+        """
+        return self.values_by[0]
+
+    @cached_property
+    def table(self) -> Mapping[str, NDArray[np.float64]]:
+        """The trade-off: objective → (n_engines, n_angles), in its unit; engines as given.
+
+        The objectives of the ranking; then total moment and force, the backward part of the first
+        order, the second order, total torque, and, of engines with up to 8 cylinders, the
+        unevenness of firing.
+        """
+        columns = dict(zip(self.by, self.values_by, strict=True))
+        for objective in of_table(self.sweep):
+            if objective.label not in columns:
+                columns[objective.label] = objective.values(self.sweep)
+        return MappingProxyType(columns)
+
+    def best(self, count: int = 1) -> tuple[Choice, ...]:
+        """Return the ``count`` best engines, best first."""
+        wanted = inputs.number("count", count)
+        if not 0 <= wanted <= len(self) or wanted != int(wanted):
+            remedy = f"give a whole number, 0 to {len(self)}"
+            raise InputError(f"count = {inputs.shorten(count)}: {remedy}")
+        return self.choices[: int(wanted)]
+
+    def __len__(self) -> int:
+        return len(self.choices)
+
+    def __getitem__(self, index: int) -> Choice:
+        return self.choices[index]
+
+    def __iter__(self) -> Iterator[Choice]:
+        return iter(self.choices)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the first objective; empty where it is a function."""
+        return self.objectives[0].unit
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the trade-off as a tidy table, one row an engine, angle and objective (pandas).
+
+        Columns are engine, bank_angle_deg, objective, value and unit.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> ranking = cp.rank(
+        ...     v6, rpm=5000, by="total.moment.peak", bank_angle_deg=[60, 90], hold="pins"
+        ... )
+        >>> ranking.to_pandas().columns.tolist()
+        ['engine', 'bank_angle_deg', 'objective', 'value', 'unit']
+        """
+        angles, units = self.bank_angles_deg, self._units()
+        points = [
+            (name, float(angle))
+            for name, own in zip(self.names, self.own_angles_deg, strict=True)
+            for angle in ([own] if angles is None else angles)
+        ]
+        rows = [
+            (*point, label, value, units[label])
+            for label, values in self.table.items()
+            for point, value in zip(points, values.ravel().tolist(), strict=True)
+        ]
+        columns = ["engine", "bank_angle_deg", "objective", "value", "unit"]
+        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
+        return table
+
+    def _units(self) -> dict[str, str]:
+        units = {each.label: each.unit for each in of_table(self.sweep)}
+        return units | {each.label: each.unit for each in self.objectives}
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the trade-off with named dimensions and units (needs xarray).
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> ranking = cp.rank(
+        ...     v6, rpm=5000, by="total.moment.peak", bank_angle_deg=[60, 90], hold="pins"
+        ... )
+        >>> ranking.to_xarray()["total.moment.peak"].dims
+        ('engine', 'bank_angle_deg')
+        """
+        angles = self.bank_angles_deg
+        dims = ("engine",) if angles is None else ("engine", "bank_angle_deg")
+        units = self._units()
+        variables: dict[str, Any] = {
+            label: (
+                dims,
+                values[:, 0] if angles is None else values,
+                {"units": _XARRAY_UNITS.get(units[label], units[label])},
+            )
+            for label, values in self.table.items()
+        }
+        coords: dict[str, Any] = {
+            "engine": list(self.names),
+            "bank_angle_deg": (
+                dims[-1],
+                self.own_angles_deg if angles is None else angles,
+                {"units": "degree"},
+            ),
+        }
+        attributes: dict[str, Any] = {"rpm": self.sweep.fixed["rpm"]}
+        attributes |= {"hold": self.hold} if self.hold else {}
+        dataset: xr.Dataset = optional.xarray().Dataset(variables, coords, attributes)
+        return dataset
+
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
+        """Draw the first objective over bank angle, the best angles ringed; return the axes.
+
+        Engines ranked without bank angles are listed, the best first. Of many engines the best
+        are named, the others thin lines.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines.
+        """
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
+
+    def description(self, objectives: int | None = None) -> str:
+        """Return the objectives, all or the first few, and the speed in words."""
+        least = ", then ".join(each.words for each in self.objectives[:objectives])
+        if self.sweep.request.orders is not None:
+            least = least.replace("all orders", "all of the orders given")
+        return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
+
+    def table_of_choices(self, shown: int | None = None) -> Table:
+        """Return the table that is shown: the first choices, all by default."""
+        choices = self.choices[:shown]
+        rest = len(self) - len(choices)
+        parts = [
+            f"Ranked by {self.description()}",
+            *([labels.HELD[self.hold]] if self.hold else []),
+        ]
+        title = ", ".join(parts) + (f"; {len(choices)} of {len(self)}" if rest else "")
+        heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
+        rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
+        rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
+        return Table(title, ["place", "engine", "bank angle °", *heads], rows_of, rows)
+
+    def __repr__(self) -> str:
+        return self.table_of_choices(SHOWN).text()
+
+    def _repr_html_(self) -> str:
+        return self.table_of_choices(SHOWN_IN_NOTEBOOKS).html()
+
+
+_XARRAY_UNITS = {"N·m": "N m", "°": "degree"}
+
+
+def _several(angles: tuple[float, ...]) -> str:
+    """Return a few angles as text."""
+    shown = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
+    rest = len(angles) - MOST_ANGLES
+    return f"{shown} and {rest} more" if rest > 0 else shown or "–"

@@ -1,0 +1,1 @@
+"""Balances of many engines, speeds, bank angles and rod ratios in one call."""

@@ -1,0 +1,130 @@
+"""Sweeps as dask graphs: chunks that are ordinary sweeps, computed on demand."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, optional
+from crankpin.analysis import export
+from crankpin.analysis.sweeps.sweep import Sweep, sweep
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Chunks: TypeAlias = "int | str | Mapping[str, int | str | tuple[int, ...]]"
+"""Points to a chunk: of every swept dimension, or by dimension, or ``"auto"``."""
+
+
+def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Dataset:
+    """Return the sweep's arrays as an xarray Dataset of dask arrays."""
+    dask = optional.dask()
+    lengths = {name: len(values) for name, values in whole.coords.items()}
+    if not lengths:
+        raise InputError("to_dask: nothing is swept; use to_xarray")
+    sizes = lengths | {"order": len(whole.orders), "axis": 2}
+    by_name = dict(zip(sizes, _normalized(chunks, lengths, sizes), strict=True))
+    axes = {name: _axis(whole, name, by_name[name]) for name in lengths}
+    request = whole.request
+    fixed: dict[str, Any] = {
+        **whole.fixed,
+        "hold": whole.hold,
+        "orders": whole.orders,
+        "reference_z": request.reference_z,
+        "spectrum": None if request.pairs is None else dict(request.pairs),
+        "torque": request.torque,
+    }
+    if "engine" not in lengths:
+        fixed["engines"] = whole.engines[0]
+    variables: dict[str, Any] = {}
+    for name, quantity, what, trailing in export.variables(quantities):
+        dims = (*lengths, *trailing)
+        kind = np.complex128 if what in ("phasors", "forward", "backward") else np.float64
+        slices = [part for dim in lengths for part in (axes[dim], (dim,))]
+        if whole.orders:
+            values = dask.blockwise(
+                _block,
+                dims,
+                *slices,
+                new_axes={dim: sizes[dim] for dim in trailing},
+                dims=tuple(lengths),
+                fixed=fixed,
+                quantity=quantity,
+                what=what,
+                # Slices of one axis along the one index that it has.
+                concatenate=True,
+                dtype=kind,
+                meta=np.empty((0,) * len(dims), kind),
+            )
+        else:
+            shape = tuple(sizes[dim] for dim in dims)
+            values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
+        variables[name] = (dims, values, {"units": export.unit(quantity)})
+    return export.dataset(
+        whole.source, quantities, variables, whole.coords, whole.attributes, split_complex=False
+    )
+
+
+def _block(
+    *slices: Any,  # noqa: ANN401 - engines or numbers
+    dims: tuple[str, ...],
+    fixed: Mapping[str, Any],
+    quantity: str,
+    what: str,
+) -> Any:  # noqa: ANN401 - complex or real
+    """Compute one chunk by an ordinary sweep."""
+    given = dict(zip(dims, slices, strict=True))
+    if "engine" in given:
+        given["engines"] = list(given.pop("engine"))
+    with warnings.catch_warnings():
+        # The sweep of everything has warned.
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        return sweep(**fixed, **given).source.read(quantity, what)
+
+
+def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array
+    """Return the values of a dimension in chunks; of "engine" the engines."""
+    dask = optional.dask()
+    if name != "engine":
+        return dask.from_array(whole.coords[name], chunks=(chunks,))
+    engines = np.empty(len(whole.engines), dtype=object)
+    engines[:] = whole.engines
+    token = hashlib.sha256(pickle.dumps(whole.engines)).hexdigest()[:32]
+    return dask.from_array(engines, chunks=(chunks,), name=f"engines-{token}")
+
+
+def _normalized(
+    chunks: object, lengths: Mapping[str, int], sizes: Mapping[str, int]
+) -> tuple[tuple[int, ...], ...]:
+    """Return the lengths of the chunks of every dimension; those that are not swept stay whole."""
+    remedy = 'give a number, "auto", or a mapping of ' + ", ".join(lengths) + " to these"
+    wanted: dict[str, Any] = dict.fromkeys(sizes, -1)
+    if isinstance(chunks, Mapping):
+        for name in chunks:
+            if name not in lengths:
+                raise InputError(f"chunks = {inputs.shorten(chunks)}: {remedy}")
+        wanted |= chunks
+    else:
+        wanted |= dict.fromkeys(lengths, chunks)
+    try:
+        if any(isinstance(length, (bool, np.bool_)) for length in wanted.values()):
+            raise TypeError("True and False are not numbers of points")
+        found: tuple[tuple[int, ...], ...] = optional.dask().core.normalize_chunks(
+            tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
+        )
+        if any(
+            length < 1
+            for size, lengths_of in zip(sizes.values(), found, strict=True)
+            for length in lengths_of
+            if size
+        ):
+            raise ValueError("a chunk has at least one point")
+    except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
+        raise InputError(f"chunks = {inputs.shorten(chunks)}: {remedy} ({error})") from None
+    return found

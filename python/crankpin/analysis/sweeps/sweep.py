@@ -1,0 +1,533 @@
+"""Sweeps over engines, bank angle, rod ratio, pin offset and speed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support import progress as progress_bar
+from crankpin.analysis import export
+from crankpin.analysis.by_order import AllOrders
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import Request, check_quantities
+from crankpin.analysis.sweeps.arrays import SweepArrays
+from crankpin.analysis.sweeps.waveform import SweepWaveform
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.sweeps.dask import Chunks
+    from crankpin.model.engine import Hold
+
+Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
+
+
+def sweep(
+    engines: Engines,
+    *,
+    rpm: ArrayLike,
+    bank_angle_deg: ArrayLike | None = None,
+    hold: Hold | None = None,
+    rod_ratio: ArrayLike | None = None,
+    pin_offset: ArrayLike | None = None,
+    orders: Orders = "auto",
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    spectrum: Spectrum | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+) -> Sweep:
+    """Return the balance of engines at every combination of the swept arguments.
+
+    Crank angle is not sampled: each point is a layout sum times a harmonic. Every array argument is
+    a dimension of the result; a scalar is not. Values are computed when they are first read.
+
+    Parameters
+    ----------
+    engines
+        An engine, several, or a mapping name → engine.
+    rpm
+        Crank speeds.
+    bank_angle_deg
+        Angles between the two banks, 0 to 180.
+    hold
+        Quantity that a change of bank angle does not change; required with ``bank_angle_deg``:
+        ``"pins"`` (the crank; firing intervals change) or ``"firing"`` (every top dead centre; pins
+        are split as needed).
+    rod_ratio
+        Crank radius / rod length; the radius stays, the rod changes.
+    pin_offset
+        Pin offset of every cylinder, m.
+    orders
+        Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
+        point. Choosing takes about the time of a sweep of all candidate orders at one speed.
+    rtol, reference_z, spectrum
+        As in :meth:`Engine.balance`.
+    torque
+        Whether torque is computed. If not, it does not count in the choice of orders.
+    progress
+        True for a tqdm bar during computations, or a function of (steps done, steps in all) that is
+        called now and then; an exception that it raises stops the computation.
+
+    Returns
+    -------
+    Sweep
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or an engine does not have the two banks to be swept.
+
+    Notes
+    -----
+    Phasors and peaks of a point have the same bits whatever else is swept with it and however many
+    threads compute it, if the orders are the same ones in the same sequence. Sums over crank angle
+    (:meth:`Sweep.waveform`) may differ in the last bits, since orders that vanish at all points of
+    a sweep are left out of its sums.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> angles = np.arange(10, 180, 10)
+    >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=angles, hold="pins", orders=[1, 2])
+    >>> s.moment.dims
+    ('bank_angle_deg', 'order', 'axis')
+    >>> s.moment.shape
+    (17, 2, 2)
+    >>> cp.sweep(v6, rpm=5000, rod_ratio=[0.25, 0.3], rtol=1e-3, torque=False).orders
+    (1, 2, 4, 6)
+    """
+    shown = progress_bar.checked(progress)
+    listed, names = _listed(engines)
+    given = {"bank_angle_deg": bank_angle_deg, "rod_ratio": rod_ratio, "pin_offset": pin_offset}
+    swept = {name: values for name, values in given.items() if values is not None} | {"rpm": rpm}
+    axes: dict[str, NDArray[np.float64] | float] = {}
+    for name, values in swept.items():
+        array = inputs.array(name, values)
+        axes[name] = inputs.vector(name, array) if array.ndim else float(array)
+    held = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
+    request = Request.checked(
+        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum, torque=torque
+    )
+    whole = Sweep(tuple(listed), names, axes, held, request, shown)
+    inputs.warn_of_units(whole.mean_piston_speed)
+    return whole
+
+
+class Sweep(AllOrders):
+    """Force, moment and torque of engines over swept arguments: labelled arrays.
+
+    The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
+    ``s.total.force.peak``, ``s[2].torque.peak``. Dimensions, where swept, come in the order
+    ``engine``, ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, then ``order`` and
+    ``axis``. Arrays are computed when they are first read, and kept. Made by
+    :func:`crankpin.sweep`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> i4, i6 = cp.Engine.preset("i4"), cp.Engine.preset("i6")
+    >>> s = cp.sweep([i4, i6], rpm=[3000, 6000], rod_ratio=[0.25, 0.3, 0.35], orders=[2])
+    >>> s.force.peak_xy.shape
+    (2, 3, 2, 1, 2)
+    >>> s.total.force.peak.shape
+    (2, 3, 2)
+    >>> s[2].torque.dims
+    ('engine', 'rod_ratio', 'rpm')
+    """
+
+    _fields = SweepArrays._fields
+
+    source: SweepArrays
+
+    def __init__(
+        self,
+        engines: tuple[Engine, ...],
+        names: tuple[str, ...] | None,
+        axes: Mapping[str, Any],
+        hold: str | None,
+        request: Request,
+        progress: Progress = False,
+    ) -> None:
+        self._set(source=SweepArrays(engines, names, axes, hold, request, progress))
+
+    @property
+    def engines(self) -> tuple[Engine, ...]:
+        """The engines."""
+        return self.source.engines
+
+    @property
+    def names(self) -> tuple[str, ...] | None:
+        """Names of the engines as given; None for a single engine, which is no dimension."""
+        return self.source.names
+
+    @property
+    def axes(self) -> Mapping[str, NDArray[np.float64] | float]:
+        """Values of each argument: an array where it is swept, else a number."""
+        return self.source.axes
+
+    @property
+    def hold(self) -> Hold | None:
+        """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
+        return self.source.hold
+
+    @property
+    def request(self) -> Request:
+        """The options of the sweep, checked."""
+        return self.source.request
+
+    @property
+    def spectrum(self) -> Spectrum | None:
+        """Spectrum used in place of the slider-crank's harmonics, kg·m, or None."""
+        return self.request.spectrum
+
+    @property
+    def mean_piston_speed(self) -> float:
+        """Largest mean piston speed of any engine at any point, m/s."""
+        return self.source.core.mean_piston_speed
+
+    @property
+    def omitted(self) -> tuple[int, ...]:
+        """With ``orders="auto"``: orders left out that are not zero at every point.
+
+        Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
+        includes them.
+        """
+        return self.source.omitted
+
+    @cached_property
+    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+        """Swept dimension → its values, in the order of the result's dimensions.
+
+        Engines with the same name, or none, are numbered.
+        """
+        coords: dict[str, NDArray[np.float64] | list[str]] = {}
+        if self.names is not None:
+            coords["engine"] = _distinct(self.names)
+        coords |= {name: self.source.core.axis(name) for name in self._swept()}
+        return MappingProxyType(coords)
+
+    @cached_property
+    def fixed(self) -> Mapping[str, float]:
+        """Argument that was given as a single value → the value."""
+        swept = self._swept()
+        core = self.source.core
+        return MappingProxyType(
+            {name: float(core.axis(name)[0]) for name in self.source.given if name not in swept}
+        )
+
+    def _swept(self) -> list[str]:
+        return [name for name in self.source.dims if name != "engine"]
+
+    def engine_at(self, **selection: Any) -> Engine:  # noqa: ANN401 - a name or numbers
+        """Return the engine of a point of the sweep.
+
+        Parameters
+        ----------
+        **selection
+            A swept value for each swept dimension that changes the engine: ``engine`` (a name),
+            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``. ``rpm`` may be given too.
+
+        Raises
+        ------
+        InputError
+            If a dimension is missing, is not swept, or a value is not among the swept ones.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=[60, 90], hold="pins", rod_ratio=[0.25, 0.3])
+        >>> engine = s.engine_at(bank_angle_deg=90, rod_ratio=0.3)
+        >>> engine.bank_angle_deg, engine.cylinders[0].rod_ratio
+        (90.0, 0.3)
+        """
+        at: dict[str, Any] = {name: [value] for name, value in self.fixed.items()} | dict(
+            self.coords
+        )
+        for name, value in selection.items():
+            values = at[inputs.one_of("dimension", name, list(at))]
+            at[name] = [values[_place(name, value, values)]]
+        for name, values in at.items():
+            if len(values) > 1 and name != "rpm":
+                raise InputError(f"{name} is swept: give the value at which the engine is wanted")
+        place = list(self.coords["engine"]).index(at["engine"][0]) if "engine" in at else 0
+        engine = self.engines[place]
+        if "bank_angle_deg" in at and self.hold is not None:
+            engine = engine.with_bank_angle(float(at["bank_angle_deg"][0]), hold=self.hold)
+        changes = []
+        for cylinder in engine.cylinders:
+            changed = {}
+            if "rod_ratio" in at:
+                changed["rod_length"] = cylinder.crank_radius / float(at["rod_ratio"][0])
+            if "pin_offset" in at:
+                changed["pin_offset"] = float(at["pin_offset"][0])
+            changes.append(cylinder.replace(**changed))
+        return engine if tuple(changes) == engine.cylinders else engine.replace(cylinder=changes)
+
+    # --- over crank angle -----------------------------------------------------------------------
+
+    def waveform(self, theta_deg: ArrayLike | None = None, *, exact: bool = False) -> SweepWaveform:
+        """Return force, moment and torque over crank angle at every point.
+
+        As sums of the sweep's orders, or by exact kinematics. Orders that the layout cancels are
+        not summed; the motion of cylinders that move alike is computed once.
+
+        Parameters
+        ----------
+        theta_deg
+            Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
+        exact
+            True for exact kinematics, False for the sum of the sweep's orders.
+
+        Returns
+        -------
+        SweepWaveform
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range, or exact kinematics is requested with a spectrum.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4, i6 = cp.Engine.preset("i4"), cp.Engine.preset("i6")
+        >>> s = cp.sweep([i4, i6], rpm=[3000, 6000])
+        >>> s.waveform(range(360)).torque.shape
+        (2, 2, 360)
+        """
+        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+        if inputs.flag("exact", exact) and self.request.pairs is not None:
+            remedy = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
+            raise InputError(f"exact = True: {remedy}")
+        return SweepWaveform(self, theta, bool(exact))
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
+        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        split_complex
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im". netCDF
+            needs it: ``sweep.to_xarray(split_complex=True).to_netcdf(path)``.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
+        >>> s.to_xarray("force").force.dims
+        ('rpm', 'order', 'axis')
+        """
+        return export.to_xarray(
+            self.source,
+            self.named(quantities),
+            self.coords,
+            self.attributes,
+            split_complex=split_complex,
+        )
+
+    def to_dask(self, chunks: Chunks, *quantities: str) -> xr.Dataset:
+        """Return the arrays of :meth:`to_xarray`, computed by dask (needs dask and xarray).
+
+        The result may be larger than memory; each chunk is an ordinary sweep, in any of dask's
+        schedulers, and its values have the same bits as those of one sweep of everything.
+
+        Parameters
+        ----------
+        chunks
+            Points to a chunk of each swept dimension; or a mapping dimension → points, the
+            dimensions that it leaves out staying whole; or ``"auto"``.
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=range(1000, 7000), orders=[2])
+        >>> s.to_dask(1000).force_peak.chunks
+        ((1000, 1000, 1000, 1000, 1000, 1000), (1,))
+        """
+        if self.source.progress is not False:
+            raise InputError(
+                "progress cannot be combined with to_dask; use dask.diagnostics.ProgressBar"
+            )
+        from crankpin.analysis.sweeps.dask import dataset  # noqa: PLC0415 - it makes sweeps
+
+        return dataset(self, chunks, self.named(quantities))
+
+    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the quantities named, all that there are if none is named."""
+        return check_quantities(quantities, self.request.quantities)
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
+        return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
+
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a point, order, quantity and component (needs pandas).
+
+        Columns are the swept dimensions, order, quantity, component, real and imag (the peak
+        phasor), peak and unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[3000, 6000], orders=[2])
+        >>> s.to_pandas("torque").columns.tolist()
+        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
+        """
+        return export.to_pandas(self.source, self.named(quantities), self.coords)
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str | None = None,
+        quantity: str | None = None,
+        x: str | None = None,
+        orders: Orders | None = None,
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw peaks over what was swept; return the axes.
+
+        A row of panels for all orders together and for each of the three largest orders, a column
+        for each axis.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on: a single panel with the longest vector of all orders together, or of
+            the one in ``orders``; with ``"bars"`` of one quantity.
+        figure
+            Figure or SubFigure for the panels; by default a new one.
+        kind
+            ``"curves"``: over one dimension, a curve for each combination of the others, with the
+            points where an order is exactly zero, and the least of all, marked; ``"map"``: over two
+            numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,
+            and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
+            4, with the class of each engine. By default bars for engines alone, a map for two long
+            numeric dimensions, otherwise curves.
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, of
+            bars force and moment.
+        x
+            The dimension along the horizontal axis; by default the longest.
+        orders
+            Orders to draw, a row for each; by default as above.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines, of maps those of ``pcolormesh``.
+
+        Returns
+        -------
+        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+            The panels, (n_rows, 2), of torque (n_rows, 1); with ``ax`` the axes given.
+
+        Raises
+        ------
+        InputError
+            If nothing was swept, the kind does not fit what was swept, an argument names no swept
+            dimension or order, or ``ax`` and ``figure`` are both given.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=range(10, 180, 10), hold="pins")
+        >>> s.plot(orders=[1, 2]).shape
+        (2, 2)
+        """
+        given = {"figure": figure, "kind": kind, "quantity": quantity, "x": x}
+        chosen = {} if orders is None else {"orders": orders}
+        return draw(self, ax, **given, **chosen, **options)
+
+    def __repr__(self) -> str:
+        swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
+        held = f", hold={self.hold!r}" if self.hold else ""
+        return f"<Sweep over ({swept}), orders {list(self.orders)}{held}>"
+
+
+def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers
+    """Return the place of a value among the swept ones."""
+    if name == "engine":
+        names = list(values)
+        return names.index(inputs.one_of("engine", value, names))
+    number = inputs.number(name, value)
+    found = np.flatnonzero(np.asarray(values) == number)
+    if not found.size:
+        raise InputError(
+            f"{name} = {inputs.shorten(value)}: is not among the {len(values)} swept values, "
+            f"{np.min(values):.10g} to {np.max(values):.10g}"
+        )
+    return int(found[0])
+
+
+def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
+    """Return the engines, and their names where there may be several."""
+    if isinstance(engines, Engine):
+        return [engines], None
+    names: Sequence[str] | None = None
+    if not isinstance(engines, (list, tuple)):
+        if isinstance(engines, Mapping):
+            names, engines = [str(name) for name in engines], engines.values()
+        engines = inputs.items("engines", engines, "give crankpin.Engine objects")
+    for engine in engines:
+        if not isinstance(engine, Engine):
+            raise InputError(f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects")
+    if names is None:
+        names = [engine.name for engine in engines]
+    return list(engines), tuple(names)
+
+
+def _distinct(names: Sequence[str]) -> list[str]:
+    """Return names, numbered where they do not distinguish the engines."""
+    if "" not in names and len(set(names)) == len(names):
+        return list(names)
+    return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
+
+
+def engine_titles(sweep: Sweep) -> list[str]:
+    """Return names of a sweep's engines for titles and legends.
+
+    Where bank angle is swept, names of engines (not those of a mapping) go without the bank angle
+    that the engine had before, such as in "V6 60°".
+    """
+    given = sweep.coords.get("engine")
+    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
+    if given is not None:
+        names = [str(name) for name in given]
+    own = [engine.name for engine in sweep.engines]
+    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
+        return names
+    pairs = zip(names, sweep.engines, strict=True)
+    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
+    distinct = all(without) and len(set(without)) == len(names)
+    return without if distinct else names

@@ -1,0 +1,291 @@
+"""Force, moment and torque over crank angle at every point of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
+from crankpin.analysis import export
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import check_quantities
+from crankpin.analysis.source import PLANE_VECTORS, ErrorBound
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import NDArray
+
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.sweeps.sweep import Sweep
+
+
+class SweepWaveform(Frozen):
+    """Force, moment and torque over crank angle at every point of a sweep.
+
+    Each is computed when it is first read, and kept. Dimensions are those of the sweep without
+    ``order``, then ``theta_deg`` and ``axis``. Made by :meth:`Sweep.waveform`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import crankpin as cp
+    >>> v8, ratios = cp.Engine.preset("v8-crossplane"), np.linspace(0.2, 0.35, 100)
+    >>> s = cp.sweep(v8, rpm=6000, rod_ratio=ratios, rtol=1e-12, torque=False)
+    >>> w = s.waveform(np.arange(720))
+    >>> w.orders
+    (1, 4, 8, 12, 16)
+    >>> w.force.shape
+    (100, 720, 2)
+    >>> exact = s.waveform(np.arange(720), exact=True)
+    >>> bool(abs(w.moment - exact.moment).max() < 1e-12 * abs(exact.moment).max())
+    True
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("sweep", "theta_deg", "exact")
+
+    sweep: Sweep
+    """The sweep."""
+    theta_deg: NDArray[np.float64]
+    """Crank angles, degrees: (n_theta,)."""
+    exact: bool
+    """True for exact kinematics, False for the sum of orders."""
+    orders: tuple[int, ...] | None
+    """Orders that are summed; None for exact kinematics."""
+    omitted: tuple[int, ...]
+    """As :attr:`Sweep.omitted`; empty for exact kinematics."""
+    error_bound: ErrorBound
+    """As :attr:`Sweep.error_bound`, N and N·m; zero for exact kinematics."""
+
+    _angles: _core.CrankAngles
+
+    def __init__(
+        self,
+        sweep: Sweep,
+        theta_deg: NDArray[np.float64],
+        exact: bool,
+    ) -> None:
+        if not hasattr(sweep, "error_bound"):
+            raise InputError(f"SweepWaveform({inputs.shorten(sweep)}): use Sweep.waveform")
+        theta = np.array(theta_deg)
+        theta.setflags(write=False)
+        bound = sweep.error_bound
+        none = ErrorBound(0.0, 0.0, None if bound.torque is None else 0.0)
+        self._set(
+            sweep=sweep,
+            theta_deg=theta,
+            exact=exact,
+            _angles=_core.CrankAngles(theta),
+            orders=None if exact else sweep.orders,
+            omitted=() if exact else sweep.omitted,
+            error_bound=none if exact else bound,
+        )
+
+    @cached_property
+    def force(self) -> NDArray[np.float64]:
+        """Shaking force along x and y, N: (…, n_theta, 2)."""
+        return self._frozen("force")
+
+    @cached_property
+    def moment(self) -> NDArray[np.float64]:
+        """Rocking moment about x (pitch) and y (yaw), N·m: (…, n_theta, 2)."""
+        return self._frozen("moment")
+
+    @cached_property
+    def torque(self) -> NDArray[np.float64]:
+        """Roll torque of the inertia forces on the block about +z, N·m: (…, n_theta).
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self._frozen("torque")
+
+    @cached_property
+    def crank_torque(self) -> NDArray[np.float64]:
+        """Torque of the inertia forces on the crank about +z, N·m: (…, n_theta).
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self._frozen("crank_torque")
+
+    def _frozen(self, quantity: str) -> NDArray[np.float64]:
+        values = self.values(quantity)
+        values.setflags(write=False)
+        return values
+
+    def values(
+        self,
+        quantity: str = "moment",
+        *,
+        out: NDArray[np.float64] | None = None,
+        progress: Progress = False,
+    ) -> NDArray[np.float64]:
+        """Compute force, moment or torque anew, into a given array or a new one.
+
+        Allocating a large array takes longer than summing a few orders; when looping over sweeps of
+        one shape, pass the same array each time.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        out
+            Buffer for the result: a C-contiguous array of float64, of the shape of the result.
+        progress
+            True for a tqdm bar, or a function of (steps done, steps in all).
+
+        Returns
+        -------
+        numpy.ndarray
+            ``out``, or a new array: (…, n_theta, 2), for torque (…, n_theta).
+
+        Raises
+        ------
+        InputError
+            If ``out`` does not fit, or torque is not available.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import crankpin as cp
+        >>> i4, buffer = cp.Engine.preset("i4"), np.empty((2, 360, 2))
+        >>> for rpm in (1000, 2000):
+        ...     s = cp.sweep(i4, rpm=rpm, rod_ratio=[0.25, 0.3], orders=[2, 4])
+        ...     force = s.waveform(np.arange(360)).values("force", out=buffer)
+        >>> force is buffer
+        True
+        """
+        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        self.sweep.request.check(name)
+        progress = progress_bar.checked(progress)
+        core = self.sweep.source.core
+        shape = tuple(core.waveform_shape(name, len(self.theta_deg)))
+        values = np.empty(shape) if out is None else inputs.output("out", out, shape)
+        with progress_bar.shown(progress, "waveforms") as report:
+            core.waveform(name, self._angles, self.exact, values.reshape(-1), report)
+        return values
+
+    @cached_property
+    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+        """Dimension → its values: those of the sweep, then ``theta_deg``."""
+        return MappingProxyType({**self.sweep.coords, "theta_deg": self.theta_deg})
+
+    def dims(self, quantity: str = "moment") -> tuple[str, ...]:
+        """Return the names of a quantity's dimensions."""
+        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        return (*self.coords, "axis") if name in PLANE_VECTORS else tuple(self.coords)
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_xarray(self, *quantities: str) -> xr.Dataset:
+        """Return arrays with named dimensions and units (needs xarray).
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2, 4])
+        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
+        ('rpm', 'theta_deg', 'axis')
+        """
+        names = self.sweep.named(quantities)
+        arrays = {
+            name: (self.dims(name), getattr(self, name), {"units": export.unit(name)})
+            for name in names
+        }
+        coords = labels.coordinates(self.coords)
+        if set(PLANE_VECTORS) & set(names):
+            coords["axis"] = ("axis", ["x", "y"])
+        return export.made(arrays, coords, self.sweep.attributes)
+
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
+
+        Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        """
+        pandas = optional.pandas()
+        points = {name: list(values) for name, values in self.coords.items()}
+        index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
+        parts = []
+        for name in check_quantities(quantities, self.sweep.request.quantities):
+            values = getattr(self, name)
+            planar = name in PLANE_VECTORS
+            for k, component in enumerate("xy" if planar else "z"):
+                columns = {
+                    "quantity": name,
+                    "component": component,
+                    "value": (values[..., k] if planar else values).ravel(),
+                    "unit": labels.UNITS[name],
+                }
+                parts.append(pandas.DataFrame(columns, index=index).reset_index())
+        table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
+        return table
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str | None = None,
+        quantity: str = "moment",
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw a quantity over crank angle, a panel for each axis; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on: of a force or moment the length of the vector.
+        figure
+            Figure or SubFigure for the panels; by default a new one.
+        kind
+            ``"curves"``: a curve for each point of the sweep; ``"envelope"``: the range of all
+            points, the range of their middle half, and the median. By default curves if colours and
+            dashes distinguish them.
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+        **options
+            ``label``, put before the names in the legend; colour, line width and other properties
+            of matplotlib lines.
+
+        Returns
+        -------
+        numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
+            The panels, (1, 2), of torque (1, 1); with ``ax`` the axes given.
+
+        Raises
+        ------
+        InputError
+            If ``ax`` and ``figure`` are both given.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("v6-60"), rpm=5000, rod_ratio=[0.25, 0.3, 0.35])
+        >>> s.waveform().plot(quantity="moment").shape
+        (1, 2)
+        """
+        return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
+
+    def __repr__(self) -> str:
+        how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
+        swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
+        return f"<SweepWaveform over ({swept}), {how}>"

@@ -1,0 +1,362 @@
+"""Samples of an engine whose parts deviate, and their statistics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.tables import Table
+from crankpin.analysis import export
+from crankpin.analysis.by_order import AllOrders
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.ranking import objectives
+from crankpin.analysis.request import Request, check_quantities
+from crankpin.analysis.tolerances.arrays import ToleranceArrays
+from crankpin.analysis.tolerances.shares import Shares
+from crankpin.analysis.tolerances.spreads import FIGURES, Distribution
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.model.engine import Engine
+
+QUANTILES = (0.05, 0.5, 0.95)
+"""Quantiles that tables and pictures show."""
+
+
+def names_of(by: object, request: Request) -> tuple[str, ...]:
+    """Return the names of what tables and pictures show."""
+    if by is None:
+        torque = ["total.torque.peak"] if request.torque else []
+        first = [
+            f"[1].{quantity}.{part}"
+            for quantity in ("force", "moment")
+            for part in ("forward", "backward")
+        ]
+        named = ["total.force.peak", "total.moment.peak", *torque]
+        return (*named, *(first if 1 in (request.orders or ()) else []))
+    names = tuple(each.label for each in objectives.listed(by))
+    for name in names:
+        _checked(name, request)
+    return names
+
+
+def _checked(name: str, request: Request) -> Objective:
+    """Return an objective that has a value for each sample."""
+    found = objectives.named(name)
+    if found.of_sweep is None:
+        raise InputError(
+            f'by = "{name}": has no value for each sample; give names such as '
+            + ", ".join(f'"{name}"' for name in objectives.COMMON[:3])
+        )
+    if found.order is not None and found.order not in (request.orders or ()):
+        given = inputs.shorten(list(request.orders or ()))
+        raise InputError(f'orders = {given}: by = "{name}" needs order {found.order}')
+    if "torque" in name:
+        request.check("torque")
+    return found
+
+
+class Tolerances(AllOrders):
+    """Samples of an engine whose parts deviate: force, moment and torque, order by order.
+
+    The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
+    (n_samples, n_orders), ``t[1].moment.backward`` and ``t.total.moment.peak`` are (n_samples,).
+
+    Made by :func:`crankpin.tolerances`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> v6 = cp.Engine.preset("v6-60")
+    >>> t = cp.tolerances(v6, rpm=6000, orders=[1, 2], reciprocating_mass=0.002, samples=500)
+    >>> t.force.shape, t[1].moment.backward.shape, t.total.moment.peak.shape
+    ((500, 2, 2), (500,), (500,))
+    >>> t.draws("reciprocating_mass").shape
+    (500, 6)
+    >>> b = t.engine_of(7).balance(rpm=6000, orders=[1, 2])
+    >>> bool(abs(b.moment.peak - t.moment.peak[7]).max() < 1e-9)
+    True
+    """
+
+    _fields: ClassVar[tuple[str, ...]] = ("source", "by")
+
+    source: ToleranceArrays
+    """Arrays of the samples."""
+    by: tuple[str, ...]
+    """Names of what tables and pictures show."""
+
+    def __init__(self, source: ToleranceArrays, by: tuple[str, ...]) -> None:
+        if not isinstance(source, ToleranceArrays):
+            raise InputError(f"Tolerances({inputs.shorten(source)}): use crankpin.tolerances")
+        self._set(source=source, by=by)
+
+    @property
+    def engine(self) -> Engine:
+        """The nominal engine."""
+        return self.source.engine
+
+    @property
+    def rpm(self) -> float:
+        """Crank speed, rpm."""
+        return self.source.rpm
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return self.source.samples
+
+    @property
+    def seed(self) -> int:
+        """Seed of the random numbers."""
+        return self.source.seed
+
+    @property
+    def spreads(self) -> Mapping[str, tuple[float, ...]]:
+        """Figure → its spread in each cylinder or crankpin, of those that were given."""
+        values = self.source.spreads.values
+        return {name: each for name, each in zip(FIGURES, values, strict=True) if each}
+
+    @property
+    def distribution(self) -> Distribution:
+        """``"normal"`` or ``"uniform"``."""
+        return self.source.spreads.distribution
+
+    @property
+    def pins(self) -> tuple[tuple[int, ...], ...]:
+        """Numbers of the cylinders on each crankpin."""
+        return self.source.spreads.pins
+
+    @property
+    def nominal(self) -> Balance:
+        """Balance of the nominal engine, of the same orders."""
+        return self.source.nominal
+
+    @property
+    def omitted(self) -> tuple[int, ...]:
+        """Orders of the nominal engine that were left out: empty, those of samples are chosen."""
+        return ()
+
+    # --- statistics -----------------------------------------------------------------------------
+
+    def values(self, by: str | None = None) -> NDArray[np.float64]:
+        """Return a value of each sample, N or N·m: (n_samples,).
+
+        Parameters
+        ----------
+        by
+            A name as in :func:`crankpin.rank`; by default the first of ``by``.
+        """
+        return _read(self._objective(by), self)
+
+    def nominal_value(self, by: str | None = None) -> float:
+        """Return the same of the nominal engine, N or N·m."""
+        return float(_read(self._objective(by), self.nominal))
+
+    def mean(self, by: str | None = None) -> float:
+        """Return the mean of :meth:`values`."""
+        return float(self.values(by).mean())
+
+    def std(self, by: str | None = None) -> float:
+        """Return the standard deviation of :meth:`values`."""
+        return float(self.values(by).std())
+
+    def quantile(self, q: ArrayLike = QUANTILES, by: str | None = None) -> Any:  # noqa: ANN401
+        """Return quantiles of :meth:`values`, of the shape of ``q``.
+
+        Parameters
+        ----------
+        q
+            Parts of the samples below, 0 to 1.
+        by
+            As in :meth:`values`.
+        """
+        parts = inputs.array("q", q)
+        if not ((parts >= 0.0) & (parts <= 1.0)).all():
+            raise InputError(f"q = {inputs.shorten(q)}: give numbers from 0 to 1")
+        return np.quantile(self.values(by), parts)
+
+    @cached_property
+    def shares(self) -> Shares:
+        """Share of each tolerance in the variance of each of ``by``."""
+        return self.shares_of(self.by)
+
+    def shares_of(self, by: str | Sequence[str]) -> Shares:
+        """Return the share of each tolerance in the variance of some values.
+
+        The samples are evaluated once more with each figure alone deviating as it did. A share is
+        the variance that it makes by itself over that of all together. Shares add up to 1 less the
+        interaction, which vanishes where values are linear in the deviations.
+
+        Parameters
+        ----------
+        by
+            Names as in :func:`crankpin.rank`.
+        """
+        named = names_of(by, self.source.request)
+        figures = self.source.spreads.given
+        alone = [Tolerances(self.source.only(name), named) for name in figures]
+        rows = []
+        for name in named:
+            total = self.std(name) ** 2
+            parts = [each.std(name) ** 2 for each in alone]
+            rows.append([part / total if total else 0.0 for part in parts])
+        return Shares(named, figures, np.array(rows).reshape(len(named), len(figures)))
+
+    # --- samples --------------------------------------------------------------------------------
+
+    def draws(self, name: str) -> NDArray[np.float64]:
+        """Return the deviations of a figure in each sample.
+
+        Parameters
+        ----------
+        name
+            A figure, such as ``"reciprocating_mass"`` or ``"pin_deg"``.
+
+        Returns
+        -------
+        (n_samples, n_cylinders) or (n_samples, n_pins), kg, m or degrees
+        """
+        figure = inputs.one_of("name", name, FIGURES)
+        return self.source.core.deviations(figure, 0, self.samples)
+
+    def engine_of(self, sample: int) -> Engine:
+        """Return the engine of a sample; moments of its own are about its own middle.
+
+        A rotating mass that deviates below zero cannot be represented: it is an InputError.
+
+        Parameters
+        ----------
+        sample
+            Number of the sample, from 0.
+        """
+        k = inputs.whole("sample", sample)
+        if not 0 <= k < self.samples:
+            raise InputError(f"sample = {k}: give a number from 0 to {self.samples - 1}")
+        core, pin_of = self.source.core, self.source.spreads.pin_of
+        by_name = {name: core.deviations(name, k, 1)[0] for name in FIGURES}
+        radius, turn = by_name["crank_radius"][pin_of], by_name["pin_deg"][pin_of]
+        cylinders = [
+            cylinder.replace(
+                crank_radius=cylinder.crank_radius + float(radius[i]),
+                rod_length=cylinder.rod_length + float(by_name["rod_length"][i]),
+                reciprocating_mass=cylinder.reciprocating_mass
+                + float(by_name["reciprocating_mass"][i]),
+            )
+            for i, cylinder in enumerate(self.engine.cylinders)
+        ]
+        # As text an angle beside a part of a turn is meant.
+        turned = [repr(float(angle)) for angle in self.engine.pin_deg + turn]
+        return self.engine.replace(
+            cylinder=cylinders,
+            pin_deg=turned if turn.any() else None,
+            z=self.engine.z + by_name["z"],
+            rotating_mass=self.engine.rotating_mass + by_name["rotating_mass"],
+            name=f"{self.engine.name}, sample {k}".lstrip(", "),
+        )
+
+    # --- tables and pictures --------------------------------------------------------------------
+
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a sample, order, quantity and component (needs pandas).
+
+        Columns are sample, order, quantity, component, real and imag (the peak phasor), peak and
+        unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        """
+        return export.to_pandas(self.source, self._named(quantities), self._coords)
+
+    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
+        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        split_complex
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im".
+        """
+        attributes = {
+            "engine": self.engine.name, "rpm": self.rpm, "seed": self.seed,
+            "spreads": self.source.spreads.text,
+        }  # fmt: skip
+        return export.to_xarray(
+            self.source,
+            self._named(quantities),
+            self._coords,
+            attributes,
+            split_complex=split_complex,
+        )
+
+    def plot(
+        self,
+        ax: Any = None,  # noqa: ANN401 - matplotlib's axes
+        *,
+        kind: str = "histogram",
+        by: str | None = None,
+        **style: Any,  # noqa: ANN401 - keywords of matplotlib
+    ) -> Any:  # noqa: ANN401
+        """Draw the distribution of a value, or the shares of the tolerances; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        kind
+            ``"histogram"`` or ``"ecdf"`` (the part of the samples up to a value), with the nominal
+            value and the 5, 50 and 95 % quantiles; ``"shares"``: bars of each tolerance's share.
+        by
+            A name as in :func:`crankpin.rank`; by default the first of ``by``, of shares all.
+        **style
+            Keywords of the histogram's, curve's or bars' artists, such as ``label`` and ``color``.
+        """
+        return draw(self, ax, kind=kind, by=by, **style)
+
+    def table(self) -> Table:
+        """Return the table that is shown: nominal value, mean, spread and quantiles."""
+        header = ["", "unit", "nominal", "mean", "std"]
+        header += [f"{100 * q:g} %" for q in QUANTILES]
+        names = [(by, self._objective(by).unit) for by in self.by]
+        rows = [
+            [self.nominal_value(by), self.mean(by), self.std(by), *self.quantile(by=by)]
+            for by in self.by
+        ]
+        engine = self.engine.name or f"{len(self.engine)} cylinders"
+        title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.source.spreads.text}"
+        return Table(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
+
+    def __repr__(self) -> str:
+        return self.table().text()
+
+    def _repr_html_(self) -> str:
+        return self.table().html()
+
+    def _objective(self, by: str | None) -> Objective:
+        name = self.by[0] if by is None else inputs.text("by", by)
+        return _checked(name, self.source.request)
+
+    def _named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
+        return check_quantities(quantities, self.source.request.quantities)
+
+    @property
+    def _coords(self) -> dict[str, Any]:
+        return {"sample": np.arange(self.samples)}
+
+
+def _read(objective: Objective, result: Any) -> NDArray[np.float64]:  # noqa: ANN401 - see below
+    """Return what an objective reads off samples, or off a balance: quantities are the same."""
+    assert objective.of_sweep is not None  # noqa: S101 - checked
+    return objective.of_sweep(result)

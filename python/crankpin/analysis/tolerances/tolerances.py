@@ -1,0 +1,182 @@
+"""What remains of an engine's balance when its parts deviate from their figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support import progress as progress_bar
+from crankpin.analysis.balance import balance, mean_piston_speed
+from crankpin.analysis.request import Request, engine_core
+from crankpin.analysis.source import ErrorBound
+from crankpin.analysis.tolerances.arrays import ToleranceArrays
+from crankpin.analysis.tolerances.samples import Tolerances, names_of
+from crankpin.analysis.tolerances.spreads import Distribution, Spreads
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from crankpin._support.inputs import Orders
+    from crankpin._support.progress import Progress
+    from crankpin.model.cylinder import Cylinder
+
+MOST_SEEDS = 2**64
+
+
+def tolerances(
+    engine: Engine,
+    *,
+    rpm: float,
+    reciprocating_mass: ArrayLike = 0.0,
+    rotating_mass: ArrayLike = 0.0,
+    crank_radius: ArrayLike = 0.0,
+    pin_deg: ArrayLike = 0.0,
+    z: ArrayLike = 0.0,
+    rod_length: ArrayLike = 0.0,
+    distribution: Distribution = "normal",
+    pins: Iterable[Iterable[int]] | None = None,
+    samples: int = 10_000,
+    seed: int = 0,
+    by: str | Sequence[str] | None = None,
+    orders: Orders = "auto",
+    rtol: float | None = None,
+    reference_z: float | None = None,
+    torque: bool = True,
+    progress: Progress = False,
+) -> Tolerances:
+    """Return what remains of force, moment and torque when parts deviate from their figures.
+
+    Monte Carlo: each sample is an engine whose figures are drawn independently around the nominal
+    ones, and whose balance is evaluated without linearisation. Sums that the layout cancels, such
+    as all first and second orders of an inline-6, are what its tolerances leave of them.
+
+    Parameters
+    ----------
+    engine
+        The nominal engine; its counterweights and balance shafts are part of every sample.
+    rpm
+        Crank speed.
+    reciprocating_mass, rotating_mass
+        Spreads of the masses of each cylinder, kg: a number for all, or one for each cylinder.
+        A rotating mass may deviate where the nominal one is zero, as of a balanced throw.
+    crank_radius, pin_deg
+        Spreads of the crank radius, m, and of the angle, degrees, of each crankpin. Cylinders on
+        one pin deviate together, with what is fixed to it.
+    z
+        Spread of the place of each cylinder along the crank, m.
+    rod_length
+        Spread of each rod's length between its centres, m.
+    distribution
+        ``"normal"``: spreads are standard deviations. ``"uniform"``: spreads are half widths.
+    pins
+        Numbers of the cylinders on each crankpin, such as ``[[1, 2], [3, 4]]``. By default
+        neighbours along the crank share a pin if they are in different banks and their pins point
+        exactly the same way and have one radius.
+    samples
+        Number of samples.
+    seed
+        Seed of the random numbers, 0 to 2⁶⁴ − 1. Sample k has the same bits whatever the number of
+        samples, of threads, and of other figures that spread.
+    by
+        What tables, pictures and shares show: names as in :func:`crankpin.rank`, such as
+        ``"total.moment.peak"`` or ``"[1].force.backward"``. By default the total peaks and the
+        forward and backward parts of order 1.
+    orders
+        Whole multiples of crank speed; by default the few that leave out at most ``rtol`` of any
+        single cylinder, because tolerances undo what the layout cancels.
+    rtol
+        For ``orders="auto"``: what omitted orders of one cylinder may add up to, relative to its
+        m·r·ω². By default 1e-4.
+    reference_z
+        Plane about which moments are taken, m; by default midway between the first and the last
+        cylinder of the nominal engine.
+    torque
+        False to leave out torque.
+    progress
+        True for a tqdm bar, or a function that is called with the steps done and the steps in all.
+
+    Returns
+    -------
+    Tolerances
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or a spread so wide that a draw would leave no engine: a
+        mass below zero, or a crank that cannot turn.
+
+    Examples
+    --------
+    An inline-6 has no first-order force by design. What 2 g of piston mass and 0.1° of crankpin
+    angle leave:
+
+    >>> import crankpin as cp
+    >>> t = cp.tolerances(
+    ...     cp.Engine.preset("i6"), rpm=6000, reciprocating_mass=0.002, pin_deg=0.1, samples=2000
+    ... )
+    >>> float(abs(t.nominal[1].force.forward))
+    0.0
+    >>> float(t.quantile(0.95, by="[1].force.forward").round(1))  # N
+    77.9
+    """
+    engine_core(engine)
+    given = {
+        "reciprocating_mass": reciprocating_mass,
+        "rotating_mass": rotating_mass,
+        "crank_radius": crank_radius,
+        "pin_deg": pin_deg,
+        "z": z,
+        "rod_length": rod_length,
+    }
+    spreads = Spreads.checked(engine, given, distribution, pins)
+    count, start = inputs.whole("samples", samples), inputs.whole("seed", seed)
+    if count < 1:
+        raise InputError(f"samples = {count}: give one or more")
+    if not 0 <= start < MOST_SEEDS:
+        raise InputError(f"seed = {inputs.shorten(seed)}: give a whole number, 0 to 2**64 - 1")
+    request = Request.checked(
+        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=None, torque=torque,
+        default_rtol=1e-4,
+    )  # fmt: skip
+    speed = inputs.number("rpm", rpm)
+    kept, bound = _orders(engine, speed, request)
+    request = dataclasses.replace(request, orders=kept)
+    shown = names_of(by, request)
+    report = progress_bar.checked(progress)
+    arrays = ToleranceArrays(engine, speed, spreads, count, start, request, bound, report)
+    inputs.warn_of_units(mean_piston_speed(engine, speed))
+    return Tolerances(arrays, shown)
+
+
+def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[int, ...], ErrorBound]:
+    """Return the orders of samples, and a bound on what others add to the nominal engine.
+
+    Each cylinder is asked by itself, so that nothing cancels; balance shafts and counterweights
+    have no orders but their own.
+    """
+    if request.orders is not None:
+        return request.orders, ErrorBound(0.0, 0.0, 0.0 if request.torque else None)
+    found = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
+    force = moment = roll = 0.0
+    levers = abs(
+        engine.z - (engine.reference_z if request.reference_z is None else request.reference_z)
+    )
+    bounds: dict[Cylinder, ErrorBound] = {}
+    for cylinder, lever in zip(engine.cylinders, levers.tolist(), strict=True):
+        if cylinder not in bounds:
+            single = Engine.from_lists(cylinder, bank_deg=[90], tdc_deg=[0], z=[0])
+            with warnings.catch_warnings():
+                # Units are checked of the engine as a whole.
+                warnings.simplefilter("ignore", UserWarning)
+                alone = balance(single, rpm, rtol=request.rtol, torque=request.torque)
+            found |= set(alone.orders)
+            bounds[cylinder] = alone.error_bound
+        force += bounds[cylinder].force
+        moment += bounds[cylinder].force * lever
+        roll += bounds[cylinder].torque or 0.0
+    return tuple(sorted(found)), ErrorBound(force, moment, roll if request.torque else None)

@@ -1,0 +1,235 @@
+"""Do measured parts go where they leave least?"""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from crankpin.analysis.tolerances import matching
+from crankpin.analysis.tolerances.matching import Kind
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+RNG = np.random.default_rng(5)
+I3, I4 = cp.Engine.preset("i3"), cp.Engine.preset("i4")
+V6 = cp.Engine.preset("v6-60").replace(rotating_mass=0.4)
+BOXER = cp.Engine.preset("boxer-4")
+
+
+def masses(count: int, mean: float = 0.4) -> NDArray[np.float64]:
+    return np.asarray(mean + 0.003 * RNG.standard_normal(count))
+
+
+def rods(count: int) -> NDArray[np.float64]:
+    return np.column_stack([masses(count, 0.2), masses(count, 0.45)])
+
+
+def remains(engine: cp.Engine, orders: tuple[int, ...] = (1, 2)) -> float:
+    """What the objective is, read off a balance."""
+    b = engine.balance(30.0 / np.pi, orders=orders, torque=False)
+    half = 0.5 * np.ptp(engine.z)
+    parts = [b.force.forward, b.force.backward, b.moment.forward / half, b.moment.backward / half]
+    return float(np.linalg.norm(np.concatenate(parts)))
+
+
+# --- one engine ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("engine", [I3, I4, BOXER, V6], ids=["i3", "i4", "boxer", "v6"])
+def test_the_best_of_all_arrangements_is_found(engine: cp.Engine) -> None:
+    pistons = masses(len(engine))
+    match = cp.match_parts(engine, pistons)
+    assert match.exact
+    assert match.bound == pytest.approx(match.value, rel=1e-12)
+    best = np.inf
+    mass = engine.cylinders[0].reciprocating_mass
+    for order in itertools.permutations(range(len(engine))):
+        chosen = mass + pistons[list(order)] - pistons.mean()
+        cylinders = [
+            c.replace(reciprocating_mass=m) for c, m in zip(engine.cylinders, chosen, strict=True)
+        ]
+        best = min(best, remains(engine.replace(cylinder=cylinders)))
+    # Sums of a kilogram-metre and less.
+    assert match.value == pytest.approx(best, rel=1e-9, abs=1e-15)
+    assert remains(match.engines[0]) == pytest.approx(match.value, rel=1e-9, abs=1e-15)
+    assert match.value <= match.as_given
+
+
+@pytest.mark.parametrize("spare", [0, 1])
+def test_pistons_and_rods_are_chosen_together(spare: int) -> None:
+    pistons, ends = masses(3 + spare), rods(3)
+    match = cp.match_parts(I3, pistons, ends, orders=[1])
+    places = range(3)
+    found = [
+        cp.match_parts(I3, pistons, ends, orders=[1]).parts.value(
+            "balance", type(match.assignment[0])(tuple(k + 1 for k in a), tuple(k + 1 for k in b))
+        )
+        for a in itertools.permutations(range(len(pistons)), 3)
+        for b in itertools.permutations(places)
+    ]
+    assert match.exact
+    assert match.value == pytest.approx(min(found), rel=1e-12)
+    assert remains(match.engines[0], (1,)) == pytest.approx(match.value, rel=1e-9)
+    assert len(match.unused[0]) == spare
+
+
+def test_rods_that_are_lighter_than_a_balanced_throw_allows_are_unbalances() -> None:
+    balanced = I3.replace(rotating_mass=0.0)
+    match = cp.match_parts(balanced, masses(3), rods(3), orders=[1])
+    (engine,) = match.engines
+    assert engine.counterweights
+    assert all(weight.angle_deg == 180 for weight in engine.counterweights)
+    assert remains(engine, (1,)) == pytest.approx(match.value, rel=1e-9)
+
+
+def test_equal_parts_leave_the_engine_as_it_is() -> None:
+    match = cp.match_parts(V6, [0.4] * 6)
+    assert match.engines[0].balance(3000, orders=[1, 2]).moment.peak == pytest.approx(
+        V6.balance(3000, orders=[1, 2]).moment.peak, rel=1e-12
+    )
+
+
+def test_twelve_pistons_are_few_enough_for_all_arrangements() -> None:
+    kinds = (Kind(np.zeros((12, 1)), np.zeros((12, 1, 2))),)
+    assert matching.arrangements(kinds) <= matching.MOST_ARRANGEMENTS
+
+
+# --- the search by exchanges, and its bound -----------------------------------------------------
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(0, 2), st.integers(1, 3))
+def test_no_arrangement_is_below_the_bound_and_exchanges_come_close(
+    seed: int, places: int, spare: int, dimensions: int
+) -> None:
+    random = np.random.default_rng(seed)
+    kind = Kind(
+        random.normal(size=(places + spare, 1)), random.normal(size=(places, 1, dimensions))
+    )
+    start = random.normal(size=dimensions) * random.choice([0.0, 1.0, 10.0])
+    best = matching.best(start, (kind,))
+    everything = [
+        matching.remains(start, (kind,), (np.array(order),))
+        for order in itertools.permutations(range(places + spare), places)
+    ]
+    assert best.exact
+    assert best.value == pytest.approx(min(everything), rel=1e-9, abs=1e-12)
+    assert matching.lower_bound(start, (kind,)) <= best.value * (1.0 + 1e-12)
+    by_exchanges = matching._by_exchanges(start, (kind,), 0)
+    assert by_exchanges.value >= best.value * (1.0 - 1e-12)
+    # Two dozen starts among at most 2520 arrangements.
+    assert by_exchanges.value <= np.quantile(everything, 0.2) + 1e-12
+
+
+def test_a_bound_above_zero_where_the_parts_cannot_make_up_for_what_remains() -> None:
+    v8 = cp.Engine.preset("v8-crossplane")
+    match = cp.match_parts(v8, masses(20), sets=2)
+    assert not match.exact
+    assert 0.98 * match.value <= match.bound <= match.value
+
+
+def test_more_than_all_can_be_compared() -> None:
+    v12 = cp.Engine.preset("v12-60")
+    match = cp.match_parts(v12, masses(14), rods(13))
+    assert not match.exact
+    assert match.bound <= match.value < 0.5 * match.as_given
+    assert match == cp.match_parts(v12, match.parts.pistons, match.parts.rods)
+
+
+# --- several engines ----------------------------------------------------------------------------
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.floats(0.1, 1.0), min_size=6, max_size=7), st.integers(1, 2))
+def test_sets_of_pistons_have_the_least_sum_of_ranges(parts: list[float], sets: int) -> None:
+    values = np.array(parts)
+    found = sum(float(np.ptp(values[each])) for each in matching.windows(values, 3, sets))
+    places = range(len(parts))
+    best = np.inf
+    for one in itertools.combinations(places, 3):
+        rest = sorted(set(places) - set(one))
+        others = itertools.combinations(rest, 3) if sets == 2 else [()]
+        for other in others:
+            both = [np.ptp(values[list(each)]) for each in (one, other) if each]
+            best = min(best, float(sum(both)))
+    assert found == pytest.approx(best, abs=1e-12)
+
+
+def test_spread_of_sets() -> None:
+    pistons = masses(14)
+    match = cp.match_parts(I4, pistons, objective="spread")
+    assert (match.exact, len(match.assignment), len(match.unused[0])) == (True, 3, 2)
+    assert match.bound == match.value == sum(match.values)
+    chosen = [np.ptp(pistons[np.array(each.pistons) - 1]) for each in match.assignment]
+    assert list(match.values) == chosen
+    assert match.unit == "kg"
+
+
+def test_heavy_pistons_go_with_light_rods() -> None:
+    pistons, ends = masses(4), rods(4)
+    match = cp.match_parts(I4, pistons, ends, objective="spread")
+    ranges = [np.ptp(pistons + ends[list(order), 0]) for order in itertools.permutations(range(4))]
+    assert match.exact
+    assert match.value == pytest.approx(min(ranges), rel=1e-12)
+    several = cp.match_parts(I4, masses(13), rods(12), objective="spread")
+    assert (several.exact, several.bound) == (False, 0.0)
+    assert several.value < several.as_given
+
+
+def test_sets_balanced_one_by_one() -> None:
+    match = cp.match_parts(I4, masses(12), rods(12))
+    assert len(match.engines) == 3
+    used = [number for each in match.assignment for number in each.pistons]
+    assert sorted(used) == [*range(1, 13)]
+    for engine, value in zip(match.engines, match.values, strict=True):
+        assert remains(engine) == pytest.approx(value, rel=1e-9)
+    assert match.bound <= match.value < match.as_given
+    assert match.engines[1].name.endswith(", set 2")
+
+
+# --- results ------------------------------------------------------------------------------------
+
+
+def test_tables() -> None:
+    match = cp.match_parts(I4, masses(4), rods(4))
+    assert repr(match).splitlines()[1].split() == [
+        "set", "cylinder", "piston", "kg", "rod", "small", "end", "kg", "big", "end", "kg",
+    ]  # fmt: skip
+    assert "no assignment is better" in match._repr_html_()
+    table = match.to_pandas()
+    assert table.piston.tolist() == list(match.assignment[0].pistons)
+    assert table.small_end.tolist() == match.parts.rods[table.rod - 1, 0].tolist()  # type: ignore[index]
+    again = pickle.loads(pickle.dumps(match))  # noqa: S301 - its own
+    assert again == match
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"pistons": [0.4] * 3}, r"sets = 1: there are 3 pistons; sets × 4 cylinders need as many"),
+        ({"sets": 3}, r"sets = 3: there are 8 pistons"),
+        ({"sets": 0}, r"sets = "),
+        ({"pistons": [0.4, -0.1, 0.4, 0.4]}, r"pistons = .*: give masses above zero"),
+        (
+            {"pistons": [[0.4] * 4]},
+            r"pistons has shape \(1, 4\): give masses in kg of shape \(n,\)",
+        ),
+        ({"rods": [0.6] * 4}, r"rods has shape \(4,\): .*small end and big end of each rod"),
+        ({"rods": [[0.2, 0.4]] * 3}, r"8 pistons and 3 rods"),
+        ({"objective": "weight"}, r'objective = \'weight\': give "balance" or "spread"'),
+        ({"orders": "auto"}, r"orders = \"auto\": give whole numbers"),
+        ({"seed": -1}, r"seed = -1"),
+        ({"pistons": [0.4] * 1001}, r"pistons has 1001 entries: give 1000 at most"),
+    ],
+)
+def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None:
+    arguments: dict[str, Any] = {"pistons": [0.4, 0.41] * 4} | changes
+    with pytest.raises(cp.InputError, match=message):
+        cp.match_parts(I4, **arguments)

@@ -1,0 +1,403 @@
+"""What do deviating parts leave of an engine's balance?"""
+
+from __future__ import annotations
+
+import doctest
+import pickle
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rederivation import tolerances as rederived
+from scipy import stats
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+RPM = 6000
+OMEGA = RPM * 2.0 * np.pi / 60.0
+V6 = cp.Engine.preset("v6-60").replace(rotating_mass=0.4)
+I6 = cp.Engine.preset("i6")
+SPREADS: dict[str, Any] = {
+    "reciprocating_mass": 0.005,
+    "rotating_mass": 0.01,
+    "crank_radius": 5e-5,
+    "pin_deg": 0.2,
+    "z": 3e-4,
+    "rod_length": 2e-4,
+}
+QUANTITIES = ("force", "moment", "torque", "crank_torque")
+
+
+def tolerances(engine: cp.Engine = V6, **changes: object) -> cp.types.Tolerances:
+    arguments: dict[str, Any] = (
+        {"rpm": RPM, "orders": [1, 2, 4, 6], "samples": 500} | SPREADS | changes
+    )
+    return cp.tolerances(engine, **arguments)
+
+
+def per_cylinder(t: cp.types.Tolerances, name: str) -> NDArray[np.float64]:
+    draws = t.draws(name)
+    if name in ("crank_radius", "pin_deg"):
+        places = [next(k for k, pin in enumerate(t.pins) if n in pin) for n in range(1, 7)]
+        return draws[:, places]
+    return draws
+
+
+# --- samples ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("distribution", ["normal", "uniform"])
+@pytest.mark.parametrize(
+    "engine",
+    [
+        V6,
+        cp.Engine.preset("v8-crossplane").replace(rotating_mass=0.5),
+        V6.replace(cylinder=[c.replace(pin_offset=1e-3) for c in V6.cylinders]),
+        V6.replace(cylinder=[c.replace(rod_inertia_excess=-1e-3) for c in V6.cylinders]),
+        cp.Engine.preset("single").replace(
+            rotating_mass=0.3,
+            counterweights=[
+                cp.Unbalance(0.01, z=0, angle_deg=175, pin=1),
+                cp.Unbalance(0.01, z=0.1),
+            ],
+            shafts=[cp.Shaft(-1, [cp.Unbalance(0.004, z=0.1)], x=0.1)],
+        ),
+    ],
+    ids=["v6", "shared pins", "offset", "rods", "weights"],
+)
+def test_a_sample_is_an_engine(engine: cp.Engine, distribution: str) -> None:
+    t = tolerances(engine, distribution=distribution, samples=20)
+    for k in (0, 7, 19):
+        drawn = t.engine_of(k)
+        known = drawn.balance(RPM, orders=t.orders, reference_z=engine.reference_z)
+        for name in QUANTITIES:
+            found, expected = np.asarray(getattr(t, name))[k], np.asarray(getattr(known, name))
+            # Rounding of some twenty terms of the size of the largest order.
+            scale = max(abs(np.asarray(known.force)).max(), abs(expected).max())
+            assert abs(found - expected).max() <= 1e-12 * scale
+            peak = getattr(t.total, name).peak[k]
+            assert peak == pytest.approx(getattr(known.total, name).peak, rel=1e-11)
+
+
+def test_samples_agree_with_the_rederivation_given_the_same_draws() -> None:
+    t = tolerances()
+    cylinders = V6.cylinders
+    nominal = rederived.Nominal(
+        np.array([c.crank_radius for c in cylinders]),
+        np.array([c.rod_length for c in cylinders]),
+        np.array([c.reciprocating_mass for c in cylinders]),
+        V6.rotating_mass,
+        V6.tdc_deg,
+        V6.bank_deg,
+        V6.z,
+    )
+    draws = {name: per_cylinder(t, name) for name in SPREADS}
+    known = rederived.remains(nominal, draws, RPM, t.orders, V6.reference_z)
+    pairs = [
+        (t.force.forward, known.force_forward),
+        (t.force.backward, known.force_backward),
+        (t.moment.forward, known.moment_forward),
+        (t.moment.backward, known.moment_backward),
+        (t.torque.phasor, known.roll),
+    ]
+    for found, expected in pairs:
+        # Sums of six terms of some 20 kN lose as much to rounding.
+        assert abs(found - expected).max() <= 1e-12 * max(abs(expected).max(), 1e3)
+    totals = t.total
+    for found, expected in [
+        (totals.force.peak, known.force_peak),
+        (totals.moment.peak, known.moment_peak),
+        (totals.torque.peak, known.roll_peak),
+    ]:
+        # Newton's method is right to rounding; the rederivation polishes three peaks of each.
+        np.testing.assert_allclose(found, expected, rtol=1e-11)
+
+
+@pytest.mark.parametrize("name", cp.presets())
+def test_without_spreads_a_sample_is_the_nominal_balance(name: str) -> None:
+    engine = cp.Engine.preset(name)
+    t = cp.tolerances(engine, rpm=100, orders=[1, 2, 3, 4], samples=2)
+    known = engine.balance(100, orders=[1, 2, 3, 4])
+    for quantity in QUANTITIES:
+        samples, nominal = getattr(t, quantity), getattr(known, quantity)
+        assert np.array_equal(np.asarray(samples)[1], np.asarray(nominal))
+        assert np.array_equal(samples.peak[1], nominal.peak)
+        assert getattr(t.total, quantity).peak[1] == getattr(known.total, quantity).peak
+    for quantity in ("force", "moment"):
+        samples, nominal = getattr(t, quantity), getattr(known, quantity)
+        assert np.array_equal(samples.forward[1], nominal.forward)
+        assert np.array_equal(samples.backward[1], nominal.backward)
+        total = getattr(t.total, quantity).peak_xy[1]
+        assert np.array_equal(total, getattr(known.total, quantity).peak_xy)
+
+
+def test_draws_are_those_of_numpys_philox() -> None:
+    t = tolerances(seed=12345, samples=30)
+    for stream, name in enumerate(SPREADS):
+        draws = t.draws(name)
+        for k in (0, 17, 29):
+            words = np.random.Philox(counter=[0, k, stream, 0], key=12345).random_raw(
+                draws.shape[1]
+            )
+            uniform = ((words >> np.uint64(12)).astype(float) + 0.5) * 2.0**-52
+            expected = stats.norm.ppf(uniform) * SPREADS[name]
+            np.testing.assert_allclose(draws[k], expected, rtol=1e-13)
+
+
+def test_samples_depend_on_nothing_but_seed_and_number() -> None:
+    t = tolerances(samples=300)
+    for other in (tolerances(samples=1000), tolerances(samples=300, torque=False)):
+        assert np.array_equal(t.force.xy, other.force.xy[:300])
+        assert np.array_equal(t.total.moment.peak, other.total.moment.peak[:300])
+    assert not np.array_equal(t.force.xy, tolerances(samples=300, seed=1).force.xy)
+    alone = cp.tolerances(V6, rpm=RPM, pin_deg=0.2, samples=300)
+    assert np.array_equal(alone.draws("pin_deg"), t.draws("pin_deg"))
+    assert not alone.draws("z").any()
+
+
+# --- laws ---------------------------------------------------------------------------------------
+
+
+def test_a_spread_of_masses_makes_forces_of_known_variance() -> None:
+    """Independent masses δm: E|Σ ½·a₁·r·ω²·δm·e^{iφ}|² = Σ(½·r·ω²·σ)², whatever the angles."""
+    t = tolerances(
+        I6, samples=20_000, **dict.fromkeys(SPREADS, 0.0) | {"reciprocating_mass": 0.005}
+    )
+    single = 0.5 * I6.cylinders[0].crank_radius * OMEGA**2 * 0.005
+    for part in (t[1].force.forward, t[1].force.backward):
+        # Of 20 000 squares of two normal numbers each: 1 % is 1.4 standard deviations or more.
+        assert np.mean(abs(part) ** 2) == pytest.approx(6 * single**2, rel=0.03)
+    levers = I6.z - I6.reference_z
+    known = (levers**2).sum() * single**2
+    assert np.mean(abs(t[1].moment.forward) ** 2) == pytest.approx(known, rel=0.03)
+    # An inline-6 has equal moments of both directions: a line, whose length is Rayleigh's.
+    expected = stats.rayleigh.ppf(0.95, scale=np.sqrt(3.0) * single)
+    assert t.quantile(0.95, by="[1].force.forward") == pytest.approx(expected, rel=0.02)
+
+
+def test_a_spread_of_pins_turns_what_follows_them() -> None:
+    """To first order δ turns a phasor by nδ: its change is i·n·δ times it."""
+    t = tolerances(I6, samples=20_000, **dict.fromkeys(SPREADS, 0.0) | {"pin_deg": 0.05})
+    cylinder = I6.cylinders[0]
+    for place, order in enumerate(t.orders):
+        amplitude = abs(cylinder.harmonics([order])[0]) * cylinder.reciprocating_mass
+        single = 0.5 * amplitude * cylinder.crank_radius * OMEGA**2 * order * np.radians(0.05)
+        nominal = t.nominal.force.forward[place]
+        spread = np.mean(abs(t.force.forward[:, place] - nominal) ** 2)
+        # Of 20 000 squares; second powers of nδ ≤ 0.005.
+        assert spread == pytest.approx(6 * single**2, rel=0.04)
+
+
+@pytest.mark.parametrize(
+    ("name", "affected"), [("z", {"moment"}), ("rotating_mass", {"force", "moment"})]
+)
+def test_what_a_figure_cannot_touch_stays(name: str, affected: set[str]) -> None:
+    t = tolerances(**dict.fromkeys(SPREADS, 0.0) | {name: SPREADS[name]}, samples=50)
+    for quantity in QUANTITIES:
+        changed = not np.array_equal(
+            np.asarray(getattr(t, quantity)),
+            np.broadcast_to(np.asarray(getattr(t.nominal, quantity)), getattr(t, quantity).shape),
+        )
+        assert changed == (quantity in affected)
+    # What turns with the crankpins has no backward part.
+    assert not name.startswith("rotating") or np.array_equal(
+        t.moment.backward, np.broadcast_to(t.nominal.moment.backward, t.moment.backward.shape)
+    )
+
+
+@settings(max_examples=20, deadline=None)
+@given(factor=st.floats(0.1, 10.0), seed=st.integers(0, 2**64 - 1))
+def test_what_remains_is_linear_in_masses_and_goes_with_the_square_of_speed(
+    factor: float, seed: int
+) -> None:
+    none = dict.fromkeys(SPREADS, 0.0)
+    one = tolerances(I6, **none | {"reciprocating_mass": 1e-3}, seed=seed, samples=5)
+    more = tolerances(I6, **none | {"reciprocating_mass": 1e-3 * factor}, seed=seed, samples=5)
+    np.testing.assert_allclose(
+        more[1].force.xy, factor * np.asarray(one[1].force.xy), rtol=1e-9, atol=1e-9
+    )
+    fast = tolerances(I6, **none | {"reciprocating_mass": 1e-3}, seed=seed, samples=5, rpm=2 * RPM)
+    np.testing.assert_allclose(fast[1].force.xy, 4.0 * one[1].force.xy, rtol=1e-12, atol=1e-9)
+
+
+def test_turning_the_engine_turns_the_samples() -> None:
+    t, turned = tolerances(), tolerances(V6.with_first_tdc(40))
+    np.testing.assert_allclose(t.moment.peak, turned.moment.peak, rtol=1e-9)
+    np.testing.assert_allclose(
+        t[1].force.forward * np.exp(1j * np.radians(-40.0)),
+        turned[1].force.forward,
+        atol=1e-9 * OMEGA,
+    )
+
+
+def test_pins_that_cylinders_share_deviate_together() -> None:
+    shared = cp.Engine.preset("v8-crossplane")
+    assert cp.tolerances(shared, rpm=RPM, samples=1).pins == ((1, 2), (3, 4), (5, 6), (7, 8))
+    assert cp.tolerances(I6, rpm=RPM, samples=1).pins == tuple((n,) for n in range(1, 7))
+    radial = cp.Engine.from_lists(
+        shared.cylinders[0], bank_deg=[90, 162, 234, 306, 18], pin_deg=[0] * 5, z=[0] * 5
+    )
+    assert cp.tolerances(radial, rpm=RPM, samples=1).pins == ((1, 2, 3, 4, 5),)
+    two_throws = cp.Engine.flat(
+        shared.cylinders[0], throws_deg=[0, 0], spacing=0.1, bank_stagger=0.02
+    )
+    assert cp.tolerances(two_throws, rpm=RPM, samples=1).pins == ((1, 2), (3, 4))
+    # Pins of one's own, where the maker has them.
+    t = cp.tolerances(shared, rpm=RPM, samples=4, pin_deg=0.1, pins=[[n] for n in range(1, 9)])
+    assert t.draws("pin_deg").shape == (4, 8)
+
+
+def test_spreads_may_differ_between_cylinders_and_pins() -> None:
+    t = cp.tolerances(
+        V6, rpm=RPM, reciprocating_mass=[0, 0.01, 0, 0, 0, 0], pin_deg=[0.1] * 5 + [0], samples=50
+    )
+    assert np.flatnonzero(t.draws("reciprocating_mass").any(axis=0)).tolist() == [1]
+    assert not t.draws("pin_deg")[:, 5].any()
+    assert t.spreads["reciprocating_mass"] == (0, 0.01, 0, 0, 0, 0)
+
+
+# --- statistics ---------------------------------------------------------------------------------
+
+
+def test_orders_that_the_nominal_engine_cancels_are_kept() -> None:
+    t = cp.tolerances(I6, rpm=RPM, reciprocating_mass=0.002, samples=200)
+    assert {1, 2, 4} <= set(t.orders)
+    assert not t.nominal.force.peak[:2].any()
+    assert t.force.peak[:, :2].all()
+    # Of one cylinder 1e-4 of m·r·ω² may be left out, of six at most six times that.
+    cylinder = I6.cylinders[0]
+    scale = cylinder.reciprocating_mass * cylinder.crank_radius * OMEGA**2
+    assert 0.0 < t.error_bound.force <= 6e-4 * scale
+
+
+def test_statistics_are_those_of_the_values() -> None:
+    t = tolerances(by=["[1].moment.backward", "total.force.peak"])
+    values = t.values()
+    assert np.array_equal(values, abs(t[1].moment.backward))
+    assert t.values("total.force.peak") is not values
+    assert (t.mean(), t.std()) == (values.mean(), values.std())
+    assert np.array_equal(t.quantile([0.1, 0.9]), np.quantile(values, [0.1, 0.9]))
+    assert t.nominal_value("total.moment.peak") == t.nominal.total.moment.peak
+    table = t.table()
+    assert table.labels == [("[1].moment.backward", "N·m"), ("total.force.peak", "N")]
+    assert table.rows[0].tolist() == [
+        t.nominal_value(), t.mean(), t.std(), *np.quantile(values, [0.05, 0.5, 0.95])
+    ]  # fmt: skip
+    assert "standard deviations: reciprocating mass 0.005 kg" in repr(t)
+    assert "<table>" in t._repr_html_()
+
+
+def test_shares_add_up_where_what_remains_is_linear() -> None:
+    t = tolerances(I6, samples=4000, by=["[1].force.forward", "[1].force.backward"])
+    shares = t.shares
+    assert shares.tolerances == tuple(SPREADS)
+    # Rayleigh's variance goes with the sum of squares; 4000 samples tell it to 2 %.
+    assert (abs(shares.interaction) < 0.08).all()
+    by_name = dict(zip(shares.tolerances, shares.values.T, strict=True))
+    assert not by_name["z"].any()
+    assert by_name["rotating_mass"][1] == 0.0
+    cylinder = I6.cylinders[0]
+    parts = {
+        "reciprocating_mass": 0.005 / 2,
+        "rotating_mass": 0.01,
+        "crank_radius": cylinder.reciprocating_mass / 2 * 5e-5 / cylinder.crank_radius,
+        "pin_deg": cylinder.reciprocating_mass / 2 * np.radians(0.2),
+    }
+    total = sum(part**2 for part in parts.values())
+    for name, part in parts.items():
+        assert by_name[name][0] == pytest.approx(part**2 / total, abs=0.05)
+    assert "interaction %" in repr(shares)
+    assert t.shares_of("[1].force.backward").values.tolist() == shares.values[1:].tolist()
+    assert shares.to_pandas().groupby("by").share.sum().round(12).tolist() == [1.0, 1.0]
+    assert not cp.tolerances(I6, rpm=RPM, samples=3, pin_deg=0).shares.values.size
+
+
+def test_exports_have_all_samples() -> None:
+    t = tolerances(samples=20)
+    data = t.to_xarray()
+    assert data.force_peak.dims == ("sample", "order")
+    assert np.array_equal(data.moment_total_peak, t.total.moment.peak)
+    assert data.attrs["seed"] == 0
+    table = t.to_pandas("force")
+    assert len(table) == 20 * 4 * 4
+    assert {"sample", "order", "component", "peak", "unit"} <= set(table.columns)
+
+
+def test_results_are_values() -> None:
+    t = tolerances(samples=10)
+    again = pickle.loads(pickle.dumps(t))  # noqa: S301 - its own
+    assert again == t
+    assert hash(again) == hash(t)
+    assert np.array_equal(again.force.xy, t.force.xy)
+    assert t != tolerances(samples=11)
+    assert pickle.loads(pickle.dumps(t.shares)) == t.shares  # noqa: S301 - its own
+    with pytest.raises(AttributeError):
+        t.by = ()  # type: ignore[misc]
+    with pytest.raises(ValueError, match="read-only"):
+        t.force.xy[0] = 0
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[int, int]] = []
+    tolerances(samples=5000, progress=lambda done, total: told.append((done, total)))
+    assert told[-1][0] == told[-1][1] > 1
+
+
+# --- errors -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"reciprocating_mass": -0.1}, r"reciprocating_mass = -0.1: give a spread that is zero"),
+        ({"pin_deg": np.nan}, r"pin_deg = nan: give a spread"),
+        ({"z": [1e-3, 1e-3]}, r"z has 2 entries, the engine has 6 cylinders: give one number, or"),
+        ({"crank_radius": [0.0] * 5}, r"crank_radius has 5 entries, the engine has 6 crankpins"),
+        ({"rod_length": "long"}, r"rod_length = 'long': give numbers"),
+        ({"reciprocating_mass": 0.3}, r"reciprocating_mass = 0.3: a draw may take more than the"),
+        ({"rod_length": 0.1}, r"rod_length = 0.1: a draw may keep the crank of cylinder 1 from"),
+        ({"pin_deg": 60}, r"pin_deg = 60.0: a draw may exceed half a turn; give 21.687 at most"),
+        ({"distribution": "cauchy"}, r"distribution = 'cauchy': give \"normal\" or \"uniform\""),
+        ({"samples": 0}, r"samples = 0: give one or more"),
+        ({"samples": 10**9}, r"samples: the result would take .* bytes"),
+        ({"samples": 2.5}, r"samples = 2.5: give a whole number"),
+        ({"seed": -1}, r"seed = -1: give a whole number, 0 to 2\*\*64 - 1"),
+        (
+            {"by": "[3].force.peak"},
+            r"orders = \[1, 2, 4, 6\]: by = \"\[3\].force.peak\" needs order 3",
+        ),
+        ({"by": "unevenness_deg"}, r"by = \"unevenness_deg\": has no value for each sample"),
+        ({"by": "total.torque.peak", "torque": False}, r"torque is not available: it was not"),
+        ({"pins": [[1, 2], [3, 4]]}, r"pins = .*: name each cylinder once"),
+        (
+            {"pins": [[1, 2], [3], [4], [5], [6]]},
+            r"the crankpins of cylinders \(1, 2\) do not point",
+        ),
+        ({"rpm": -1}, r"rpm = -1"),
+    ],
+)
+def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        tolerances(**changes)
+
+
+def test_errors_of_results() -> None:
+    t = tolerances(samples=3)
+    with pytest.raises(cp.InputError, match="sample = 3: give a number from 0 to 2"):
+        t.engine_of(3)
+    with pytest.raises(cp.InputError, match=r"name = 'mass': give \"reciprocating_mass\""):
+        t.draws("mass")
+    with pytest.raises(cp.InputError, match="q = 2: give numbers from 0 to 1"):
+        t.quantile(2)
+    with pytest.raises(cp.InputError, match=r"give a crankpin\.Engine"):
+        cp.tolerances("v6", rpm=1)  # type: ignore[arg-type]
+
+
+def test_the_how_to_says_the_truth() -> None:
+    page = Path(__file__).parents[3] / "docs" / "tolerances.md"
+    assert doctest.testfile(str(page), module_relative=False).failed == 0
