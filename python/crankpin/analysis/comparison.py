@@ -133,8 +133,7 @@ class Comparison(Frozen):
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         """
-        name = inputs.one_of("quantity", quantity, labels.UNITS)
-        before, after = (getattr(each, name).peak for each in (self.before, self.after))
+        before, after = self._peaks(quantity)
         with np.errstate(divide="ignore", invalid="ignore"):
             change = (after - before) / before
         return np.where((before == 0.0) & (after == 0.0), 0.0, change)
@@ -176,11 +175,16 @@ class Comparison(Frozen):
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         """
-        peaks = np.maximum(*(getattr(each, quantity).peak for each in (self.before, self.after)))
+        before, after = self._peaks(quantity)
+        peaks = np.maximum(before, after)
         kept: list[int] = np.flatnonzero(
             peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
         ).tolist()
         return kept
+
+    def _peaks(self, quantity: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        return getattr(self.before, name).peak, getattr(self.after, name).peak
 
     def table(self) -> Table:
         """Return the table that is shown: the peak of each quantity and order before and after."""
@@ -188,7 +192,7 @@ class Comparison(Frozen):
         for name in self.before.request.quantities:
             if name == "crank_torque":
                 continue
-            before, after = (getattr(each, name).peak for each in (self.before, self.after))
+            before, after = self._peaks(name)
             change = 100.0 * self.change(name)
             for k in self.shown_orders(name):
                 texts.append((f"{labels.NAMES[name]}, {labels.UNITS[name]}", f"{self.orders[k]}"))

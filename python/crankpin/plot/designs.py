@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin.analysis.design.built import turned
 from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
@@ -79,7 +80,7 @@ def _over_bank_angle(
     angles = np.union1d(np.linspace(low, high, POINTS), own)
     heights = designs.over_bank_angle(angles, len(best))
     # Several designs may be dips of one curve.
-    cranks = [designs.turned(each.crank, low) for each in best]
+    cranks = [turned(designs.question, each.crank, low) for each in best]
     firsts = [cranks.index(crank) for crank in cranks]
     curves = sorted(set(firsts))
     looks = dict(zip(curves, series(ax, len(curves), style), strict=True))

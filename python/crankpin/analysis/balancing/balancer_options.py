@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin.analysis.balancing import correction_planes
 from crankpin.analysis.balancing.balancer_sets import balancer_sets, end_counterweights
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders
+    from crankpin.analysis.balancing.correction_planes import Planes
     from crankpin.analysis.ranking.objectives import Measure, Objective
     from crankpin.model.engine import Engine
 
@@ -40,7 +42,7 @@ def balancer_options(
     shaft_orders: int | Sequence[int] = (1, 2),
     most_shafts: int = 4,
     counterweights: bool = True,
-    planes: Sequence[float] | None = None,
+    planes: Planes = "ends",
     places: Mapping[int, tuple[float | None, float | None]] | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
@@ -79,7 +81,8 @@ def balancer_options(
     counterweights
         Whether counterweights are compared.
     planes
-        Places of the counterweights along the crank, m; by default the first and last cylinder.
+        Places of the counterweights along the crank, as in :func:`crankpin.counterweights`; by
+        default the first and last cylinder.
     places
         Ratio → x and y of a shaft's axis, m, None where free. Without them places are free: see
         :func:`crankpin.balance_shafts`.
@@ -120,7 +123,7 @@ def balancer_options(
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
     plane = inputs.optional_number("reference_z", reference_z)
     with_weights = inputs.flag("counterweights", counterweights)
-    z = None if planes is None else inputs.vector("planes", planes).tolist()
+    z = list(correction_planes.named(engine, planes).values())
     most = inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise InputError(f"most_shafts = {most}: give 0 or more")

@@ -10,7 +10,6 @@ from crankpin._core import InputError
 from crankpin.analysis.balancing.balance_shafts import at_places, balance_shafts
 from crankpin.analysis.balancing.planes import (
     Turning,
-    ends,
     fitted,
     length_of,
     roll_torque,
@@ -63,10 +62,9 @@ class BalancerSet(NamedTuple):
 
 
 def end_counterweights(
-    engine: Engine, planes: Sequence[float] | None, reference_z: float | None
+    engine: Engine, z: Sequence[float], reference_z: float | None
 ) -> tuple[Unbalance, ...]:
-    """Return counterweights that remove the forward part of order 1, by default at both ends."""
-    z = ends(engine) if planes is None else planes
+    """Return counterweights at places z that remove the forward part of order 1."""
     force, moment = turning(engine, 1, reference_z)
     z0 = engine.reference_z if reference_z is None else reference_z
     return unbalances_of(fitted(Turning(-force, -moment), z, z0, length_of(engine)), z)

@@ -92,7 +92,7 @@ class BalanceShafts(Frozen):
         plane: float | None,
         extra_torque: tuple[tuple[int, complex], ...],
     ) -> None:
-        if not all(isinstance(each, FittedShaft) for each in shafts):
+        if not shafts or not all(isinstance(each, FittedShaft) for each in shafts):
             raise InputError(f"shafts = {inputs.shorten(shafts)}: use crankpin.balance_shafts")
         self._set(before=before, shafts=shafts, plane=plane, extra_torque=extra_torque)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs
-from crankpin.analysis.arrangements.cranks import Crank
+from crankpin.analysis.arrangements.cranks import Crank, exact
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
 from crankpin.model.shafts import Shaft, Unbalance
@@ -43,6 +43,14 @@ def engines(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
                 )
             found.append(engine)
     return _with_shafts(question, found) if question.shafts else found
+
+
+def turned(question: Question, crank: Crank, bank_angle_deg: float) -> Crank:
+    """Return a crank at another bank angle: pins held, or top dead centres."""
+    angle = exact(inputs.angle("bank_angle_deg", bank_angle_deg))
+    assert crank.bank_angle is not None  # noqa: S101 - two banks
+    more = angle - crank.bank_angle if question.hold == "firing" else 0
+    return Crank.of(crank.throws, [split + more for split in crank.splits], angle)
 
 
 def one_cylinder(question: Question) -> Engine:

@@ -14,7 +14,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
-from crankpin.analysis.arrangements.cranks import HALF, Crank, exact
+from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design import built
 from crankpin.analysis.design.question import Question
 from crankpin.analysis.drawing import draw
@@ -194,19 +194,12 @@ class Designs(Frozen):
         }
         if self.question.shafts:
             pairs = itertools.product(designs, angles.tolist())
-            cranks = [self.turned(each.crank, angle) for each, angle in pairs]
+            cranks = [built.turned(self.question, each.crank, angle) for each, angle in pairs]
             swept = sweep(built.engines(self.question, cranks), **chosen)
         else:
             engines = [each.engine for each in designs]
             swept = sweep(engines, bank_angle_deg=angles, hold=self.question.hold, **chosen)
         return named(self.by[0]).values(swept).reshape(len(designs), -1)
-
-    def turned(self, crank: Crank, bank_angle_deg: float) -> Crank:
-        """Return a crank at another bank angle: pins held, or top dead centres."""
-        angle = exact(inputs.angle("bank_angle_deg", bank_angle_deg))
-        assert crank.bank_angle is not None  # noqa: S101 - two banks
-        more = angle - crank.bank_angle if self.question.hold == "firing" else 0
-        return Crank.of(crank.throws, [split + more for split in crank.splits], angle)
 
     # --- tables and pictures --------------------------------------------------------------------
 

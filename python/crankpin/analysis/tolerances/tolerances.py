@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder
 
 MOST_SEEDS = 2**64
+MOST_SAMPLES = 10**9
+"""Samples of one call; memory may allow fewer."""
 
 
 def tolerances(
@@ -135,8 +137,8 @@ def tolerances(
     }
     spreads = Spreads.checked(engine, given, distribution, pins)
     count, start = inputs.whole("samples", samples), inputs.whole("seed", seed)
-    if count < 1:
-        raise InputError(f"samples = {count}: give one or more")
+    if not 1 <= count <= MOST_SAMPLES:
+        raise InputError(f"samples = {inputs.shorten(samples)}: give 1 to {MOST_SAMPLES}")
     if not 0 <= start < MOST_SEEDS:
         raise InputError(f"seed = {inputs.shorten(seed)}: give a whole number, 0 to 2**64 - 1")
     request = Request.checked(

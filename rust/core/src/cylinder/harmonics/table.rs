@@ -84,6 +84,9 @@ fn fill<T: Send>(
     write: impl Fn(Range<usize>, &mut [T]) -> Result<()> + Sync,
 ) -> Result<()> {
     const CHUNK: usize = 2048;
+    if width == 0 {
+        return Ok(());
+    }
     if rows <= CHUNK {
         return write(0..rows, out);
     }

@@ -1,0 +1,1 @@
+"""Sound calls, hostile values, and the public surface on which they meet."""

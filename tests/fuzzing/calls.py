@@ -1,0 +1,185 @@
+"""Calls with hostile values, and what is wrong with what they return."""
+
+# ruff: noqa: ANN401 - arguments of any type are the point
+
+from __future__ import annotations
+
+import os
+import reprlib
+import time
+import warnings
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+import crankpin as cp
+import numpy as np
+from hypothesis import strategies as st
+
+from fuzzing.sound import JSON, PARTS, TOML
+from fuzzing.surface import SOUND, Target
+from fuzzing.values import VALUES
+
+SECONDS = float(os.environ.get("CRANKPIN_FUZZ_SECONDS", "0"))
+PATIENCE = 5.0  # seconds to a call: the longest honest one takes a twentieth of one
+ALLOWED = (TypeError, ValueError, OSError, ImportError)
+
+MAP = dict[str, Any]
+
+
+def shown(value: Any) -> str:
+    """Text of a value, however deep or long."""
+    try:
+        return reprlib.repr(value)[:200]
+    except ValueError:  # an integer too long for Python to write
+        return f"<{type(value).__name__}>"
+
+
+class Call(NamedTuple):
+    """A target and what it is called with."""
+
+    target: Target
+    arguments: MAP
+
+    def __repr__(self) -> str:
+        listed = ", ".join(f"{name}={shown(value)}" for name, value in self.arguments.items())
+        return f"{self.target.label}({listed})"
+
+
+@st.composite
+def calls(draw: st.DrawFn, among: list[Target]) -> Call:
+    """A call with up to three arguments bad and the others good or left out."""
+    chosen = draw(st.sampled_from(among))
+    parameters = [p for p in chosen.parameters if p.kind is not p.VAR_KEYWORD]
+    count = draw(st.integers(1, 3))
+    bad = {draw(st.integers(0, max(len(parameters) - 1, 0))) for _ in range(count)}
+    arguments = {}
+    for k, parameter in enumerate(parameters):
+        if k in bad:
+            arguments[parameter.name] = draw(VALUES)
+        elif parameter.default is parameter.empty or draw(st.booleans()):
+            if parameter.name in SOUND:
+                arguments[parameter.name] = draw(st.sampled_from(SOUND[parameter.name]))
+            elif parameter.default is parameter.empty:
+                arguments[parameter.name] = draw(VALUES)
+    return Call(chosen, arguments)
+
+
+def invoke(call: Call) -> Any:
+    """Call, the var-positional argument unpacked."""
+    positional: list[Any] = []
+    named = dict(call.arguments)
+    for parameter in call.target.parameters:
+        if parameter.kind is parameter.VAR_POSITIONAL:
+            values = named.pop(parameter.name, ())
+            positional += values if isinstance(values, list | tuple) else [values]
+        elif parameter.kind is parameter.POSITIONAL_ONLY and parameter.name in named:
+            positional.append(named.pop(parameter.name))
+    return call.target.function(*positional, **named)
+
+
+def finite(value: Any) -> bool:
+    """Whether all figures in it are, down through tuples."""
+    if isinstance(value, float | complex | np.ndarray | np.generic):
+        array = np.asarray(value)
+        return array.dtype.kind not in "fc" or bool(np.isfinite(array).all())
+    return not isinstance(value, tuple) or all(finite(each) for each in value)
+
+
+BY_ORDER = [
+    "force.xy",
+    "moment.xy",
+    "torque.phasor",
+    "crank_torque.phasor",
+    "force.peak",
+    "moment.forward",
+    "total.force.peak_xy",
+    "total.moment.peak",
+    "total.torque.peak",
+    "force.zero_bound",
+    "error_bound",
+]
+RESULTS = {
+    cp.Cylinder: [*PARTS, "rod_ratio"],
+    cp.Engine: ["tdc_deg", "bank_deg", "pin_deg", "z", "rotating_mass", "reference_z"],
+    cp.types.Balance: BY_ORDER,
+    cp.types.Sweep: BY_ORDER,
+    cp.types.Waveform: ["force", "moment", "torque", "crank_torque", "error_bound"],
+    cp.types.VanishingOrders: ["orders", "reference_z"],
+    cp.types.Comparison: ["rpm"],
+    cp.types.ClosedForm: ["spacing", "reference_z"],
+    cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
+    cp.types.Throws: ["throws_deg", "pin_split_deg"],
+    cp.types.Ranking: ["values"],
+    cp.types.Counterweights: ["largest", "residual", "ellipses", "bay_loads"],
+    cp.types.BobWeight: ["mass", "grams"],
+    cp.types.TwoPlaneCorrection: ["amount_g_mm", "angle_deg", "drill_deg"],
+}
+
+
+def unsound(value: Any) -> str:
+    """What is wrong with a result: figures not finite, an engine that does not read back."""
+    if not finite(value):
+        return f"returned {shown(value)}"
+    for name in RESULTS.get(type(value), []):
+        try:
+            figure = attrgetter(name)(value)
+        except cp.InputError:
+            continue  # torque, where a spectrum is given
+        if not finite(figure):
+            return f"returned one whose {name} is {shown(figure)}"
+    if isinstance(value, cp.Engine) and cp.Engine.from_json(value.to_json()) != value:
+        return "returned an engine that does not read back"
+    repr(value)
+    return ""
+
+
+def problem(call: Call) -> str:
+    """What comes of a call but a sound result or an allowed error; nothing if all is well."""
+    start = time.monotonic()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of units and pin splits
+        try:
+            found = unsound(invoke(call))
+        except ALLOWED:
+            found = ""
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except BaseException as error:
+            found = f"raised {type(error).__name__}: {shown(error)}"
+    took = time.monotonic() - start
+    if took > PATIENCE:
+        found += f" after {took:.1f} s"
+    return found and f"{call!r} {found}"
+
+
+def call_hostile(call: Call) -> None:
+    assert not problem(call)
+
+
+@st.composite
+def damaged(draw: st.DrawFn, text: str) -> str:
+    """An engine file with a piece of it replaced."""
+    start = draw(st.integers(0, len(text)))
+    end = draw(st.integers(start, min(len(text), start + 40)))
+    piece = draw(
+        st.one_of(
+            st.text(max_size=20),
+            st.sampled_from(["", "nan", "1e999", "-", "[[", "}}", '"', "9" * 500, "null", "\n"]),
+            st.integers(0, len(text) - 10).map(lambda k: text[k : k + 10]),
+        )
+    )
+    return text[:start] + piece + text[end:]
+
+
+DAMAGED = st.tuples(damaged(TOML), damaged(JSON))
+
+
+def read_damaged(texts: tuple[str, str]) -> None:
+    """Each text is refused, or gives a sound engine that reads back."""
+    for read, text in zip((cp.Engine.from_toml, cp.Engine.from_json), texts, strict=True):
+        try:
+            engine = read(text)
+        except ValueError:
+            continue
+        assert not unsound(engine)
+        assert read(engine.to_toml() if read == cp.Engine.from_toml else engine.to_json()) == engine

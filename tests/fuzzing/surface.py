@@ -1,0 +1,198 @@
+"""Everything public that can be called, with what may be given to it."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import crankpin as cp
+
+from fuzzing.sound import CYLINDER, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
+
+SLOW = {"plot", "view", "save_html"}  # pictures: fewer calls
+
+SOUND: dict[str, list[Any]] = {
+    "layout": ["vee", "inline"],
+    "most_shafts": [2],
+    "pistons": [[0.5, 0.51, 0.49, 0.5, 0.505, 0.495, 0.5]],
+    "pin_split_deg": [0, (-60, 60)],
+    "places": [{-1: (0.1, 0.0)}],
+    "ratios": [-1, (-2, 2)],
+    "samples": [200],
+    "sets": [1],
+    "shaft_orders": [1],
+    "amount": [0.01],
+    "counterweights": [[cp.Unbalance(0.01, 0.1, 180, pin=1)]],
+    "pin": [1, None],
+    "ratio": [-1, 2],
+    "shafts": [[cp.Shaft(-1, [cp.Unbalance(0.01, 0.1)], x=0.1)]],
+    "unbalances": [[cp.Unbalance(0.01, 0.1)]],
+    "after": [V6, I4],
+    "amount_g_mm": [[120, 80]],
+    "angle_deg": [[30, 200]],
+    "bound": [0.01],
+    "correction_z": [[0.05, 0.35]],
+    "factor": [0.5],
+    "factors": [[0.5, 0.6]],
+    "fraction": [1.0, {"force": 1.0}],
+    "measured_z": [[0.0, 0.4]],
+    "minimise": ["squares", "largest"],
+    "oil": [0.004],
+    "planes": ["ends", "webs", [0.0, 0.2]],
+    "target": ["external", "internal"],
+    "ax": [None],
+    "backward_force": [1j],
+    "before": [V6, I4],
+    "bore": [0.086],
+    "chunks": [{"rpm": 1}, 2],
+    "core": [I4.core],
+    "counterweight": [1.5],
+    "cylinders": [6],
+    "first_deg": [[0, 120, 240]],
+    "high": [90],
+    "inertia": [0.0025],
+    "length": [0.15],
+    "low": [10],
+    "mass": [0.6],
+    "piston_mass": [0.4],
+    "rod": [cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)],
+    "second_deg": [[0, 240, 120]],
+    "second_order": [(1.0, 2.0)],
+    "stroke": [0.086],
+    "to_crankpin": [0.05],
+    "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
+    "bank_deg": [[60, 120], [90, 90, 90]],
+    "by": ["total.moment.peak", ["[1].force.backward"], lambda b: b.rpm],
+    "count": [1, 0],
+    "cylinder": [CYLINDER],
+    "crank_radius": [0.05],
+    "engine": [V6],
+    "engines": [V6, I4, [V6, I4], {"a": V6}],
+    "firing_order": ["1-3-4-2", [1, 2, 3, 4], "1-2-5-6-3-4", "1+4-2+3"],
+    "groups": [[[1, 4], [2, 3]], [[2]]],
+    "hold": ["pins", "firing"],
+    "intervals_deg": [[180] * 4, [90, 270, "90", 270]],
+    "name": ["v6-60", "i4", "a name"],
+    "order": [1, 2],
+    "orders": [1, [1, 2], [1, 2, 4, 6]],
+    "path": ["engine.toml"],
+    "pin_deg": [[0, 180]],
+    "quantity": ["force", "moment", "torque"],
+    "reciprocating_mass": [0.5],
+    "rod_length": [0.15],
+    "rod_ratio": [0.3, [0.2, 0.3]],
+    "rpm": [1000, [1000.0, 2000.0]],
+    "spacing": [0.1],
+    "spectrum": [{1: 1.0, 2: 0.3}],
+    "strokes": [4, 2],
+    "tdc_deg": [[0, 90], ["360/7", Fraction(1, 3)]],
+    "text": [TOML, JSON],
+    "theta_deg": [[0.0, 90.0], 30.0],
+    "throws_deg": [[0, 120, 240], [0]],
+    "timing": [cp.types.ValveTiming(exhaust_opens_deg="360/7"), cp.types.PortTiming()],
+    "x": ["rpm"],
+    "z": [[0.0, 0.1]],
+}
+
+SUBJECTS: dict[str, Any] = {
+    "Cylinder": cp.Cylinder,
+    "Engine": cp.Engine,
+    "Balance": cp.types.Balance,
+    "Waveform": cp.types.Waveform,
+    "Sweep": cp.types.Sweep,
+    "cylinder": CYLINDER,
+    "v6": V6,
+    "i4": I4,
+    "balance": V6.balance(1000),
+    "balance of a spectrum": V6.balance(1000, orders=[1], spectrum={1: 1.0}),
+    "balance, auto": V6.balance(1000, orders="auto"),
+    "vanishing orders": V6.vanishing_orders(),
+    "comparison": cp.compare(V6, I4, 1000),
+    "closed form": V6.closed_form(1),
+    "waveform": V6.waveform(1000, theta_deg=[0.0, 1.0]),
+    "waveform, auto": V6.waveform(1000, theta_deg=[0.0, 1.0], orders="auto"),
+    "waveform of a spectrum": V6.waveform(1000, theta_deg=[0.0], orders=[1], spectrum={1: 1.0}),
+    "firing": V6.firing("1-2-5-6-3-4"),
+    "firing, two-stroke": two_stroke(),
+    "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
+    "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
+    "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
+    "ranking, as they are": cp.rank(
+        [V6, vee()], rpm=1e3, by="total.moment.peak", spectrum={1: 1.0, 2: 0.2}
+    ),
+    "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
+    "counterweights": cp.counterweights(V6, planes="webs", angles_deg=[0, 120, 240]),
+    "bob weight": cp.bob_weight(V6),
+    "balance shafts": cp.balance_shafts(I4, (-2, 2)),
+    "balancer options": cp.balancer_options(V6, rpm=1000, most_shafts=1),
+    "designs": cp.design(
+        3, layout="inline", cylinder=CYLINDER, spacing=0.1, rpm=1000, by="total.moment.peak"
+    ),
+    "match": cp.match_parts(I4, [0.5, 0.51, 0.49, 0.5, 0.505]),
+    "tolerances": cp.tolerances(I4, rpm=1000, reciprocating_mass=0.01, samples=200),
+    "two-plane correction": cp.two_plane_correction(
+        [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
+    ),
+    "waveforms of a sweep": swept().waveform([0.0, 1.0]),
+    "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
+}
+PLAIN = {
+    "Choice",
+    "Ellipse",
+    "ErrorBound",
+    "Gap",
+    "InputError",
+    "OrderBalance",
+    "Overlap",
+    "Ports",
+    "Valves",
+}  # take anything, and hold it
+RESULTS_MADE_ELSEWHERE = {
+    "Balance",
+    "BalanceShafts",
+    "BalancerOptions",
+    "Comparison",
+    "Counterweights",
+    "Designs",
+    "Firing",
+    "Ranking",
+    "Waveform",
+    "Sweep",
+    "SweepWaveform",
+}  # by methods of Engine and of Sweep, by sweep and by rank
+
+
+class Target(NamedTuple):
+    """Something public that can be called."""
+
+    label: str
+    function: Callable[..., Any]
+    parameters: tuple[inspect.Parameter, ...]
+
+
+def target(label: str, function: Callable[..., Any]) -> Target:
+    return Target(label, function, tuple(inspect.signature(function).parameters.values()))
+
+
+def targets() -> Iterator[Target]:
+    """Every public function, constructor and method."""
+    for name in cp.__all__:
+        value = getattr(cp, name)
+        if callable(value) and name not in PLAIN:
+            yield target(name, value)
+    for name in ("PortTiming", "ValveTiming"):
+        yield target(f"types.{name}", getattr(cp.types, name))
+    for label, subject in SUBJECTS.items():
+        for name in dir(type(subject) if not isinstance(subject, type) else subject):
+            of_class = isinstance(subject, type)
+            static = inspect.getattr_static(subject if of_class else type(subject), name)
+            if name.startswith("_") or of_class != isinstance(static, classmethod | staticmethod):
+                continue
+            if callable(static) or of_class:
+                yield target(f"{label}.{name}", getattr(subject, name))
+
+
+TARGETS = [each for each in targets() if each.label.rpartition(".")[2] not in SLOW]
+PICTURES = [each for each in targets() if each.label.rpartition(".")[2] in SLOW]
