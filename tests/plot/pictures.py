@@ -81,6 +81,9 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "orbit": lambda **place: V8.waveform(5000).plot(kind="orbit", **place),
     "sweep": lambda **place: over_bank_angle().plot(**place),
     "sweep-on-axes": _of_one_panel(lambda ax: over_bank_angle().plot(ax)),
+    "sweep-parts": lambda **place: cp.sweep(
+        FAMILY[1:3], rpm=5000, bank_angle_deg=range(181), hold="pins"
+    ).plot(kind="parts", orders=[1, 2], **place),
     "sweep-scale": lambda **place: over_two(orders=[1, 2]).plot(kind="curves", **place),
     "map": lambda **place: over_two().plot(**place),
     "orders": lambda **place: cp.sweep(

@@ -224,3 +224,13 @@ def test_what_firing_holds_is_said() -> None:
 def test_ticks_fit_the_width(width: float, fewest: int) -> None:
     panels = over_bank_angle(orders=[1]).plot(figure=plt.figure(figsize=(width, 3.0)))
     assert len(xtick_texts(panels[0, 0])) >= fewest
+
+
+@pytest.mark.parametrize(
+    ("name", "title"),
+    [("V6 60°", "V6"), ("60° V6", "V6"), ("V6 60°, split -60°", "V6, split -60°"), ("60°", "60°")],
+)
+def test_titles_leave_out_the_bank_angle_alone(name: str, title: str) -> None:
+    engine = cp.Engine.preset("v6-60").replace(name=name)
+    s = cp.sweep(engine, rpm=5000, bank_angle_deg=[60, 90], hold="pins", orders=[1])
+    assert figure_of(s.plot()).get_suptitle().split("\n")[0] == title

@@ -21,6 +21,9 @@ UNITS = {"force": "N", "moment": "N·m", "torque": "N·m", "crank_torque": "N·m
 OVER_SQUARE = {"force": "kg·m", "moment": "kg·m²"}
 """Quantity → unit of order 1 over ω²."""
 
+TURNING = {"forward": "with the crank", "backward": "against the crank"}
+"""Part of a plane vector → how it turns."""
+
 NAMES = {
     "force": "shaking force",
     "moment": "rocking moment",

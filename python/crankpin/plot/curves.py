@@ -70,7 +70,7 @@ def curves(
         head(panel, axis)
     bundle = _draw(made.axes, sweep, name, along, rows, style)
     entitle_figure(made.figure, words.title, words.subtitle(name), rows.note)
-    marks = [_entry(made.axes, text) for text in (ZERO, LEAST)]
+    marks = [entry_of(made.axes, text) for text in (ZERO, LEAST)]
     handles = [*bundle.handles, *filter(None, marks)]
     figure_legend(made.figure, handles, words.common if bundle.handles else "")
     return made.axes
@@ -98,10 +98,10 @@ def _draw(
             continue
         values = np.asarray(sweep.coords[along], dtype=np.float64)
         span(panel, values)
-        _lines(panel, values, heights, bundle.curves)
+        lines(panel, values, heights, bundle.curves)
         # Every peak grows with the square of speed: the least is at the lowest.
         least = row == 0 and "rpm" not in sweep.coords
-        _mark(panel, along, values, heights, bundle.curves, least=least)
+        mark(panel, along, values, heights, bundle.curves, least=least)
     for of_row, heights, row_of_picture in zip(panels, peaks, rows.rows, strict=True):
         _scale(of_row, float(heights.max(initial=0.0)), quantity, along, row_of_picture.name)
     if along != "engine":
@@ -113,9 +113,10 @@ def _draw(
     return bundle
 
 
-def _lines(
+def lines(
     ax: Axes, x: NDArray[np.float64], peaks: NDArray[np.float64], drawn: Sequence[Curve]
 ) -> None:
+    """Draw curves of an array (along x, …), with markers if they have few points."""
     in_order = np.argsort(x, kind="stable")
     few = len(drawn) <= MOST_TOLD_APART and len(x) <= FEW_POINTS
     for curve in drawn:
@@ -158,7 +159,7 @@ def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str, na
 # --- marks --------------------------------------------------------------------------------------
 
 
-def _mark(
+def mark(
     ax: Axes,
     along: str,
     x: NDArray[np.float64],
@@ -187,5 +188,6 @@ def _mark(
         write(ax, place, value, at(along, place))
 
 
-def _entry(panels: NDArray[Any], text: str) -> Line2D | None:
+def entry_of(panels: NDArray[Any], text: str) -> Line2D | None:
+    """Return the legend's entry for marks that some panel has."""
     return next(filter(None, (entry(panel, text) for panel in panels.flat)), None)

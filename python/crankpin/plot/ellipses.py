@@ -90,7 +90,7 @@ def direction(order: OrderBalance, name: str) -> str:
     minor = getattr(order, name).ellipse.minor
     if minor == 0.0:
         return "straight line"
-    return "with the crank" if minor > 0.0 else "against the crank"
+    return labels.TURNING["forward" if minor > 0.0 else "backward"]
 
 
 def _on_one(ax: Axes, orders: Sequence[OrderBalance], name: str, style: dict[str, Any]) -> None:

@@ -12,9 +12,16 @@ from crankpin.plot.bars import bars
 from crankpin.plot.curves import curves
 from crankpin.plot.dispatch import draw
 from crankpin.plot.maps import heat_map, order_map
+from crankpin.plot.parts import parts
 from crankpin.plot.style import MOST_TOLD_APART
 
-KINDS = {"curves": curves, "map": heat_map, "orders": order_map, "bars": bars}
+KINDS = {
+    "curves": curves,
+    "parts": parts,
+    "map": heat_map,
+    "orders": order_map,
+    "bars": bars,
+}
 
 
 @draw.register(Sweep)

@@ -430,7 +430,9 @@ class Sweep(AllOrders):
             Figure or SubFigure for the panels; by default a new one.
         kind
             ``"curves"``: over one dimension, a curve for each combination of the others, with the
-            points where an order is exactly zero, and the least of all, marked; ``"map"``: over two
+            points where an order is exactly zero, and the least of all, marked; ``"parts"``: of
+            force or moment what turns with the crank and what turns against it, over one numeric
+            dimension, a panel for each order and what else was swept; ``"map"``: over two
             numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,
             and order, in colours; ``"bars"``: over engines, force beside moment in the orders up to
             4, with the class of each engine. By default bars for engines alone, a map for two long
@@ -449,7 +451,8 @@ class Sweep(AllOrders):
         Returns
         -------
         numpy.ndarray of matplotlib axes, or matplotlib.axes.Axes
-            The panels, (n_rows, 2), of torque (n_rows, 1); with ``ax`` the axes given.
+            The panels, (n_rows, 2), of torque (n_rows, 1), of parts (n_orders, n_others); with
+            ``ax`` the axes given.
 
         Raises
         ------
@@ -528,6 +531,8 @@ def engine_titles(sweep: Sweep) -> list[str]:
     if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
         return names
     pairs = zip(names, sweep.engines, strict=True)
-    without = [re.sub(rf"\s*\b{engine.bank_angle_deg:g}°", "", name) for name, engine in pairs]
+    without = [
+        re.sub(rf"(^|\s+){engine.bank_angle_deg:g}°", "", name).strip() for name, engine in pairs
+    ]
     distinct = all(without) and len(set(without)) == len(names)
     return without if distinct else names

@@ -1,0 +1,137 @@
+"""Sweeps by what turns with the crank and what turns against it, order by order.
+
+Counterweights take away what turns with the crank at order 1; all else takes balance shafts.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.source import PLANE_VECTORS
+from crankpin.plot.axes import (
+    entitle,
+    entitle_figure,
+    head,
+    inches_of,
+    label_x,
+    label_y,
+    many_panels,
+    one_panel,
+)
+from crankpin.plot.bundle import Curve
+from crankpin.plot.curves import ZERO, entry_of, lines, mark
+from crankpin.plot.legend import figure_legend, legend_below
+from crankpin.plot.orders import MOST, largest
+from crankpin.plot.rows import along_x, dimension, values_of, words_of
+from crankpin.plot.style import MOST_TOLD_APART, series
+from crankpin.plot.ticks import degrees, from_zero, numeric, span
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.sweeps.sweep import Sweep
+
+WIDE = 1.6
+"""Inches that a panel needs beside another."""
+
+
+def parts(
+    sweep: Sweep,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str = "moment",
+    x: str | None = None,
+    orders: object = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw both parts over a swept number, a panel for each order and what else was swept."""
+    name = inputs.one_of("quantity", quantity, PLANE_VECTORS)
+    along, words = along_x(sweep, x), words_of(sweep)
+    if along == "engine":
+        raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
+    others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
+    names = [", ".join(texts) for texts in itertools.product(*others)]
+    places, note = largest(sweep.source, name, MOST - 1)
+    chosen = [sweep.orders[place] for place in places]
+    if orders is not None:
+        chosen, note = inputs.explicit_orders(orders), ""
+    if len(names) > MOST_TOLD_APART:
+        raise InputError(
+            f'kind="parts" has a panel for each of {len(names)} engines or values: sweep up to '
+            f"{MOST_TOLD_APART} beside {along}"
+        )
+    if ax is not None:
+        if len(chosen) * len(names) > 1:
+            raise InputError("ax: here is a panel for each order and engine; give figure")
+        ax = one_panel(ax)
+        entitle(ax, words.title, words.subtitle(name), f"order {chosen[0]}")
+        _draw(ax, sweep, name, along, chosen[0], style)
+        label_y(ax, labels.NAMES[name], labels.UNITS[name])
+        legend_below(ax)
+        return ax
+    made, panels = _panels(figure, len(chosen), len(names))
+    for (row, column), panel in np.ndenumerate(panels):
+        head(panel, ", ".join(filter(None, (f"order {chosen[row]}", names[column]))))
+        _draw(panel, sweep, name, along, chosen[row], style, column)
+        if not panel.get_subplotspec().colspan.start:
+            label_y(panel, labels.NAMES[name], labels.UNITS[name])
+    for of_order in panels:
+        top = max(panel.get_ylim()[1] for panel in of_order)
+        for panel in of_order:
+            panel.set_ylim(0.0, top)
+    entitle_figure(made, words.title, words.subtitle(name), note)
+    both = panels[0, 0].get_legend_handles_labels()[0][:2]
+    figure_legend(made, [*both, *filter(None, [entry_of(panels, ZERO)])])
+    return panels
+
+
+def _panels(figure: Any, orders: int, rest: int) -> tuple[FigureBase, NDArray[Any]]:  # noqa: ANN401
+    """Return a figure and its panels: (orders, rest). As many are side by side as fit."""
+    width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
+    if rest > 1 and width >= WIDE * rest:
+        made = many_panels(figure, orders, rest, sharex="col", sharey="row")
+        return made.figure, made.axes
+    columns = orders if width >= WIDE * orders else 1
+    height = 0.7 if rest == 1 and columns > 1 else 0.45
+    made = many_panels(figure, orders * rest // columns, columns, row_height=height, sharex="col")
+    return made.figure, made.axes.reshape(rest, orders).T
+
+
+def _draw(
+    ax: Axes,
+    sweep: Sweep,
+    name: str,
+    along: str,
+    order: int,
+    style: dict[str, Any],
+    column: int = 0,
+) -> None:
+    """Draw both parts of an order; the column is a place among what is not drawn along x."""
+    vector = getattr(sweep[order], name)
+    sizes = np.abs(np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1))
+    values = np.asarray(sweep.coords[along], dtype=np.float64)
+    heights = np.moveaxis(sizes, list(sweep.coords).index(along), 0)
+    heights = heights.reshape(len(values), -1, len(labels.TURNING))
+    looks = series(ax, len(labels.TURNING), style)
+    drawn = [
+        Curve((column, k), look, text)
+        for k, (look, text) in enumerate(zip(looks, labels.TURNING.values(), strict=True))
+    ]
+    span(ax, values)
+    lines(ax, values, heights, drawn)
+    numeric(ax.yaxis)
+    from_zero(ax, float(heights.max(initial=0.0)))
+    mark(ax, along, values, heights, drawn, least=False)
+    (degrees if along.endswith("_deg") else numeric)(ax.xaxis)
+    grid = ax.get_subplotspec()
+    if grid is None or grid.is_last_row():
+        label_x(ax, dimension(along))
