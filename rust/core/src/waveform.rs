@@ -254,6 +254,35 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
+    use crate::load;
+
+    #[test]
+    fn exact_samples_are_the_sums_of_all_orders() {
+        let engine = load::tests::engine();
+        let request =
+            Request { rpm: 1000.0, reference_z: Some(0.07), spectrum: None, torque: true };
+        let theta_deg: Vec<f64> = (0..40).map(|k| 27.0 * f64::from(k)).collect();
+        let exact = exact(&engine, &request, &theta_deg, &Cancel::new()).unwrap();
+        let all = Orders::Auto { rtol: 1e-14 };
+        let summed = from_orders(&engine, &request, &theta_deg, &all, &Cancel::new()).unwrap();
+        let planar = [(&exact.force, &summed.force), (&exact.moment, &summed.moment)];
+        for (one, other) in planar {
+            let largest = one.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            for (one, other) in one.iter().zip(other) {
+                // Roundings of some twenty orders and ten loads.
+                assert!((one - other).abs() < 1e-13 * largest, "{one} is not {other}");
+            }
+        }
+        let torques = [(exact.torque, summed.torque), (exact.crank_torque, summed.crank_torque)];
+        for (one, other) in torques {
+            let (one, other) = (one.unwrap(), other.unwrap());
+            let largest = one.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            assert!(largest > 0.1, "no torque");
+            for (one, other) in one.iter().zip(&other) {
+                assert!((one - other).abs() < 1e-13 * largest, "{one} is not {other}");
+            }
+        }
+    }
 
     #[test]
     fn cancellation_stops_at_the_next_block() {

@@ -19,7 +19,7 @@ fn unbalance(amount: f64, degrees: f64, z: f64, pin: Option<usize>) -> Unbalance
 }
 
 /// A vee of three cylinders, two of one gear, with weights at pins and elsewhere, and shafts.
-fn engine() -> Engine {
+pub(crate) fn engine() -> Engine {
     let gears = [(0.05, 0.15, 0.5, 0.0), (0.04, 0.12, 0.75, 0.0), (0.05, 0.15, 0.5, 0.0)];
     let places = [(10.0, 60.0, 0.0, 0.3), (130.0, 130.0, 0.1, 0.0), (255.0, 60.0, 0.2, 0.4)];
     let place = |((r, l, m, e), (tdc, bank, z, rotating_mass))| Placement {
