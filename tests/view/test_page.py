@@ -322,6 +322,27 @@ def test_firing_follows_the_library_s(open_engine: Open) -> None:
                 assert end - begin == pytest.approx(known[1] - known[0], abs=1e-9)
 
 
+def test_strokes_follow_each_other_without_a_gap(open_engine: Open) -> None:
+    """Beside the ends of strokes too, at bank angles whose firing is no round number."""
+    page = open_engine(V16)
+    page.evaluate("""() => {
+        for (let bank = 45; bank < 80; bank += 0.7) {
+            crankpin.set({ bank_angle_deg: bank });
+            for (const { strokes } of crankpin.engine.cylinders) {
+                const begin = strokes[0][1];
+                for (const by of [-1e-13, -3e-14, 0, 3e-14, 1e-13]) {
+                    for (const cycle of [-720, 0, 720]) crankpin.set({ angle_deg: begin + by + cycle });
+                }
+            }
+        }
+    }""")
+    first = page.evaluate("crankpin.engine.cylinders[0].strokes[0][1]")
+    page.evaluate("angle_deg => crankpin.set({ angle_deg })", first + 1.0)
+    assert "power" in str(page.locator(".cross .piston").first.get_attribute("class"))
+    page.evaluate("angle_deg => crankpin.set({ angle_deg })", first - 1.0)
+    assert "compression" in str(page.locator(".cross .piston").first.get_attribute("class"))
+
+
 def test_rocking_is_that_of_a_free_block(open_engine: Open) -> None:
     engine = cp.Engine.preset("i2-180").replace(rotating_mass=0.2)  # force and moment
     page = open_engine(engine)

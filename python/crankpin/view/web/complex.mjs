@@ -26,5 +26,7 @@ export function unit(degrees) {
 /** Degrees reduced to [0, cycle). */
 export function reduced(degrees, cycle = 360) {
   const rest = degrees % cycle;
-  return rest < 0 ? rest + cycle : rest;
+  const found = rest < 0 ? rest + cycle : rest;
+  // A cycle less a rounding is a cycle.
+  return found < cycle ? found : 0;
 }

@@ -128,6 +128,7 @@ export function strokesAt({ cylinders, cycle }, thetaDeg) {
   return cylinders.map(({ strokes: periods }) => {
     if (!periods) return null;
     const after = reduced(thetaDeg - periods[0][1], cycle) + periods[0][1];
-    return periods.find(([, , end]) => after < end)[0];
+    // Whatever rounding did: the first has begun.
+    return periods.findLast(([, begin]) => after >= begin)[0];
   });
 }

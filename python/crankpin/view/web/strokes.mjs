@@ -1,0 +1,76 @@
+// The strokes of each cylinder over a cycle, a row each, with its firing, its dead centres and its height.
+
+import { reduced } from "./complex.mjs";
+import { fixed, numbered, show, svg } from "./dom.mjs";
+import { STRINGS } from "./strings.mjs";
+
+export const ROW = 17; // pixels
+
+const STROKES = ["power", "exhaust", "intake", "compression"];
+
+/** Marks of one kind are one path for all cylinders: hundreds of elements would take their time. */
+export class Strokes {
+  constructor(cylinders) {
+    this.paths = Object.fromEntries(["zero-line", ...STROKES, "tdc", "fires"].map((name) =>
+      [name, svg("path", { class: STROKES.includes(name) ? `stroke ${name}` : name })]));
+    this.numbers = cylinders.map(({ number }) =>
+      fixed(svg, "text", "cylinder", number, `${number}`, { class: "tick" }));
+    this.heights = cylinders.map(({ number }) =>
+      numbered(svg, "text", `piston-${number}`, { class: "height" }));
+    this.element = svg("g", {}, ...Object.values(this.paths), ...this.numbers, ...this.heights);
+  }
+
+  /** Go to a height in the timeline, whose ends are at `left` and `right`. */
+  place(top, left, right) {
+    this.top = top;
+    this.numbers.forEach((number, k) => {
+      const y = top + k * ROW + ROW / 2 + 4;
+      for (const [element, x] of [[number, left - 8], [this.heights[k], right + 8]]) {
+        element.setAttribute("x", x);
+        element.setAttribute("y", y);
+      }
+    });
+    const line = (_, k) => `M${left} ${top + k * ROW + ROW / 2}H${right}`;
+    this.paths["zero-line"].setAttribute("d", this.numbers.map(line).join(""));
+  }
+
+  /** Draw the marks; `x` is the place of an angle. */
+  layout(cylinders, cycle, x) {
+    const drawn = Object.fromEntries([...STROKES, "tdc", "fires"].map((name) => [name, ""]));
+    cylinders.forEach(({ tdc_deg: tdc, strokes }, k) => {
+      const top = this.top + k * ROW;
+      for (const [name, begin, end] of strokes ?? []) {
+        for (const [from, to] of wrapped(begin, end, cycle)) {
+          drawn[name] += `M${at(x(from))} ${top + 2}H${at(x(to))}v${ROW - 4}H${at(x(from))}Z`;
+        }
+      }
+      for (let angle = reduced(tdc); angle < cycle; angle += 360) {
+        drawn.tdc += `M${at(x(angle))} ${top + 1}v${ROW - 2}`;
+      }
+      if (strokes) {
+        const fires = at(x(reduced(strokes[0][1], cycle)));
+        drawn.fires += `M${fires} ${top + ROW / 2 - 5}l4.5 5l-4.5 5l-4.5-5z`;
+      }
+    });
+    for (const [name, d] of Object.entries(drawn)) {
+      if (this.paths[name].getAttribute("d") !== d) this.paths[name].setAttribute("d", d);
+    }
+  }
+
+  /** Write the pistons' heights. */
+  pose({ cylinders }) {
+    this.heights.forEach((element, k) => {
+      const { height } = cylinders[k];
+      show(element, height, `${(height * 1e3).toFixed(2)} ${STRINGS.millimetres}`);
+    });
+  }
+}
+
+const at = (x) => x.toFixed(2);
+
+/** A period within a cycle, in one or two pieces. */
+function wrapped(begin, end, cycle) {
+  const from = reduced(begin, cycle);
+  const to = from + end - begin;
+  return to <= cycle ? [[from, to]] : [[from, cycle], [0, to - cycle]];
+}
