@@ -25,6 +25,8 @@ SHORT = 1.9
 """Inches of height below which axes get a short title."""
 IN_A_ROW = 0.75
 """Part of their width that the layout leaves to axes beside others."""
+BESIDE_A_SCALE = 0.55
+"""The same where a scale of colours stands beside them too."""
 TICK_LABELS = 0.12
 """Part of a figure's width that is beside axes; longer labels of ticks take width from them."""
 
@@ -129,10 +131,13 @@ def entitle_figure(figure: FigureBase, *lines: str) -> None:
     figure.suptitle(text, x=0.012, ha="left", fontsize=font.get_size())
 
 
-def head(ax: Axes, text: str, pad: float | None = None) -> None:
-    """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`."""
+def head(ax: Axes, text: str, pad: float | None = None, *, part: float = IN_A_ROW) -> None:
+    """Put the name of a panel above it on the left; ``pad`` as of :func:`entitle`.
+
+    ``part`` of the width of the axes will be left by the layout.
+    """
     font = FontProperties(size="medium")
-    block = _block([text], IN_A_ROW * inches_of(ax), font)
+    block = _block([text], part * inches_of(ax), font)
     ax.set_title(block, loc="left", fontsize="medium", color=muted(ax), pad=pad)
 
 

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
 from crankpin.plot.axes import (
+    BESIDE_A_SCALE,
     entitle,
     entitle_figure,
     head,
@@ -110,6 +111,8 @@ def _draw(
             (degrees if along.endswith("_deg") else numeric)(panel.xaxis)
     if bundle.scale:
         colour_scale(panels, sweep, bundle.scale)
+        for panel in panels[0]:
+            head(panel, panel.get_title(loc="left").replace("\n", " "), part=BESIDE_A_SCALE)
     return bundle
 
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import FigureBase
 
+MOST_ROWS = 2
+"""Rows of a legend that is no wider than its axes."""
 GAP = 4.0
 """Points between the labels of an axis and the legend."""
 HANDLE, BETWEEN = 2.2, 1.2
@@ -38,17 +40,25 @@ def legend_below(
     if len(handles) < fewest:
         return
     names = [str(handle.get_label()) for handle in handles]
-    occupied = ax.xaxis.get_tightbbox()
-    frame, dpi = ax.get_window_extent(), ax.get_figure(root=True).dpi  # type: ignore[union-attr]
-    down = 0.0 if occupied is None else max(0.0, frame.y0 - occupied.y0) / dpi
+    figure: Any = ax.get_figure(root=True)
+    frame = ax.get_window_extent()
+    below, beside = ax.xaxis.get_tightbbox(), ax.yaxis.get_tightbbox()
+    down = 0.0 if below is None else max(0.0, frame.y0 - below.y0) / figure.dpi
+    left, layout = 0.0, _layout(names, title, inches_of(ax))
+    if beside is not None and len(names) > MOST_ROWS * layout["ncols"]:
+        # Under the labels of the vertical axis there is room too.
+        room = max(0.0, frame.x0 - beside.x0) / figure.dpi
+        wider = _layout(names, title, inches_of(ax) + room)
+        if wider["ncols"] > layout["ncols"]:
+            left, layout = room, wider
     to_inches = ax.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
     ax.legend(
         handles=handles,
         loc="upper left",
         bbox_to_anchor=(0.0, 0.0),
-        bbox_transform=ax.transAxes + ScaledTranslation(0.0, -down - GAP / 72.0, to_inches),
+        bbox_transform=ax.transAxes + ScaledTranslation(-left, -down - GAP / 72.0, to_inches),
         borderaxespad=0.0,
-        **_layout(names, title, inches_of(ax)),
+        **layout,
     )
 
 
