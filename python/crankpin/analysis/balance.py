@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -29,6 +30,10 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
+UNIT_RPM = 30.0 / math.pi
+"""Crank speed at which ω is 1 rad/s."""
+
+
 def balance(
     engine: Engine,
     rpm: float,
@@ -46,6 +51,13 @@ def balance(
     found = Balance(engine, inputs.number("rpm", rpm), request)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
+
+
+def over_square(
+    engine: Engine, orders: Sequence[int], reference_z: float | None = None, *, torque: bool = False
+) -> Balance:
+    """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
+    return balance(engine, UNIT_RPM, orders=orders, reference_z=reference_z, torque=torque)
 
 
 def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:

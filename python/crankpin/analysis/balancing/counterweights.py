@@ -21,6 +21,7 @@ from crankpin.analysis.balancing.first_order import (
     first_order,
 )
 from crankpin.analysis.balancing.fitting import Fit, external, internal
+from crankpin.analysis.balancing.planes import turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
@@ -239,8 +240,7 @@ class Counterweights(Frozen):
     @property
     def residual(self) -> ForwardPart:
         """What stays of the forward force and moment, over ω²."""
-        order_1 = first_order(self.engine, self.reference_z)
-        return ForwardPart(complex(order_1.force.forward), complex(order_1.moment.forward))
+        return ForwardPart(*turning(self.engine, 1, self.reference_z))
 
     @property
     def ellipses(self) -> Ellipses:

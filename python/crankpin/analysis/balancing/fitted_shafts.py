@@ -13,10 +13,10 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
-from crankpin.analysis.balance import Balance, balance
+from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
 from crankpin.analysis.balancing.lanchester import PairHeights, makes_a_pair, pair_heights
-from crankpin.analysis.balancing.planes import UNIT_RPM, roll_torque
+from crankpin.analysis.balancing.planes import roll_torque
 from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Label
     from crankpin.model.engine import Engine
 
-OVER_SPEED = {"force": "kg·m", "moment": "kg·m²", "torque": "kg·m²"}
+OVER_SPEED = labels.OVER_SQUARE | {"torque": "kg·m²"}
 """Quantity → its unit over ω²."""
 
 
@@ -248,15 +248,14 @@ class BalanceShafts(Frozen):
     def parts(self) -> tuple[PartLeft, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after."""
         before, after = (
-            balance(each, UNIT_RPM, orders=self.orders, reference_z=self.plane)
+            over_square(each, self.orders, self.plane, torque=True)
             for each in (self.before, self.engine)
         )
-        over = inputs.angular_speed(UNIT_RPM) ** 2
         found = []
         for order, quantity in itertools.product(self.orders, OVER_SPEED):
             pair = [getattr(each[order], quantity) for each in (before, after)]
             for part, name in PARTS[quantity]:
-                sizes = [float(abs(getattr(each, name))) / over for each in pair]
+                sizes = [float(abs(getattr(each, name))) for each in pair]
                 found.append(PartLeft(order, quantity, part, *sizes))
         return tuple(found)
 

@@ -13,8 +13,9 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.first_order import bay_alone, first_order
+from crankpin.analysis.balancing.first_order import bay_alone
 from crankpin.analysis.balancing.least_weights import Problem, least
+from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.shafts import Unbalance
 
@@ -118,18 +119,13 @@ def external(
     names, places = list(planes), np.array(list(planes.values()))
     levers = np.append(places, engine.z) - plane
     length = fit.length or float(np.abs(levers).max()) or 1.0
-    order_1 = first_order(engine, plane)
+    there = turning(engine, 1, plane)._asdict()
     made = {"force": np.ones(len(places)) + 0j, "moment": 1j * (places - plane) / length}
     unit = {"force": 1.0, "moment": length}
     found = least(
         Problem(
             np.array([made[name] for name in fit.parts]),
-            np.array(
-                [
-                    -part * complex(getattr(order_1, name).forward) / unit[name]
-                    for name, part in fit.parts.items()
-                ]
-            ),
+            np.array([-part * there[name] / unit[name] for name, part in fit.parts.items()]),
             np.array([bounds[name] for name in names]),
             None
             if angles is None

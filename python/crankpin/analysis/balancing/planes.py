@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin._support import inputs
-from crankpin.analysis.balance import balance
+from crankpin.analysis.balance import over_square
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
@@ -16,9 +15,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.model.engine import Engine
-
-UNIT_RPM = 30.0 / np.pi
-"""Crank speed at which ω is 1 rad/s: forces there are amounts over ω², kg·m."""
 
 NOTHING = 1e-14
 """Part of the largest of several values below which another is a rounding error."""
@@ -36,20 +32,17 @@ class Turning(NamedTuple):
     """Moment about the reference plane, kg·m²."""
 
 
-def turning(engine: Engine, ratio: int, reference_z: float | None) -> Turning:
+def turning(engine: Engine, ratio: int, reference_z: float | None = None) -> Turning:
     """Return the part of an engine's force and moment that turns with a shaft of this ratio."""
     order = abs(ratio)
-    found = balance(engine, UNIT_RPM, orders=[order], reference_z=reference_z, torque=False)[order]
+    found = over_square(engine, [order], reference_z)[order]
     part = "forward" if ratio > 0 else "backward"
-    over = inputs.angular_speed(UNIT_RPM) ** 2
-    force, moment = (complex(getattr(each, part)) for each in (found.force, found.moment))
-    return Turning(force / over, moment / over)
+    return Turning(*(complex(getattr(each, part)) for each in (found.force, found.moment)))
 
 
 def roll_torque(engine: Engine, order: int) -> complex:
     """Return the phasor of an order of an engine's roll torque over ω², kg·m²."""
-    torque = balance(engine, UNIT_RPM, orders=[order])[order].torque
-    return complex(torque.phasor) / inputs.angular_speed(UNIT_RPM) ** 2
+    return complex(over_square(engine, [order], torque=True)[order].torque.phasor)
 
 
 def influence(z: Sequence[float], reference_z: float) -> NDArray[np.complex128]:

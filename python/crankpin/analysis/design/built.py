@@ -11,6 +11,7 @@ import numpy as np
 
 from crankpin._support import inputs
 from crankpin.analysis.arrangements.cranks import Crank, exact
+from crankpin.analysis.balance import UNIT_RPM
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
 from crankpin.model.shafts import Shaft, Unbalance
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.design.question import Question
     from crankpin.analysis.sweeps.sweep import Sweep
 
-RPM = 60.0
-"""Speed at which shafts are fitted: what they need does not depend on it."""
 ROUNDING = 1e-12
 """Unbalance, relative to the reciprocating one of a cylinder, below which it is rounding."""
 
@@ -114,7 +113,7 @@ def _with_shafts(question: Question, bare: list[Engine]) -> list[Engine]:
     first and the last throw: force and moment determine them.
     """
     orders = sorted({abs(ratio) for ratio in question.shafts})
-    swept = sweep(bare, rpm=RPM, orders=orders, torque=False)
+    swept = sweep(bare, rpm=UNIT_RPM, orders=orders, torque=False)
     return [
         engine.with_shafts([_shaft(swept, k, ratio) for ratio in question.shafts])
         for k, engine in enumerate(bare)
@@ -127,7 +126,7 @@ def _shaft(swept: Sweep, k: int, ratio: int) -> Shaft:
     load = np.array([getattr(found.force, part)[k], getattr(found.moment, part)[k]])
     places = np.unique([engine.z.min(), engine.z.max()])
     influence = np.array([np.ones(places.size), 1j * (places - engine.reference_z)])
-    needed = np.linalg.lstsq(influence, -load / (ratio * inputs.angular_speed(RPM)) ** 2)[0]
+    needed = np.linalg.lstsq(influence, -load / ratio**2)[0]
     parts = engine.cylinders[0]
     rounding = ROUNDING * parts.reciprocating_mass * parts.crank_radius
     unbalances = [
