@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.analysis.balancing.correction_planes import degrees
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.first_order import first_order
 from crankpin.model.crankpins import crankpins
+from crankpin.model.shafts import degrees
 from crankpin.plot.axes import (
     check_one_place,
     entitle,

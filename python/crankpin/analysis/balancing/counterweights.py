@@ -25,6 +25,7 @@ from crankpin.analysis.balancing.planes import turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
+from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -326,10 +327,7 @@ class Counterweights(Frozen):
         return table
 
     def _rows(self) -> list[tuple[float, float, float]]:
-        return [
-            (weight.z, weight.amount, correction_planes.degrees(weight.angle_deg))
-            for weight in self.unbalances
-        ]
+        return [(weight.z, weight.amount, degrees(weight.angle_deg)) for weight in self.unbalances]
 
     def table(self) -> Table:
         """Return the table of the weights."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from crankpin.analysis.balance import over_square
-from crankpin.analysis.balancing import correction_planes
 from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Unbalance
+from crankpin.model.shafts import Unbalance, degrees
 
 if TYPE_CHECKING:
     from crankpin.analysis.by_order import OrderBalance
@@ -86,4 +85,4 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
 def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
     """Return a weight at its own angle: its pin has another number in a bay, or none."""
     start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
-    return Unbalance(weight.amount, weight.z, start + correction_planes.degrees(weight.angle_deg))
+    return Unbalance(weight.amount, weight.z, start + degrees(weight.angle_deg))
