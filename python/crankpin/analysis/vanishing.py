@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
+from crankpin.analysis.by_order import place_of
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -256,15 +256,10 @@ class VanishingOrders(Frozen):
         InputError
             If the order is not among ``orders``.
         """
-        if not isinstance(order, (int, np.integer)) or order not in self.orders:
-            there = labels.orders_text(self.orders)
-            raise InputError(
-                f"order = {inputs.shorten(order)}: is not among the orders of this result ({there})"
-            )
-        k = self.orders.index(int(order))
+        k = place_of(order, self.orders)
         words = [self._word(k, column) for column in range(len(self.sums))]
         return OrderVerdicts(
-            int(order), VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
+            self.orders[k], VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
         )
 
     def __iter__(self) -> Iterator[OrderVerdicts]:
