@@ -294,7 +294,7 @@ class Balance(AllOrders):
             columns.append(peaks.reshape(len(self.orders), -1))
         rows = np.hstack(columns)[list(shown)].reshape(-1, len(header) - 1)
         given = " of the orders given" if self.request.orders is not None else ""
-        engine = self.engine.name or f"{len(self.engine)} cylinders"
+        engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: peaks{given}"
         names = [f"{self.orders[place]}" for place in shown]
         return Table(title, header, names, rows, note=labels.not_shown(left_out))

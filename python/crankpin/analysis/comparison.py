@@ -204,10 +204,7 @@ class Comparison(Frozen):
     @property
     def names(self) -> tuple[str, str]:
         """Names of the engines; ``"before"`` and ``"after"`` if they have one name."""
-        first, second = (
-            each.engine.name or f"{len(each.engine)} cylinders"
-            for each in (self.before, self.after)
-        )
+        first, second = (labels.name_of(each.engine) for each in (self.before, self.after))
         return (first, second) if first != second else ("before", "after")
 
     @property
@@ -215,7 +212,7 @@ class Comparison(Frozen):
         """Names of the engines, or the one they have."""
         engine = self.before.engine
         if self.names == ("before", "after"):
-            return engine.name or f"{len(engine)} cylinders"
+            return labels.name_of(engine)
         return " → ".join(self.names)
 
     def __repr__(self) -> str:

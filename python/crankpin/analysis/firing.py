@@ -12,7 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, optional, tables
+from crankpin._support import inputs, labels, optional, tables
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import gas_exchange
 
@@ -281,12 +281,12 @@ class Firing(Frozen):
 
     def table(self) -> tables.Table:
         """Return a table of the cylinders in firing order."""
-        name = self.engine.name or f"{len(self.engine)} cylinders"
+        name = labels.name_of(self.engine)
         header = ["cylinder", "fires at °", "to the next °", "to the next of its bank °"]
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
-        labels = [f"{cylinder}" for cylinder in self.order]
-        return tables.Table(f"{name}: {self.summary}", header, labels, rows)
+        names = [f"{cylinder}" for cylinder in self.order]
+        return tables.Table(f"{name}: {self.summary}", header, names, rows)
 
     @property
     def summary(self) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from crankpin import _core
-from crankpin._support import inputs, optional
+from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Table
 from crankpin.analysis.by_order import place_of
@@ -288,7 +288,7 @@ class VanishingOrders(Frozen):
 
     def table(self) -> Table:
         """Return the table that is shown: a verdict for each order and sum."""
-        name = self.engine.name or f"{len(self.engine)} cylinders"
+        name = labels.name_of(self.engine)
         title = f"{name}: 0 vanishes, ≠0 remains, both proved"
         if self.undecided.any():
             title += "; ?0 and ?≠0 undecided, with the finding of floating point"

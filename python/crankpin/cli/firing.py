@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import tables
+from crankpin._support import labels, tables
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> str:
         for each in shown
     ]
     rows = np.array([[each.unevenness_deg] for each in shown])
-    name = engine.name or f"{len(engine)} cylinders"
+    name = labels.name_of(engine)
     header = ["firing order", "intervals °", "rms from even °"]
     table = tables.Table(
         f"{name}: {firings[0].strokes}-stroke, most even first", header, listed, rows

@@ -14,7 +14,7 @@ from crankpin.plot.legend import legend_below
 from crankpin.plot.orders import largest
 from crankpin.plot.plane import PLANE_REMEDY, arrow_at, dress_plane
 from crankpin.plot.style import SERIES, series
-from crankpin.plot.words import name_of, number
+from crankpin.plot.words import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,7 +46,7 @@ def ellipses(
     where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm"
     if ax is not None:
         ax = one_panel(ax)
-        entitle(ax, name_of(result.engine), where, note)
+        entitle(ax, labels.name_of(result.engine), where, note)
         _on_one(ax, [result[order] for order in shown], name, style)
         return ax
     rows = max(1, -(-len(shown) // COLUMNS))
@@ -67,7 +67,7 @@ def ellipses(
     made.figure.supxlabel(f"{along_x}, {labels.UNITS[name]}", fontsize="medium")
     made.figure.supylabel(f"{along_y}, {labels.UNITS[name]}", fontsize="medium")
     scales = "each panel to its own scale; dot: θ = 0"
-    entitle_figure(made.figure, name_of(result.engine), where, scales, note)
+    entitle_figure(made.figure, labels.name_of(result.engine), where, scales, note)
     return made.axes
 
 

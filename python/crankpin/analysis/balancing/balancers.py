@@ -188,7 +188,7 @@ class BalancerOptions(Frozen):
 
     def table(self) -> Table:
         """Return the table that is shown: the Pareto front."""
-        engine = self.before.name or f"{len(self.before)} cylinders"
+        engine = labels.name_of(self.before)
         front = self.front[:SHOWN]
         columns = {
             "set": [each.name for each in front],

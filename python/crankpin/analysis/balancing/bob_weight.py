@@ -307,7 +307,7 @@ class BobWeight(Frozen):
             ],
             axis=1,
         )
-        name = self.before.name or f"{len(self.before)} cylinders"
+        name = labels.name_of(self.before)
         title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
         title += " + oil" if self.oil else ""
         header = [

@@ -331,7 +331,7 @@ class Counterweights(Frozen):
 
     def table(self) -> Table:
         """Return the table of the weights."""
-        name = self.before.name or f"{len(self.before)} cylinders"
+        name = labels.name_of(self.before)
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         names = [(plane,) for plane, _ in self.by_plane]
         rows = np.array(self._rows()).reshape(-1, 3)

@@ -203,7 +203,7 @@ class BalanceShafts(Frozen):
         return self._unbalances(), self._shafts(), self._stays()
 
     def _unbalances(self) -> Table:
-        engine = self.before.name or f"{len(self.before)} cylinders"
+        engine = labels.name_of(self.before)
         names: list[Label] = [
             [str(number), f"{each.shaft.ratio:+d}"]
             for number, each in enumerate(self.shafts, start=1)

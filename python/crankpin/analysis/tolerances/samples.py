@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
@@ -334,7 +334,7 @@ class Tolerances(AllOrders):
             [self.nominal_value(by), self.mean(by), self.std(by), *self.quantile(by=by)]
             for by in self.by
         ]
-        engine = self.engine.name or f"{len(self.engine)} cylinders"
+        engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.source.spreads.text}"
         return Table(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
 
