@@ -12,7 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
 from crankpin.analysis.drawing import draw
@@ -138,7 +138,7 @@ def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
     return ErrorBound(force, moment, core.error_bound("torque") if torque_known else None)
 
 
-class Balance(AllOrders):
+class Balance(AllOrders, Shown):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force`` and ``moment`` are :class:`~crankpin.types.PlaneVector`, ``torque`` and
@@ -298,9 +298,3 @@ class Balance(AllOrders):
         title = f"{engine} at {self.rpm:g} rpm: peaks{given}"
         names = [f"{self.orders[place]}" for place in shown]
         return Table(title, header, names, rows, note=labels.not_shown(left_out))
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import Balance, at_orders, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
@@ -76,7 +76,7 @@ def compare(
     return Comparison(at_orders(first, both), at_orders(second, both))
 
 
-class Comparison(Frozen):
+class Comparison(Frozen, Shown):
     """Two balances at the same speed and orders.
 
     Made by :func:`crankpin.compare`.
@@ -214,9 +214,3 @@ class Comparison(Frozen):
         if self.names == ("before", "after"):
             return labels.name_of(engine)
         return " → ".join(self.names)
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

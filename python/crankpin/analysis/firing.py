@@ -235,17 +235,14 @@ class Firing(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a cylinder in firing order (needs pandas)."""
-        pandas = optional.pandas()
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
             "interval_deg": self.intervals_deg,
             "gap_in_bank_deg": self._gap_in_bank(),
         }
-        table: pd.DataFrame = pandas.DataFrame(
-            columns, index=pandas.Index(self.order, name="cylinder")
-        )
-        return table
+        index = optional.pandas().Index(self.order, name="cylinder")
+        return optional.data_frame(columns, index=index)
 
     def plot(
         self,

@@ -283,8 +283,7 @@ class VanishingOrders(Frozen):
             for column, (quantity, component) in enumerate(self.sums)
         ]
         columns = ["order", "quantity", "component", "verdict", "within_rounding"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def table(self) -> Table:
         """Return the table that is shown: a verdict for each order and sum."""

@@ -12,7 +12,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 
@@ -53,7 +53,7 @@ class BalancerOption:
     """True if the target is reached; False without one."""
 
 
-class BalancerOptions(Frozen):
+class BalancerOptions(Frozen, Shown):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
     A sequence of :class:`~crankpin.types.BalancerOption`. Made by
@@ -171,8 +171,7 @@ class BalancerOptions(Frozen):
         columns = [
             "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
         ]  # fmt: skip
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw what each set of the front leaves, in per cent of what there is; return the axes.
@@ -215,9 +214,3 @@ class BalancerOptions(Frozen):
         )
         found = "no set reaches it" if self.least is None else f"least {self.least.name}"
         return f"Target: {wanted}; {found}."
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -292,8 +292,7 @@ class BobWeight(Frozen):
             "oil": self.oil,
             "mass": self.mass,
         }
-        table: pd.DataFrame = optional.pandas().DataFrame(columns)
-        return table
+        return optional.data_frame(columns)
 
     def table(self) -> Table:
         """Return the table of the bob weights in grams."""

@@ -323,8 +323,7 @@ class Counterweights(Frozen):
         """
         rows = [(name, *row) for (name, _), row in zip(self.by_plane, self._rows(), strict=True)]
         columns = ["plane", "z", "amount", "angle_deg"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def _rows(self) -> list[tuple[float, float, float]]:
         return [(weight.z, weight.amount, degrees(weight.angle_deg)) for weight in self.unbalances]

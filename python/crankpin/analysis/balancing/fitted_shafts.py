@@ -181,8 +181,7 @@ class BalanceShafts(Frozen):
             for weight in each.shaft.unbalances
         ]  # fmt: skip
         columns = ["shaft", "ratio", "order", "part", "x", "y", "z", "amount", "angle_deg"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen, read_only
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balancing.planes import shares, unbalance
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Unbalance
@@ -99,7 +99,7 @@ def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     return float(listed[0]), float(listed[1])
 
 
-class TwoPlaneCorrection(Frozen):
+class TwoPlaneCorrection(Frozen, Shown):
     """Corrections in two planes, and the imbalance that they correct.
 
     Made by :func:`crankpin.two_plane_correction`.
@@ -180,17 +180,10 @@ class TwoPlaneCorrection(Frozen):
             "angle_deg": self.angle_deg,
             "drill_deg": self.drill_deg,
         }
-        table: pd.DataFrame = optional.pandas().DataFrame(columns)
-        return table
+        return optional.data_frame(columns)
 
     def table(self) -> Table:
         """Return the table of the corrections."""
         columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
         header = ["plane", "z m", "g·mm", "add at °", "or drill at °"]
         return Table("Two-plane correction", header, ["1", "2"], np.stack(columns, axis=1))
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

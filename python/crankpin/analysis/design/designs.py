@@ -226,8 +226,7 @@ class Designs(Frozen):
         ]
         columns = ["place", "engine", "throws_deg", "pin_split_deg", "bank_angle_deg", "isolated"]
         columns += ["objective", "value", "unit"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
         """Draw the first objective of the best designs over bank angle; return the axes.

@@ -181,8 +181,7 @@ class Ranking(Frozen):
             for point, value in zip(points, values.ravel().tolist(), strict=True)
         ]
         columns = ["engine", "bank_angle_deg", "objective", "value", "unit"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def _units(self) -> dict[str, str]:
         units = {each.label: each.unit for each in of_table(self.sweep)}
