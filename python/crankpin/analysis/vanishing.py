@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Frozen, Listed
 from crankpin._support.tables import Table
 from crankpin.analysis.by_order import place_of
 from crankpin.analysis.request import engine_core
@@ -47,13 +47,14 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
-class Verdicts(Frozen):
+class Verdicts(Listed[str]):
     """Verdicts on one sum, order by order: "vanishes", "remains" or "undecided".
 
     A read-only sequence, in the sequence of ``orders``; ``np.asarray`` makes an array of text.
     """
 
     _fields: ClassVar[tuple[str, ...]] = ("orders", "words", "within_rounding")
+    _items = "words"
 
     orders: tuple[int, ...]
     """Multiples of crank speed."""
@@ -87,15 +88,6 @@ class Verdicts(Frozen):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
         return np.array(self.words, dtype=dtype)
-
-    def __len__(self) -> int:
-        return len(self.words)
-
-    def __getitem__(self, place: int) -> str:
-        return self.words[place]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.words)
 
     def __repr__(self) -> str:
         pairs = zip(self.orders, self.words, strict=True)

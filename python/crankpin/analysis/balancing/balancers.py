@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Listed
 from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
@@ -53,7 +52,7 @@ class BalancerOption:
     """True if the target is reached; False without one."""
 
 
-class BalancerOptions(Frozen, Shown):
+class BalancerOptions(Listed[BalancerOption], Shown):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
     A sequence of :class:`~crankpin.types.BalancerOption`. Made by
@@ -72,6 +71,7 @@ class BalancerOptions(Frozen, Shown):
     _fields: ClassVar[tuple[str, ...]] = (
         "before", "rpm", "plane", "objectives", "targets", "options",
     )  # fmt: skip
+    _items = "options"
 
     before: Engine
     """The engine as it was given."""
@@ -143,15 +143,6 @@ class BalancerOptions(Frozen, Shown):
     def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
         """Return what stays with the least hardware that reaches the target."""
         return balance(self.engine, rpm, orders=orders, rtol=rtol, reference_z=self.plane)
-
-    def __len__(self) -> int:
-        return len(self.options)
-
-    def __getitem__(self, place: int) -> BalancerOption:
-        return self.options[place]
-
-    def __iter__(self) -> Iterator[BalancerOption]:
-        return iter(self.options)
 
     # --- tables and pictures --------------------------------------------------------------------
 

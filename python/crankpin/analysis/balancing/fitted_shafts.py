@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Listed
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
@@ -55,7 +54,7 @@ class PartLeft(NamedTuple):
     """Size with them, kg·m or kg·m²."""
 
 
-class BalanceShafts(Frozen):
+class BalanceShafts(Listed[FittedShaft]):
     """Balance shafts fitted to an engine, and the engine with them.
 
     A sequence of :class:`~crankpin.types.FittedShaft`, in the order of the ratios given. Made by
@@ -75,6 +74,7 @@ class BalanceShafts(Frozen):
     """
 
     _fields: ClassVar[tuple[str, ...]] = ("before", "shafts", "plane", "extra_torque")
+    _items = "shafts"
 
     before: Engine
     """The engine as it was given."""
@@ -141,15 +141,6 @@ class BalanceShafts(Frozen):
 
     def _of(self, order: int) -> list[FittedShaft]:
         return [each for each in self.shafts if each.order == order]
-
-    def __len__(self) -> int:
-        return len(self.shafts)
-
-    def __getitem__(self, place: int) -> FittedShaft:
-        return self.shafts[place]
-
-    def __iter__(self) -> Iterator[FittedShaft]:
-        return iter(self.shafts)
 
     def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
         """Return what stays: the balance of the engine with the shafts.
