@@ -6,13 +6,13 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import CYLINDER
-from crankpin.analysis.crankshaft import throws
 from crankpin.analysis.geometry import (
     assumed_bores,
     geometry,
     weights_on_crank,
     weights_on_shafts,
 )
+from crankpin.model.crankpins import bays, throws
 
 STAGGERED = cp.Engine.vee(
     CYLINDER, bank_angle_deg=90, throws_deg=[0, 120, 240], spacing=0.11, bank_stagger=0.022
@@ -78,12 +78,33 @@ def test_rods_share_crankpins_as_built() -> None:
     assert [pin.z for (pin,) in throws(STAGGERED)] == pytest.approx([0.011, 0.121, 0.231])
 
 
+def test_all_analyses_have_the_same_crankpins_and_throws() -> None:
+    boxer = cp.Engine.preset("boxer-4")
+    # Neighbouring pins of two throws point the same way.
+    assert boxer.pin_deg[1] == boxer.pin_deg[2]
+    for engine in (boxer, cp.Engine.preset("w16"), RADIAL, STAGGERED):
+        pins = tuple(each for throw in numbers(engine) for each in throw)
+        assert cp.tolerances(engine, rpm=60, samples=1).pins == pins
+        assert tuple(pin.cylinders for pin in cp.bob_weight(engine).crankpins) == pins
+    # Pins split on a throw are between two main bearings, rods side by side or not.
+    split = cp.Engine.vee(
+        CYLINDER,
+        bank_angle_deg=60,
+        throws_deg=[0, 120, 240],
+        spacing=0.11,
+        pin_split_deg=-60,
+        bank_stagger=0.022,
+    )
+    assert numbers(split) == [[(1,), (2,)], [(3,), (4,)], [(5,), (6,)]]
+    assert [bay.cylinders for bay in bays(split)] == [(1, 2), (3, 4), (5, 6)]
+
+
 def test_crankpins_are_numbered_from_the_front() -> None:
     i3 = cp.Engine.from_lists(CYLINDER, bank_deg=[90] * 3, z=[0.2, 0.0, 0.1], pin_deg=[0, 120, 240])
     assert numbers(i3) == [[(2,)], [(3,)], [(1,)]]
     ((first,), _, (last,)) = throws(i3)
     assert (first.z, last.z) == (0.0, 0.2)
-    assert last.at == pytest.approx(CYLINDER.crank_radius)
+    assert last.pin_deg == 0.0
 
 
 # --- bores and unbalances -----------------------------------------------------------------------

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, Self, TypeVar
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+Item = TypeVar("Item")
 
 
 class Frozen:
@@ -49,6 +51,25 @@ class Frozen:
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         return self
+
+
+class Listed(Frozen, Generic[Item]):
+    """Base class of results that are a sequence: of the items of one attribute."""
+
+    _items: ClassVar[str]
+    """Name of the attribute."""
+
+    def _listed(self) -> tuple[Item, ...]:
+        return getattr(self, self._items)  # type: ignore[no-any-return]
+
+    def __len__(self) -> int:
+        return len(self._listed())
+
+    def __getitem__(self, place: int) -> Item:
+        return self._listed()[place]
+
+    def __iter__(self) -> Iterator[Item]:
+        return iter(self._listed())
 
 
 def read_only(values: NDArray[Any]) -> NDArray[Any]:

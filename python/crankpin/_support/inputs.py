@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 import operator
 import reprlib
-from collections.abc import Iterable, Mapping, Sequence
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -346,6 +348,14 @@ def warn_of_units(mean_piston_speed: float) -> None:
             f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
             "masses kilograms."
         )
+
+
+@contextlib.contextmanager
+def units_warned_of_elsewhere() -> Iterator[None]:
+    """Keep warnings of units back where a whole call warns once."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+        yield
 
 
 _SHORT = reprlib.Repr()

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from crankpin.model.engine import Engine
+
 SYMBOLS = {
     "force": ("|F_x|", "|F_y|"),
     "moment": ("|M_x|", "|M_y|"),
@@ -94,6 +96,11 @@ def value_text(dimension: str, value: float) -> str:
     """Return a swept dimension with its value: ``bank angle 60°``, ``5000 rpm``."""
     name, unit = SWEPT[dimension]
     return f"{name} {value:.10g}{unit}".strip()
+
+
+def name_of(engine: Engine) -> str:
+    """Return the name of an engine, or its number of cylinders."""
+    return engine.name or f"{len(engine)} cylinders"
 
 
 def orders_text(orders: tuple[int, ...]) -> str:

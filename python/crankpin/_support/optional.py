@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def pandas() -> Any:  # noqa: ANN401 - a module
     """Return pandas, or raise an ImportError that names the extra to install."""
     return _imported("pandas")
+
+
+def data_frame(data: object, **options: object) -> pd.DataFrame:
+    """Return a table of pandas, or raise an ImportError that names the extra to install."""
+    table: pd.DataFrame = pandas().DataFrame(data, **options)
+    return table
 
 
 def xarray() -> Any:  # noqa: ANN401 - a module

@@ -92,6 +92,20 @@ class Table:
         return f"{value:.5g}" if self.decimals is None else f"{value:.{self.decimals}f}"
 
 
+class Shown:
+    """Base class of results that are shown by their table."""
+
+    def table(self) -> Table:
+        """Return the table that is shown."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return self.table().text()
+
+    def _repr_html_(self) -> str:
+        return self.table().html()
+
+
 def decimals(rows: NDArray[np.float64]) -> int | None:
     """Return how many decimals show the largest number to six digits, None outside 0.01 to 1e9.
 

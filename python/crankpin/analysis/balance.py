@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,7 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
 from crankpin.analysis.drawing import draw
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Orders, Spectrum
     from crankpin.model.engine import Engine
+
+
+UNIT_RPM = 30.0 / math.pi
+"""Crank speed at which ω is 1 rad/s."""
 
 
 def balance(
@@ -46,6 +51,13 @@ def balance(
     found = Balance(engine, inputs.number("rpm", rpm), request)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
+
+
+def over_square(
+    engine: Engine, orders: Sequence[int], reference_z: float | None = None, *, torque: bool = False
+) -> Balance:
+    """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
+    return balance(engine, UNIT_RPM, orders=orders, reference_z=reference_z, torque=torque)
 
 
 def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:
@@ -126,7 +138,7 @@ def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
     return ErrorBound(force, moment, core.error_bound("torque") if torque_known else None)
 
 
-class Balance(AllOrders):
+class Balance(AllOrders, Shown):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force`` and ``moment`` are :class:`~crankpin.types.PlaneVector`, ``torque`` and
@@ -282,13 +294,7 @@ class Balance(AllOrders):
             columns.append(peaks.reshape(len(self.orders), -1))
         rows = np.hstack(columns)[list(shown)].reshape(-1, len(header) - 1)
         given = " of the orders given" if self.request.orders is not None else ""
-        engine = self.engine.name or f"{len(self.engine)} cylinders"
+        engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: peaks{given}"
         names = [f"{self.orders[place]}" for place in shown]
         return Table(title, header, names, rows, note=labels.not_shown(left_out))
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -18,6 +18,14 @@ if TYPE_CHECKING:
     from crankpin.analysis.source import ErrorBound, Source
 
 
+def place_of(order: object, orders: tuple[int, ...], why: str = "") -> int:
+    """Return the place of an order in a result, or raise an InputError that ends with ``why``."""
+    if not isinstance(order, (int, np.integer)) or order not in orders:
+        missing = f"is not among the orders of this result ({labels.orders_text(orders)})"
+        raise InputError(f"order = {inputs.shorten(order)}: {missing}{why}")
+    return orders.index(int(order))
+
+
 # --- all orders together ------------------------------------------------------------------------
 
 
@@ -222,18 +230,12 @@ class AllOrders(Quantities):
         InputError
             If the order is not among ``orders``.
         """
-        if not isinstance(order, (int, np.integer)) or order not in self.orders:
-            there = labels.orders_text(self.orders)
-            reason = f"is not among the orders of this result ({there})"
-            if order in self.omitted:
-                reason = f"was omitted as negligible; give orders=[{order}] to have it ({there})"
-            elif self.source.request.orders is None and isinstance(order, (int, np.integer)):
-                reason = (
-                    f"is exactly zero, or above all that matter ({there}); "
-                    f"give orders=[{order}] to have it"
-                )
-            raise InputError(f"order = {inputs.shorten(order)}: {reason}")
-        return OrderBalance(self.source, self.orders.index(int(order)))
+        why = ""
+        if self.source.request.orders is None and isinstance(order, (int, np.integer)):
+            zero = "it is exactly zero, or above all that matter"
+            reason = "it was omitted as negligible" if order in self.omitted else zero
+            why = f": {reason}; give orders=[{order}] to have it"
+        return OrderBalance(self.source, place_of(order, self.orders, why))
 
     def __iter__(self) -> Iterator[OrderBalance]:
         return (OrderBalance(self.source, place) for place in range(len(self.orders)))

@@ -291,7 +291,7 @@ class ClosedForm(Frozen):
     # --- text -----------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        name = self.engine.name or f"{len(self.engine)} cylinders"
+        name = labels.name_of(self.engine)
         lines = [f"{name}: {labels.NAMES[self.quantity]} of order {self.order}"]
         lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
         lines.append(f"{'longest':>9} {self.peak}")

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import Balance, at_orders, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
@@ -76,7 +76,7 @@ def compare(
     return Comparison(at_orders(first, both), at_orders(second, both))
 
 
-class Comparison(Frozen):
+class Comparison(Frozen, Shown):
     """Two balances at the same speed and orders.
 
     Made by :func:`crankpin.compare`.
@@ -204,10 +204,7 @@ class Comparison(Frozen):
     @property
     def names(self) -> tuple[str, str]:
         """Names of the engines; ``"before"`` and ``"after"`` if they have one name."""
-        first, second = (
-            each.engine.name or f"{len(each.engine)} cylinders"
-            for each in (self.before, self.after)
-        )
+        first, second = (labels.name_of(each.engine) for each in (self.before, self.after))
         return (first, second) if first != second else ("before", "after")
 
     @property
@@ -215,11 +212,5 @@ class Comparison(Frozen):
         """Names of the engines, or the one they have."""
         engine = self.before.engine
         if self.names == ("before", "after"):
-            return engine.name or f"{len(engine)} cylinders"
+            return labels.name_of(engine)
         return " → ".join(self.names)
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
-from crankpin.analysis.source import arrays_of
+from crankpin.analysis.source import PLANE_VECTORS, arrays_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.analysis.source import Source
+    from crankpin.analysis.sweeps.waveform import SweepWaveform
+    from crankpin.analysis.waveform import Waveform
 
 
 def variables(quantities: Sequence[str]) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
@@ -54,16 +56,34 @@ def dataset(
 ) -> xr.Dataset:
     """Return a dataset of arrays with the coordinates and attributes of a balance or sweep."""
     orders = np.array(source.orders, dtype=np.int64)
-    labelled: dict[str, Any] = labels.coordinates(coords)
+    labelled = _labelled(coords, quantities)
     labelled["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
-    if {"force", "moment"} & set(quantities):
-        labelled["axis"] = ("axis", ["x", "y"])
     bounds = source.error_bound._asdict()
     limits = {
         f"{quantity}_error_bound": bounds["torque" if quantity == "crank_torque" else quantity]
         for quantity in quantities
     }
     return made(arrays, labelled, {**attributes, **limits}, split_complex=split_complex)
+
+
+def waveforms_to_xarray(
+    result: Waveform | SweepWaveform,
+    quantities: Sequence[str],
+    coords: Mapping[str, Any],
+    attributes: Mapping[str, Any],
+) -> xr.Dataset:
+    """Return values over coordinates, with named dimensions and units."""
+    arrays = {}
+    for name in quantities:
+        dims = (*coords, "axis") if name in PLANE_VECTORS else tuple(coords)
+        arrays[name] = (dims, getattr(result, name), {"units": unit(name)})
+    return made(arrays, _labelled(coords, quantities), attributes)
+
+
+def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str, Any]:
+    """Return coordinates with units, and the axes of forces and moments."""
+    axes = {"axis": ("axis", ["x", "y"])} if set(PLANE_VECTORS) & set(quantities) else {}
+    return labels.coordinates(coords) | axes
 
 
 def made(
@@ -101,7 +121,7 @@ def to_pandas(source: Source, quantities: Sequence[str], coords: Mapping[str, An
     for quantity in quantities:
         phasors = np.asarray(source.read(quantity, "phasors"))
         by_component: dict[str, NDArray[np.complex128]] = {"z": phasors}
-        if quantity in ("force", "moment"):
+        if quantity in PLANE_VECTORS:
             by_component = {
                 "x": phasors[..., 0],
                 "y": phasors[..., 1],
@@ -120,6 +140,29 @@ def to_pandas(source: Source, quantities: Sequence[str], coords: Mapping[str, An
                 "imag": flat.imag,
                 "peak": np.abs(flat),
                 "unit": labels.UNITS[quantity],
+            }
+            parts.append(pandas.DataFrame(columns, index=index).reset_index())
+    table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
+    return table
+
+
+def waveforms_to_pandas(
+    result: Waveform | SweepWaveform, quantities: Sequence[str], coords: Mapping[str, Any]
+) -> pd.DataFrame:
+    """Return values as a tidy table: a row a point, quantity and component."""
+    pandas = optional.pandas()
+    points = {name: list(values) for name, values in coords.items()}
+    index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
+    parts = []
+    for name in quantities:
+        values = getattr(result, name)
+        planar = name in PLANE_VECTORS
+        for k, component in enumerate("xy" if planar else "z"):
+            columns = {
+                "quantity": name,
+                "component": component,
+                "value": (values[..., k] if planar else values).ravel(),
+                "unit": labels.UNITS[name],
             }
             parts.append(pandas.DataFrame(columns, index=index).reset_index())
     table: pd.DataFrame = pandas.concat(parts, ignore_index=True)

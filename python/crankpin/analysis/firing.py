@@ -12,7 +12,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, optional, tables
+from crankpin._support import inputs, labels, optional, tables
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import gas_exchange
 
@@ -235,17 +235,14 @@ class Firing(Frozen):
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a table, one row a cylinder in firing order (needs pandas)."""
-        pandas = optional.pandas()
         places = np.array(self.order) - 1
         columns = {
             "angle_deg": self.angles_deg[places],
             "interval_deg": self.intervals_deg,
             "gap_in_bank_deg": self._gap_in_bank(),
         }
-        table: pd.DataFrame = pandas.DataFrame(
-            columns, index=pandas.Index(self.order, name="cylinder")
-        )
-        return table
+        index = optional.pandas().Index(self.order, name="cylinder")
+        return optional.data_frame(columns, index=index)
 
     def plot(
         self,
@@ -281,12 +278,12 @@ class Firing(Frozen):
 
     def table(self) -> tables.Table:
         """Return a table of the cylinders in firing order."""
-        name = self.engine.name or f"{len(self.engine)} cylinders"
+        name = labels.name_of(self.engine)
         header = ["cylinder", "fires at °", "to the next °", "to the next of its bank °"]
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
-        labels = [f"{cylinder}" for cylinder in self.order]
-        return tables.Table(f"{name}: {self.summary}", header, labels, rows)
+        names = [f"{cylinder}" for cylinder in self.order]
+        return tables.Table(f"{name}: {self.summary}", header, names, rows)
 
     @property
     def summary(self) -> str:

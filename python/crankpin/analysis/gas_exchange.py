@@ -89,10 +89,7 @@ class ValveTiming:
     exhaust_closes_deg: Angle = 10.0
 
     def __post_init__(self) -> None:
-        for name in TIMES:
-            value = getattr(self, name)
-            if not isinstance(value, (str, Fraction)):
-                object.__setattr__(self, name, inputs.number(name, value))
+        _keep_numbers(self, TIMES)
         _core.valve_timing(_valve_texts(self))
 
 
@@ -125,10 +122,7 @@ class PortTiming:
     exhaust_opens_deg: Angle = 85.0
 
     def __post_init__(self) -> None:
-        for name in PORT_TIMES:
-            value = getattr(self, name)
-            if not isinstance(value, (str, Fraction)):
-                object.__setattr__(self, name, inputs.number(name, value))
+        _keep_numbers(self, PORT_TIMES)
         _core.port_timing(_port_texts(self))
 
 
@@ -171,6 +165,14 @@ def port_timing(timing: object) -> PortTiming:
         cure = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
         raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
     return timing
+
+
+def _keep_numbers(timing: ValveTiming | PortTiming, names: tuple[str, ...]) -> None:
+    """Keep angles as numbers where they are not exact text."""
+    for name in names:
+        value = getattr(timing, name)
+        if not isinstance(value, (str, Fraction)):
+            object.__setattr__(timing, name, inputs.number(name, value))
 
 
 def _valve_texts(timing: ValveTiming) -> tuple[str, str, str, str]:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Frozen, Listed
 from crankpin._support.tables import Table
+from crankpin.analysis.by_order import place_of
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -47,13 +47,14 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
-class Verdicts(Frozen):
+class Verdicts(Listed[str]):
     """Verdicts on one sum, order by order: "vanishes", "remains" or "undecided".
 
     A read-only sequence, in the sequence of ``orders``; ``np.asarray`` makes an array of text.
     """
 
     _fields: ClassVar[tuple[str, ...]] = ("orders", "words", "within_rounding")
+    _items = "words"
 
     orders: tuple[int, ...]
     """Multiples of crank speed."""
@@ -87,15 +88,6 @@ class Verdicts(Frozen):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
         return np.array(self.words, dtype=dtype)
-
-    def __len__(self) -> int:
-        return len(self.words)
-
-    def __getitem__(self, place: int) -> str:
-        return self.words[place]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.words)
 
     def __repr__(self) -> str:
         pairs = zip(self.orders, self.words, strict=True)
@@ -256,15 +248,10 @@ class VanishingOrders(Frozen):
         InputError
             If the order is not among ``orders``.
         """
-        if not isinstance(order, (int, np.integer)) or order not in self.orders:
-            there = labels.orders_text(self.orders)
-            raise InputError(
-                f"order = {inputs.shorten(order)}: is not among the orders of this result ({there})"
-            )
-        k = self.orders.index(int(order))
+        k = place_of(order, self.orders)
         words = [self._word(k, column) for column in range(len(self.sums))]
         return OrderVerdicts(
-            int(order), VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
+            self.orders[k], VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
         )
 
     def __iter__(self) -> Iterator[OrderVerdicts]:
@@ -288,12 +275,11 @@ class VanishingOrders(Frozen):
             for column, (quantity, component) in enumerate(self.sums)
         ]
         columns = ["order", "quantity", "component", "verdict", "within_rounding"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def table(self) -> Table:
         """Return the table that is shown: a verdict for each order and sum."""
-        name = self.engine.name or f"{len(self.engine)} cylinders"
+        name = labels.name_of(self.engine)
         title = f"{name}: 0 vanishes, ≠0 remains, both proved"
         if self.undecided.any():
             title += "; ?0 and ?≠0 undecided, with the finding of floating point"

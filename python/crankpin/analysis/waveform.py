@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import export
 from crankpin.analysis.balance import error_bound, mean_piston_speed
@@ -171,24 +171,8 @@ class Waveform(Frozen):
         *quantities
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         """
-        pandas = optional.pandas()
-        parts = []
-        for name in check_quantities(quantities, self.request.quantities):
-            values = getattr(self, name)
-            by_component = (
-                {"z": values} if values.ndim == 1 else dict(zip("xy", values.T, strict=True))
-            )
-            for component, column in by_component.items():
-                columns = {
-                    "theta_deg": self.theta_deg,
-                    "quantity": name,
-                    "component": component,
-                    "value": column,
-                    "unit": labels.UNITS[name],
-                }
-                parts.append(pandas.DataFrame(columns))
-        table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
-        return table
+        names = check_quantities(quantities, self.request.quantities)
+        return export.waveforms_to_pandas(self, names, {"theta_deg": self.theta_deg})
 
     def to_xarray(self, *quantities: str) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray).
@@ -199,15 +183,9 @@ class Waveform(Frozen):
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         """
         names = check_quantities(quantities, self.request.quantities)
-        arrays = {}
-        for name in names:
-            values = getattr(self, name)
-            dims = ("theta_deg", "axis")[: values.ndim]
-            arrays[name] = (dims, values, {"units": export.unit(name)})
-        coords: dict[str, Any] = labels.coordinates({"theta_deg": self.theta_deg})
-        if {"force", "moment"} & set(names):
-            coords["axis"] = ("axis", ["x", "y"])
-        return export.made(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
+        attributes = {"engine": self.engine.name, "rpm": self.rpm}
+        coords = {"theta_deg": self.theta_deg}
+        return export.waveforms_to_xarray(self, names, coords, attributes)
 
     def plot(
         self,

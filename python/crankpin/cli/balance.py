@@ -21,10 +21,9 @@ def add(commands: Commands) -> None:
         example="balance v6-60 --rpm 6000 --plot v6.png",
         run=run,
     )
-    one.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
-    one.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    parser.orders_and_rtol(one)
-    parser.quantity_and_output(one, "quantity of the picture")
+    parser.shared(one, "name", "--rpm", "--orders", "--rtol")
+    parser.shared(one, "--quantity", help="quantity of the picture (default: %(default)s)")
+    parser.shared(one, "--reference-z", "--spectrum", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -34,11 +33,10 @@ def run(arguments: argparse.Namespace) -> str:
     picture = inputs.picture_file(arguments.plot)
     balance = engine.balance(
         inputs.number("--rpm", arguments.rpm),
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         **chosen,
     )
-    if picture is not None:
-        outputs.write(balance.plot(quantity=arguments.quantity), picture)
+    outputs.draw(balance, picture, quantity=arguments.quantity)
     text = outputs.printed([balance.table()], csv=arguments.csv)
     return text if arguments.csv or chosen["orders"] != "auto" else text + outputs.left_out(balance)

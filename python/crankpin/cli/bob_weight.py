@@ -23,14 +23,14 @@ def add(commands: Commands) -> None:
         run=run,
         note="Masses are of one cylinder, in grams; without them they are the engine's.",
     )
-    weighs.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(weighs, "name")
     weighs.add_argument(
         "--factor", default="0.5", help="part of the reciprocating mass (default: %(default)s)"
     )
     weighs.add_argument("--rotating", metavar="G", help="big end, bolts and bearing shells")
     weighs.add_argument("--reciprocating", metavar="G", help="piston, pin, rings and small end")
     weighs.add_argument("--oil", metavar="G", default="0", help="oil of a crankpin (default: 0)")
-    parser.output(weighs)
+    parser.shared(weighs, "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -49,7 +49,5 @@ def run(arguments: argparse.Namespace) -> str:
         inputs.number("--factor", arguments.factor),
         inputs.number("--oil", arguments.oil) / 1e3,
     )
-    if picture is not None:
-        outputs.write(bob.plot(), picture)
-    tables = [bob.table()] if arguments.csv else [bob.table(), bob.table_of_factors()]
-    return outputs.printed(tables, csv=arguments.csv)
+    outputs.draw(bob, picture)
+    return outputs.printed([bob.table(), bob.table_of_factors()], csv=arguments.csv)

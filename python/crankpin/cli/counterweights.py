@@ -29,7 +29,7 @@ def add(commands: Commands) -> None:
         note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
         "What stays is in kg·m and kg·m², to be multiplied by ω².",
     )
-    fits.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(fits, "name")
     fits.add_argument(
         "--planes",
         default="webs",
@@ -58,8 +58,7 @@ def add(commands: Commands) -> None:
     fits.add_argument(
         "--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"
     )
-    fits.add_argument("--reference-z", metavar="Z", help="plane about which moments are taken, m")
-    parser.output(fits)
+    parser.shared(fits, "--reference-z", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -73,18 +72,16 @@ def run(arguments: argparse.Namespace) -> str:
         target=arguments.target,
         fraction=inputs.number("--fraction", arguments.fraction),
         minimise=arguments.minimise,
-        bound=None if arguments.bound is None else inputs.number("--bound", arguments.bound),
+        bound=inputs.optional_number("--bound", arguments.bound),
         angles_deg=(
             None
             if angles is None
             else np.atleast_1d(inputs.number_or_range("--angles", angles)).tolist()
         ),
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
-    if picture is not None:
-        outputs.write(np.ravel(fitted.plot())[0], picture)
-    tables = [fitted.table()] if arguments.csv else [fitted.table(), fitted.table_of_order_1()]
-    return outputs.printed(tables, csv=arguments.csv)
+    outputs.draw(fitted, picture)
+    return outputs.printed([fitted.table(), fitted.table_of_order_1()], csv=arguments.csv)
 
 
 def _planes(text: str) -> Planes:

@@ -29,17 +29,12 @@ def add(commands: Commands) -> None:
         note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
         "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
     )
-    designs.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(designs, "name")
     designs.add_argument("--cylinders", metavar="N", help="number of cylinders (default: NAME's)")
     designs.add_argument(
         "--layout", choices=("inline", "vee", "flat", "boxer"), help="default: inline or vee"
     )
-    designs.add_argument(
-        "--by",
-        metavar="OBJECTIVE,…",
-        default="total.moment.peak",
-        help="what to minimise (default: %(default)s)",
-    )
+    parser.shared(designs, "--by")
     designs.add_argument(
         "--bank-angle",
         metavar="RANGE",
@@ -72,16 +67,11 @@ def add(commands: Commands) -> None:
         metavar="A,B,…",
         help="speed ratios of balance shafts that are allowed: --shafts=-1 or --shafts=2,-2",
     )
-    designs.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    designs.add_argument(
-        "--orders", default="auto", help="of totals, such as 1,2,4, or auto (default: %(default)s)"
-    )
+    parser.shared(designs, "--rpm", "--orders")
     designs.add_argument(
         "--count", default="20", help="number of designs to print (default: %(default)s)"
     )
-    designs.add_argument("--seed", default="0", help="of random starts (default: %(default)s)")
-    designs.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    designs.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+    parser.shared(designs, "--seed", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -98,7 +88,9 @@ def run(arguments: argparse.Namespace) -> str:
     if angle is None and layout == "vee" and len(engine.banks) == 2:
         angle = engine.bank_angle_deg
     found = design(
-        len(engine) if arguments.cylinders is None else _whole("--cylinders", arguments.cylinders),
+        len(engine)
+        if arguments.cylinders is None
+        else inputs.whole("--cylinders", arguments.cylinders),
         layout=cast("Kind", layout),
         cylinder=engine.cylinders[0],
         spacing=_spacing(engine),
@@ -112,13 +104,12 @@ def run(arguments: argparse.Namespace) -> str:
         even_firing=arguments.even_firing,
         intervals_deg=_listed(arguments.intervals),
         counterweights=arguments.counterweights,
-        shafts=[_whole("--shafts", each) for each in _listed(arguments.shafts) or []],
+        shafts=[inputs.whole("--shafts", each) for each in _listed(arguments.shafts) or []],
         orders=inputs.orders(arguments.orders),
-        count=_whole("--count", arguments.count),
-        seed=_whole("--seed", arguments.seed),
+        count=inputs.whole("--count", arguments.count),
+        seed=inputs.whole("--seed", arguments.seed),
     )
-    if picture is not None:
-        outputs.write(found.plot(), picture)
+    outputs.draw(found, picture)
     return outputs.printed([found.table_of_designs()], csv=arguments.csv)
 
 
@@ -139,10 +130,3 @@ def _range(name: str, text: str | None) -> Any:  # noqa: ANN401 - one angle or t
     if len(ends) != 2:
         raise InputError(f"{name} = {text}: give one angle, or LOW:HIGH")
     return tuple(ends)
-
-
-def _whole(name: str, text: str) -> int:
-    number = inputs.number(name, text)
-    if number != int(number):
-        raise InputError(f"{name} = {text}: give a whole number")
-    return int(number)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import tables
+from crankpin._support import labels, tables
 from crankpin.cli import inputs, outputs, parser
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def add(commands: Commands) -> None:
         example="firing v8-crossplane --plot v8.png",
         run=run,
     )
-    fires.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(fires, "name")
     fires.add_argument(
         "--order",
         help="such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
@@ -38,10 +38,8 @@ def add(commands: Commands) -> None:
     )
     fires.add_argument("--all", action="store_true", help="list all orders that the crank allows")
     fires.add_argument("--strokes", choices=("4", "2"), help="default: the engine's own, or 4")
-    fires.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    fires.add_argument(
-        "--plot", metavar="FILE", help="write the chart of valve periods (.pdf, .png, .svg)"
-    )
+    parser.shared(fires, "--csv")
+    parser.shared(fires, "--plot", help="write the chart of valve periods (.pdf, .png, .svg)")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -55,8 +53,7 @@ def run(arguments: argparse.Namespace) -> str:
     picture = inputs.picture_file(arguments.plot)
     ways = engine.firings(arguments.order, strokes=strokes)
     best = engine.firing(arguments.order, strokes=strokes)
-    if picture is not None:
-        outputs.write(best.plot(), picture)
+    outputs.draw(best, picture)
     text = outputs.printed([best.table()], csv=arguments.csv)
     if arguments.csv or len(ways) == 1:
         return text
@@ -72,7 +69,7 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> str:
         for each in shown
     ]
     rows = np.array([[each.unevenness_deg] for each in shown])
-    name = engine.name or f"{len(engine)} cylinders"
+    name = labels.name_of(engine)
     header = ["firing order", "intervals °", "rms from even °"]
     table = tables.Table(
         f"{name}: {firings[0].strokes}-stroke, most even first", header, listed, rows

@@ -23,7 +23,7 @@ def add(commands: Commands) -> None:
         run=run,
     )
     pages.add_argument("--out", metavar="DIR", required=True, help="the folder to write to")
-    pages.add_argument("--rpm", default="3000", help="crank speed at first (default: %(default)s)")
+    parser.shared(pages, "--rpm", help="crank speed at first (default: %(default)s)")
 
 
 def run(arguments: argparse.Namespace) -> str:

@@ -51,11 +51,11 @@ def engine(name: str, command: str) -> Engine:
     return next(iter(found.values()))
 
 
-def _decimal(name: str, text: str) -> Decimal:
+def _decimal(name: str, text: str, what: str = "a number") -> Decimal:
     try:
         number = Decimal(text.strip())
     except InvalidOperation:
-        raise InputError(f"{name} = {labels.cut(text)}: give a number") from None
+        raise InputError(f"{name} = {labels.cut(text)}: give {what}") from None
     # Decimals go far beyond floats; with these the arithmetic below could not overflow.
     if not number.is_finite() or not math.isfinite(float(number)):
         raise InputError(f"{name} = {labels.cut(text)}: give a finite number")
@@ -65,6 +65,19 @@ def _decimal(name: str, text: str) -> Decimal:
 def number(name: str, text: str) -> float:
     """Return a finite number; ``name`` is that of its option."""
     return float(_decimal(name, text))
+
+
+def optional_number(name: str, text: str | None) -> float | None:
+    """Return a finite number, if it is given."""
+    return None if text is None else number(name, text)
+
+
+def whole(name: str, text: str) -> int:
+    """Return a whole number."""
+    found = _decimal(name, text, "a whole number")
+    if found != int(found):
+        raise InputError(f"{name} = {labels.cut(text)}: give a whole number")
+    return int(found)
 
 
 def number_or_range(name: str, text: str) -> float | NDArray[np.float64]:
@@ -94,12 +107,11 @@ def numbers(name: str, text: str | None) -> list[float] | None:
     return None if text is None else [number(name, part) for part in text.split(",")]
 
 
-def whole_numbers(name: str, text: str) -> list[int]:
+def whole_numbers(name: str, text: str, cure: str = "give whole numbers, such as 1,2") -> list[int]:
     """Return a list of whole numbers."""
     try:
         return [int(part) for part in text.split(",")]
     except ValueError:
-        cure = "give whole numbers, such as 1,2"
         raise InputError(f"{name} = {labels.cut(text)}: {cure}") from None
 
 
@@ -107,16 +119,7 @@ def orders(text: str) -> Orders:
     """Return the orders of ``--orders``, or "auto"."""
     if text == "auto":
         return "auto"
-    try:
-        return [int(part) for part in text.split(",")]
-    except ValueError:
-        cure = "give whole numbers, such as 1,2,4, or auto"
-        raise InputError(f"--orders = {labels.cut(text)}: {cure}") from None
-
-
-def plane(text: str | None) -> float | None:
-    """Return the reference plane of ``--reference-z``, m, if it is given."""
-    return None if text is None else number("--reference-z", text)
+    return whole_numbers("--orders", text, "give whole numbers, such as 1,2,4, or auto")
 
 
 def spectrum(text: str | None) -> Spectrum | None:

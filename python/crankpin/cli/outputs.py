@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
-
-    from matplotlib.axes import Axes
 
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.sweeps.sweep import Sweep
 
 
-def printed(tables: list[Table], *, csv: bool) -> str:
-    """Return tables as text below each other, or as CSV."""
+def printed(tables: Sequence[Table], *, csv: bool) -> str:
+    """Return tables as text below each other, or the first as CSV."""
     if csv:
-        return "".join(table.csv() for table in tables)
+        return tables[0].csv()
     return "\n\n".join(table.text() for table in tables) + "\n"
 
 
@@ -33,12 +34,13 @@ def left_out(result: Balance | Sweep) -> str:
     )
 
 
-def write(axes: Axes, path: Path) -> None:
-    """Write the figure that these axes are in, and close it."""
-    from matplotlib import pyplot as plt  # noqa: PLC0415 - matplotlib is imported when used
+def draw(result: Any, path: Path | None, **options: str) -> None:  # noqa: ANN401 - what has plot
+    """Write the picture of a result, if a file is given."""
+    if path is None:
+        return
+    figure = np.ravel(result.plot(**options))[0].get_figure(root=True)
+    from matplotlib import pyplot as plt  # noqa: PLC0415 - plot() says if it is missing
 
-    figure = axes.get_figure(root=True)
-    assert figure is not None  # noqa: S101 - new axes are in a figure
     try:
         figure.savefig(path, dpi=200)
     finally:

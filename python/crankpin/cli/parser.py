@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 from crankpin._core import InputError
 
@@ -42,53 +42,46 @@ def command(
     return parser
 
 
-def quantity_and_output(parser: Parser, quantity: str) -> None:
-    """Add ``--quantity``, described by ``quantity``, and what :func:`cylinder_and_output` adds."""
-    parser.add_argument(
-        "--quantity",
-        choices=("force", "moment", "torque"),
-        default="moment",
-        help=f"{quantity} (default: %(default)s)",
-    )
-    cylinder_and_output(parser)
-
-
-def orders_and_rtol(parser: Parser) -> None:
-    """Add ``--orders`` and ``--rtol``."""
-    parser.add_argument(
-        "--orders",
-        default="auto",
-        help="such as 1,2,4, or auto for all that matter (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--rtol",
-        help="with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
+OPTIONS: dict[str, dict[str, Any]] = {
+    "name": {"metavar": "NAME", "help": "a preset, or an engine file (.toml, .json)"},
+    "--rpm": {"default": "3000", "help": "crank speed (default: %(default)s)"},
+    "--by": {
+        "metavar": "OBJECTIVE,…",
+        "default": "total.moment.peak",
+        "help": "what to minimise (default: %(default)s)",
+    },
+    "--hold": {
+        "choices": ("pins", "firing"),
+        "default": "pins",
+        "help": "what is held as the bank angle changes: the crankpins, or the crank angles of all "
+        "top dead centres (default: %(default)s)",
+    },
+    "--orders": {
+        "default": "auto",
+        "help": "such as 1,2,4, or auto for all that matter (default: %(default)s)",
+    },
+    "--rtol": {
+        "help": "with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
         "(default: 1e-9)",
-    )
-
-
-def cylinder_and_output(parser: Parser) -> None:
-    """Add what :func:`loads` and :func:`output` add."""
-    loads(parser)
-    output(parser)
-
-
-def loads(parser: Parser) -> None:
-    """Add ``--reference-z`` and ``--spectrum``."""
-    parser.add_argument(
-        "--reference-z",
-        metavar="Z",
-        help="plane about which moments are taken, m (default: midway between first and last)",
-    )
-    parser.add_argument(
-        "--spectrum",
-        metavar="N=A,…",
-        help="one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
+    },
+    "--quantity": {"choices": ("force", "moment", "torque"), "default": "moment"},
+    "--reference-z": {
+        "metavar": "Z",
+        "help": "plane about which moments are taken, m (default: midway between first and last)",
+    },
+    "--spectrum": {
+        "metavar": "N=A,…",
+        "help": "one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
         "1=9.0,2=3.75",
-    )
+    },
+    "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
+    "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
+    "--plot": {"metavar": "FILE", "help": "write a picture (.pdf, .png, .svg)"},
+}
+"""Options of several commands."""
 
 
-def output(parser: Parser) -> None:
-    """Add ``--csv`` and ``--plot``."""
-    parser.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    parser.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+def shared(parser: Parser, *names: str, **changes: object) -> None:
+    """Add options of :data:`OPTIONS`; a command may change, for one, what its help says."""
+    for name in names:
+        parser.add_argument(name, **OPTIONS[name] | changes)

@@ -18,7 +18,7 @@ def add(commands: Commands) -> None:
     listing = parser.command(
         commands, "presets", "list the engines known by name", example="presets", run=run
     )
-    listing.add_argument("--csv", action="store_true", help="print CSV in place of the table")
+    parser.shared(listing, "--csv")
 
 
 def run(arguments: argparse.Namespace) -> str:

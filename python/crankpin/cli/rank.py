@@ -30,12 +30,7 @@ def add(commands: Commands) -> None:
         "(of one order) and unevenness_deg.",
     )
     ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")
-    ranks.add_argument(
-        "--by",
-        metavar="OBJECTIVE,…",
-        default="total.moment.peak",
-        help="what to minimise (default: %(default)s)",
-    )
+    parser.shared(ranks, "--by")
     ranks.add_argument(
         "--bank-angle",
         dest="bank_angle_deg",
@@ -43,15 +38,9 @@ def add(commands: Commands) -> None:
         default="10:170:10",
         help="degrees to choose from, or own for each engine's own (default: %(default)s)",
     )
-    ranks.add_argument(
-        "--hold", choices=("pins", "firing"), default="pins", help="as for sweep (%(default)s)"
-    )
+    parser.shared(ranks, "--hold")
     ranks.add_argument("--refine", action="store_true", help="look between these angles too")
-    ranks.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    ranks.add_argument(
-        "--orders", default="auto", help="such as 1,2,4, or auto (default: %(default)s)"
-    )
-    parser.cylinder_and_output(ranks)
+    parser.shared(ranks, "--rpm", "--orders", "--reference-z", "--spectrum", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -69,11 +58,10 @@ def run(arguments: argparse.Namespace) -> str:
         bank_angle_deg=angles,
         hold=None if own else arguments.hold,
         by=arguments.by.split(","),
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         refine=arguments.refine,
         orders=inputs.orders(arguments.orders),
     )
-    if picture is not None:
-        outputs.write(ranking.plot(), picture)
+    outputs.draw(ranking, picture)
     return outputs.printed([ranking.table_of_choices()], csv=arguments.csv)

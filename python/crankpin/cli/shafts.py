@@ -8,7 +8,6 @@ from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
-from crankpin.analysis.balancing.fitted_shafts import OVER_SPEED
 from crankpin.analysis.balancing.shaft_wishes import REMOVE
 from crankpin.cli import inputs, outputs, parser
 
@@ -35,7 +34,7 @@ def add(commands: Commands) -> None:
         note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
         "shafts are fitted. Write values that begin with a minus as --ratio=-2,2.",
     )
-    fits.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(fits, "name")
     fits.add_argument(
         "--ratio", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"
     )
@@ -49,10 +48,11 @@ def add(commands: Commands) -> None:
     fits.add_argument("--planes", metavar="Z,…", help="places of the unbalances along the crank, m")
     fits.add_argument("--bearings", metavar="Z,Z", help="places of the bearings, m")
     fits.add_argument("--remove", choices=REMOVE, help="what the shafts remove (default: both)")
-    fits.add_argument("--rpm", help="crank speed of the comparison (default: 3000)")
-    fits.add_argument(
+    parser.shared(fits, "--rpm", default=None, help="crank speed of the comparison (default: 3000)")
+    parser.shared(
+        fits,
         "--by",
-        metavar="OBJECTIVE,…",
+        default=None,
         help="what to compare, as for rank (default: total.force.peak,total.moment.peak)",
     )
     fits.add_argument(
@@ -61,16 +61,12 @@ def add(commands: Commands) -> None:
         help="largest value allowed, in N or N·m, or in %% of what there is: "
         "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
     )
-    fits.add_argument(
-        "--reference-z",
-        metavar="Z",
-        help="plane about which moments are taken, m (default: midway between first and last)",
+    parser.shared(fits, "--reference-z")
+    parser.shared(
+        fits, "--quantity", default=None, help="quantity of the picture (default: moment)"
     )
-    fits.add_argument(
-        "--quantity", choices=tuple(OVER_SPEED), help="quantity of the picture (default: moment)"
-    )
-    fits.add_argument("--csv", action="store_true", help="print the first table as CSV")
-    fits.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+    parser.shared(fits, "--csv", help="print the first table as CSV")
+    parser.shared(fits, "--plot")
     fits.add_argument(
         "--save",
         metavar="FILE",
@@ -101,16 +97,12 @@ def _fit(engine: Engine, arguments: argparse.Namespace) -> str:
         planes=inputs.numbers("--planes", arguments.planes),
         bearings=inputs.numbers("--bearings", arguments.bearings),
         remove=arguments.remove or "both",
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
     if arguments.save is not None:
         fit.engine.save(arguments.save)
-    if picture is not None:
-        outputs.write(fit.plot(quantity=arguments.quantity or "moment"), picture)
-    unbalances, *rest = fit.tables()
-    return outputs.printed(
-        [unbalances] if arguments.csv else [unbalances, *rest], csv=arguments.csv
-    )
+    outputs.draw(fit, picture, quantity=arguments.quantity or "moment")
+    return outputs.printed(fit.tables(), csv=arguments.csv)
 
 
 def _compare(engine: Engine, arguments: argparse.Namespace) -> str:
@@ -123,14 +115,13 @@ def _compare(engine: Engine, arguments: argparse.Namespace) -> str:
         by=by,
         target=targets,
         relative=relative,
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
     if arguments.save is not None:
         if targets is None:
             raise InputError("--save needs --ratio or --target")
         options.engine.save(arguments.save)
-    if picture is not None:
-        outputs.write(options.plot(), picture)
+    outputs.draw(options, picture)
     return outputs.printed([options.table()], csv=arguments.csv)
 
 

@@ -59,16 +59,10 @@ def add(commands: Commands) -> None:
     many.add_argument("--bank-angle", dest="bank_angle_deg", metavar="RANGE", help="degrees")
     many.add_argument("--rod-ratio", metavar="RANGE", help="crank radius / rod length")
     many.add_argument("--pin-offset", metavar="RANGE", help="m")
-    many.add_argument("--rpm", metavar="RANGE", default="3000", help="default: %(default)s")
-    many.add_argument(
-        "--hold",
-        choices=("pins", "firing"),
-        default="pins",
-        help="what is held as the bank angle changes: the crankpins, or the crank angles of all "
-        "top dead centres (default: %(default)s)",
-    )
-    parser.orders_and_rtol(many)
-    parser.quantity_and_output(many, "quantity of the table")
+    parser.shared(many, "--rpm", metavar="RANGE", help="default: %(default)s")
+    parser.shared(many, "--hold", "--orders", "--rtol")
+    parser.shared(many, "--quantity", help="quantity of the table (default: %(default)s)")
+    parser.shared(many, "--reference-z", "--spectrum", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -101,13 +95,12 @@ def run(arguments: argparse.Namespace) -> str:
         rod_ratio=given.get("rod_ratio"),
         pin_offset=given.get("pin_offset"),
         hold=arguments.hold if "bank_angle_deg" in given else None,
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         **chosen,
     )
     tables, negligible = _tables_of(result, arguments)
-    if picture is not None:
-        outputs.write(result.plot(quantity=arguments.quantity)[0, 0], picture)
+    outputs.draw(result, picture, quantity=arguments.quantity)
     text = outputs.printed(tables, csv=arguments.csv)
     if arguments.csv or chosen["orders"] != "auto":
         return text

@@ -30,7 +30,7 @@ def add(commands: Commands) -> None:
         run=run,
         note="Spreads are standard deviations, or half widths with --distribution uniform.",
     )
-    one.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(one, "name")
     for figure in FIGURES:
         title, unit = labels.TOLERANCES[figure]
         what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
@@ -42,35 +42,24 @@ def add(commands: Commands) -> None:
         "--distribution", choices=tuple(SPREADS), default="normal", help="default: %(default)s"
     )
     one.add_argument("--samples", default="10000", help="number of samples (default: %(default)s)")
-    one.add_argument(
-        "--seed", default="0", help="seed of the random numbers (default: %(default)s)"
-    )
-    one.add_argument("--rpm", default="3000", help="crank speed (default: %(default)s)")
-    one.add_argument(
+    parser.shared(one, "--seed", "--rpm")
+    parser.shared(
+        one,
         "--by",
-        metavar="OBJECTIVE,…",
+        default=None,
         help="what to report, as for rank (default: total peaks, and order 1)",
     )
     one.add_argument(
         "--shares", action="store_true", help="report the share of each tolerance in the variance"
     )
-    one.add_argument(
-        "--orders", default="auto", help="such as 1,2,4, or auto (default: %(default)s)"
-    )
-    one.add_argument(
-        "--reference-z",
-        metavar="Z",
-        help="plane about which moments are taken, m (default: midway between first and last)",
-    )
-    one.add_argument("--csv", action="store_true", help="print CSV in place of the table")
-    one.add_argument("--plot", metavar="FILE", help="write a picture (.pdf, .png, .svg)")
+    parser.shared(one, "--orders", "--reference-z", "--csv", "--plot")
 
 
 def run(arguments: argparse.Namespace) -> str:
     """Return what the command prints."""
     engine = inputs.engine(arguments.name, "tolerances")
     picture = inputs.picture_file(arguments.plot)
-    samples = _whole("--samples", arguments.samples)
+    samples = inputs.whole("--samples", arguments.samples)
     if samples > MOST_SAMPLES:
         raise InputError(f"--samples = {samples}: give {MOST_SAMPLES} at most")
     spreads: dict[str, Any] = {
@@ -82,19 +71,11 @@ def run(arguments: argparse.Namespace) -> str:
         **spreads,
         distribution=arguments.distribution,
         samples=samples,
-        seed=_whole("--seed", arguments.seed),
+        seed=inputs.whole("--seed", arguments.seed),
         by=None if arguments.by is None else arguments.by.split(","),
         orders=inputs.orders(arguments.orders),
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
-    if picture is not None:
-        outputs.write(result.plot(kind="shares" if arguments.shares else "histogram"), picture)
+    outputs.draw(result, picture, kind="shares" if arguments.shares else "histogram")
     table = result.shares.table() if arguments.shares else result.table()
     return outputs.printed([table], csv=arguments.csv)
-
-
-def _whole(name: str, text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        raise InputError(f"{name} = {labels.cut(text)}: give a whole number") from None

@@ -22,10 +22,10 @@ def add(commands: Commands) -> None:
         example="view v8-crossplane --out v8.html",
         run=run,
     )
-    page.add_argument("name", metavar="NAME", help="a preset, or an engine file (.toml, .json)")
+    parser.shared(page, "name")
     page.add_argument("--out", metavar="FILE", required=True, help="the page to write (.html)")
-    page.add_argument("--rpm", default="3000", help="crank speed at first (default: %(default)s)")
-    parser.loads(page)
+    parser.shared(page, "--rpm", help="crank speed at first (default: %(default)s)")
+    parser.shared(page, "--reference-z", "--spectrum")
 
 
 def run(arguments: argparse.Namespace) -> str:
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> str:
     engine.save_html(
         file,
         rpm=inputs.number("--rpm", arguments.rpm),
-        reference_z=inputs.plane(arguments.reference_z),
+        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
     )
     return f"{file}: {file.stat().st_size / 1e3:.0f} kB\n"

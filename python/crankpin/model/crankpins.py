@@ -6,14 +6,14 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable
 
     from crankpin.model.engine import Engine
 
 SAME_ANGLE = 1e-9
 """Degrees up to which two crankpins point the same way, as for firing intervals."""
 SAME_PLACE = 1e-6
-"""Distance along the crank, in crank radii, up to which two crankpins are at one place."""
+"""Distance along the crank, in crank radii, up to which two throws are at one place."""
 
 
 class Crankpin(NamedTuple):
@@ -31,15 +31,14 @@ class Bay(NamedTuple):
     """A place of the crankshaft between two main bearings, with one crankpin or split pins.
 
     Engines do not have main bearings and webs: bearings are taken midway between neighbouring
-    crankpins, those at the ends as far outside as the other one of the bay is inside. With
-    crankpins at one place only they are a crank radius away. Webs are midway between crankpin and
-    bearing.
+    throws, those at the ends as far outside as the other one of the bay is inside. With throws at
+    one place only they are a crank radius away. Webs are midway between throw and bearing.
     """
 
     cylinders: tuple[int, ...]
     """Numbers of the cylinders."""
     z: float
-    """Place of the crankpins along the crank, m."""
+    """Place of the throw along the crank, midway between its crankpins, m."""
     bearings: tuple[float, float]
     """Places of the main bearings in front and behind, m."""
 
@@ -55,61 +54,75 @@ class Bay(NamedTuple):
         return front <= z < rear
 
 
-def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
-    """Return the crankpins from front to flywheel.
+def throws(engine: Engine) -> list[list[Crankpin]]:
+    """Return the crankpins from front to flywheel, those of one throw a list.
 
-    Cylinders share a pin if they are of different banks, their pins point the same way, and their
-    places are less than a crank radius apart. Split pins are two.
+    Cylinders of different banks whose places are less than a crank radius apart are on one throw.
+    Those of them whose pins are at one place share a crankpin; a throw has several where pins are
+    split, and in a boxer.
     """
-    banks, pins, places = engine.core.bank, engine.pin_deg.tolist(), engine.z.tolist()
-    groups: list[list[int]] = []
-    for k in sorted(range(len(engine)), key=lambda k: places[k]):
-        reach = engine.cylinders[k].crank_radius
-        for group in groups:
-            turned = abs((pins[k] - pins[group[0]] + 180.0) % 360.0 - 180.0)
-            if (
-                turned <= SAME_ANGLE
-                and places[k] - places[group[0]] < reach
-                and all(banks[k] != banks[member] for member in group)
-            ):
-                group.append(k)
-                break
-        else:
-            groups.append([k])
-    return tuple(
-        Crankpin(
-            tuple(sorted(k + 1 for k in group)),
-            pins[group[0]],
-            (min(places[k] for k in group) + max(places[k] for k in group)) / 2.0,
-        )
-        for group in groups
-    )
+    core = engine.core
+    banks, places, pins = core.bank, core.z.tolist(), core.pin_deg.tolist()
+    radii = [parts[0] for parts in core.cylinders]
+
+    def on_one_throw(k: int, other: int) -> bool:
+        return banks[k] != banks[other] and abs(places[k] - places[other]) < radii[k]
+
+    def on_one_pin(k: int, other: int) -> bool:
+        turned = abs((pins[k] - pins[other] + 180.0) % 360.0 - 180.0)
+        return radii[k] == radii[other] and turned <= SAME_ANGLE
+
+    def pin(shared: list[int]) -> Crankpin:
+        z = _middle(places[k] for k in shared)
+        return Crankpin(tuple(sorted(k + 1 for k in shared)), pins[shared[0]], z)
+
+    front_to_back = sorted(range(len(engine)), key=places.__getitem__)
+    return [
+        [pin(shared) for shared in _grouped(throw, on_one_pin)]
+        for throw in _grouped(front_to_back, on_one_throw)
+    ]
+
+
+def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
+    """Return the crankpins from front to flywheel."""
+    pins = (pin for throw in throws(engine) for pin in throw)
+    return tuple(sorted(pins, key=lambda pin: pin.z))
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
-    """Return the bays from front to flywheel."""
-    grouped = list(_at_one_place(engine))
-    middles = [z for z, _ in grouped]
+    """Return the bays from front to flywheel: throws, with those at one place in one bay."""
+    radius = engine.core.largest_crank_radius
+    at: dict[float, list[int]] = {}
+    for throw in sorted(throws(engine), key=lambda throw: _middle(pin.z for pin in throw)):
+        z = _middle(pin.z for pin in throw)
+        place = next((each for each in at if z - each <= SAME_PLACE * radius), z)
+        at.setdefault(place, []).extend(number for pin in throw for number in pin.cylinders)
+    middles = list(at)
     between = [(one + other) / 2.0 for one, other in pairwise(middles)]
     if between:
         first, last = 2.0 * middles[0] - between[0], 2.0 * middles[-1] - between[-1]
     else:
-        radius = max(cylinder.crank_radius for cylinder in engine.cylinders)
         first, last = middles[0] - radius, middles[0] + radius
-    bearings = [first, *between, last]
+    bearings = pairwise([first, *between, last])
     return tuple(
-        Bay(numbers, z, (bearings[k], bearings[k + 1])) for k, (z, numbers) in enumerate(grouped)
+        Bay(tuple(sorted(numbers)), z, sides)
+        for (z, numbers), sides in zip(at.items(), bearings, strict=True)
     )
 
 
-def _at_one_place(engine: Engine) -> Iterator[tuple[float, tuple[int, ...]]]:
-    """Return places with crankpins and the cylinders there, from front to flywheel."""
-    near = SAME_PLACE * max(cylinder.crank_radius for cylinder in engine.cylinders)
-    place, numbers = 0.0, list[int]()
-    for pin in sorted(crankpins(engine), key=lambda pin: pin.z):
-        if numbers and pin.z - place > near:
-            yield place, tuple(sorted(numbers))
-            numbers = []
-        place = place if numbers else pin.z
-        numbers += pin.cylinders
-    yield place, tuple(sorted(numbers))
+def _grouped(cylinders: Iterable[int], alike: Callable[[int, int], bool]) -> list[list[int]]:
+    """Put each cylinder into the first group to whose every member it is alike."""
+    groups: list[list[int]] = []
+    for k in cylinders:
+        group = next((g for g in groups if all(alike(k, other) for other in g)), None)
+        if group is None:
+            groups.append([k])
+        else:
+            group.append(k)
+    return groups
+
+
+def _middle(places: Iterable[float]) -> float:
+    """Return the place midway between the first and the last."""
+    listed = list(places)
+    return (min(listed) + max(listed)) / 2.0

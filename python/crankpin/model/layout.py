@@ -55,28 +55,6 @@ def pin_split_deg(core: _core.Engine) -> NDArray[np.float64]:
     return read_only(np.where(split > 180.0, split - 360.0, split))
 
 
-def crankpins(core: _core.Engine) -> tuple[tuple[int, ...], ...]:
-    """Return the numbers of the cylinders on each crankpin, front to flywheel.
-
-    Neighbours along the crank share a pin if they are in different banks, their pins point exactly
-    the same way and have the same crank radius.
-    """
-    directions, sizes = core.pin_deg, [parts[0] for parts in core.cylinders]
-    found: list[list[int]] = []
-    for place in np.argsort(core.z, kind="stable").tolist():
-        pin = found[-1] if found else []
-        others = [number - 1 for number in pin]
-        alike = all(
-            directions[place] == directions[other] and sizes[place] == sizes[other]
-            for other in others
-        )
-        if pin and alike and core.bank[place] not in {core.bank[other] for other in others}:
-            pin.append(place + 1)
-        else:
-            found.append([place + 1])
-    return tuple(map(tuple, found))
-
-
 def text(core: _core.Engine) -> str:
     """Return throws and pin split in words, where they are defined."""
     try:

@@ -16,7 +16,6 @@ from crankpin.plot.legend import legend_below
 from crankpin.plot.named_rows import rows_for, wide_enough
 from crankpin.plot.style import SERIES, background, count_series, muted, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import name_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,9 +39,9 @@ def _balance_shafts(
     before, after = (
         np.array([getattr(each, when) for each in parts]) for when in ("before", "after")
     )
-    entitle(ax, name_of(result.before), "with and without balance shafts")
+    entitle(ax, labels.name_of(result.before), "with and without balance shafts")
     if label is None and count_series(ax):
-        label = name_of(result.before)
+        label = labels.name_of(result.before)
     wide_enough(ax, float(np.append(before, after).max()))
     rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
     ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)

@@ -8,6 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
+from crankpin._support import labels
 from crankpin.analysis.balancing.balancers import BalancerOptions
 from crankpin.plot.axes import entitle, label_x, one_panel, say_zero
 from crankpin.plot.dispatch import draw
@@ -16,7 +17,7 @@ from crankpin.plot.marks import ring
 from crankpin.plot.named_rows import names_there, rows_for, wide_enough
 from crankpin.plot.style import SERIES, count_series, font_of, foreground, muted, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import name_of, number, rounded
+from crankpin.plot.words import number, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,11 +53,11 @@ def _balancers(
     left_out = len(result.front) - len(shown)
     entitle(
         ax,
-        name_of(result.before),
+        labels.name_of(result.before),
         f"hardware, {number(result.rpm)} rpm" + f"; {left_out} more" * bool(left_out),
     )
     if label is None and not alone:
-        label = name_of(result.before)
+        label = labels.name_of(result.before)
     start = np.array(result[0].values)
     parts = np.array([each.values for each in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
     drawn = [k for k, value in enumerate(start) if value > 0.0]

@@ -14,7 +14,7 @@ from crankpin.plot.legend import legend_below
 from crankpin.plot.marks import ring, write
 from crankpin.plot.style import SERIES, count_series, foreground, muted, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import in_degrees, name_of
+from crankpin.plot.words import in_degrees
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +34,7 @@ def _bob_weight(
     name = _chosen(result, quantity)
     ax = one_panel(ax)
     if label is None and count_series(ax):
-        label = name_of(result.before)
+        label = labels.name_of(result.before)
     lines = result.straight(name)
     end = max(1.0, result.factor, *(line.factor for line in lines))
     # Both half axes have corners at these factors.
@@ -42,7 +42,7 @@ def _bob_weight(
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
     stays = result.stays(name, factors)
     own = result.stays(name)
-    entitle(ax, name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
+    entitle(ax, labels.name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
     curves = {"longest": stays.major, "shortest": np.abs(stays.minor)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
         full = f"{label}: {text}" if label else text

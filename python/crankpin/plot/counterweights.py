@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.analysis.balancing.correction_planes import degrees
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.first_order import first_order
 from crankpin.model.crankpins import crankpins
+from crankpin.model.shafts import degrees
 from crankpin.plot.axes import (
     check_one_place,
     entitle,
@@ -33,7 +33,6 @@ from crankpin.plot.legend import figure_legend, legend_below
 from crankpin.plot.plane import dress_plane
 from crankpin.plot.style import SERIES, muted, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import name_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,11 +64,13 @@ def _counterweights(
     refuse_figure(figure, chosen)
     ax = one_panel(ax)
     if chosen == "ellipses":
-        entitle(ax, name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
+        entitle(ax, labels.name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
         _ellipses(ax, result, name, style)
         legend_below(ax)
         return ax
-    entitle(ax, name_of(result.before), "counterweights, arrows at θ = 0 seen from the flywheel")
+    entitle(
+        ax, labels.name_of(result.before), "counterweights, arrows at θ = 0 seen from the flywheel"
+    )
     _weights(ax, result, style)
     return ax
 
@@ -93,7 +94,9 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     for panel, name in zip(panels[1:], shown, strict=True):
         head(panel, labels.NAMES[name])
         states = _ellipses(panel, result, name, style)
-    entitle_figure(made.figure, name_of(result.before), "counterweights, and order 1 over ω²")
+    entitle_figure(
+        made.figure, labels.name_of(result.before), "counterweights, and order 1 over ω²"
+    )
     figure_legend(made.figure, states)
     return made.axes
 

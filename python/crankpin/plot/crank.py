@@ -8,14 +8,15 @@ import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.transforms import Bbox
 
-from crankpin.analysis.crankshaft import Crankpin, directions, throws
 from crankpin.analysis.geometry import (
     assumed_bores,
     crank_angle,
     direction,
+    geometry,
     weights_on_crank,
     weights_on_shafts,
 )
+from crankpin.model.crankpins import Crankpin, throws
 from crankpin.plot.axes import inches_of
 from crankpin.plot.section import shaft_text
 from crankpin.plot.shapes import (
@@ -31,6 +32,7 @@ from crankpin.plot.shapes import (
     inks_of,
     listed,
     outside,
+    pins_in_line,
     radius_of_amounts,
     rotating_masses,
     text_corner,
@@ -66,7 +68,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     ink = inks_of(ax)
     largest = crank_radius(engine)
     turn = complex(direction(theta))
-    pins = {pin.at * turn: [*pin.cylinders] for pin in directions(engine)}
+    pins = {at * turn: cylinders for at, cylinders in pins_in_line(engine).items()}
     half = 0.65 * JOURNAL * largest
     sums = [
         (amount, towards, colour)
@@ -155,7 +157,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
     theta = crank_angle(theta_deg)
     ink = inks_of(ax)
-    turn = complex(direction(theta))
+    up = geometry(engine, theta).crankpin.imag
     drawn, pitch = _stretches(engine)
     thick = 0.09 * pitch
     half = JOURNAL * crank_radius(engine)
@@ -163,7 +165,7 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     per_metre = 0.7 * 72.0 * inches_of(ax) / (back - front)
     journals, webs = [_rectangle(front, back, -half, half)], []
     for throw in drawn:
-        heights = [(stretch.pin.at * turn).imag for stretch in throw]
+        heights = [float(up[stretch.pin.cylinders[0] - 1]) for stretch in throw]
         for (_, low, high), height in zip(throw, heights, strict=True):
             journals.append(_rectangle(low, high, height - half, height + half))
         middle = 0.5 * (throw[0].low + throw[-1].high)

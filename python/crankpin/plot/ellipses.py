@@ -6,15 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
-from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support import labels
 from crankpin.plot.axes import entitle, entitle_figure, head, many_panels, one_panel
 from crankpin.plot.legend import legend_below
 from crankpin.plot.orders import largest
-from crankpin.plot.plane import PLANE_REMEDY, arrow_at, dress_plane
+from crankpin.plot.plane import arrow_at, dress_plane, plane_vector
 from crankpin.plot.style import SERIES, series
-from crankpin.plot.words import name_of, number
+from crankpin.plot.words import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,15 +36,13 @@ def ellipses(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw a panel for each of the largest orders, or all of them on given axes."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
-    if name not in PLANE_VECTORS:
-        raise InputError(f"quantity = {name!r} traces no curve; {PLANE_REMEDY}")
+    name = plane_vector(quantity)
     places, note = largest(result.source, name)
     shown = [result.orders[place] for place in places]
     where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm"
     if ax is not None:
         ax = one_panel(ax)
-        entitle(ax, name_of(result.engine), where, note)
+        entitle(ax, labels.name_of(result.engine), where, note)
         _on_one(ax, [result[order] for order in shown], name, style)
         return ax
     rows = max(1, -(-len(shown) // COLUMNS))
@@ -67,7 +63,7 @@ def ellipses(
     made.figure.supxlabel(f"{along_x}, {labels.UNITS[name]}", fontsize="medium")
     made.figure.supylabel(f"{along_y}, {labels.UNITS[name]}", fontsize="medium")
     scales = "each panel to its own scale; dot: θ = 0"
-    entitle_figure(made.figure, name_of(result.engine), where, scales, note)
+    entitle_figure(made.figure, labels.name_of(result.engine), where, scales, note)
     return made.axes
 
 

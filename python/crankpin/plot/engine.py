@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin.analysis.geometry import crank_angle
 from crankpin.model.engine import Engine
 from crankpin.plot.axes import (
@@ -25,7 +25,7 @@ from crankpin.plot.legend import figure_legend, legend_below
 from crankpin.plot.section import section
 from crankpin.plot.shapes import inks_of, legend_handles
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import name_of, rounded
+from crankpin.plot.words import rounded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def _engine(
         ax = one_panel(ax)
         panel(engine, ax, kind, theta, **style)
         what = f"{PANEL_NAMES[kind]}, θ = {rounded(theta, 6)}°"
-        entitle(ax, name_of(engine), what, pad=_above())
+        entitle(ax, labels.name_of(engine), what, pad=_above())
         legend_below(ax, handles=legend_handles(engine, inks_of(ax)))
         return ax
     return all_panels(engine, figure, theta, style)
@@ -85,7 +85,9 @@ def all_panels(
     for ax, (kind, name) in zip(axes, PANEL_NAMES.items(), strict=True):
         panel(engine, ax, kind, theta, **style)
         head(ax, name, _above())
-    entitle_figure(figure, name_of(engine), f"θ = {rounded(theta, 6)}°, seen from the flywheel")
+    entitle_figure(
+        figure, labels.name_of(engine), f"θ = {rounded(theta, 6)}°, seen from the flywheel"
+    )
     figure_legend(figure, legend_handles(engine, inks_of(axes[0])))
     return axes
 

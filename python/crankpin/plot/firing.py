@@ -17,7 +17,7 @@ from crankpin.plot.axes import entitle, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import background, colours, foreground, muted
-from crankpin.plot.words import name_of, width_of
+from crankpin.plot.words import width_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -98,7 +98,7 @@ def _firing(
     handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
     handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1])
     _dress(ax, result, rows, row_height)
-    entitle(ax, name_of(result.engine), labels.cut(result.summary))
+    entitle(ax, labels.name_of(result.engine), labels.cut(result.summary))
     with mpl.rc_context({} if lettered else SMALL_LEGEND):
         legend_below(ax, handles=handles)
     return ax

@@ -6,14 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
-from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support import labels
 from crankpin.plot.axes import entitle, one_panel
 from crankpin.plot.legend import legend_below
-from crankpin.plot.plane import PLANE_REMEDY, arrow_at, dress_plane
+from crankpin.plot.plane import arrow_at, dress_plane, plane_vector
 from crankpin.plot.style import SERIES, count_series, foreground, series
-from crankpin.plot.words import in_degrees, name_of, number, summed
+from crankpin.plot.words import in_degrees, number, summed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,19 +38,17 @@ def orbit(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw the tip of a force or moment, with crank angles and the direction marked."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
-    if name not in PLANE_VECTORS:
-        raise InputError(f"quantity = {name!r} traces no curve; {PLANE_REMEDY}")
+    name = plane_vector(quantity)
     ax = one_panel(ax)
     where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm, {summed(result, name)}"
-    entitle(ax, name_of(result.engine), where)
+    entitle(ax, labels.name_of(result.engine), where)
     values, theta = getattr(result, name), result.theta_deg
     # A second turn would fill the gaps of dashes.
     first_turn = theta <= theta.min(initial=np.inf) + 360.0
     values, theta = values[first_turn], theta[first_turn]
     curve = values[:, 0] + 1j * values[:, 1]
     alone = not count_series(ax)
-    text = label or name_of(result.engine)
+    text = label or labels.name_of(result.engine)
     (look,) = series(ax, 1, style)
     (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text, **look)
     colour = line.get_color()

@@ -20,7 +20,7 @@ from crankpin.plot import ticks
 from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
 from crankpin.plot.legend import figure_legend
 from crankpin.plot.style import colours, foreground, muted
-from crankpin.plot.words import name_of, number, rounded, width_of
+from crankpin.plot.words import number, rounded, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,7 +86,9 @@ def phasors(
     for panel in axes[:, 0]:
         label_y(panel, _axis_label(kind, 1))
     entitle_figure(
-        figure, name_of(result.engine), f"{labels.NAMES[kind]}, {number(result.rpm)} rpm, θ = 0"
+        figure,
+        labels.name_of(result.engine),
+        f"{labels.NAMES[kind]}, {number(result.rpm)} rpm, θ = 0",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
     handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))

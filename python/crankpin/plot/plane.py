@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._support import labels
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.plot.axes import label_x, label_y, say_zero
 from crankpin.plot.style import muted
 from crankpin.plot.ticks import numeric
@@ -15,7 +17,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-PLANE_REMEDY = 'give quantity="force" or "moment"'
+
+def plane_vector(quantity: object) -> str:
+    """Return a quantity that traces a curve, force or moment, or raise an InputError."""
+    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    if name not in PLANE_VECTORS:
+        cure = 'give quantity="force" or "moment"'
+        raise InputError(f"quantity = {name!r} traces no curve; {cure}")
+    return name
 
 
 def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -> None:  # noqa: ANN401

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin.analysis.crankshaft import directions
 from crankpin.analysis.geometry import (
     assumed_bores,
     direction,
@@ -26,6 +25,7 @@ from crankpin.plot.shapes import (
     inks_of,
     listed,
     outside,
+    pins_in_line,
     points,
     radius_of_amounts,
     wedge,
@@ -94,7 +94,7 @@ def _crank(engine: Engine, ax: Axes, at: Geometry, ink: Inks) -> None:
     ]
     add(ax, sectors, facecolor=ink.weight, edgecolor=ink.line, linewidth=0.6, zorder=2.5)
     turn = complex(direction(at.theta_deg))
-    webs = [bar(0.0, pin.at * turn, 1.3 * width, width) for pin in directions(engine)]
+    webs = [bar(0.0, pin * turn, 1.3 * width, width) for pin in pins_in_line(engine)]
     add(ax, webs, facecolor=ink.web, edgecolor=ink.line, linewidth=0.6, zorder=3)
     add(ax, [disc(0.0, 0.5 * width)], facecolor=ink.paper, edgecolor=ink.line, zorder=3.1)
     arc = 1.7 * largest * direction(np.linspace(-75.0, -15.0, 25))

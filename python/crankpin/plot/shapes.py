@@ -10,7 +10,14 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 
-from crankpin.analysis.geometry import Weight, direction, weights_on_crank, weights_on_shafts
+from crankpin.analysis.geometry import (
+    Weight,
+    direction,
+    geometry,
+    weights_on_crank,
+    weights_on_shafts,
+)
+from crankpin.model.crankpins import crankpins
 from crankpin.plot.style import background, colours, foreground, muted
 from crankpin.plot.words import rounded
 
@@ -143,7 +150,16 @@ def add(
     ax.add_collection(drawn, autolim=False)
 
 
-# --- unbalances ---------------------------------------------------------------------------------
+# --- crank and unbalances -----------------------------------------------------------------------
+
+
+def pins_in_line(engine: Engine) -> dict[complex, list[int]]:
+    """Return the crankpins seen from the flywheel: place at θ = 0, m → cylinders on all there."""
+    at = geometry(engine).crankpin
+    found: dict[complex, list[int]] = {}
+    for numbers, _, _ in crankpins(engine):
+        found.setdefault(complex(at[numbers[0] - 1].round(9)), []).extend(numbers)
+    return {complex(at[numbers[0] - 1]): sorted(numbers) for numbers in found.values()}
 
 
 def rotating_masses(engine: Engine, theta_deg: float = 0.0) -> list[Weight]:

@@ -13,7 +13,7 @@ from crankpin.plot.axes import entitle, label_x, label_y, one_panel, refuse_figu
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, background, count_series, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import by_component, name_of, number, series_names, with_unit
+from crankpin.plot.words import by_component, number, series_names, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,9 +49,9 @@ def spectrum(
     peaks = by_component(drawn.peak_xy if name in PLANE_VECTORS else drawn.peak, name)
     how = "" if result.request.orders is None else ", orders given"
     how += "" if result.spectrum is None else ", spectrum given"
-    entitle(ax, name_of(result.engine), f"{number(result.rpm)} rpm{how}")
+    entitle(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}")
     if label is None and count_series(ax):
-        label = name_of(result.engine)
+        label = labels.name_of(result.engine)
     styles = series(ax, peaks.shape[1], style)
     for k, text in enumerate(series_names(name, label)):
         _stems(ax, orders, peaks[:, k], text, styles[k])

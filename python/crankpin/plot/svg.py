@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from crankpin._support import labels
 from crankpin.plot.crank import side
 from crankpin.plot.section import section
-from crankpin.plot.words import name_of
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Engine
@@ -48,7 +48,9 @@ def inline_svg(engine: Engine) -> str:
             artist.set_clip_on(False)  # clip paths would be half of the text
         metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
         figure.savefig(file, format="svg", metadata=metadata)
-    return _element(file.getvalue(), f"{name_of(engine)}: cross-section and crank from the side")
+    return _element(
+        file.getvalue(), f"{labels.name_of(engine)}: cross-section and crank from the side"
+    )
 
 
 def _element(document: str, label: str) -> str:

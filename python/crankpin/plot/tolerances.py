@@ -18,7 +18,7 @@ from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, foreground, muted, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import name_of, plain_text
+from crankpin.plot.words import plain_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,7 +48,7 @@ def _tolerances(
     values = result.values(name)
     ax = one_panel(ax)
     objective = objectives.named(name)
-    entitle(ax, name_of(result.engine), _words(result, objective.words))
+    entitle(ax, labels.name_of(result.engine), _words(result, objective.words))
     (look,) = series(ax, 1, mpl.cbook.normalize_kwargs(style, Line2D))
     distribution(ax, values, look, label or f"{result.samples} samples")
     _nominal(ax, result.nominal_value(name))
@@ -119,7 +119,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     rows = np.arange(len(shares.by))
     ax.set_yticks(rows, [plain_text(name) for name in shares.by])
     _fit_rows(ax, len(rows))
-    entitle(ax, name_of(result.engine), "shares in the variance")
+    entitle(ax, labels.name_of(result.engine), "shares in the variance")
     left = np.zeros(len(rows))
     looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
     for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):

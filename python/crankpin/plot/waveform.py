@@ -12,7 +12,7 @@ from crankpin.plot.legend import legend_below
 from crankpin.plot.orbit import orbit
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, numeric, span
-from crankpin.plot.words import by_component, name_of, number, series_names, summed, with_unit
+from crankpin.plot.words import by_component, number, series_names, summed, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,9 +42,9 @@ def curves(
     values = by_component(getattr(result, name), name)
     ax = one_panel(ax)
     where = f"{number(result.rpm)} rpm, {summed(result, name)}"
-    entitle(ax, name_of(result.engine), where)
+    entitle(ax, labels.name_of(result.engine), where)
     if label is None and count_series(ax):
-        label = name_of(result.engine)
+        label = labels.name_of(result.engine)
     first = not count_series(ax)
     if first:
         ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)

@@ -19,12 +19,6 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.sweeps.waveform import SweepWaveform
     from crankpin.analysis.waveform import Waveform
-    from crankpin.model.engine import Engine
-
-
-def name_of(engine: Engine) -> str:
-    """Return the name of an engine, or its number of cylinders."""
-    return engine.name or f"{len(engine)} cylinders"
 
 
 def plain_text(text: str) -> str:

@@ -366,8 +366,7 @@ class ArrangementSearch(Frozen):
             "near_circular": [row.near_circular for row in rows],
         }
         index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
-        table: pd.DataFrame = pandas.DataFrame(columns, index=index)
-        return table
+        return optional.data_frame(columns, index=index)
 
     def _from(self, low: float, high: float) -> Iterator[Arrangement]:
         """Yield the arrangements in a window; of a large search nothing else is computed."""

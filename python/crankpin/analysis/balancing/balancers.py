@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -11,8 +10,8 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
-from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.frozen import Listed
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 
@@ -53,7 +52,7 @@ class BalancerOption:
     """True if the target is reached; False without one."""
 
 
-class BalancerOptions(Frozen):
+class BalancerOptions(Listed[BalancerOption], Shown):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
     A sequence of :class:`~crankpin.types.BalancerOption`. Made by
@@ -72,6 +71,7 @@ class BalancerOptions(Frozen):
     _fields: ClassVar[tuple[str, ...]] = (
         "before", "rpm", "plane", "objectives", "targets", "options",
     )  # fmt: skip
+    _items = "options"
 
     before: Engine
     """The engine as it was given."""
@@ -144,15 +144,6 @@ class BalancerOptions(Frozen):
         """Return what stays with the least hardware that reaches the target."""
         return balance(self.engine, rpm, orders=orders, rtol=rtol, reference_z=self.plane)
 
-    def __len__(self) -> int:
-        return len(self.options)
-
-    def __getitem__(self, place: int) -> BalancerOption:
-        return self.options[place]
-
-    def __iter__(self) -> Iterator[BalancerOption]:
-        return iter(self.options)
-
     # --- tables and pictures --------------------------------------------------------------------
 
     def to_pandas(self) -> pd.DataFrame:
@@ -171,8 +162,7 @@ class BalancerOptions(Frozen):
         columns = [
             "name", "n_shafts", "unbalance", "on_front", "reaches", "objective", "value", "unit",
         ]  # fmt: skip
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
         """Draw what each set of the front leaves, in per cent of what there is; return the axes.
@@ -188,7 +178,7 @@ class BalancerOptions(Frozen):
 
     def table(self) -> Table:
         """Return the table that is shown: the Pareto front."""
-        engine = self.before.name or f"{len(self.before)} cylinders"
+        engine = labels.name_of(self.before)
         front = self.front[:SHOWN]
         columns = {
             "set": [each.name for each in front],
@@ -215,9 +205,3 @@ class BalancerOptions(Frozen):
         )
         found = "no set reaches it" if self.least is None else f"least {self.least.name}"
         return f"Target: {wanted}; {found}."
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -13,7 +13,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen, read_only
 from crankpin._support.tables import Table
-from crankpin.analysis.balancing.first_order import first_order
+from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantities import Ellipse
 from crankpin.analysis.request import engine_core
@@ -201,13 +201,10 @@ class BobWeight(Frozen):
     @cached_property
     def _first_order(self) -> dict[str, tuple[complex, complex, complex]]:
         """Forward part at factor 0, its change to factor 1, and backward part, over ω²."""
-        none, whole = (first_order(self._balanced(factor)) for factor in (0.0, 1.0))
-        found = {}
-        for name in ("force", "moment"):
-            at, after = getattr(none, name), getattr(whole, name)
-            start = complex(at.forward)
-            found[name] = (start, complex(after.forward) - start, complex(at.backward))
-        return found
+        none, whole = (self._balanced(factor) for factor in (0.0, 1.0))
+        there = zip(turning(none, 1), turning(whole, 1), turning(none, -1), strict=True)
+        parts = [(start, after - start, backward) for start, after, backward in there]
+        return dict(zip(Turning._fields, parts, strict=True))
 
     def stays(self, quantity: str, factor: ArrayLike | None = None) -> Ellipse:
         """Return the ellipse of order 1 that factors leave, over ω².
@@ -295,8 +292,7 @@ class BobWeight(Frozen):
             "oil": self.oil,
             "mass": self.mass,
         }
-        table: pd.DataFrame = optional.pandas().DataFrame(columns)
-        return table
+        return optional.data_frame(columns)
 
     def table(self) -> Table:
         """Return the table of the bob weights in grams."""
@@ -310,7 +306,7 @@ class BobWeight(Frozen):
             ],
             axis=1,
         )
-        name = self.before.name or f"{len(self.before)} cylinders"
+        name = labels.name_of(self.before)
         title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
         title += " + oil" if self.oil else ""
         header = [

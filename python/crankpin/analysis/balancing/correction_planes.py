@@ -84,9 +84,3 @@ def _by_name(what: str, names: Sequence[str], given: object) -> Mapping[str, Any
             listed = inputs.shorten(list(names))
             raise InputError(f"{what}[{inputs.shorten(name)}]: is no plane; they are {listed}")
     return given
-
-
-def degrees(angle: object) -> float:
-    """Return an exact angle as a number of degrees."""
-    over, _, under = str(angle).partition("/")
-    return float(over) / float(under or 1)

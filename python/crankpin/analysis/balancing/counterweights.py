@@ -21,9 +21,11 @@ from crankpin.analysis.balancing.first_order import (
     first_order,
 )
 from crankpin.analysis.balancing.fitting import Fit, external, internal
+from crankpin.analysis.balancing.planes import turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
+from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -239,8 +241,7 @@ class Counterweights(Frozen):
     @property
     def residual(self) -> ForwardPart:
         """What stays of the forward force and moment, over ω²."""
-        order_1 = first_order(self.engine, self.reference_z)
-        return ForwardPart(complex(order_1.force.forward), complex(order_1.moment.forward))
+        return ForwardPart(*turning(self.engine, 1, self.reference_z))
 
     @property
     def ellipses(self) -> Ellipses:
@@ -322,18 +323,14 @@ class Counterweights(Frozen):
         """
         rows = [(name, *row) for (name, _), row in zip(self.by_plane, self._rows(), strict=True)]
         columns = ["plane", "z", "amount", "angle_deg"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def _rows(self) -> list[tuple[float, float, float]]:
-        return [
-            (weight.z, weight.amount, correction_planes.degrees(weight.angle_deg))
-            for weight in self.unbalances
-        ]
+        return [(weight.z, weight.amount, degrees(weight.angle_deg)) for weight in self.unbalances]
 
     def table(self) -> Table:
         """Return the table of the weights."""
-        name = self.before.name or f"{len(self.before)} cylinders"
+        name = labels.name_of(self.before)
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         names = [(plane,) for plane, _ in self.by_plane]
         rows = np.array(self._rows()).reshape(-1, 3)

@@ -1,22 +1,19 @@
-"""Order 1 over ω² (kg·m, kg·m²) of an engine and of its bays, read from balances at 1 rad/s."""
+"""Order 1 over ω² (kg·m, kg·m²) of an engine and of its bays."""
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from crankpin.analysis.balancing import correction_planes
+from crankpin.analysis.balance import over_square
+from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Unbalance
+from crankpin.model.shafts import Unbalance, degrees
 
 if TYPE_CHECKING:
     from crankpin.analysis.by_order import OrderBalance
     from crankpin.analysis.quantities import Ellipse
     from crankpin.model.crankpins import Bay
-
-UNIT_SPEED = 60.0 / math.tau
-"""Crank speed of 1 rad/s, rpm."""
 
 
 class ForwardPart(NamedTuple):
@@ -51,8 +48,8 @@ class BayLoad(NamedTuple):
 
 
 def first_order(engine: Engine, reference_z: float | None = None) -> OrderBalance:
-    """Return order 1 at ω = 1 rad/s: force in kg·m and moment in kg·m²."""
-    return engine.balance(UNIT_SPEED, orders=[1], reference_z=reference_z, torque=False)[1]
+    """Return order 1 over ω²: force in kg·m and moment in kg·m²."""
+    return over_square(engine, [1], reference_z)[1]
 
 
 def ellipses_of(engine: Engine, plane: float) -> Ellipses:
@@ -63,12 +60,10 @@ def ellipses_of(engine: Engine, plane: float) -> Ellipses:
 
 def bay_loads_of(engine: Engine) -> tuple[BayLoad, ...]:
     """Return what each throw brings upon its main bearings."""
-    found = []
-    for bay in bays(engine):
-        order_1 = first_order(bay_alone(engine, bay), bay.z)
-        force, moment = complex(order_1.force.forward), complex(order_1.moment.forward)
-        found.append(BayLoad(bay.cylinders, bay.z, force, moment))
-    return tuple(found)
+    return tuple(
+        BayLoad(bay.cylinders, bay.z, *turning(bay_alone(engine, bay), 1, bay.z))
+        for bay in bays(engine)
+    )
 
 
 def bay_alone(engine: Engine, bay: Bay) -> Engine:
@@ -90,4 +85,4 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
 def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
     """Return a weight at its own angle: its pin has another number in a bay, or none."""
     start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
-    return Unbalance(weight.amount, weight.z, start + correction_planes.degrees(weight.angle_deg))
+    return Unbalance(weight.amount, weight.z, start + degrees(weight.angle_deg))

@@ -9,12 +9,12 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing.planes import Turning, influence, without_rounding
+from crankpin.analysis.balancing.planes import Turning, influence, shares, vectors, without_rounding
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from crankpin.model.shafts import Shaft, Unbalance
+    from crankpin.model.shafts import Shaft
 
 
 @dataclasses.dataclass(frozen=True)
@@ -97,10 +97,8 @@ class FittedShaft:
         if self.bearings is None:
             raise InputError("bearings = None: give bearings=(z_front, z_rear) to balance_shafts")
         front, rear = self.bearings
-        on_rear = (np.array(self._z()) - front) / (rear - front)
-        shares = np.stack([1.0 - on_rear, on_rear])
-        loads: NDArray[np.complex128] = shares @ self._forces() * inputs.angular_speed(rpm) ** 2
-        return loads
+        taken = shares(self._z(), front, rear) @ self._forces()
+        return np.asarray(taken * inputs.angular_speed(rpm) ** 2)
 
     def moved(self, x: float, y: float) -> FittedShaft:
         """Return the same shaft with its axis at another place, m from the crank axis."""
@@ -111,11 +109,4 @@ class FittedShaft:
 
     def _forces(self) -> NDArray[np.complex128]:
         """Return the forces of the unbalances at θ = 0, over ω², kg·m: (n_unbalances,)."""
-        vectors = np.array([_vector(each) for each in self.shaft.unbalances], dtype=complex)
-        return self.shaft.ratio**2 * vectors
-
-
-def _vector(unbalance: Unbalance) -> complex:
-    """Return an unbalance as x + iy at θ = 0, kg·m."""
-    angle = np.deg2rad(float(unbalance.angle_deg))
-    return complex(unbalance.amount * np.exp(1j * angle))
+        return self.shaft.ratio**2 * vectors(self.shaft.unbalances)

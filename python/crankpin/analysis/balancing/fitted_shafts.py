@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -11,12 +10,12 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Listed
 from crankpin._support.tables import Table
-from crankpin.analysis.balance import Balance, balance
+from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
 from crankpin.analysis.balancing.lanchester import PairHeights, makes_a_pair, pair_heights
-from crankpin.analysis.balancing.planes import UNIT_RPM, roll_torque
+from crankpin.analysis.balancing.planes import roll_torque
 from crankpin.analysis.drawing import draw
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Label
     from crankpin.model.engine import Engine
 
-OVER_SPEED = {"force": "kg·m", "moment": "kg·m²", "torque": "kg·m²"}
+OVER_SPEED = labels.OVER_SQUARE | {"torque": "kg·m²"}
 """Quantity → its unit over ω²."""
 
 
@@ -55,7 +54,7 @@ class PartLeft(NamedTuple):
     """Size with them, kg·m or kg·m²."""
 
 
-class BalanceShafts(Frozen):
+class BalanceShafts(Listed[FittedShaft]):
     """Balance shafts fitted to an engine, and the engine with them.
 
     A sequence of :class:`~crankpin.types.FittedShaft`, in the order of the ratios given. Made by
@@ -75,6 +74,7 @@ class BalanceShafts(Frozen):
     """
 
     _fields: ClassVar[tuple[str, ...]] = ("before", "shafts", "plane", "extra_torque")
+    _items = "shafts"
 
     before: Engine
     """The engine as it was given."""
@@ -142,15 +142,6 @@ class BalanceShafts(Frozen):
     def _of(self, order: int) -> list[FittedShaft]:
         return [each for each in self.shafts if each.order == order]
 
-    def __len__(self) -> int:
-        return len(self.shafts)
-
-    def __getitem__(self, place: int) -> FittedShaft:
-        return self.shafts[place]
-
-    def __iter__(self) -> Iterator[FittedShaft]:
-        return iter(self.shafts)
-
     def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
         """Return what stays: the balance of the engine with the shafts.
 
@@ -181,8 +172,7 @@ class BalanceShafts(Frozen):
             for weight in each.shaft.unbalances
         ]  # fmt: skip
         columns = ["shaft", "ratio", "order", "part", "x", "y", "z", "amount", "angle_deg"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.
@@ -203,7 +193,7 @@ class BalanceShafts(Frozen):
         return self._unbalances(), self._shafts(), self._stays()
 
     def _unbalances(self) -> Table:
-        engine = self.before.name or f"{len(self.before)} cylinders"
+        engine = labels.name_of(self.before)
         names: list[Label] = [
             [str(number), f"{each.shaft.ratio:+d}"]
             for number, each in enumerate(self.shafts, start=1)
@@ -248,15 +238,14 @@ class BalanceShafts(Frozen):
     def parts(self) -> tuple[PartLeft, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after."""
         before, after = (
-            balance(each, UNIT_RPM, orders=self.orders, reference_z=self.plane)
+            over_square(each, self.orders, self.plane, torque=True)
             for each in (self.before, self.engine)
         )
-        over = inputs.angular_speed(UNIT_RPM) ** 2
         found = []
         for order, quantity in itertools.product(self.orders, OVER_SPEED):
             pair = [getattr(each[order], quantity) for each in (before, after)]
             for part, name in PARTS[quantity]:
-                sizes = [float(abs(getattr(each, name))) / over for each in pair]
+                sizes = [float(abs(getattr(each, name))) for each in pair]
                 found.append(PartLeft(order, quantity, part, *sizes))
         return tuple(found)
 

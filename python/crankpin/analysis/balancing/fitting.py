@@ -12,17 +12,18 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.first_order import bay_alone, first_order
+from crankpin.analysis.balancing.first_order import bay_alone
 from crankpin.analysis.balancing.least_weights import Problem, least
+from crankpin.analysis.balancing.planes import influence, turning, unbalance
 from crankpin.model.crankpins import bays
-from crankpin.model.shafts import Unbalance
+from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crankpin.model.crankpins import Bay
     from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Unbalance
 
 QUANTITIES = ("force", "moment")
 NOTHING = 1e-13
@@ -118,25 +119,17 @@ def external(
     names, places = list(planes), np.array(list(planes.values()))
     levers = np.append(places, engine.z) - plane
     length = fit.length or float(np.abs(levers).max()) or 1.0
-    order_1 = first_order(engine, plane)
-    made = {"force": np.ones(len(places)) + 0j, "moment": 1j * (places - plane) / length}
+    there = turning(engine, 1, plane)._asdict()
+    made = dict(zip(QUANTITIES, influence(places, plane), strict=True))
     unit = {"force": 1.0, "moment": length}
     found = least(
         Problem(
-            np.array([made[name] for name in fit.parts]),
-            np.array(
-                [
-                    -part * complex(getattr(order_1, name).forward) / unit[name]
-                    for name, part in fit.parts.items()
-                ]
-            ),
+            np.array([made[name] / unit[name] for name in fit.parts]),
+            np.array([-part * there[name] / unit[name] for name, part in fit.parts.items()]),
             np.array([bounds[name] for name in names]),
             None
             if angles is None
-            else tuple(
-                np.deg2rad([correction_planes.degrees(angle) for angle in angles[name]])
-                for name in names
-            ),
+            else tuple(np.deg2rad([degrees(angle) for angle in angles[name]]) for name in names),
             fit.minimise == "largest",
         )
     )
@@ -144,11 +137,10 @@ def external(
     unbalances = []
     for k in np.flatnonzero(amounts > NOTHING * amounts.max(initial=0.0)):
         name = names[found.plane[k]]
-        if angles is None:
-            degrees: float | str = float(np.degrees(np.angle(found.value[k])) % 360.0)
-        else:
-            degrees = angles[name][found.angle[k]]
-        unbalances.append((name, Unbalance(float(amounts[k]), planes[name], degrees)))
+        weight = unbalance(complex(found.value[k]), planes[name])
+        if angles is not None:
+            weight = dataclasses.replace(weight, angle_deg=angles[name][found.angle[k]])
+        unbalances.append((name, weight))
     usable = [z for name, z in planes.items() if bounds[name] > 0.0]
     return Fitted(tuple(unbalances), found.reached and can_remove(engine, usable, fit, plane))
 

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from crankpin._support import inputs
-from crankpin.analysis.balance import balance
-from crankpin.model.shafts import Unbalance
+from crankpin.analysis.balance import over_square
+from crankpin.analysis.geometry import direction
+from crankpin.model.shafts import Unbalance, degrees
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.engine import Engine
-
-UNIT_RPM = 30.0 / np.pi
-"""Crank speed at which ω is 1 rad/s: forces there are amounts over ω², kg·m."""
 
 NOTHING = 1e-14
 """Part of the largest of several values below which another is a rounding error."""
@@ -36,23 +35,20 @@ class Turning(NamedTuple):
     """Moment about the reference plane, kg·m²."""
 
 
-def turning(engine: Engine, ratio: int, reference_z: float | None) -> Turning:
+def turning(engine: Engine, ratio: int, reference_z: float | None = None) -> Turning:
     """Return the part of an engine's force and moment that turns with a shaft of this ratio."""
     order = abs(ratio)
-    found = balance(engine, UNIT_RPM, orders=[order], reference_z=reference_z, torque=False)[order]
+    found = over_square(engine, [order], reference_z)[order]
     part = "forward" if ratio > 0 else "backward"
-    over = inputs.angular_speed(UNIT_RPM) ** 2
-    force, moment = (complex(getattr(each, part)) for each in (found.force, found.moment))
-    return Turning(force / over, moment / over)
+    return Turning(*(complex(getattr(each, part)) for each in (found.force, found.moment)))
 
 
 def roll_torque(engine: Engine, order: int) -> complex:
     """Return the phasor of an order of an engine's roll torque over ω², kg·m²."""
-    torque = balance(engine, UNIT_RPM, orders=[order])[order].torque
-    return complex(torque.phasor) / inputs.angular_speed(UNIT_RPM) ** 2
+    return complex(over_square(engine, [order], torque=True)[order].torque.phasor)
 
 
-def influence(z: Sequence[float], reference_z: float) -> NDArray[np.complex128]:
+def influence(z: ArrayLike, reference_z: float) -> NDArray[np.complex128]:
     """Return force and moment of a unit unbalance in each plane: 1 and i(z − z₀), (2, n_planes)."""
     lever = np.asarray(z, dtype=np.float64) - reference_z
     return np.stack([np.ones(lever.shape, dtype=complex), 1j * lever])
@@ -95,11 +91,28 @@ def without_rounding(values: NDArray[Any], largest: float | None = None) -> NDAr
     return np.where(sizes <= NOTHING * scale, 0.0, values)
 
 
+def unbalance(vector: complex, z: float) -> Unbalance:
+    """Return a vector x + iy at θ = 0, kg·m, as an unbalance."""
+    return Unbalance(abs(vector), z, round(math.degrees(cmath.phase(vector)), DECIMALS) % 360.0)
+
+
 def unbalances(vectors: NDArray[np.complex128], z: Sequence[float]) -> tuple[Unbalance, ...]:
-    """Return vectors x + iy, kg·m, in planes as unbalances; those that are zero are left out."""
-    angles = np.round(np.degrees(np.angle(vectors)), DECIMALS) % 360.0
-    listed = zip(np.abs(vectors).tolist(), z, angles.tolist(), strict=True)
-    return tuple(Unbalance(amount, place, angle) for amount, place, angle in listed if amount)
+    """Return vectors in planes as unbalances; those that are zero are left out."""
+    listed = zip(vectors.tolist(), z, strict=True)
+    return tuple(unbalance(vector, place) for vector, place in listed if vector)
+
+
+def vectors(unbalances: Iterable[Unbalance]) -> NDArray[np.complex128]:
+    """Return unbalances, none at a pin, as vectors x + iy at θ = 0, kg·m: (n_unbalances,)."""
+    listed = [(each.amount, degrees(each.angle_deg)) for each in unbalances]
+    amounts, angles = np.array(listed, dtype=np.float64).reshape(-1, 2).T
+    return amounts * direction(angles)
+
+
+def shares(z: ArrayLike, front: float, rear: float) -> NDArray[np.float64]:
+    """Return the parts of forces at places z that two planes take, by the lever rule: (2, n)."""
+    on_rear = (np.asarray(z) - front) / (rear - front)
+    return np.stack([1.0 - on_rear, on_rear])
 
 
 def ends(engine: Engine) -> tuple[float, ...]:

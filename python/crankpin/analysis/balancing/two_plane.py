@@ -9,7 +9,9 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen, read_only
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
+from crankpin.analysis.balancing.planes import shares, unbalance
+from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
@@ -97,7 +99,7 @@ def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     return float(listed[0]), float(listed[1])
 
 
-class TwoPlaneCorrection(Frozen):
+class TwoPlaneCorrection(Frozen, Shown):
     """Corrections in two planes, and the imbalance that they correct.
 
     Made by :func:`crankpin.two_plane_correction`.
@@ -136,10 +138,8 @@ class TwoPlaneCorrection(Frozen):
     @property
     def _weights(self) -> NDArray[np.complex128]:
         """Weights to add, g·mm."""
-        heavy = np.array(self.measured_g_mm) * np.exp(1j * np.deg2rad(self.measured_deg))
-        front, rear = self.correction_z
-        share = (np.array(self.measured_z) - front) / (rear - front)
-        return -np.array([((1.0 - share) * heavy).sum(), (share * heavy).sum()])
+        heavy = np.array(self.measured_g_mm) * direction(np.array(self.measured_deg))
+        return np.asarray(-shares(self.measured_z, *self.correction_z) @ heavy)
 
     @property
     def amount_g_mm(self) -> NDArray[np.float64]:
@@ -169,10 +169,8 @@ class TwoPlaneCorrection(Frozen):
     @property
     def unbalances(self) -> tuple[Unbalance, ...]:
         """The corrections, as unbalances of a crankshaft, kg·m."""
-        rows = (self.amount_g_mm.tolist(), self.correction_z, self.angle_deg.tolist())
-        return tuple(
-            Unbalance(amount * G_MM, z, angle) for amount, z, angle in zip(*rows, strict=True)
-        )
+        weights = zip((self._weights * G_MM).tolist(), self.correction_z, strict=True)
+        return tuple(unbalance(weight, z) for weight, z in weights)
 
     def to_pandas(self) -> pd.DataFrame:
         """Return the corrections, one row a plane (needs pandas)."""
@@ -182,17 +180,10 @@ class TwoPlaneCorrection(Frozen):
             "angle_deg": self.angle_deg,
             "drill_deg": self.drill_deg,
         }
-        table: pd.DataFrame = optional.pandas().DataFrame(columns)
-        return table
+        return optional.data_frame(columns)
 
     def table(self) -> Table:
         """Return the table of the corrections."""
         columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
         header = ["plane", "z m", "g·mm", "add at °", "or drill at °"]
         return Table("Two-plane correction", header, ["1", "2"], np.stack(columns, axis=1))
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

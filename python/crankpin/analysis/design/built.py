@@ -7,24 +7,27 @@ import warnings
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from crankpin._support import inputs
 from crankpin.analysis.arrangements.cranks import Crank, exact
+from crankpin.analysis.balance import UNIT_RPM
+from crankpin.analysis.balancing.planes import (
+    Turning,
+    ends,
+    fitted,
+    length_of,
+    unbalance,
+    unbalances,
+)
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Shaft, Unbalance
+from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from crankpin.analysis.design.question import Question
     from crankpin.analysis.sweeps.sweep import Sweep
-
-RPM = 60.0
-"""Speed at which shafts are fitted: what they need does not depend on it."""
-ROUNDING = 1e-12
-"""Unbalance, relative to the reciprocating one of a cylinder, below which it is rounding."""
+    from crankpin.model.shafts import Unbalance
 
 
 def engines(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
@@ -103,8 +106,7 @@ def _bob_weight(question: Question) -> Unbalance:
     cylinder = question.cylinder
     (first,) = cylinder.harmonics([1])
     mass = 0.5 * cylinder.reciprocating_mass * complex(first) + question.rotating_mass
-    angle = 180.0 + np.degrees(np.angle(mass)) if mass.imag else 180.0
-    return Unbalance(abs(mass) * cylinder.crank_radius, 0.0, angle, pin=1)
+    return unbalance(-mass * cylinder.crank_radius, 0.0)
 
 
 def _with_shafts(question: Question, bare: list[Engine]) -> list[Engine]:
@@ -114,7 +116,7 @@ def _with_shafts(question: Question, bare: list[Engine]) -> list[Engine]:
     first and the last throw: force and moment determine them.
     """
     orders = sorted({abs(ratio) for ratio in question.shafts})
-    swept = sweep(bare, rpm=RPM, orders=orders, torque=False)
+    swept = sweep(bare, rpm=UNIT_RPM, orders=orders, torque=False)
     return [
         engine.with_shafts([_shaft(swept, k, ratio) for ratio in question.shafts])
         for k, engine in enumerate(bare)
@@ -124,15 +126,7 @@ def _with_shafts(question: Question, bare: list[Engine]) -> list[Engine]:
 def _shaft(swept: Sweep, k: int, ratio: int) -> Shaft:
     engine, found = swept.engines[k], swept[abs(ratio)]
     part = "forward" if ratio > 0 else "backward"
-    load = np.array([getattr(found.force, part)[k], getattr(found.moment, part)[k]])
-    places = np.unique([engine.z.min(), engine.z.max()])
-    influence = np.array([np.ones(places.size), 1j * (places - engine.reference_z)])
-    needed = np.linalg.lstsq(influence, -load / (ratio * inputs.angular_speed(RPM)) ** 2)[0]
-    parts = engine.cylinders[0]
-    rounding = ROUNDING * parts.reciprocating_mass * parts.crank_radius
-    unbalances = [
-        Unbalance(abs(each), z, float(np.degrees(np.angle(each))))
-        for each, z in zip(needed.tolist(), places.tolist(), strict=True)
-        if abs(each) > rounding
-    ]
-    return Shaft(ratio, unbalances, name=f"of order {abs(ratio)}")
+    force, moment = (getattr(each, part)[k] / ratio**2 for each in (found.force, found.moment))
+    places = ends(engine)
+    needed = fitted(Turning(-force, -moment), places, engine.reference_z, length_of(engine))
+    return Shaft(ratio, unbalances(needed, places), name=f"of order {abs(ratio)}")

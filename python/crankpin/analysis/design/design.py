@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
@@ -14,6 +13,7 @@ from crankpin.analysis.design.designs import Designs
 from crankpin.analysis.design.question import checked
 from crankpin.analysis.design.search import Search
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
+from crankpin.analysis.ranking.objectives import tie_tolerance
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -143,9 +143,7 @@ def design(
     Design(place=1, engine=V10 90°, ...
     """
     objectives = listed_objectives(by)
-    tolerance = inputs.number("tie_rtol", tie_rtol)
-    if not 0.0 <= tolerance < 1.0:
-        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+    tolerance = tie_tolerance(tie_rtol)
     wanted = inputs.whole("count", count)
     start = inputs.whole("seed", seed)
     for name, number, least in (("count", wanted, 1), ("seed", start, 0)):
@@ -172,9 +170,7 @@ def design(
         counterweights=counterweights,
         shafts=shafts,
     )
-    with warnings.catch_warnings():
-        # Once for the whole call, below.
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+    with inputs.units_warned_of_elsewhere():
         built.warn_of_units(asked)
         search = Search(asked, objectives, speed, summed)
         found = search.optima(wanted, start, watched)

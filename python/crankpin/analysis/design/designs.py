@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,7 +11,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Listed
 from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design import built
@@ -91,7 +90,7 @@ class Design:
         return len({own, *((each.throws_deg, each.pin_split_deg) for each in self.images)})
 
 
-class Designs(Frozen):
+class Designs(Listed[Design]):
     """Designs sorted by objectives.
 
     A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
@@ -100,6 +99,7 @@ class Designs(Frozen):
     _fields: ClassVar[tuple[str, ...]] = (
         "question", "objectives", "rpm", "orders", "designs", "optima", "cranks"
     )  # fmt: skip
+    _items = "designs"
 
     question: Question
     """What was asked."""
@@ -152,15 +152,6 @@ class Designs(Frozen):
     def engines(self) -> tuple[Engine, ...]:
         """The engines, the best first."""
         return tuple(design.engine for design in self.designs)
-
-    def __len__(self) -> int:
-        return len(self.designs)
-
-    def __getitem__(self, index: int) -> Design:
-        return self.designs[index]
-
-    def __iter__(self) -> Iterator[Design]:
-        return iter(self.designs)
 
     def over_bank_angle(
         self, bank_angle_deg: NDArray[np.float64], count: int = 1
@@ -226,8 +217,7 @@ class Designs(Frozen):
         ]
         columns = ["place", "engine", "throws_deg", "pin_split_deg", "bank_angle_deg", "isolated"]
         columns += ["objective", "value", "unit"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
         """Draw the first objective of the best designs over bank angle; return the axes.

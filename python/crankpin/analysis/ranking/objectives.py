@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -89,10 +88,16 @@ def again(swept: Sweep, **changes: object) -> Sweep:
     arguments |= changes
     if "orders" in changes:
         arguments.pop("rtol", None)
-    with warnings.catch_warnings():
-        # The first sweep has warned.
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+    with inputs.units_warned_of_elsewhere():
         return sweep(**arguments)  # type: ignore[arg-type]
+
+
+def tie_tolerance(tie_rtol: object) -> float:
+    """Return the relative difference up to which objectives are equal."""
+    tolerance = inputs.number("tie_rtol", tie_rtol)
+    if not 0.0 <= tolerance < 1.0:
+        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+    return tolerance
 
 
 def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
@@ -11,6 +10,7 @@ from crankpin._support import inputs
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.ranking.choices import chosen
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
+from crankpin.analysis.ranking.objectives import tie_tolerance
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
@@ -136,16 +136,12 @@ def rank(
     140.657
     """
     ranked_by = listed_objectives(by)
-    tolerance = inputs.number("tie_rtol", tie_rtol)
-    if not 0.0 <= tolerance < 1.0:
-        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+    tolerance = tie_tolerance(tie_rtol)
     between = inputs.flag("refine", refine)
     if between and bank_angle_deg is None:
         raise InputError("refine = True: searches between bank angles; give bank_angle_deg")
     of_engines = _engines(engines, cylinder, spacing)
-    with warnings.catch_warnings():
-        # Once for the whole call, below.
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+    with inputs.units_warned_of_elsewhere():
         swept = sweep(
             of_engines,
             rpm=inputs.number("rpm", rpm),

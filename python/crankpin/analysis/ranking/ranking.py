@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
+from crankpin._support.frozen import Listed
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.choices import Choice, angles_of, own_angles
@@ -34,7 +34,7 @@ MOST_ANGLES = 6
 """Bank angles shown in a cell."""
 
 
-class Ranking(Frozen):
+class Ranking(Listed[Choice]):
     """Engines sorted by objectives, each at its best bank angles.
 
     A sequence of :class:`Choice`, the best first. Made by :func:`crankpin.rank`.
@@ -53,6 +53,7 @@ class Ranking(Frozen):
     """
 
     _fields: ClassVar[tuple[str, ...]] = ("sweep", "objectives", "values_by", "choices")
+    _items = "choices"
 
     sweep: Sweep
     """The sweep of the engines over the bank angles."""
@@ -138,15 +139,6 @@ class Ranking(Frozen):
             raise InputError(f"count = {inputs.shorten(count)}: {remedy}")
         return self.choices[: int(wanted)]
 
-    def __len__(self) -> int:
-        return len(self.choices)
-
-    def __getitem__(self, index: int) -> Choice:
-        return self.choices[index]
-
-    def __iter__(self) -> Iterator[Choice]:
-        return iter(self.choices)
-
     @property
     def unit(self) -> str:
         """Unit of the first objective; empty where it is a function."""
@@ -181,8 +173,7 @@ class Ranking(Frozen):
             for point, value in zip(points, values.ravel().tolist(), strict=True)
         ]
         columns = ["engine", "bank_angle_deg", "objective", "value", "unit"]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
-        return table
+        return optional.data_frame(rows, columns=columns)
 
     def _units(self) -> dict[str, str]:
         units = {each.label: each.unit for each in of_table(self.sweep)}

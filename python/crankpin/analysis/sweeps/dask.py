@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import pickle
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -82,9 +81,7 @@ def _block(
     given = dict(zip(dims, slices, strict=True))
     if "engine" in given:
         given["engines"] = list(given.pop("engine"))
-    with warnings.catch_warnings():
-        # The sweep of everything has warned.
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
+    with inputs.units_warned_of_elsewhere():
         return sweep(**fixed, **given).source.read(quantity, what)
 
 

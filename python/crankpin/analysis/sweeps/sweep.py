@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
@@ -524,7 +524,7 @@ def engine_titles(sweep: Sweep) -> list[str]:
     that the engine had before, such as in "V6 60°".
     """
     given = sweep.coords.get("engine")
-    names = [engine.name or f"{len(engine)} cylinders" for engine in sweep.engines]
+    names = [labels.name_of(engine) for engine in sweep.engines]
     if given is not None:
         names = [str(name) for name in given]
     own = [engine.name for engine in sweep.engines]

@@ -11,12 +11,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
+from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin.analysis import export
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import check_quantities
 from crankpin.analysis.source import PLANE_VECTORS, ErrorBound
 
 if TYPE_CHECKING:
@@ -202,14 +201,7 @@ class SweepWaveform(Frozen):
         ('rpm', 'theta_deg', 'axis')
         """
         names = self.sweep.named(quantities)
-        arrays = {
-            name: (self.dims(name), getattr(self, name), {"units": export.unit(name)})
-            for name in names
-        }
-        coords = labels.coordinates(self.coords)
-        if set(PLANE_VECTORS) & set(names):
-            coords["axis"] = ("axis", ["x", "y"])
-        return export.made(arrays, coords, self.sweep.attributes)
+        return export.waveforms_to_xarray(self, names, self.coords, self.sweep.attributes)
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
@@ -221,23 +213,7 @@ class SweepWaveform(Frozen):
         *quantities
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         """
-        pandas = optional.pandas()
-        points = {name: list(values) for name, values in self.coords.items()}
-        index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
-        parts = []
-        for name in check_quantities(quantities, self.sweep.request.quantities):
-            values = getattr(self, name)
-            planar = name in PLANE_VECTORS
-            for k, component in enumerate("xy" if planar else "z"):
-                columns = {
-                    "quantity": name,
-                    "component": component,
-                    "value": (values[..., k] if planar else values).ravel(),
-                    "unit": labels.UNITS[name],
-                }
-                parts.append(pandas.DataFrame(columns, index=index).reset_index())
-        table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
-        return table
+        return export.waveforms_to_pandas(self, self.sweep.named(quantities), self.coords)
 
     def plot(
         self,

@@ -10,7 +10,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.tolerances import matching
 from crankpin.analysis.tolerances.measured_parts import Assignment, MeasuredParts, assignment_of
@@ -198,7 +198,7 @@ def _by_balance(parts: MeasuredParts, sets: int, seed: int) -> tuple[list[Assign
     return chosen, False, lowest
 
 
-class Match(Frozen):
+class Match(Frozen, Shown):
     """Which piston and rod goes into which cylinder.
 
     Made by :func:`crankpin.match_parts`.
@@ -291,7 +291,7 @@ class Match(Frozen):
         columns = ["set", "cylinder", "piston", "piston_mass"]
         columns += [] if self.parts.rods is None else ["rod", "small_end", "big_end"]
         rows = [(*names, *numbers) for names, numbers in self._rows()]
-        table: pd.DataFrame = optional.pandas().DataFrame(rows, columns=columns)
+        table = optional.data_frame(rows, columns=columns)
         return table.astype({name: int for name in ("piston", "rod") if name in columns})
 
     def _rows(self) -> list[tuple[tuple[int, int], list[float]]]:
@@ -316,9 +316,3 @@ class Match(Frozen):
         return Table(
             title, header, [names for names, _ in rows], np.array([row for _, row in rows])
         )
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
 from crankpin._support.frozen import Frozen
-from crankpin.analysis.balance import balance
+from crankpin.analysis.balance import over_square
 from crankpin.analysis.tolerances import matching
 from crankpin.analysis.tolerances.matching import Kind
 from crankpin.model.shafts import Unbalance
@@ -18,9 +17,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.model.engine import Engine
-
-UNIT_SPEED = 30.0 / math.pi
-"""Crank speed, rpm, at which ω is 1 rad/s."""
 
 
 class Assignment(NamedTuple):
@@ -95,7 +91,7 @@ class MeasuredParts(Frozen):
 
     def _vector(self, engine: Engine) -> NDArray[np.float64]:
         plane = self.engine.reference_z if self.reference_z is None else self.reference_z
-        found = balance(engine, UNIT_SPEED, orders=self.orders, reference_z=plane, torque=False)
+        found = over_square(engine, self.orders, plane)
         half = 0.5 * (self.engine.z.max() - self.engine.z.min())
         parts = [found.force.forward, found.force.backward]
         if half > 0.0:

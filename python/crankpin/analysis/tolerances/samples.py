@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
-from crankpin._support.tables import Table
+from crankpin._support import inputs, labels
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
 from crankpin.analysis.drawing import draw
@@ -66,7 +66,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(AllOrders):
+class Tolerances(AllOrders, Shown):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
@@ -334,15 +334,9 @@ class Tolerances(AllOrders):
             [self.nominal_value(by), self.mean(by), self.std(by), *self.quantile(by=by)]
             for by in self.by
         ]
-        engine = self.engine.name or f"{len(self.engine)} cylinders"
+        engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.source.spreads.text}"
         return Table(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)

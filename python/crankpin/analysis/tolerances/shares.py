@@ -9,14 +9,14 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 
 if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
 
-class Shares(Frozen):
+class Shares(Frozen, Shown):
     """Share of each tolerance in the variance of what remains.
 
     ``shares.values`` is (n_by, n_tolerances); ``shares.interaction`` is what their sums lack of 1.
@@ -71,10 +71,7 @@ class Shares(Frozen):
             for by, shares, rest in zip(self.by, self.values, self.interaction, strict=True)
             for name, share in zip((*self.tolerances, "interaction"), [*shares, rest], strict=True)
         ]
-        table: pd.DataFrame = optional.pandas().DataFrame(
-            rows, columns=["by", "tolerance", "share"]
-        )
-        return table
+        return optional.data_frame(rows, columns=["by", "tolerance", "share"])
 
     def table(self) -> Table:
         """Return the table that is shown, in percent."""
@@ -82,9 +79,3 @@ class Shares(Frozen):
         rows = 100.0 * np.column_stack([self.values, self.interaction])
         title = "Share of each tolerance in the variance"
         return Table(title, ["", *names, "interaction %"], [(by,) for by in self.by], rows, 1)
-
-    def __repr__(self) -> str:
-        return self.table().text()
-
-    def _repr_html_(self) -> str:
-        return self.table().html()

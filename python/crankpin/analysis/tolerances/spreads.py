@@ -11,7 +11,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.request import engine_core
-from crankpin.model import layout
+from crankpin.model.crankpins import crankpins
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -50,7 +50,9 @@ class Spreads:
     ) -> Spreads:
         """Return spreads, or raise an InputError that names the argument at fault."""
         word = inputs.one_of("distribution", distribution, SPREADS)
-        groups = layout.crankpins(engine_core(engine)) if pins is None else _pins(engine, pins)
+        engine_core(engine)
+        shared = (pin.cylinders for pin in crankpins(engine))
+        groups = tuple(shared) if pins is None else _pins(engine, pins)
         values = []
         for name in FIGURES:
             items, count = (

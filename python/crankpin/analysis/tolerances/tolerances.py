@@ -77,8 +77,8 @@ def tolerances(
         ``"normal"``: spreads are standard deviations. ``"uniform"``: spreads are half widths.
     pins
         Numbers of the cylinders on each crankpin, such as ``[[1, 2], [3, 4]]``. By default
-        neighbours along the crank share a pin if they are in different banks and their pins point
-        exactly the same way and have one radius.
+        cylinders of different banks share one if their pins point the same way and have one
+        radius, and their places are less than a crank radius apart, as in :func:`bob_weight`.
     samples
         Number of samples.
     seed
