@@ -35,6 +35,22 @@ FITTED = I4.replace(
     ],
 )
 
+V10S = cp.design(
+    10,
+    layout="vee",
+    cylinder=CYLINDER,
+    spacing=0.1,
+    rpm=5000,
+    bank_angle_deg=(40, 140),
+    throws_deg=[0, 72, 144, 216, 288],
+    by="[1].moment.backward,[2].moment.peak",
+    shared_pins=True,
+    counterweights=True,
+)
+SPREAD = cp.tolerances(
+    I4, rpm=5000, reciprocating_mass=0.002, rotating_mass=0.003, pin_deg=0.1, samples=2000
+)
+
 
 def over_bank_angle(**options: Any) -> cp.Sweep:  # noqa: ANN401 - of a sweep
     """The four engines of the IJESC paper over bank angle."""
@@ -122,5 +138,12 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "side": lambda **place: FITTED.plot(kind="side", theta_deg=30, **place),
     "firing": lambda **place: V8.firing().plot(**place),
     "phasors": lambda **place: V8.balance(5000).plot(kind="phasors", **place),
+    "balance-shafts": lambda **place: cp.balance_shafts(I4, [-2, 2]).plot(
+        quantity="force", **place
+    ),
+    "balancer-options": lambda **place: cp.balancer_options(V6_90, rpm=5000).plot(**place),
+    "designs": V10S.plot,
+    "tolerances": SPREAD.plot,
+    "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),
     "comparison": lambda **place: cp.compare(I4, FITTED, rpm=5000).plot(quantity="force", **place),
 }

@@ -114,12 +114,12 @@ def _nominal(ax: Axes, value: float) -> None:
 
 
 def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any]) -> Axes:
-    """Draw bars from 0 on, one after the other; what they lack of 100 % is interaction."""
+    """Draw bars from 0 on, one after the other; short of 100 %, or beyond, where they interact."""
     shares = result.shares_of(result.by if by is None else (by,))
     rows = np.arange(len(shares.by))
     ax.set_yticks(rows, [plain_text(name) for name in shares.by])
     _fit_rows(ax, len(rows))
-    entitle(ax, labels.name_of(result.engine), "shares in the variance")
+    entitle(ax, labels.name_of(result.engine), "variance by each tolerance alone; 100 % by all")
     left = np.zeros(len(rows))
     looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
     for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):

@@ -37,6 +37,7 @@ use crate::cancel::Cancel;
 use crate::engine::Engine;
 use crate::error::{Error, Result};
 use crate::harmonics;
+use crate::load::{Load, Source};
 use crate::order::{Order, check_list};
 use crate::ring::RootSum;
 use crate::slider_crank::Cylinder;
@@ -232,6 +233,10 @@ impl Proof {
             if above {
                 found
                     .push("unbalances of orders above 1, no rational multiples of pistons'".into());
+            }
+            let beside = |load: &Load| matches!(load.source, Source::Unbalance { axis, .. } if axis != Complex64::default());
+            if self.loads.list.iter().any(beside) {
+                found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
             }
         }
         let mut units: Vec<usize> =

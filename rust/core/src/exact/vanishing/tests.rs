@@ -243,6 +243,17 @@ proptest! {
 }
 
 #[test]
+fn an_undecided_roll_torque_of_a_shaft_is_named() {
+    let unbalance = Unbalance { amount: 10.0, angle: Angle::ZERO, z: 0.0, pin: None };
+    let shaft =
+        Shaft { name: String::new(), ratio: 1, axis: [0.0, 0.1], unbalances: vec![unbalance] };
+    let engine = engine(&[(0.0, 0.0, 0.0, 400.0, 0.0)]).with_shafts(vec![shaft]).unwrap();
+    let found = vanishing(&engine, &[1], None, &crate::Cancel::new()).unwrap();
+    assert_eq!(found.verdicts[0][8], U);
+    assert_eq!(found.obstacles, ["roll torques of shafts, no rational multiples of pistons'"]);
+}
+
+#[test]
 fn roll_torques_of_shafts_cancel_where_one_leads_by_a_quarter() {
     let cancel = crate::Cancel::new();
     for ratio in [1, -1, 2, -2, 3, -3] {
