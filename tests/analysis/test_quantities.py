@@ -197,6 +197,7 @@ def test_datasets_survive_netcdf(result: Any, tmp_path: Path) -> None:
         assert found.moment.attrs["units"] == "N m"
 
 
+@pytest.mark.slow
 def test_names_with_dollar_signs_are_drawn() -> None:
     engine = V6.replace(name=r"V6 $\foo$")
     s = cp.sweep([engine, V6], rpm=[1000.0], bank_angle_deg=[60.0, 90.0], hold="pins")

@@ -352,6 +352,7 @@ def test_rank_of_engines_as_they_are(capsys: CAPTURE) -> None:
 # --- pictures -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("suffix", "start"),
     [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")],
@@ -387,6 +388,7 @@ def test_a_picture_shows_the_quantity_asked_for(capsys: CAPTURE, tmp_path: Path)
     assert "peak roll torque, N·m" in file.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_path: Path) -> None:
     before = plt.get_fignums()
     missing = tmp_path / "missing" / "picture.png"
@@ -495,6 +497,7 @@ def test_version(capsys: CAPTURE) -> None:
     assert capsys.readouterr().out == f"crankpin {cp.__version__}\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [[], ["presets"], ["balance"], ["sweep"], ["rank"]])
 def test_examples_of_help_run(
     capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]
@@ -524,6 +527,7 @@ def program(*argv: str, **environment: str) -> subprocess.Popen[bytes]:
     )
 
 
+@pytest.mark.slow
 def test_runs_as_a_module(capsys: CAPTURE, tmp_path: Path) -> None:
     file = tmp_path / "v6.png"
     argv = ["sweep", "v6-60", "--plot", str(file)]
@@ -550,6 +554,7 @@ def test_terminals_without_the_letters_are_served() -> None:
     assert b"N?m" in out
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise there")
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_broken_pipe_is_quiet(unbuffered: str) -> None:
@@ -579,6 +584,7 @@ def test_pipe_that_is_broken_from_the_start_is_quiet() -> None:
     assert (run.returncode, run.stderr) == (141, b"")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("argv", ["balance i4 --plot x.png", "sweep v6-60 --plot x.png"])
 def test_without_matplotlib_tables_are_printed_and_pictures_are_refused(
     tmp_path: Path, argv: str
@@ -615,6 +621,7 @@ def shell(line: str) -> subprocess.CompletedProcess[bytes]:
 WARNS = "balance i4-ebook --rpm 3000"  # of a piston faster than any
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
 @pytest.mark.parametrize("command", ["balance i4", "--version", WARNS])
 def test_closed_standard_output_is_an_error_in_a_line(command: str) -> None:
@@ -633,6 +640,7 @@ def test_full_disk_is_an_error_in_a_line() -> None:
     assert run.stderr == b"crankpin: error: standard output: No space left on device\n"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell")
 @pytest.mark.parametrize("closed", ["2>&-", "2>/dev/full"])
 def test_warnings_do_not_land_in_the_csv(closed: str) -> None:

@@ -77,6 +77,7 @@ def figure_of(axes: Any) -> Figure:  # noqa: ANN401 - axes
 # --- the numbers drawn --------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @any_engine
 def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
     engine: cp.Engine,
@@ -100,6 +101,7 @@ def test_pistons_and_pins_of_the_section_are_where_the_slider_crank_has_them(
         assert abs(rod - at.wrist_pin[k]).min() < 0.5 * size
 
 
+@pytest.mark.slow
 @any_engine
 def test_the_star_has_every_crankpin_with_its_numbers(engine: cp.Engine) -> None:
     ax = engine.plot(kind="star", theta_deg=30)
@@ -134,6 +136,7 @@ def _numbers(text: str) -> set[int]:
     return found
 
 
+@pytest.mark.slow
 @any_engine
 def test_the_side_view_has_pins_at_their_heights_and_places(engine: cp.Engine) -> None:
     ax = engine.plot(kind="side", theta_deg=70)
@@ -196,6 +199,7 @@ def test_the_flywheel_end_is_over_the_front() -> None:
 CROWDED = ("w12", "w16", "v16-45", "v14-9.13", "v4-narrow", "vr6", "i6")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "size", "font"),
     [(engine, (7.2, 5.6), 10.0) for engine in ENGINES]
@@ -297,6 +301,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 HREF = "{http://www.w3.org/1999/xlink}href"
 
 
+@pytest.mark.slow
 @any_engine
 def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engine) -> None:
     text = engine._repr_svg_()

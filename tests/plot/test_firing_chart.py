@@ -65,6 +65,7 @@ def test_it_shows_strokes_and_open_valves() -> None:
     assert found["exhaust open"] == wrapped(V8.valves().exhaust, 720.0)
 
 
+@pytest.mark.slow
 def test_cylinders_stand_bank_by_bank_and_fire_where_marked() -> None:
     ax = V8.plot()
     rows = [1, 3, 5, 7, 2, 4, 6, 8]
@@ -123,6 +124,7 @@ def test_an_error_leaves_no_figure() -> None:
     assert plt.get_fignums() == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [n for n in cp.presets() if cp.Engine.preset(n).firing_order])
 def test_all_presets_with_a_firing_order_are_drawn(name: str) -> None:
     firing = cp.Engine.preset(name).firing()

@@ -76,6 +76,7 @@ def _shown(labels: list[Text]) -> Iterator[Text]:
 # --- places -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_is_drawn_where_it_is_told(name: str) -> None:
     """On the axes given, or in the figure given, and no other figure is made."""

@@ -44,6 +44,7 @@ def test_the_axis_named_is_along_x_and_values_may_come_in_any_order() -> None:
     assert ax.get_xlabel() == "rod ratio"
 
 
+@pytest.mark.slow
 def test_scales_of_colours_begin_at_zero_with_round_numbers() -> None:
     panels = over_two().plot()
     figure_of(panels).canvas.draw()
@@ -108,6 +109,7 @@ def test_map_of_orders_on_axes() -> None:
     np.testing.assert_array_equal(np.asarray(cells(ax))[[1, 3]], s.force.peak.T)
 
 
+@pytest.mark.slow
 def test_map_of_nothing_is_drawn() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000], orders=[1])
     figure_of(s.plot(kind="orders", quantity="force")).canvas.draw()

@@ -34,6 +34,7 @@ def texts(ax: Axes) -> list[str]:
     return [text.get_text() for text in ax.texts]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", [V8, V6, cp.Engine.preset("vr6")])
 @pytest.mark.parametrize("quantity", ["force", "moment"])
 def test_arrows_are_head_to_tail_and_end_at_the_sum(engine: cp.Engine, quantity: str) -> None:
@@ -105,6 +106,7 @@ def test_orders_are_those_given_or_the_first_two() -> None:
     assert orders(V6.balance(5000, orders=[3]).plot(kind="phasors", orders=[1, 6])) == ["1", "6"]
 
 
+@pytest.mark.slow
 def test_arrows_that_would_cover_each_other_are_moved_aside() -> None:
     """The four of an inline-4 lie on one line: two lanes show them all."""
     ax = I4.balance(3000).plot(kind="phasors", quantity="force", orders=[1])[0, 0]

@@ -662,6 +662,7 @@ def test_import_and_use_leave_drawing_and_tables_alone() -> None:
     assert "numpy" in loaded
 
 
+@pytest.mark.slow
 def test_import_takes_little_longer_than_that_of_numpy() -> None:
     code = "from time import process_time as now; import numpy; t = now(); import crankpin; "
     code += "print(now() - t)"
@@ -722,6 +723,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
         assert name in EXAMPLES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_docstring_examples(name: str) -> None:
     if ".preset(" in EXAMPLES[name] and not cp.presets():

@@ -289,6 +289,7 @@ def test_what_comparing_floating_point_finds(
     assert (count == search.qualifying) == (count == EXACT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("formula", ito.FORMULAS)
 def test_no_count_by_comparing_is_the_papers(formula: str) -> None:
     for dtype in (np.float32, np.float64, np.longdouble):
@@ -301,6 +302,7 @@ def test_no_count_by_comparing_is_the_papers(formula: str) -> None:
 # --- groups with the same wave --------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("signed", "shift", "negated", "reversed_", "count"),
     [

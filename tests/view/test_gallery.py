@@ -6,10 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
+import pytest
 from crankpin.view.gallery import save_gallery
 
 if TYPE_CHECKING:
     from chromium import Open
+
+pytestmark = pytest.mark.slow  # a browser
 
 
 def test_shows_and_links_all_presets(open_file: Open, tmp_path: Path) -> None:

@@ -19,6 +19,8 @@ from view_engines import everything, radial
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+pytestmark = pytest.mark.slow  # a browser
+
 ENGINES = {
     **{
         name: cp.Engine.preset(name)

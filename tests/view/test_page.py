@@ -18,6 +18,8 @@ from view_engines import everything, radial
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+pytestmark = pytest.mark.slow  # a browser
+
 V8 = cp.Engine.preset("v8-crossplane")
 V16 = cp.Engine.preset("v16-45")
 

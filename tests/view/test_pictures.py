@@ -19,6 +19,8 @@ from view_engines import everything, radial
 if TYPE_CHECKING:
     from chromium import Open
 
+pytestmark = pytest.mark.slow  # a browser
+
 PICTURES = Path(__file__).parent / "pictures"
 ENGINES = {
     "i4": (cp.Engine.preset("i4"), "light"),

@@ -16,6 +16,8 @@ from view_engines import everything
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+pytestmark = pytest.mark.slow  # a browser
+
 V8 = cp.Engine.preset("v8-crossplane")
 
 HOST = """async ([source, style, state]) => {

@@ -93,6 +93,7 @@ def test_its_objectives_are_the_library_s(asked: Any, by: str) -> None:  # noqa:
     assert (sampled >= 0.95 * expected).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by", [*BY, "[1].moment.peak_xy,[2].force.forward,total.moment.peak"])
 @pytest.mark.parametrize("asked", QUESTIONS.values(), ids=QUESTIONS)
 def test_gradients_are_finite_differences(asked: Any, by: str) -> None:  # noqa: ANN401
@@ -162,6 +163,7 @@ def test_free_throws_of_an_inline_5_are_equally_spaced(seed: int) -> None:
     assert all(each.isolated for each in free)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 7])
 def test_free_angles_find_the_split_of_a_60_degree_v6(seed: int) -> None:
     found = design(
@@ -252,6 +254,7 @@ def test_an_angle_that_is_no_round_number_is_not_rounded() -> None:
         assert (each.value <= beside[0] * (1 + 1e-9)).all()
 
 
+@pytest.mark.slow
 def test_the_best_few_are_the_first_of_all() -> None:
     # Between two angles of the grid, 90.25°, first-order couples vanish: only there the second
     # order, whose sequence of cranks is the reverse, decides.

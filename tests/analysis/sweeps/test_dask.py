@@ -64,6 +64,7 @@ def in_chunks(arguments: dict[str, Any]) -> Any:  # noqa: ANN401 - an xarray Dat
     return cp.sweep(**given).to_dask(arguments["chunks"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", AXES)
 def test_chunks_have_the_bits_of_the_whole(name: str) -> None:
     arguments = AXES[name]
