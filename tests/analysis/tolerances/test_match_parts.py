@@ -233,3 +233,18 @@ def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None
     arguments: dict[str, Any] = {"pistons": [0.4, 0.41] * 4} | changes
     with pytest.raises(cp.InputError, match=message):
         cp.match_parts(I4, **arguments)
+
+
+@pytest.mark.parametrize(
+    ("name", "masses", "steps"), [("i4", 4, 6), ("i4", 8, 2), ("v16-45", 16, 24)]
+)
+def test_progress_is_told(name: str, masses: int, steps: int) -> None:
+    """Of one engine's halves of the parts, of engines, or of starts; in steps of one to the end."""
+    told: list[tuple[int, int]] = []
+    pistons = 0.4 + 0.001 * np.sin(np.arange(masses))
+    cp.match_parts(
+        cp.Engine.preset(name), pistons, progress=lambda done, total: told.append((done, total))
+    )
+    assert told == [(done, steps) for done in range(1, steps + 1)]
+    with pytest.raises(cp.InputError, match="progress = 'yes': give True for a tqdm bar"):
+        cp.match_parts(cp.Engine.preset(name), pistons, progress="yes")  # type: ignore[arg-type]

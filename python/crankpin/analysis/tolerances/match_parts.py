@@ -9,6 +9,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
+from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Shown, Table
 from crankpin.analysis.request import engine_core
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders
+    from crankpin._support.progress import Progress
+    from crankpin.analysis.tolerances.matching import Report
     from crankpin.model.engine import Engine
 
 Objective: TypeAlias = Literal["balance", "spread"]
@@ -43,6 +46,7 @@ def match_parts(
     orders: Orders = (1, 2),
     reference_z: float | None = None,
     seed: int = 0,
+    progress: Progress = False,
 ) -> Match:
     """Return which measured piston and rod goes into which cylinder.
 
@@ -75,6 +79,8 @@ def match_parts(
         cylinder.
     seed
         Seed of the random starts of the search where there are too many arrangements for all.
+    progress
+        True for a tqdm bar, or a function that is called with the steps done and the steps in all.
 
     Returns
     -------
@@ -120,13 +126,15 @@ def match_parts(
     if start < 0:
         raise InputError(f"seed = {start}: give zero or more")
     plane = inputs.optional_number("reference_z", reference_z)
+    asked = progress_bar.checked(progress)
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed), plane)
     if word == "spread":
         chosen, exact = _by_spread(measured, wanted)
         # Rods might make up for any difference of pistons.
         bound = sum(measured.value(word, each) for each in chosen) if exact else 0.0
     else:
-        chosen, exact, bound = _by_balance(measured, wanted, start)
+        with progress_bar.shown(asked, "assignments") as report:
+            chosen, exact, bound = _by_balance(measured, wanted, start, report)
     return Match(measured, word, tuple(chosen), bound, exact)
 
 
@@ -174,12 +182,14 @@ def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]
     return found, everything and sets == 1
 
 
-def _by_balance(parts: MeasuredParts, sets: int, seed: int) -> tuple[list[Assignment], bool, float]:
+def _by_balance(
+    parts: MeasuredParts, sets: int, seed: int, report: Report
+) -> tuple[list[Assignment], bool, float]:
     """Return assignments that leave little, whether that is proved the least, and a lower bound."""
     start, kinds = parts.start, parts.kinds
     lowest = sets * matching.lower_bound(start, kinds)
     if sets == 1:
-        found = matching.best(start, kinds, seed=seed)
+        found = matching.best(start, kinds, seed=seed, report=report)
         assignment = assignment_of(*found.chosen)
         value = parts.value("balance", assignment)
         return [assignment], found.exact, value if found.exact else min(lowest, value)
@@ -188,13 +198,15 @@ def _by_balance(parts: MeasuredParts, sets: int, seed: int) -> tuple[list[Assign
     if parts.rods is not None:
         groups.append(matching.windows(parts.rods.sum(axis=1), len(parts.engine), sets))
     chosen = []
-    for of_set in zip(*groups, strict=True):
+    for done, of_set in enumerate(zip(*groups, strict=True), start=1):
         own = tuple(
             kind._replace(parts=kind.parts[each]) for kind, each in zip(kinds, of_set, strict=True)
         )
         found = matching.best(start, own, seed=seed)
         pairs = zip(of_set, found.chosen, strict=True)
         chosen.append(assignment_of(*(each[order] for each, order in pairs)))
+        if report:
+            report(done, sets)
     return chosen, False, lowest
 
 

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
     Places = NDArray[np.intp]
+    Report = Callable[[int, int], object] | None
 
 MOST_ARRANGEMENTS = 2_000_000_000
 """Arrangements up to which all are compared: those of 12 parts, or of 8 pistons and rods, take
@@ -68,12 +69,15 @@ def remains(start: Array, kinds: tuple[Kind, ...], chosen: tuple[Places, ...]) -
     return float(np.linalg.norm(start + sum(added)))
 
 
-def best(start: Array, kinds: tuple[Kind, ...], *, seed: int = 0) -> Found:
-    """Return the best assignment: of all where there are few enough, else found by exchanges."""
+def best(start: Array, kinds: tuple[Kind, ...], *, seed: int = 0, report: Report = None) -> Found:
+    """Return the best assignment: of all where there are few enough, else found by exchanges.
+
+    ``report`` is told the steps done and the steps in all.
+    """
     start, kinds = _reduced(start, kinds)
     if arrangements(kinds) <= MOST_ARRANGEMENTS:
-        return _of_all(start, kinds)
-    return _by_exchanges(start, kinds, seed)
+        return _of_all(start, kinds, report)
+    return _by_exchanges(start, kinds, seed, report)
 
 
 def lower_bound(start: Array, kinds: tuple[Kind, ...]) -> float:
@@ -120,7 +124,7 @@ def _reduced(start: Array, kinds: tuple[Kind, ...]) -> tuple[Array, tuple[Kind, 
 # --- all arrangements ---------------------------------------------------------------------------
 
 
-def _of_all(start: Array, kinds: tuple[Kind, ...]) -> Found:
+def _of_all(start: Array, kinds: tuple[Kind, ...], report: Report) -> Found:
     """Compare all arrangements: those of the first half of the places with those of the second.
 
     For every choice of the parts of each half, |start + a + b|² of all pairs is one product of
@@ -129,7 +133,8 @@ def _of_all(start: Array, kinds: tuple[Kind, ...]) -> Found:
     places = np.arange(len(kinds[0].influences))
     first, second = places[: len(places) // 2], places[len(places) // 2 :]
     best: tuple[float, tuple[Places, ...]] = (np.inf, ())
-    for ours in _choices([range(len(kind.parts)) for kind in kinds], len(first)):
+    choices = list(_choices([range(len(kind.parts)) for kind in kinds], len(first)))
+    for done, ours in enumerate(choices, start=1):
         left = [
             sorted(set(range(len(kind.parts))) - set(taken))
             for kind, taken in zip(kinds, ours, strict=True)
@@ -146,6 +151,8 @@ def _of_all(start: Array, kinds: tuple[Kind, ...]) -> Found:
                         for of_a, of_b in zip(a_chosen, b_chosen, strict=True)
                     )
                     best = (value, chosen)
+        if report:
+            report(done, len(choices))
     return Found(best[1], remains(start, kinds, best[1]), exact=True)
 
 
@@ -196,12 +203,12 @@ def _closest(a: Array, b: Array, known: float) -> list[tuple[int, int]]:
 # --- exchanges ----------------------------------------------------------------------------------
 
 
-def _by_exchanges(start: Array, kinds: tuple[Kind, ...], seed: int) -> Found:
+def _by_exchanges(start: Array, kinds: tuple[Kind, ...], seed: int, report: Report = None) -> Found:
     """Exchange two parts, or a part and an unused one, while that is better; several starts."""
     random = np.random.default_rng(seed)
     count = len(kinds[0].influences)
     best: tuple[float, tuple[Places, ...]] = (np.inf, ())
-    for _ in range(STARTS):
+    for done in range(1, STARTS + 1):
         orders = [random.permutation(len(kind.parts)) for kind in kinds]
         value = np.inf
         while True:
@@ -219,6 +226,8 @@ def _by_exchanges(start: Array, kinds: tuple[Kind, ...], seed: int) -> Found:
             orders[which][[i, j]] = orders[which][[j, i]]
         if value < best[0]:
             best = (value, tuple(each.copy() for each in chosen))
+        if report:
+            report(done, STARTS)
     return Found(best[1], best[0], exact=False)
 
 
