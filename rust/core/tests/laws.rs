@@ -371,7 +371,7 @@ proptest! {
             rpm: vec![rpm, 3000.0],
         };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), None).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), None, &Cancel::new()).unwrap();
         let phasors = |quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
         let (force, moment) = (phasors(Quantity::Force), phasors(Quantity::Moment));
         let torque = phasors(Quantity::Torque);
@@ -412,7 +412,7 @@ proptest! {
             Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), None).unwrap();
+        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), None, &Cancel::new()).unwrap();
         let moment = sweep.phasors(Quantity::Moment, Figure::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
@@ -436,7 +436,7 @@ proptest! {
                 rpm: vec![3000.0],
             };
             let engines = vec![engine.clone().into(), engine.clone().into()];
-            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, None).unwrap();
+            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, None, &Cancel::new()).unwrap();
             sweep.peaks(Quantity::Moment, Figure::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);

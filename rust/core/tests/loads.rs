@@ -125,7 +125,7 @@ proptest! {
             ..Axes::default()
         };
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(reference), None).unwrap();
+        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(reference), None, &Cancel::new()).unwrap();
         let cancel = Cancel::new();
         let all = [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
         let phasors =
@@ -552,7 +552,9 @@ fn half_orders_of_inertia_are_zero() {
         rpm: vec![3000.0],
         ..Axes::default()
     };
-    let sweep = |orders| Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), None);
+    let sweep = |orders| {
+        Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), None, &Cancel::new())
+    };
     let (all, second) = (sweep(orders).unwrap(), sweep(whole(&[2])).unwrap());
     for quantity in [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque] {
         let lengths =

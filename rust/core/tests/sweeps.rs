@@ -30,7 +30,15 @@ fn sweep(
     spectrum: Option<&Spectrum>,
 ) -> Sweep {
     let reference = Some(REFERENCE);
-    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), reference, spectrum.cloned()).unwrap()
+    Sweep::new(
+        engines.to_vec(),
+        axes.clone(),
+        whole(orders),
+        reference,
+        spectrum.cloned(),
+        &Cancel::new(),
+    )
+    .unwrap()
 }
 
 fn phasors(sweep: &Sweep, quantity: Quantity, figure: Figure) -> Vec<Complex64> {
@@ -449,7 +457,9 @@ fn as_much_as_rounding_can_leave_is_zero() {
     let of = |reference: f64| {
         let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
         let (engines, spectrum) = (vec![Arc::clone(&engine)], Some(spectrum.clone()));
-        let sweep = Sweep::new(engines, axes, whole(&[1]), Some(reference), spectrum).unwrap();
+        let sweep =
+            Sweep::new(engines, axes, whole(&[1]), Some(reference), spectrum, &Cancel::new())
+                .unwrap();
         peaks(&sweep, Quantity::Moment, Figure::Amplitude)[1]
     };
     assert_eq!(of(reference), 0.0);
@@ -465,7 +475,7 @@ fn refusal(result: Result<impl Sized, Error>) -> String {
 
 fn new(axes: &Axes, orders: &[u32], spectrum: Option<Spectrum>) -> Result<Sweep, Error> {
     let engines = vec![plain(), mixed()];
-    Sweep::new(engines, axes.clone(), whole(orders), None, spectrum)
+    Sweep::new(engines, axes.clone(), whole(orders), None, spectrum, &Cancel::new())
 }
 
 #[test]
@@ -474,10 +484,10 @@ fn values_that_cannot_be_are_refused() {
     assert!(new(&good, &[1], None).is_ok());
     assert!(refusal(new(&good, &[], None)).contains("orders"));
     assert!(refusal(new(&good, &[2, 2], None)).contains("orders"));
-    let no_engine = Sweep::new(vec![], good.clone(), whole(&[1]), None, None);
+    let no_engine = Sweep::new(vec![], good.clone(), whole(&[1]), None, None, &Cancel::new());
     assert!(refusal(no_engine).starts_with("engines = []"));
     let engines = vec![plain()];
-    let far = Sweep::new(engines, good.clone(), whole(&[1]), Some(f64::NAN), None);
+    let far = Sweep::new(engines, good.clone(), whole(&[1]), Some(f64::NAN), None, &Cancel::new());
     assert!(refusal(far).contains("reference_z"));
 
     // Behind many that can be.
@@ -504,7 +514,8 @@ fn values_that_cannot_be_are_refused() {
         assert!(refusal(new(&axes, &[1], None)).starts_with(told), "{told}");
     }
     let axes = Axes { bank_angle: Some((vec![60.0], Hold::Pins)), ..good.clone() };
-    let no_banks = Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, None);
+    let no_banks =
+        Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, None, &Cancel::new());
     assert!(
         refusal(no_banks)
             .starts_with("bank_angle_deg is undefined for this engine: it has one bank")
@@ -683,6 +694,8 @@ fn whoever_no_longer_waits_is_told_so() {
     ));
     let speeds = Axes { rpm: vec![3000.0, 1000.0], ..Axes::default() };
     for axes in [axes, speeds] {
+        let made = Sweep::new(engines(), axes.clone(), whole(&[1]), None, None, &raised);
+        assert!(stopped(made.map(drop)));
         let sweep = new(&axes, &[1, 2], None).unwrap();
         for quantity in QUANTITIES {
             assert!(stopped(sweep.phasors(quantity, Figure::Turning, &raised).map(drop)));

@@ -201,7 +201,8 @@ const QUANTITIES: [Quantity; 4] =
     [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
 
 fn sweep(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) -> Sweep {
-    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), None).unwrap()
+    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), None, &Cancel::new())
+        .unwrap()
 }
 
 fn waveforms(sweep: &Sweep, quantity: Quantity, thetas: &[f64], exact: bool) -> Vec<f64> {
@@ -390,7 +391,8 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     let angles = CrankAngles::new(&thetas(9)).unwrap();
     let with = |spectrum: Option<Spectrum>| {
         let reference = Some(REFERENCE);
-        Sweep::new(vec![plain()], axes.clone(), whole(&[1]), reference, spectrum).unwrap()
+        Sweep::new(vec![plain()], axes.clone(), whole(&[1]), reference, spectrum, &Cancel::new())
+            .unwrap()
     };
     let told = |sweep: &Sweep, quantity: Quantity, exact: bool, room: usize| {
         let mut out = vec![0.0; room];

@@ -125,7 +125,7 @@ impl Sweep {
                 rpm: memory::copied(rpm, cancel)?,
             };
             if let Some(orders) = orders {
-                return core::Sweep::new(engines, axes, orders, reference_z, spectrum);
+                return core::Sweep::new(engines, axes, orders, reference_z, spectrum, cancel);
             }
             core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
         })?;

@@ -25,11 +25,16 @@ pub struct Axes {
 
 impl Axes {
     /// ω² of each speed.
-    pub(super) fn squares(&self) -> Result<Vec<f64>> {
+    pub(super) fn squares(&self, cancel: &Cancel) -> Result<Vec<f64>> {
+        /// Speeds between two checks for cancellation.
+        const PIECE: usize = 1 << 14;
         length("rpm", self.rpm.len())?;
         let mut squares = memory::room(self.rpm.len())?;
-        for &rpm in &self.rpm {
-            squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
+        for piece in self.rpm.chunks(PIECE) {
+            cancel.check()?;
+            for &rpm in piece {
+                squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
+            }
         }
         Ok(squares)
     }

@@ -38,7 +38,8 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
-        let mut sweep = Self::new(engines, axes, vec![Order::FIRST], reference_z, spectrum)?;
+        let mut sweep =
+            Self::new(engines, axes, vec![Order::FIRST], reference_z, spectrum, cancel)?;
         sweep.torque &= torque;
         let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
         let candidates = sweep.candidates(rtol, &loads)?;

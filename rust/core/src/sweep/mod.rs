@@ -90,10 +90,11 @@ impl Sweep {
         orders: Vec<Order>,
         reference_z: Option<f64>,
         spectrum: Option<Spectrum>,
+        cancel: &Cancel,
     ) -> Result<Self> {
         order::check_list(&orders)?;
         axes::not_empty("engines", engines.len())?;
-        let squares = axes.squares()?;
+        let squares = axes.squares(cancel)?;
         axes.check(&engines, spectrum.is_some())?;
         let extremes = axes.check_geometry(&engines)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
