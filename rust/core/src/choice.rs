@@ -207,6 +207,29 @@ mod tests {
     use proptest::sample::select;
 
     use super::*;
+    use crate::angle::Angle;
+    use crate::engine::Placement;
+    use crate::load::Alike;
+
+    #[test]
+    fn a_rod_counts_by_its_inertia_over_what_a_tolerance_is_relative_to() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |inertia: f64| Placement {
+            cylinder: cylinder.with_rod_inertia_excess(inertia).unwrap(),
+            tdc: Angle::ZERO,
+            bank: Angle::ZERO,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let share = |inertias: [f64; 2], motion: usize| {
+            let engine = Engine::new("", "", inertias.map(place).to_vec()).unwrap();
+            let loads = Loads::new(&engine, 0.0, Alike::Proportions);
+            rod_share(&loads, motion, &[1.0, 1.0, 4.0])
+        };
+        assert_eq!(share([0.0, 0.0], 0), 0.0);
+        assert_eq!(share([0.002, -0.008], 0), 0.002);
+        assert_eq!(share([0.002, -0.008], 1), 0.0);
+    }
 
     #[test]
     fn orders_are_dropped_from_the_smallest_up() {
