@@ -78,3 +78,14 @@ def test_what_has_no_such_picture(sweep: Any, options: dict[str, Any], says: str
         options = {"ax": plt.subplots()[1]}
     with pytest.raises(cp.InputError, match=says):
         s.plot(kind="parts", **options)
+
+
+def test_what_is_zero_throughout_is_said_and_what_is_missing_leaves_no_figure() -> None:
+    s = cp.sweep(cp.Engine.preset("v12-60"), rpm=[1000, 2000])
+    panels = s.plot(kind="parts")
+    assert panels.shape == (1, 1)
+    assert [text.get_text() for text in panels[0, 0].texts] == ["zero throughout"]
+    plt.close("all")
+    with pytest.raises(cp.InputError, match="order = 7"):
+        s.plot(kind="parts", orders=[7])
+    assert plt.get_fignums() == []

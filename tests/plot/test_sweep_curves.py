@@ -235,3 +235,9 @@ def test_titles_leave_out_the_bank_angle_alone(name: str, title: str) -> None:
     engine = cp.Engine.preset("v6-60").replace(name=name)
     s = cp.sweep(engine, rpm=5000, bank_angle_deg=[60, 90], hold="pins", orders=[1])
     assert figure_of(s.plot()).get_suptitle().split("\n")[0] == title
+
+
+def test_a_scale_of_colours_leaves_the_title_of_given_axes() -> None:
+    _, ax = plt.subplots()
+    over_two(orders=[1]).plot(ax, kind="curves")
+    assert title_of(ax).split("\n")[0] == "V6, shared pins"

@@ -70,6 +70,9 @@ def curves(
     for panel, axis in zip(made.axes[0], rows.columns, strict=True):
         head(panel, axis)
     bundle = _draw(made.axes, sweep, name, along, rows, style)
+    if bundle.scale:
+        for panel, axis in zip(made.axes[0], rows.columns, strict=True):
+            head(panel, axis, part=BESIDE_A_SCALE)
     entitle_figure(made.figure, words.title, words.subtitle(name), rows.note)
     marks = [entry_of(made.axes, text) for text in (ZERO, LEAST)]
     handles = [*bundle.handles, *filter(None, marks)]
@@ -111,8 +114,6 @@ def _draw(
             (degrees if along.endswith("_deg") else numeric)(panel.xaxis)
     if bundle.scale:
         colour_scale(panels, sweep, bundle.scale)
-        for panel in panels[0]:
-            head(panel, panel.get_title(loc="left").replace("\n", " "), part=BESIDE_A_SCALE)
     return bundle
 
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
+    from crankpin.analysis.quantities import PlaneVector
     from crankpin.analysis.sweeps.sweep import Sweep
 
 WIDE = 1.6
@@ -61,9 +62,11 @@ def parts(
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]
     places, note = largest(sweep.source, name, MOST - 1)
-    chosen = [sweep.orders[place] for place in places]
+    # Where all are zero, one panel says so.
+    chosen = [sweep.orders[place] for place in places] or [*(sweep.orders or (1,))[:1]]
     if orders is not None:
         chosen, note = inputs.explicit_orders(orders), ""
+    vectors = [getattr(sweep[order], name) for order in chosen]
     if len(names) > MOST_TOLD_APART:
         raise InputError(
             f'kind="parts" has a panel for each of {len(names)} engines or values: sweep up to '
@@ -74,14 +77,14 @@ def parts(
             raise InputError("ax: here is a panel for each order and engine; give figure")
         ax = one_panel(ax)
         entitle(ax, words.title, words.subtitle(name), f"order {chosen[0]}")
-        _draw(ax, sweep, name, along, chosen[0], style)
+        _draw(ax, sweep, vectors[0], along, style)
         label_y(ax, labels.NAMES[name], labels.UNITS[name])
         legend_below(ax)
         return ax
     made, panels = _panels(figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
         head(panel, ", ".join(filter(None, (f"order {chosen[row]}", names[column]))))
-        _draw(panel, sweep, name, along, chosen[row], style, column)
+        _draw(panel, sweep, vectors[row], along, style, column)
         if not panel.get_subplotspec().colspan.start:
             label_y(panel, labels.NAMES[name], labels.UNITS[name])
     for of_order in panels:
@@ -109,14 +112,12 @@ def _panels(figure: Any, orders: int, rest: int) -> tuple[FigureBase, NDArray[An
 def _draw(
     ax: Axes,
     sweep: Sweep,
-    name: str,
+    vector: PlaneVector,
     along: str,
-    order: int,
     style: dict[str, Any],
     column: int = 0,
 ) -> None:
     """Draw both parts of an order; the column is a place among what is not drawn along x."""
-    vector = getattr(sweep[order], name)
     sizes = np.abs(np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1))
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     heights = np.moveaxis(sizes, list(sweep.coords).index(along), 0)
