@@ -69,7 +69,8 @@ impl Cancel {
     }
 
     /// Return [`Error::Cancelled`] once the computation is to stop. Call it at least every few
-    /// milliseconds: in the calling thread every eighth call also is a [`Cancel::poll`].
+    /// milliseconds: every eighth call of all threads is a [`Cancel::poll`], which only the calling
+    /// thread makes any use of.
     pub fn check(&self) -> Result<()> {
         /// Reading the clock takes as long as an order of a cylinder.
         const CALLS: u32 = 8;

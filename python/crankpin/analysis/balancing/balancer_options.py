@@ -11,7 +11,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.balancer_sets import balancer_sets, end_counterweights
+from crankpin.analysis.balancing.balancer_sets import balancer_sets, counterweights_at
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.request import engine_core
@@ -129,7 +129,7 @@ def balancer_options(
         raise InputError(f"most_shafts = {most}: give 0 or more")
     listed = inputs.explicit_orders(shaft_orders, "shaft_orders")
     ratios = _ratios(listed, with_weights=with_weights)
-    weights = end_counterweights(engine, z, plane) if with_weights else ()
+    weights = counterweights_at(engine, z, plane) if with_weights else ()
     sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most, plane)
     engines = [each.fitted_to(engine) for each in sets]
     speed = inputs.number("rpm", rpm)

@@ -61,7 +61,7 @@ class BalancerSet(NamedTuple):
         return with_weights.with_shafts([*engine.shafts, *(each.shaft for each in self.shafts)])
 
 
-def end_counterweights(
+def counterweights_at(
     engine: Engine, z: Sequence[float], reference_z: float | None
 ) -> tuple[Unbalance, ...]:
     """Return counterweights at places z that remove the forward part of order 1."""

@@ -43,3 +43,9 @@ export function path(points, closed = false) {
   for (const [x, y] of points) d += `${d ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`;
   return closed && d ? `${d}Z` : d;
 }
+
+/** Put an element at a place in pixels. */
+export function place(element, [x, y]) {
+  element.setAttribute("x", x.toFixed(2));
+  element.setAttribute("y", y.toFixed(2));
+}

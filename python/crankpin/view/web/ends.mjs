@@ -1,7 +1,6 @@
 // The orbits of both crank ends.
 
-import { path, svg } from "./dom.mjs";
-import { place } from "./scene.mjs";
+import { path, place, svg } from "./dom.mjs";
 import { STRINGS } from "./strings.mjs";
 
 /** The orbits of both crank ends, over a scene that shows the engine rocking. */

@@ -1,8 +1,8 @@
 // What the cross-section has besides the engine: numbers of pins and bores, and the crank as a handle.
 
 import { DEGREE, reduced } from "./complex.mjs";
-import { fixed, svg } from "./dom.mjs";
-import { boreEnds, place } from "./scene.mjs";
+import { fixed, place, svg } from "./dom.mjs";
+import { boreEnds } from "./scene.mjs";
 
 const PIN_NUMBER = 13; // pixels beyond the pin's circle
 const BORE_NUMBER = 9; // pixels beyond the head

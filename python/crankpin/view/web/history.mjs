@@ -1,6 +1,6 @@
 // One history of the timeline: the curves of a quantity over a cycle, with a dot on each at the cursor.
 
-import { numbered, path, show, svg } from "./dom.mjs";
+import { numbered, path, place, show, svg } from "./dom.mjs";
 
 export const HEIGHT = 76; // pixels
 
@@ -27,18 +27,14 @@ export class History {
   place(top, left, right) {
     const middle = top + HEIGHT / 2;
     this.middle = middle;
-    const at = (element, x, y) => {
-      element.setAttribute("x", x);
-      element.setAttribute("y", y);
-    };
     this.line.setAttribute("d", `M${left} ${middle}H${right}`);
     this.frame.setAttribute("d", `M${left} ${top}V${top + HEIGHT}`);
-    at(this.title, left, top - 6);
-    at(this.note, left + 8, middle - 5);
-    at(this.ends[0], left - 5, top + 7);
-    at(this.ends[1], left - 5, top + HEIGHT + 1);
-    at(this.unit, left - 5, middle + 4);
-    this.curves.forEach(({ label }, k) => at(label, right + 8, middle + (k ? 14 : -4)));
+    place(this.title, [left, top - 6]);
+    place(this.note, [left + 8, middle - 5]);
+    place(this.ends[0], [left - 5, top + 7]);
+    place(this.ends[1], [left - 5, top + HEIGHT + 1]);
+    place(this.unit, [left - 5, middle + 4]);
+    this.curves.forEach(({ label }, k) => place(label, [right + 8, middle + (k ? 14 : -4)]));
   }
 
   /** Draw what is known; `missing` says why there is nothing. `x` is the place of an angle. */

@@ -1,7 +1,7 @@
 // The engine drawn in a projection, from its geometry: bores, pistons, rods, crank, weights, shafts.
 
 import { add, multiply, scale, unit } from "./complex.mjs";
-import { fixed, path, svg } from "./dom.mjs";
+import { fixed, path, place, svg } from "./dom.mjs";
 import { Projection } from "./projection.mjs";
 import { STRINGS } from "./strings.mjs";
 
@@ -352,9 +352,4 @@ function extremes(engine, { radius, ends, stretch }) {
 
 export function translate(element, [x, y]) {
   element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
-}
-
-export function place(element, [x, y]) {
-  element.setAttribute("x", x.toFixed(2));
-  element.setAttribute("y", y.toFixed(2));
 }

@@ -1,12 +1,12 @@
 // The strokes of each cylinder over a cycle, a row each, with its firing, its dead centres and its height.
 
 import { reduced } from "./complex.mjs";
-import { fixed, numbered, show, svg } from "./dom.mjs";
+import { fixed, numbered, place, show, svg } from "./dom.mjs";
 import { STRINGS } from "./strings.mjs";
 
 export const ROW = 17; // pixels
 
-const STROKES = ["power", "exhaust", "intake", "compression"];
+export const STROKES = ["power", "exhaust", "intake", "compression"];
 
 /** Marks of one kind are one path for all cylinders: hundreds of elements would take their time. */
 export class Strokes {
@@ -25,10 +25,8 @@ export class Strokes {
     this.top = top;
     this.numbers.forEach((number, k) => {
       const y = top + k * ROW + ROW / 2 + 4;
-      for (const [element, x] of [[number, left - 8], [this.heights[k], right + 8]]) {
-        element.setAttribute("x", x);
-        element.setAttribute("y", y);
-      }
+      place(number, [left - 8, y]);
+      place(this.heights[k], [right + 8, y]);
     });
     const line = (_, k) => `M${left} ${top + k * ROW + ROW / 2}H${right}`;
     this.paths["zero-line"].setAttribute("d", this.numbers.map(line).join(""));

@@ -18,6 +18,7 @@ import { Readouts } from "./readouts.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { Scene } from "./scene.mjs";
 import { STRINGS } from "./strings.mjs";
+import { STROKES } from "./strokes.mjs";
 import { Timeline } from "./timeline.mjs";
 import { peaks, turn } from "./turn.mjs";
 import { Arrow, Orbits, Twist } from "./vectors.mjs";
@@ -146,7 +147,7 @@ export class View {
       html("div", { class: "dials" }, ...this.dials()),
       section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
       section(STRINGS.timeline,
-        figures.firing_deg ? legend(["power", "exhaust", "intake", "compression"]
+        figures.firing_deg ? legend(STROKES
           .filter((name) => figures.strokes === 4 || name === "power" || name === "compression"),
         STRINGS.strokes) : "",
         legend(figures.firing_deg ? ["fires", "tdc"] : ["tdc"], STRINGS.marks),
