@@ -13,9 +13,9 @@
 //! multiplied as [`Turn`] says. Balances, waveforms, sweeps and proofs read this list.
 
 use crate::Complex64;
-use crate::angle::Angle;
 use crate::engine::{Engine, Hold, first_equal};
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
 use crate::wrench::Planar;
 
 /// Origin of a load's amplitude.

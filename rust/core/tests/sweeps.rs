@@ -9,7 +9,7 @@ use common::{
     whole, xy,
 };
 use crankpin_core::balance::Vector;
-use crankpin_core::extrema::PeakFinder;
+use crankpin_core::peaks::PeakFinder;
 use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{

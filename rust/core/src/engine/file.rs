@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
 use super::{Engine, Placement, Shaft, Unbalance, first_equal};
-use crate::angle::Angle;
-use crate::error::{Error, Result, shorten};
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result, shorten};
 
 /// Version of the schema that this file reads and writes.
 pub const SCHEMA: u32 = 1;

@@ -3,10 +3,10 @@
 use std::str::FromStr;
 
 use super::{Engine, Placement, bank_angle_in_range};
-use crate::angle::Angle;
-use crate::error::{Error, Result};
-use crate::limits;
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 
 /// What rounding may leave of a difference of angles that are no parts of a turn, degrees: up to a
 /// thousand additions below 1024°, each rounded to 1.1e-13 at most.

@@ -9,10 +9,10 @@ mod shaft;
 
 use self::layout::Strokes;
 pub use self::shaft::{Shaft, Unbalance};
-use crate::angle::Angle;
-use crate::error::{Error, Result};
-use crate::limits;
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 
 /// One cylinder in its place.
 #[derive(Debug, Clone, Copy, PartialEq)]

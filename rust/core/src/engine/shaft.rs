@@ -1,8 +1,8 @@
 //! What rotates: shafts at a fixed ratio to the crankshaft, and the unbalances that they carry.
 
-use crate::angle::Angle;
-use crate::error::{Error, Result};
-use crate::limits;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 
 /// Mass times eccentricity on a shaft (unbalance, ISO 21940).
 #[derive(Debug, Clone, Copy, PartialEq)]

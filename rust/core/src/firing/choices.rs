@@ -7,8 +7,8 @@ use super::firing_order::NamedOrder;
 use super::tops::Tops;
 use super::way::Firing;
 use crate::engine::Engine;
-use crate::error::{Error, Result, shorten};
 use crate::layout::Strokes;
+use crate::numbers::error::{Error, Result, shorten};
 
 /// Most cylinders of which all orders are listed: a V16 has 2¹⁵ choices of turns.
 pub const MOST_LISTED: usize = 16;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::Firing;
-use crate::angle::Angle;
 use crate::engine::{Engine, Placement};
+use crate::gear::slider_crank::Cylinder;
 use crate::layout::{Numbering, Side, Vee};
-use crate::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
 
 pub fn vee(bank_angle: f64, pin_split: f64, throws: &[f64], first_bank: Side) -> Vee {
     let angle = |degrees| Angle::from_degrees(degrees).unwrap();

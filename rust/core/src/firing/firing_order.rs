@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use crate::error::{Error, Result};
 use crate::layout::FiringOrder;
+use crate::numbers::error::{Error, Result};
 
 /// An order in which an engine is asked to fire, such as 1-3-4-2, or 1+4-2+3 for cylinders that
 /// fire together.

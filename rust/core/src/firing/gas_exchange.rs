@@ -2,10 +2,10 @@
 
 use super::tops::{same, top_to_bottom, turns};
 use super::way::Firing;
-use crate::angle::Angle;
 use crate::engine::Placement;
-use crate::error::{Error, Result};
 use crate::layout::{MOST_ROUNDING, Strokes};
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
 
 /// Two cylinders whose exhaust valves, or ports, are open at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]

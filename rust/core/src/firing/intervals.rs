@@ -1,8 +1,8 @@
 //! Groups of cylinders, and the crank angles between firings within them.
 
 use super::way::Firing;
-use crate::angle::Angle;
-use crate::error::{Error, Result};
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
 
 /// From one cylinder's firing to the next one's in a group.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,8 @@
 //! The pins that a firing order needs.
 
-use crate::angle::Angle;
-use crate::error::Result;
 use crate::layout::{FiringOrder, FiringRule, Side, Vee};
+use crate::numbers::angle::Angle;
+use crate::numbers::error::Result;
 
 /// The pins that a vee needs to fire in this order.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! Turning points of pistons, and the angles that count as one.
 
-use crate::angle::Angle;
 use crate::engine::{Engine, Placement};
 use crate::layout::MOST_ROUNDING;
+use crate::numbers::angle::Angle;
 
 /// Crank angles at which pistons are highest, after the first one's, within a turn.
 pub(super) struct Tops(pub Vec<Angle>);

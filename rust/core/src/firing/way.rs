@@ -4,10 +4,10 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::tops::{Tops, degrees, highest_after_tdc, same, turns};
-use crate::angle::Angle;
 use crate::engine::Engine;
-use crate::error::{Error, Result};
 use crate::layout::Strokes;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
 
 /// One way for an engine to fire: cylinders by index from 0.
 #[derive(Debug, Clone, PartialEq)]

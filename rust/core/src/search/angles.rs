@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::family::{Families, Family};
-use crate::cancel::Cancel;
 use crate::engine::Hold;
-use crate::error::Result;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
 use crate::{limits, memory, pool};
 
 /// Rounding moves no folded angle by more, radians.

@@ -9,10 +9,10 @@ use std::cmp::Ordering;
 use super::images::{Image, Images, Packed};
 use super::magnitude::Magnitude;
 use super::throws::{Bank, MOST_THROWS, Pool};
-use crate::cancel::Cancel;
-use crate::error::{Error, Result};
-use crate::memory::{free_later, zeros};
-use crate::pool;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::memory::{free_later, zeros};
+use crate::numbers::pool;
 
 /// Most memory that the arrangements of a search may take, bytes.
 pub const LARGEST_SEARCH: u128 = 8 << 30;
@@ -353,7 +353,7 @@ struct Pair {
 
 #[cfg(test)]
 mod tests {
-    use crate::angle::Angle;
+    use crate::numbers::angle::Angle;
 
     use super::super::moments::Moments;
     use super::super::throws::tests::alternates;

@@ -13,10 +13,10 @@ use super::images::Image;
 use super::moments::{NEAR, fold, near};
 use super::same::Same;
 use super::window::Wanted;
-use crate::cancel::Cancel;
-use crate::error::{Error, Result};
-use crate::memory;
-use crate::pool;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::memory;
+use crate::numbers::pool;
 
 /// |2Z| below which rounding asks for more than [`CLOSE`].
 const SMALL: f64 = 0.1;
@@ -272,8 +272,8 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::angle::Angle;
     use crate::engine::Hold;
+    use crate::numbers::angle::Angle;
 
     fn with_entries(bank: Bank, look: impl Fn(&Moments, &Entries)) {
         let moments = Moments::new(bank).unwrap();

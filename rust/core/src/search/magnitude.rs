@@ -6,8 +6,8 @@
 
 use super::packing::Packing;
 use super::throws::Bank;
-use crate::error::{Error, Result};
-use crate::ring::Ring;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::ring::Ring;
 
 /// An odd factor keeps equal keys equal and different ones different, and spreads them evenly.
 const SPREAD: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -93,7 +93,7 @@ mod tests {
     use super::super::moments::Moments;
     use super::super::throws::MOST_THROWS;
     use super::*;
-    use crate::angle::Angle;
+    use crate::numbers::angle::Angle;
 
     #[test]
     fn every_even_firing_bank_has_keys_that_fit() {

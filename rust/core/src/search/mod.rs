@@ -33,12 +33,12 @@ pub use self::throws::{Arrangement, Bank};
 pub use self::vee::vee;
 use self::window::Wanted;
 use crate::Complex64;
-use crate::angle::Angle;
-use crate::cancel::Cancel;
 use crate::engine::{Engine, Hold};
-use crate::error::{Error, Result};
-use crate::pool;
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::pool;
 
 /// All arrangements of one bank, grouped by |Z|.
 #[derive(Debug)]
@@ -238,7 +238,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::balance::{Request, Vector, balance};
+    use crate::readings::balance::{Request, Vector, balance};
 
     fn search(cylinders: usize, alternating: bool, phases: Option<&[f64]>) -> Search {
         let phases: Option<Vec<Angle>> =

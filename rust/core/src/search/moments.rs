@@ -7,9 +7,9 @@ use super::magnitude::too_rich;
 use super::packing::Packing;
 use super::throws::Bank;
 use crate::Complex64;
-use crate::angle::Angle;
-use crate::error::Result;
-use crate::ring::Ring;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::Result;
+use crate::numbers::ring::Ring;
 
 /// How near the arguments of two arrangements may be by rounding alone, times |2Z|: that is a sum of
 /// 15 terms of at most 14, good to 1e-13.

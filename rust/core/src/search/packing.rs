@@ -1,7 +1,7 @@
 //! Whole vectors packed side by side into one integer: sums of vectors are sums of integers, and
 //! equal where the vectors are.
 
-use crate::rational::common_divisor;
+use crate::numbers::rational::common_divisor;
 
 /// What each vector is packed into, and how many bits that takes.
 pub(super) struct Packing {

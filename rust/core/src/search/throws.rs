@@ -1,8 +1,8 @@
 //! Which throw sits where: the arrangements of one bank, up to turning the crank.
 
-use crate::angle::Angle;
-use crate::error::{Error, Result};
-use crate::rational::divisor;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::rational::divisor;
 
 /// Most throws in a bank; an arrangement is packed into four bits a throw.
 pub const MOST_THROWS: usize = 15;

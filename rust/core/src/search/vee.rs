@@ -1,10 +1,10 @@
 //! The engine that an arrangement is of.
 
-use crate::angle::Angle;
 use crate::engine::{Engine, Hold, Placement};
-use crate::error::{Error, Result};
-use crate::limits;
-use crate::slider_crank::Cylinder;
+use crate::gear::slider_crank::Cylinder;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 
 /// The vee of two banks, the right one first, by the phases of their throws; cylinders are numbered
 /// along the crank, odd ones in the right bank. The bank angle is in degrees.

@@ -1,0 +1,245 @@
+//! Harmonics of many slider-cranks at once.
+
+use std::ops::Range;
+
+use ndarray::Array2;
+use rayon::prelude::*;
+
+use super::centred::{ALL_DIGITS, Centred, leading, may_be_missing, next_term};
+use super::force::coefficients;
+use super::near_one;
+use super::roots::{NEGLIGIBLE_LOG, Root};
+use crate::Complex64;
+use crate::gear::slider_crank::Proportions;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::numbers::memory;
+use crate::numbers::order::{self, Order};
+use crate::numbers::pool;
+use crate::numbers::simd::vectorised;
+
+/// Up to this order repeated multiplication to the power below it is within 2e-15.
+const LARGEST_PLAIN_ORDER: u32 = 16;
+
+/// `aₙ` without offset, real, for every rod ratio (rows) and order (columns).
+pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Result<Array2<f64>> {
+    check_size::<f64>(rod_ratios.len(), orders)?;
+    let mut values = memory::zeros(rod_ratios.len() * orders.len())?;
+    write_centred(rod_ratios, orders, None, &mut values, cancel)?;
+    let shape = (rod_ratios.len(), orders.len());
+    Array2::from_shape_vec(shape, values)
+        .map_err(|error| Error::value("rod_ratio", format!("{shape:?}"), error.to_string()))
+}
+
+/// [`centred_table`] into memory that is there, row by row; with `rtol` each is within that of itself,
+/// from as many terms as it takes.
+pub fn write_centred(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    rtol: Option<f64>,
+    out: &mut [f64],
+    cancel: &Cancel,
+) -> Result<()> {
+    let rtol = rtol.map_or(Ok(ALL_DIGITS), limits::tolerance)?;
+    let longest = Horner::tables(orders, rtol, rod_ratios);
+    fill(rod_ratios.len(), orders.len(), out, cancel, |range, rows| {
+        centred_rows(&rod_ratios[range], orders, rtol, &longest, rows, cancel)
+    })
+}
+
+/// `aₙ` for every pair of rod ratio and offset over r (rows) and order (columns), into memory that is
+/// there.
+pub fn write_offset(
+    rod_ratios: &[f64],
+    offsets: &[f64],
+    orders: &[u32],
+    out: &mut [Complex64],
+    cancel: &Cancel,
+) -> Result<()> {
+    let pairs = rod_ratios.len().min(offsets.len());
+    fill(pairs, orders.len(), out, cancel, |range, rows| {
+        let pairs = rod_ratios[range.clone()].iter().zip(&offsets[range]);
+        for ((&rod_ratio, &offset), row) in pairs.zip(rows.chunks_exact_mut(orders.len())) {
+            let proportions = Proportions::new(rod_ratio, offset)?;
+            row.copy_from_slice(&coefficients(&proportions, orders, cancel)?);
+        }
+        Ok(())
+    })
+}
+
+/// A table of numbers of type `T` is not too large.
+pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
+    order::check_list(&Order::all_whole(orders)?)?;
+    let cure = "split rod_ratio into parts";
+    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)
+}
+
+/// Fill the rows of a table in parallel, chunk by chunk.
+fn fill<T: Send>(
+    rows: usize,
+    width: usize,
+    out: &mut [T],
+    cancel: &Cancel,
+    write: impl Fn(Range<usize>, &mut [T]) -> Result<()> + Sync,
+) -> Result<()> {
+    const CHUNK: usize = 2048;
+    if width == 0 {
+        return Ok(());
+    }
+    if rows <= CHUNK {
+        return write(0..rows, out);
+    }
+    cancel.expect(rows.div_ceil(CHUNK));
+    let chunks = out.par_chunks_mut(CHUNK * width).enumerate();
+    pool::run(cancel, || {
+        chunks.try_for_each(|(chunk, out)| {
+            cancel.step()?;
+            write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
+        })
+    })
+}
+
+/// How many rod ratios go through a polynomial side by side.
+const LANES: usize = 16;
+
+/// The rows of a block of rod ratios, in lanes; one near λ = 1 goes by itself.
+fn centred_rows(
+    rod_ratios: &[f64],
+    orders: &[u32],
+    rtol: f64,
+    tables: &[Horner],
+    rows: &mut [f64],
+    cancel: &Cancel,
+) -> Result<()> {
+    rod_ratios.iter().try_for_each(|&rod_ratio| Proportions::check_rod_ratio(rod_ratio))?;
+    let width = orders.len();
+    vectorised(
+        #[inline(always)]
+        || {
+            for (ratios, rows) in rod_ratios.chunks(LANES).zip(rows.chunks_mut(LANES * width)) {
+                // What a lane is given does not show in others: rows depend on their own ratio alone.
+                let mut lanes = [0.5; LANES];
+                for (lane, &λ) in lanes.iter_mut().zip(ratios) {
+                    *lane = if near_one::is_near(λ) { 0.5 } else { λ };
+                }
+                lanes_of_rows(&lanes, orders, tables, rows);
+                for (&λ, row) in ratios.iter().zip(rows.chunks_exact_mut(width)) {
+                    if !near_one::is_near(λ) {
+                        continue;
+                    }
+                    cancel.check()?;
+                    let centred = Centred::new(&Proportions::new(λ, 0.0)?);
+                    for (&n, value) in orders.iter().zip(row) {
+                        *value = centred.coefficient(n, rtol);
+                    }
+                }
+            }
+            Ok(())
+        },
+    )
+}
+
+/// p of a rod ratio, to a few units in the last place.
+#[inline(always)]
+fn root(λ: f64) -> f64 {
+    λ / (1.0 + ((1.0 - λ) * (1.0 + λ)).sqrt())
+}
+
+#[inline(always)]
+fn lanes_of_rows(rod_ratios: &[f64; LANES], orders: &[u32], tables: &[Horner], rows: &mut [f64]) {
+    let width = orders.len();
+    let mut p = [0.0; LANES];
+    for (p, &λ) in p.iter_mut().zip(rod_ratios) {
+        *p = root(λ);
+    }
+    let square = p.map(|p| p * p);
+    let fourth = square.map(|s| s * s);
+    // What rounding took from p, and from its square, relative to them: they go into powers.
+    let (mut of_p, mut of_square) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let (λ, p, square) = (rod_ratios[lane], p[lane], square[lane]);
+        let rest = p.mul_add(p, -square);
+        // Residual of λ(1 + p²) = 2p, where λ − 2p is exact, and a step of Newton's method.
+        let residual = λ.mul_add(square, λ - 2.0 * p) + λ * rest;
+        of_p[lane] = residual / ((2.0 - 2.0 * λ * p) * p);
+        of_square[lane] = rest / square;
+    }
+    let largest = fourth.iter().fold(0.0, |a: f64, &b| a.max(b));
+    for (column, (&n, table)) in orders.iter().zip(tables).enumerate() {
+        if n == 1 || n % 2 == 1 {
+            let value = if n == 1 { 1.0 } else { 0.0 };
+            rows.iter_mut().skip(column).step_by(width).for_each(|v| *v = value);
+            continue;
+        }
+        let mut sum = [0.0; LANES];
+        let needed = table.terms.iter().take_while(|(_, from)| largest > *from).count();
+        for &(term, from) in table.terms[..needed].iter().rev() {
+            for lane in 0..LANES {
+                let term = if fourth[lane] > from { term } else { 0.0 };
+                sum[lane] = (sum[lane] + term) * fourth[lane];
+            }
+        }
+        let mut power = p;
+        if n <= LARGEST_PLAIN_ORDER {
+            let squares = n / 2 - 1;
+            for _ in 0..squares {
+                for lane in 0..LANES {
+                    power[lane] *= square[lane];
+                }
+            }
+            let (degree, squares) = (f64::from(n - 1), f64::from(squares));
+            for lane in 0..LANES {
+                let correction = degree * of_p[lane] + squares * of_square[lane];
+                power[lane] = power[lane].mul_add(correction, power[lane]);
+            }
+        } else {
+            for lane in 0..LANES {
+                let Ok(proportions) = Proportions::new(rod_ratios[lane], 0.0) else {
+                    continue;
+                };
+                power[lane] = Root::new(proportions.above).power(n - 1);
+            }
+        }
+        for lane in 0..LANES {
+            power[lane] = table.leading * power[lane] * (1.0 - sum[lane]);
+        }
+        rows.iter_mut().skip(column).step_by(width).zip(power).for_each(|(v, p)| *v = p);
+    }
+}
+
+/// The polynomial in p⁴ that belongs to one even order.
+struct Horner {
+    /// `±n²·|b_m|`, with b the coefficients of √(1 − x) and n = 2m.
+    leading: f64,
+    /// `|b_j| b_{j+m} / b_m` for j = 1, 2, …, and the p⁴ above which the term matters.
+    terms: Vec<(f64, f64)>,
+}
+
+impl Horner {
+    /// A table for each order, as long as the largest of the rod ratios needs.
+    fn tables(orders: &[u32], rtol: f64, rod_ratios: &[f64]) -> Vec<Self> {
+        let within = rod_ratios.iter().filter(|&&λ| !near_one::is_near(λ));
+        // Others' lanes are filled with 1/2.
+        let largest = within.fold(0.5_f64, |a, &b| a.max(b));
+        let fourth = root(largest).powi(4);
+        let count = (NEGLIGIBLE_LOG / -fourth.ln()).ceil() as usize;
+        let negligible: Vec<f64> = (0..count).map(|j| (-NEGLIGIBLE_LOG / j as f64).exp()).collect();
+        orders.iter().map(|&n| Self::new(n, &negligible, fourth, rtol)).collect()
+    }
+
+    /// `negligible` has for each term the p⁴ up to which it is below rounding.
+    fn new(n: u32, negligible: &[f64], largest_fourth: f64, rtol: f64) -> Self {
+        let m = f64::from(n / 2);
+        let mut term = 0.5 * (m - 0.5) / (m + 1.0);
+        let mut terms = Vec::with_capacity(negligible.len());
+        // From term j on all are below |b_j| p^{4j}/(1 − p⁴), and |b| ≤ 1/2.
+        let missing = 2.0 * (1.0 - largest_fourth) * may_be_missing(n, rtol);
+        for (j, &negligible) in (1_u32..).zip(negligible) {
+            let within = if missing > 0.0 { missing.powf(1.0 / f64::from(j)) } else { 0.0 };
+            terms.push((term, negligible.max(within)));
+            term *= next_term(f64::from(j), m);
+        }
+        Self { leading: leading(n), terms }
+    }
+}

@@ -1,0 +1,353 @@
+//! One cylinder's moving parts and their exact motion at any crank angle.
+//!
+//! The piston stands at `x(θ) = r cos θ + √(l² − (r sin θ − e)²)` along its bore, θ measured from
+//! the angle at which the crankpin points along the bore; e > 0 lies on the side to which the
+//! crankpin swings after that.
+
+use crate::numbers::double::Double;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+
+/// The moving parts of one cylinder. Rotating mass belongs to the throw: see [`crate::engine`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    crank_radius: f64,
+    rod_length: f64,
+    reciprocating_mass: f64,
+    pin_offset: f64,
+    rod_inertia_excess: f64,
+}
+
+impl Cylinder {
+    /// Crank radius, rod length and pin offset in m, reciprocating mass in kg.
+    pub fn new(
+        crank_radius: f64,
+        rod_length: f64,
+        reciprocating_mass: f64,
+        pin_offset: f64,
+    ) -> Result<Self> {
+        limits::length("crank_radius", crank_radius)?;
+        limits::length("rod_length", rod_length)?;
+        limits::not_negative("reciprocating_mass", reciprocating_mass)?;
+        limits::finite("pin_offset", pin_offset)?;
+        let cylinder = Self {
+            crank_radius,
+            rod_length,
+            reciprocating_mass,
+            pin_offset,
+            rod_inertia_excess: 0.0,
+        };
+        let reach = rod_length - pin_offset.abs();
+        if crank_radius >= reach {
+            return Err(Error::CannotTurn { crank_radius, rod_length, pin_offset, reach });
+        }
+        Ok(cylinder)
+    }
+
+    /// From bore and stroke in place of the crank radius, m. The motion does not depend on the bore,
+    /// which is checked and not kept.
+    pub fn from_bore_stroke(
+        bore: f64,
+        stroke: f64,
+        rod_length: f64,
+        reciprocating_mass: f64,
+        pin_offset: f64,
+    ) -> Result<Self> {
+        limits::length("bore", bore)?;
+        limits::length("stroke", stroke)?;
+        Self::new(0.5 * stroke, rod_length, reciprocating_mass, pin_offset)
+    }
+
+    /// With a rod whose moment of inertia about its centre of mass, I, is not that of two masses at
+    /// its ends: I − m·a·b in kg·m², a and b the distances of the rod's m from them. Mostly below 0.
+    pub fn with_rod_inertia_excess(self, excess: f64) -> Result<Self> {
+        limits::inertia("rod_inertia_excess", excess)?;
+        Ok(Self { rod_inertia_excess: excess, ..self })
+    }
+
+    /// Crank radius r, half the stroke, m.
+    #[must_use]
+    pub fn crank_radius(&self) -> f64 {
+        self.crank_radius
+    }
+
+    /// Rod length l between its centres, m.
+    #[must_use]
+    pub fn rod_length(&self) -> f64 {
+        self.rod_length
+    }
+
+    /// Mass that moves with the piston, kg.
+    #[must_use]
+    pub fn reciprocating_mass(&self) -> f64 {
+        self.reciprocating_mass
+    }
+
+    /// Pin offset e (désaxé), m.
+    #[must_use]
+    pub fn pin_offset(&self) -> f64 {
+        self.pin_offset
+    }
+
+    /// The rod's moment of inertia beyond that of its two masses, kg·m²; torque alone depends on it.
+    #[must_use]
+    pub fn rod_inertia_excess(&self) -> f64 {
+        self.rod_inertia_excess
+    }
+
+    /// Whether it is other than zero.
+    #[must_use]
+    pub fn has_rod_inertia(&self) -> bool {
+        self.rod_inertia_excess != 0.0
+    }
+
+    /// λ = r/l.
+    #[must_use]
+    pub fn rod_ratio(&self) -> f64 {
+        self.crank_radius / self.rod_length
+    }
+
+    /// How much longer the rod is than one with which the crank cannot turn, in crank radii.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        slack(self.rod_length / self.crank_radius, self.pin_offset / self.crank_radius)
+    }
+
+    /// m·r, the size of the first-order force over ω², kg·m.
+    #[must_use]
+    pub fn first_order(&self) -> f64 {
+        self.reciprocating_mass * self.crank_radius
+    }
+
+    /// m·r², the size of the torques over ω², kg·m².
+    #[must_use]
+    pub fn second_moment(&self) -> f64 {
+        self.first_order() * self.crank_radius
+    }
+
+    /// The proportions that fix the motion.
+    #[must_use]
+    pub fn proportions(&self) -> Proportions {
+        let Self { crank_radius: r, rod_length: l, pin_offset: e, .. } = *self;
+        let reach = Double::sum(l, -r);
+        Proportions {
+            rod: l / r,
+            offset: e / r,
+            above: reach.plus(e).over(r),
+            below: reach.plus(-e).over(r),
+        }
+    }
+}
+
+/// A slider-crank in units of its crank radius.
+///
+/// The rod's reach beyond the crank on either side is kept by itself: near the crank that cannot
+/// turn, everything depends on it, and `l/r ± e/r − 1` would lose it to rounding. It is kept to twice
+/// the digits, since order n goes with its n-th power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proportions {
+    /// l/r.
+    pub rod: f64,
+    /// e/r.
+    pub offset: f64,
+    /// (l + e − r)/r > 0.
+    pub above: Double,
+    /// (l − e − r)/r > 0.
+    pub below: Double,
+}
+
+impl Proportions {
+    /// From λ = r/l and e/r.
+    pub fn new(rod_ratio: f64, offset: f64) -> Result<Self> {
+        Self::check_rod_ratio(rod_ratio)?;
+        limits::finite("pin_offset_ratio", offset)?;
+        let reach = Double::sum(1.0, -rod_ratio);
+        let shift = Double::product(offset, rod_ratio);
+        let above = reach.plus(shift.high).plus(shift.low).over(rod_ratio);
+        let below = reach.plus(-shift.high).plus(-shift.low).over(rod_ratio);
+        if above.high.min(below.high) <= 0.0 {
+            let cure = format!(
+                "the crank cannot turn at rod_ratio = {rod_ratio:?}; make |pin_offset / crank_radius| \
+                 less than 1/rod_ratio - 1 = {:?}",
+                reach.high / rod_ratio
+            );
+            return Err(Error::figure("pin_offset_ratio", offset, cure));
+        }
+        Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
+    }
+
+    /// Check that λ = r/l is in range: 0 < λ < 1.
+    // Inlined: tables check every ratio in a loop.
+    #[inline]
+    pub fn check_rod_ratio(rod_ratio: f64) -> Result<()> {
+        if (limits::SMALLEST..1.0).contains(&rod_ratio) {
+            return Ok(());
+        }
+        Err(Self::rod_ratio_out_of_range(rod_ratio))
+    }
+
+    #[cold]
+    fn rod_ratio_out_of_range(rod_ratio: f64) -> Error {
+        let least = limits::SMALLEST;
+        let cure = format!("give crank radius over rod length, at least {least:e} and less than 1");
+        Error::figure("rod_ratio", rod_ratio, cure)
+    }
+
+    /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank
+    /// radii, where the crank has the given sine and cosine.
+    #[must_use]
+    #[inline]
+    pub fn motion(&self, sin: f64, cos: f64) -> Motion {
+        self.motion_at(&Crank::new(sin, cos))
+    }
+
+    /// [`Self::motion`], where the crank stands so.
+    #[inline(always)]
+    pub(crate) fn motion_at(&self, crank: &Crank) -> Motion {
+        let Crank { sin, cos, squared, to_above, to_below } = *crank;
+        let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
+        let height = height_squared.sqrt();
+        let lateral = sin - self.offset;
+        // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
+        let inverse = 1.0 / height;
+        let steepness = self.rod * inverse;
+        let velocity = -lateral * cos * inverse;
+        let acceleration = (lateral * sin - steepness * steepness * squared) * inverse;
+        Motion {
+            position: cos + height,
+            velocity: velocity - sin,
+            acceleration: acceleration - cos,
+        }
+    }
+}
+
+/// Where a crank stands, as far as nothing of the rod enters.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Crank {
+    pub sin: f64,
+    pub cos: f64,
+    /// cos²θ.
+    pub squared: f64,
+    /// 1 − sin θ.
+    pub to_above: f64,
+    /// 1 + sin θ.
+    pub to_below: f64,
+}
+
+impl Crank {
+    #[inline(always)]
+    pub fn new(sin: f64, cos: f64) -> Self {
+        // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor
+        // loses digits where it is small.
+        let squared = cos * cos;
+        let (near, far) = (squared / (1.0 + sin.abs()), 1.0 + sin.abs());
+        let (to_above, to_below) = if sin >= 0.0 { (near, far) } else { (far, near) };
+        Self { sin, cos, squared, to_above, to_below }
+    }
+}
+
+/// Where the piston is and how it moves, in crank radii; derivatives by crank angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// x/r.
+    pub position: f64,
+    /// (dx/dθ)/r.
+    pub velocity: f64,
+    /// (d²x/dθ²)/r.
+    pub acceleration: f64,
+}
+
+/// [`Cylinder::slack`] of a rod and an offset, in crank radii.
+#[must_use]
+pub fn slack(rod: f64, offset: f64) -> f64 {
+    rod - offset.abs() - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_long_rod_moves_its_piston_like_a_scotch_yoke() {
+        let proportions = Proportions::new(1e-12, 0.0).unwrap();
+        let motion = proportions.motion(0.6, 0.8);
+        assert_relative_eq!(motion.velocity, -0.6, max_relative = 1e-11);
+        assert_relative_eq!(motion.acceleration, -0.8, max_relative = 1e-11);
+    }
+
+    #[test]
+    fn stroke_is_twice_the_radius_without_offset() {
+        let proportions = Proportions::new(0.3, 0.0).unwrap();
+        let top = proportions.motion(0.0, 1.0).position;
+        let bottom = proportions.motion(0.0, -1.0).position;
+        assert_relative_eq!(top - bottom, 2.0, max_relative = 1e-15);
+    }
+
+    /// x = cos θ + √((l/r)² − (sin θ − e/r)²), and its derivatives by central differences.
+    #[test]
+    fn motion_is_that_of_the_rod() {
+        for offset in [0.0, 0.4, -0.4] {
+            let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.05 * offset).unwrap();
+            let proportions = cylinder.proportions();
+            assert_relative_eq!(cylinder.rod_ratio(), 1.0 / 3.0, max_relative = 1e-15);
+            let position = |θ: f64| θ.cos() + (9.0 - (θ.sin() - offset).powi(2)).sqrt();
+            for k in 0..24 {
+                let θ = f64::from(k) * 0.27;
+                let (h, sin, cos) = (1e-4, θ.sin(), θ.cos());
+                let motion = proportions.motion(sin, cos);
+                let (before, here, after) = (position(θ - h), position(θ), position(θ + h));
+                assert_relative_eq!(motion.position, here, max_relative = 1e-14);
+                // h²/6 and h²/12 of the third and fourth derivatives, 2 at most; 1e-16/h² of rounding.
+                assert!((motion.velocity - (after - before) / (2.0 * h)).abs() < 1e-8);
+                assert!(
+                    (motion.acceleration - (after - 2.0 * here + before) / (h * h)).abs() < 3e-7
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn from_bore_stroke_halves_the_stroke_and_checks_the_bore() {
+        let of = |bore, stroke| Cylinder::from_bore_stroke(bore, stroke, 0.15, 0.5, 0.01);
+        assert_eq!(of(0.086, 0.1), Cylinder::new(0.05, 0.15, 0.5, 0.01));
+        assert!(of(0.0, 0.1).unwrap_err().to_string().starts_with("bore = 0.0: "));
+        assert!(of(0.086, -0.1).unwrap_err().to_string().starts_with("stroke = -0.1: "));
+        assert!(of(0.086, 0.3).is_err());
+    }
+
+    #[test]
+    fn slack_is_what_is_left_of_the_reaches() {
+        for (rod, offset) in [(0.15, 0.0), (0.06, 0.004), (0.06, -0.004), (0.051, 1e-4)] {
+            let cylinder = Cylinder::new(0.05, rod, 1.0, offset).unwrap();
+            let Proportions { above, below, .. } = cylinder.proportions();
+            // a unit in the last place of l/r, thrice
+            assert!((cylinder.slack() - above.high.min(below.high)).abs() < 2e-15);
+        }
+    }
+
+    #[test]
+    fn rod_inertia_changes_nothing_else() {
+        let plain = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+        let cylinder = plain.with_rod_inertia_excess(-2e-3).unwrap();
+        assert_eq!((plain.rod_inertia_excess(), plain.has_rod_inertia()), (0.0, false));
+        assert_eq!((cylinder.rod_inertia_excess(), cylinder.has_rod_inertia()), (-2e-3, true));
+        assert_eq!(cylinder.with_rod_inertia_excess(0.0).unwrap(), plain);
+        assert!(plain.with_rod_inertia_excess(f64::NAN).is_err());
+    }
+
+    #[test]
+    fn a_crank_that_cannot_turn_is_refused() {
+        assert!(Proportions::new(1.0, 0.0).is_err());
+        assert!(Proportions::new(0.5, 1.0).is_err());
+        assert!(Proportions::new(0.5, 0.999_999).is_ok());
+        assert!(Cylinder::new(0.05, 0.15, 0.5, 0.1).is_err());
+        assert!(Cylinder::new(0.05, f64::NAN, 0.5, 0.0).is_err());
+        assert!(Cylinder::new(0.05, 0.15, -0.5, 0.0).is_err());
+        assert!(Cylinder::new(0.05, 0.15, 0.5, 0.099).is_ok());
+        for ratio in [1.0, 2.0, 0.0, -0.3, f64::NAN] {
+            assert!(Proportions::check_rod_ratio(ratio).is_err(), "{ratio}");
+        }
+        assert!(Proportions::check_rod_ratio(0.3).is_ok());
+    }
+}

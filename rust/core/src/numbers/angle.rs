@@ -1,0 +1,336 @@
+//! Angles, exact where they are a rational part of a turn.
+//!
+//! Sums that should vanish do so because angles are k/N of a turn; as doubles in radians they do
+//! not. An [`Angle`] is a fraction of a turn wherever it can be, so that `n·θ` is reduced in integers
+//! and its phasor is good to the last bit at every order. Any other angle is a double of degrees,
+//! where reduction by whole turns is exact too.
+//!
+//! Typed angles are exact: fractions and decimal text as written ([`Angle`]'s `FromStr`), a double as
+//! the decimal or fraction it stands for ([`Angle::from_degrees`]). Sums, differences and halves of
+//! exact angles are exact as long as their denominator fits, so that one angle reached in two ways
+//! is one value.
+
+mod text;
+
+use std::cmp::Ordering;
+use std::ops::{Add, Neg, Sub};
+
+use crate::Complex64;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::rational::{self, nearest};
+
+/// A double stands for its shortest decimal where that is k/N of a turn up to this N: always for
+/// six decimals of a degree (N ≤ 3.6e8), never for the 15 that a double of 360/7 shows.
+const MOST_DECIMAL_PARTS: i64 = 1_000_000_000;
+/// A double also stands for k/N of a turn up to this N ...
+const MOST_PARTS: i128 = 1000;
+/// ... or for a decimal of six places, if within this many units in the last place of it.
+const WITHIN_ULP: f64 = 4.0;
+/// Fractions with a larger denominator become doubles. Halves of halves of six-decimal angles need
+/// 1.44e9; with this limit the product of a denominator and the largest order stays far below 2^127.
+const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000;
+/// Distance in degrees up to which [`Angle::near_miss`] names a simple fraction of a turn.
+const NEAR_MISS: f64 = 1e-5;
+/// Largest angle, degrees; beyond it a double no longer resolves a thousandth of a degree.
+pub const LARGEST_ANGLE: f64 = 1e12;
+
+/// An angle: a reduced fraction of a turn, or a finite double of degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Angle(Kind);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// `numerator / denominator` turns, reduced, 0 < denominator ≤ [`LARGEST_DENOMINATOR`].
+    Turns(i64, i64),
+    /// Degrees that stand for no fraction: [`Angle::of_double`] gives the same value again.
+    Degrees(f64),
+}
+
+use Kind::{Degrees, Turns};
+
+impl Angle {
+    /// Zero.
+    pub const ZERO: Self = Self::whole_turns(0);
+    /// 90°.
+    pub const QUARTER_TURN: Self = Self(Turns(1, 4));
+    /// 180°.
+    pub const HALF_TURN: Self = Self(Turns(1, 2));
+    /// 360°.
+    pub const TURN: Self = Self::whole_turns(1);
+
+    /// This many turns.
+    #[must_use]
+    pub const fn whole_turns(turns: i32) -> Self {
+        Self(Turns(turns as i64, 1))
+    }
+
+    /// From degrees. A double stands for its shortest decimal where that is k/N of a turn with
+    /// N ≤ 10⁹; else for a decimal of six places, or k/N with N ≤ 1000, within 4 units in its last
+    /// place; else for itself.
+    pub fn from_degrees(degrees: f64) -> Result<Self> {
+        if !degrees.is_finite() || degrees.abs() > LARGEST_ANGLE {
+            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
+            return Err(Error::figure("angle", degrees, cure));
+        }
+        Ok(Self::of_double(degrees))
+    }
+
+    /// From `numerator / denominator` degrees.
+    pub fn from_degree_fraction(numerator: i64, denominator: i64) -> Result<Self> {
+        Self::of_fraction(numerator.into(), denominator.into())
+    }
+
+    /// From `numerator / denominator` turns.
+    pub fn from_turns(numerator: i64, denominator: i64) -> Result<Self> {
+        Self::of_fraction(i128::from(numerator) * 360, denominator.into())
+    }
+
+    /// Exact where the denominator fits, else the nearest double.
+    fn of_fraction(numerator: i128, denominator: i128) -> Result<Self> {
+        if denominator == 0 {
+            let value = format!("{numerator}/0");
+            return Err(Error::value("angle", value, "the denominator must not be 0"));
+        }
+        match turns_of_degrees(numerator, denominator) {
+            Some(angle) if angle.degrees().abs() <= LARGEST_ANGLE => Ok(angle),
+            _ => Self::from_degrees(nearest(numerator, denominator)),
+        }
+    }
+
+    /// What a finite double of degrees stands for.
+    fn of_double(degrees: f64) -> Self {
+        let within = WITHIN_ULP * ulp(degrees);
+        text::shortest_decimal(degrees)
+            .and_then(|(numerator, denominator)| turns_of_degrees(numerator, denominator))
+            .filter(|angle| angle.turns().is_some_and(|(_, parts)| parts <= MOST_DECIMAL_PARTS))
+            .or_else(|| six_decimals(degrees, within))
+            .or_else(|| recognise(degrees, within))
+            .unwrap_or(Self(Degrees(degrees)))
+    }
+
+    /// Numerator and denominator (> 0, in lowest terms) of the fraction of a turn; None for an angle
+    /// that is none.
+    #[must_use]
+    pub fn turns(self) -> Option<(i64, i64)> {
+        match self.0 {
+            Turns(numerator, denominator) => Some((numerator, denominator)),
+            Degrees(_) => None,
+        }
+    }
+
+    /// In degrees, the nearest double.
+    #[must_use]
+    pub fn degrees(self) -> f64 {
+        match self.0 {
+            Turns(numerator, denominator) => {
+                nearest(i128::from(numerator) * 360, denominator.into())
+            }
+            Degrees(degrees) => degrees,
+        }
+    }
+
+    /// Reduced modulo one turn, to [0°, 360°).
+    #[must_use]
+    pub fn reduced(self) -> Self {
+        self.reduced_to(1)
+    }
+
+    /// Reduced modulo a cycle of `turns` turns, at least one.
+    #[must_use]
+    pub fn reduced_to(self, turns: i64) -> Self {
+        let turns = turns.max(1);
+        match self.0 {
+            Turns(numerator, denominator) => {
+                // Above 64 bits the cycle is longer than any angle.
+                let rest = turns.checked_mul(denominator).map(|cycle| numerator.rem_euclid(cycle));
+                Self(Turns(rest.unwrap_or(numerator), denominator))
+            }
+            Degrees(degrees) => {
+                let rest = Self::of_double(degrees.rem_euclid(360.0 * turns as f64));
+                // Without whole turns it may be a fraction after all; -1e-20 is rounded up to one.
+                if rest.turns().is_some() { rest.reduced_to(turns) } else { rest }
+            }
+        }
+    }
+
+    /// Snaps to k/N of a turn (N ≤ 1000) if one lies within `within` degrees, for angles with more
+    /// than a few ulps of rounding error.
+    #[must_use]
+    pub fn nearby_part(self, within: f64) -> Self {
+        match self.0 {
+            Turns(..) => self,
+            Degrees(degrees) => recognise(degrees, within).unwrap_or(self),
+        }
+    }
+
+    /// The simple fraction k/N of a turn (N ≤ 1000) that lies within 1e-5° of this angle without
+    /// being it, and the distance in degrees: 51.428571° is 4.3e-7° from 360/7°.
+    #[must_use]
+    pub fn near_miss(self) -> Option<(Self, f64)> {
+        if self.turns().is_some_and(|(_, parts)| i128::from(parts) <= MOST_PARTS) {
+            return None;
+        }
+        let simple = recognise(self.degrees(), NEAR_MISS)?;
+        Some((simple, (self - simple).degrees().abs()))
+    }
+
+    /// Half the angle.
+    #[must_use]
+    pub fn half(self) -> Self {
+        let half = self.turns().and_then(|(numerator, denominator)| {
+            turns(numerator.into(), i128::from(denominator) * 2)
+        });
+        half.unwrap_or_else(|| Self::of_double(self.degrees() / 2.0))
+    }
+
+    /// The unit phasor `e^{i·n·angle}`.
+    #[must_use]
+    pub fn cis(self, n: i64) -> Complex64 {
+        match self.0 {
+            Turns(numerator, denominator) => {
+                let multiple = match numerator.checked_mul(n) {
+                    Some(product) => product.rem_euclid(denominator),
+                    None => (i128::from(numerator) * i128::from(n))
+                        .rem_euclid(i128::from(denominator)) as i64,
+                };
+                cis_turns(multiple, denominator)
+            }
+            Degrees(degrees) => cis_multiple(degrees, n),
+        }
+    }
+}
+
+/// `e^{i·degrees}`: quadrants are taken off exactly, so that multiples of 90° give exact zeros.
+#[must_use]
+pub fn cis_degrees(degrees: f64) -> Complex64 {
+    let degrees = degrees % 360.0;
+    let quarter = (degrees / 90.0).round();
+    let rest = (degrees - 90.0 * quarter).to_radians();
+    rotate(rest, quarter as i64)
+}
+
+/// `e^{i·n·degrees}` of exactly this double.
+pub(crate) fn cis_multiple(degrees: f64, n: i64) -> Complex64 {
+    // n·degrees as an exact sum of two doubles, each reduced by itself.
+    let product = degrees * n as f64;
+    let rest = degrees.mul_add(n as f64, -product);
+    let base = cis_degrees(product);
+    if rest == 0.0 { base } else { base * cis_degrees(rest) }
+}
+
+/// For a numerator in [0, denominator); denominators are small enough for the products.
+fn cis_turns(numerator: i64, denominator: i64) -> Complex64 {
+    // Nearest quarter, and what is left in [-1/8, 1/8] turn, both in integers.
+    let quarter = (8 * numerator + denominator) / (2 * denominator);
+    let rest = 4 * numerator - quarter * denominator;
+    let radians = std::f64::consts::FRAC_PI_2 * (rest as f64 / denominator as f64);
+    rotate(radians, quarter)
+}
+
+fn rotate(radians: f64, quarters: i64) -> Complex64 {
+    let (sin, cos) = radians.sin_cos();
+    match quarters.rem_euclid(4) {
+        0 => Complex64::new(cos, sin),
+        1 => Complex64::new(-sin, cos),
+        2 => Complex64::new(-cos, -sin),
+        _ => Complex64::new(sin, -cos),
+    }
+}
+
+/// The fraction of a turn in lowest terms; None where its denominator, given above 0, is too large.
+fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
+    // Nearly always both fit in 64 bits, where division is many times faster.
+    let divisor = match (u64::try_from(numerator.unsigned_abs()), u64::try_from(denominator)) {
+        (Ok(a), Ok(b)) => rational::divisor(a, b).into(),
+        _ => rational::divisor(numerator.unsigned_abs(), denominator.unsigned_abs()),
+    };
+    let divisor = i128::try_from(divisor).ok()?;
+    let numerator = i64::try_from(numerator / divisor).ok().filter(|&n| n != i64::MIN)?;
+    let denominator = i64::try_from(denominator / divisor).ok()?;
+    (denominator <= LARGEST_DENOMINATOR).then_some(Angle(Turns(numerator, denominator)))
+}
+
+/// The same of a fraction of degrees, with a denominator of either sign.
+fn turns_of_degrees(numerator: i128, denominator: i128) -> Option<Angle> {
+    let sign = denominator.signum();
+    turns(numerator.checked_mul(sign)?, denominator.checked_mul(360 * sign)?)
+}
+
+/// The nearest decimal of six places, if within a tolerance in degrees.
+fn six_decimals(degrees: f64, within: f64) -> Option<Angle> {
+    let candidate = turns_of_degrees((degrees * 1e6).round() as i128, 1_000_000)?;
+    ((candidate.degrees() - degrees).abs() <= within).then_some(candidate)
+}
+
+/// Continued fraction of the angle in turns, up to [`MOST_PARTS`], within a tolerance in degrees.
+fn recognise(degrees: f64, within: f64) -> Option<Angle> {
+    for (p, q) in rational::convergents(degrees / 360.0, MOST_PARTS) {
+        let candidate = turns(p, q)?;
+        if (candidate.degrees() - degrees).abs() <= within {
+            return Some(candidate);
+        }
+    }
+    None
+}
+
+fn ulp(x: f64) -> f64 {
+    let x = x.abs();
+    f64::from_bits(x.to_bits() + 1) - x
+}
+
+impl Add for Angle {
+    type Output = Self;
+
+    /// Exact between fractions as long as the denominator fits.
+    fn add(self, other: Self) -> Self {
+        if let (Turns(a, b), Turns(c, d)) = (self.0, other.0) {
+            let sum = if b == d {
+                turns(i128::from(a) + i128::from(c), b.into())
+            } else {
+                let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
+                turns(a * d + c * b, b * d)
+            };
+            if let Some(sum) = sum {
+                return sum;
+            }
+        }
+        Self::of_double(self.degrees() + other.degrees())
+    }
+}
+
+impl PartialOrd for Angle {
+    /// Fractions of a turn are compared in integers.
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if let (Turns(a, b), Turns(c, d)) = (self.0, other.0) {
+            let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
+            return Some((a * d).cmp(&(c * b)));
+        }
+        match self.degrees().partial_cmp(&other.degrees()) {
+            // A fraction of a turn and another angle whose nearest doubles are equal still differ.
+            Some(Ordering::Equal) if self != other => None,
+            found => found,
+        }
+    }
+}
+
+impl Neg for Angle {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(match self.0 {
+            Turns(numerator, denominator) => Turns(-numerator, denominator),
+            Degrees(degrees) => Degrees(-degrees),
+        })
+    }
+}
+
+impl Sub for Angle {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+#[cfg(test)]
+mod tests;

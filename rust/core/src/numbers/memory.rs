@@ -1,0 +1,82 @@
+//! Large buffers: allocations that can fail, copies that can be cancelled, and their release.
+//!
+//! Every allocation whose size follows from the lengths of inputs is made here.
+
+use std::thread;
+
+use bytemuck::Zeroable;
+
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+
+/// Numbers copied between two checks for cancellation.
+const PIECE: usize = 1 << 16;
+
+fn out_of_memory<T>(count: usize) -> Error {
+    Error::OutOfMemory { bytes: count.saturating_mul(size_of::<T>()) }
+}
+
+/// An empty vector with room for `count` values.
+pub fn room<T>(count: usize) -> Result<Vec<T>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count).map_err(|_| out_of_memory::<T>(count))?;
+    Ok(values)
+}
+
+/// `count` zeros. The system clears their memory when it is first written to.
+pub fn zeros<T: Zeroable>(count: usize) -> Result<Vec<T>> {
+    bytemuck::allocation::try_zeroed_vec(count).map_err(|()| out_of_memory::<T>(count))
+}
+
+/// Append a value.
+pub fn push<T>(to: &mut Vec<T>, value: T) -> Result<()> {
+    if to.len() == to.capacity() {
+        let more = to.len().max(4);
+        to.try_reserve(more).map_err(|_| out_of_memory::<T>(to.len() + more))?;
+    }
+    to.push(value);
+    Ok(())
+}
+
+/// A copy.
+pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
+    let mut copy = room(values.len())?;
+    for piece in values.chunks(PIECE) {
+        cancel.check()?;
+        copy.extend_from_slice(piece);
+    }
+    Ok(copy)
+}
+
+/// Drop a large value on a background thread, because returning gigabytes to the system takes most of
+/// a second; in the calling thread if no other can be started.
+pub fn free_later<T: Send + 'static>(value: T) {
+    drop(thread::Builder::new().spawn(move || drop(value)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_an_error_with_its_size() {
+        let count = isize::MAX as usize / 8;
+        let expected = Err(Error::OutOfMemory { bytes: 8 * count });
+        assert_eq!(room::<f64>(count).map(drop), expected);
+        assert_eq!(zeros::<f64>(count).map(drop), expected);
+        assert_eq!(
+            zeros::<f64>(usize::MAX).map(drop),
+            Err(Error::OutOfMemory { bytes: usize::MAX })
+        );
+        assert_eq!(zeros::<f64>(3), Ok(vec![0.0; 3]));
+    }
+
+    #[test]
+    fn a_copy_can_be_cancelled() {
+        let values: Vec<f64> = (0..PIECE + 3).map(|k| k as f64).collect();
+        let cancel = Cancel::new();
+        assert_eq!(copied(&values, &cancel).as_ref(), Ok(&values));
+        cancel.raise();
+        assert_eq!(copied(&values, &cancel), Err(Error::Cancelled));
+    }
+}

@@ -1,0 +1,14 @@
+//! Numbers, and what every computation with them needs: errors, limits, cancellation, threads, memory.
+
+pub mod angle;
+pub mod cancel;
+pub mod crank_angles;
+pub mod double;
+pub mod error;
+pub mod limits;
+pub mod memory;
+pub mod order;
+pub mod pool;
+pub mod rational;
+pub mod ring;
+pub(crate) mod simd;

@@ -1,0 +1,78 @@
+//! Loops compiled for the widest vectors of the machine they run on.
+
+/// Run a loop, compiled once for each instruction set, with the best that this machine has. All
+/// the loop calls must be inlined into it, or they are compiled for the baseline only.
+#[inline]
+pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
+    pulp::Arch::new().dispatch(work)
+}
+
+/// Sine and cosine of degrees, for a whole slice at once.
+///
+/// Quadrants are taken off exactly; on the ±45° that are left, minimax polynomials (fdlibm's) are
+/// within a unit in the last place.
+#[inline(always)]
+#[expect(clippy::excessive_precision, reason = "the coefficients as fdlibm gives them")]
+pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64]) {
+    /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    const RADIANS: f64 = std::f64::consts::PI / 180.0;
+    for ((&degrees, sin), cos) in degrees.iter().zip(sin).zip(cos) {
+        let quarters = (degrees * (1.0 / 90.0) + ROUND) - ROUND;
+        let x = (degrees - 90.0 * quarters) * RADIANS;
+        let square = x * x;
+        let s = x + x
+            * square
+            * (-1.666_666_666_666_663_243e-1
+                + square
+                    * (8.333_333_333_322_489_46e-3
+                        + square
+                            * (-1.984_126_982_985_794_93e-4
+                                + square
+                                    * (2.755_731_370_707_006_77e-6
+                                        + square
+                                            * (-2.505_076_025_340_686_34e-8
+                                                + square * 1.589_690_995_211_550_1e-10)))));
+        let c = (1.0 - 0.5 * square)
+            + square
+                * square
+                * (4.166_666_666_666_660_19e-2
+                    + square
+                        * (-1.388_888_888_887_410_96e-3
+                            + square
+                                * (2.480_158_728_947_672_94e-5
+                                    + square
+                                        * (-2.755_731_435_139_066_33e-7
+                                            + square
+                                                * (2.087_572_321_298_174_83e-9
+                                                    + square * -1.135_964_755_778_819_48e-11)))));
+        // Quarters modulo 4 as −2, −1, 0, 1 (or 2): odd ones exchange sine and cosine.
+        let rest = quarters - 4.0 * ((quarters * 0.25 + ROUND) - ROUND);
+        let odd = rest.abs() == 1.0;
+        let half = rest.abs() == 2.0;
+        let (a, b) = if odd { (c, -s) } else { (s, c) };
+        let (a, b) = if half || rest == -1.0 { (-a, -b) } else { (a, b) };
+        (*sin, *cos) = (a, b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_with_the_library() {
+        let degrees: Vec<f64> = (-40_000..40_000).map(|k| f64::from(k) * 0.037).collect();
+        let (mut sin, mut cos) = (degrees.clone(), degrees.clone());
+        vectorised(
+            #[inline(always)]
+            || sin_cos_degrees(&degrees, &mut sin, &mut cos),
+        );
+        for (i, &d) in degrees.iter().enumerate() {
+            let unit = crate::numbers::angle::cis_degrees(d);
+            // one unit in the last place of numbers below 1, twice
+            assert!((sin[i] - unit.im).abs() <= 2.3e-16, "sin {d}");
+            assert!((cos[i] - unit.re).abs() <= 2.3e-16, "cos {d}");
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! How an engine shakes, order by order: force, moment and torque as peak phasors.
+
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::gear::spectrum::Spectrum;
+use crate::load::{Alike, Loads};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::limits;
+use crate::numbers::order::{self, Order};
+use crate::readings::amplitude::wrenches;
+use crate::readings::choice;
+use crate::readings::peaks::PeakFinder;
+use crate::wrench::{Planar, Wrench, rounding};
+
+/// Which orders to report.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Orders {
+    /// These.
+    Given(Vec<Order>),
+    /// A few that leave out at most this part of the largest m·r·ω² of a cylinder (times the longest
+    /// lever for moments, and the crank radius for torque).
+    Auto {
+        /// Relative tolerance.
+        rtol: f64,
+    },
+}
+
+impl Orders {
+    /// Whole orders from a list.
+    pub fn whole(orders: &[u32]) -> Result<Self> {
+        Order::all_whole(orders).map(Self::Given)
+    }
+}
+
+/// Operating point and options of a balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request<'a> {
+    /// Crank speed.
+    pub rpm: f64,
+    /// Plane about which moments are taken; by default half-way between the first and the last
+    /// cylinder.
+    pub reference_z: Option<f64>,
+    /// Replaces every cylinder's slider-crank.
+    pub spectrum: Option<&'a Spectrum>,
+    /// Whether torques are wanted too.
+    pub torque: bool,
+}
+
+/// How an engine shakes at one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    /// Orders, ascending where they were chosen here.
+    pub orders: Vec<Order>,
+    /// Orders evaluated and left out, of those that are not zero.
+    pub omitted: Vec<Order>,
+    /// Wrench of each order; what vanishes to within rounding is zero.
+    pub wrenches: Vec<Wrench>,
+    /// Bounds of what the orders left out add to force, moment and either torque at any crank
+    /// angle; 0 for orders that were asked for by number.
+    pub error_bound: [f64; 3],
+    /// Whether torque is known: it was wanted, and no spectrum of forces replaces the pistons.
+    pub has_torque: bool,
+    /// Number of loads, on which rounding depends.
+    loads: usize,
+}
+
+/// Force or moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Vector {
+    /// Shaking force, N.
+    Force,
+    /// Rocking moment, N·m.
+    Moment,
+}
+
+impl Balance {
+    /// Force or moment of the k-th order.
+    #[must_use]
+    pub fn planar(&self, vector: Vector, k: usize) -> &Planar {
+        match vector {
+            Vector::Force => &self.wrenches[k].force,
+            Vector::Moment => &self.wrenches[k].moment,
+        }
+    }
+
+    /// Bound of the rounding error of the k-th order of force or moment.
+    #[must_use]
+    pub fn zero_bound(&self, vector: Vector, k: usize) -> f64 {
+        self.planar(vector, k).size * rounding(self.loads, self.orders[k].number())
+    }
+
+    /// Bound of the rounding error of the k-th order of torque.
+    #[must_use]
+    pub fn torque_zero_bound(&self, k: usize) -> f64 {
+        self.wrenches[k].torque.size * rounding(self.loads, self.orders[k].number())
+    }
+
+    /// Peak phasors along (about) x and y of the k-th order.
+    #[must_use]
+    pub fn xy(&self, vector: Vector, k: usize) -> [Complex64; 2] {
+        self.planar(vector, k).xy(self.zero_bound(vector, k))
+    }
+
+    /// Largest value along (about) x and y of the sum of all orders.
+    #[must_use]
+    pub fn peak_xy(&self, vector: Vector) -> [f64; 2] {
+        let finder = PeakFinder::new(&self.orders);
+        self.by_component(vector).map(|phasors| finder.along_axis(&phasors))
+    }
+
+    /// Longest vector of the sum of all orders.
+    #[must_use]
+    pub fn peak(&self, vector: Vector) -> f64 {
+        let [x, y] = self.by_component(vector);
+        PeakFinder::new(&self.orders).of_vector(&x, &y)
+    }
+
+    /// Largest roll torque and crank torque of the sum of all orders.
+    #[must_use]
+    pub fn torque_peaks(&self) -> [f64; 2] {
+        let finder = PeakFinder::new(&self.orders);
+        let roll: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.roll).collect();
+        let crank: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.crank).collect();
+        [roll, crank].map(|phasors| finder.along_axis(&phasors))
+    }
+
+    fn by_component(&self, vector: Vector) -> [Vec<Complex64>; 2] {
+        let all: Vec<_> = (0..self.orders.len()).map(|k| self.xy(vector, k)).collect();
+        [0, 1].map(|component| all.iter().map(|xy| xy[component]).collect())
+    }
+}
+
+/// Angular speed in rad/s.
+pub fn angular_speed(rpm: f64) -> Result<f64> {
+    Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)
+}
+
+/// The balance of an engine.
+pub fn balance(
+    engine: &Engine,
+    request: &Request,
+    orders: &Orders,
+    cancel: &Cancel,
+) -> Result<Balance> {
+    let Request { spectrum, torque, .. } = *request;
+    let omega = angular_speed(request.rpm)?;
+    let reference = engine.reference(request.reference_z)?;
+    let torque = torque && spectrum.is_none();
+    let alike = if spectrum.is_some() { Alike::All } else { Alike::Proportions };
+    let loads = Loads::new(engine, reference, alike);
+    let square = omega * omega;
+    let mut balance = match orders {
+        Orders::Given(orders) => {
+            order::check_list(orders)?;
+            let wrenches = wrenches(&loads, spectrum, torque, orders, cancel)?;
+            Balance {
+                orders: orders.clone(),
+                omitted: Vec::new(),
+                wrenches,
+                error_bound: [0.0; 3],
+                has_torque: torque,
+                loads: loads.list.len(),
+            }
+        }
+        Orders::Auto { rtol } => {
+            let chosen = choice::within(*rtol, engine, &loads, spectrum, torque, cancel)?;
+            Balance {
+                orders: chosen.orders,
+                omitted: chosen.omitted,
+                wrenches: chosen.wrenches,
+                error_bound: chosen.error_bound.map(|bound| bound * square),
+                has_torque: torque,
+                loads: loads.list.len(),
+            }
+        }
+    };
+    for wrench in &mut balance.wrenches {
+        wrench.force = wrench.force.scaled(square);
+        wrench.moment = wrench.moment.scaled(square);
+        wrench.torque = wrench.torque.scaled(square);
+    }
+    Ok(balance)
+}

@@ -1,0 +1,400 @@
+//! Force and moment of one order in closed form: whole numbers times cosines of parts of a turn.
+//!
+//! In units of one cylinder's force m·r·ω²·aₙ (and of the spacing a) a phasor is a sum of roots of
+//! unity with rational weights. Its real and imaginary part and the square of its size are sums
+//! c₀ + Σ cₖ·2cos(2πk/N) with whole cₖ, unique if k stays below half the degree of `Φ_N`: see
+//! [`crate::numbers::ring`]. What radicals these make is left to a computer algebra system.
+
+use num_traits::{CheckedDiv, CheckedMul};
+
+use super::{Levers, too_long, whole};
+use crate::engine::Engine;
+use crate::load::{Alike, Load, Loads, Source};
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::order::Order;
+use crate::numbers::rational::{Multiples, Ratio, common_measure, nearest};
+use crate::numbers::ring::RootSum;
+
+/// Coefficients of 1, 2cos(2π/N), 2cos(4π/N) …, to be divided by the form's denominator.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Phasor {
+    /// Of the real part.
+    pub real: Vec<i128>,
+    /// Of the imaginary part.
+    pub imaginary: Vec<i128>,
+    /// Of the size squared, to be divided by the denominator squared.
+    pub square: Vec<i128>,
+}
+
+/// How the force of a load moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Along its direction.
+    Along,
+    /// Turning with the crank.
+    Forward,
+    /// Turning against the crank.
+    Backward,
+}
+
+/// One load's part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// m·r, or the unbalance times the square of its speed, in units of the unit cylinder's m·r.
+    pub weight: Ratio,
+    /// z − z₀ in units of the spacing.
+    pub lever: Ratio,
+    /// How its force moves.
+    pub motion: Motion,
+    /// Direction, as part of a turn.
+    pub direction: (i64, i64),
+    /// Crank angle at which the force points there, as part of a turn.
+    pub phase: (i64, i64),
+}
+
+/// Force or moment of one order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosedForm {
+    /// Index of the cylinder whose force is the unit: the first that has reciprocating mass.
+    pub unit: usize,
+    /// Length of which all distances between cylinders are whole multiples, m; 0 if all stand in
+    /// the plane of reference.
+    pub spacing: f64,
+    /// Whether the harmonic aₙ is zero, and all with it.
+    pub no_harmonic: bool,
+    /// Load by load: the cylinders, then what rotates at this order.
+    pub parts: Vec<Part>,
+    /// N.
+    pub period: i128,
+    /// By which coefficients are divided.
+    pub denominator: i128,
+    /// Along (about) x, along (about) y, forward, backward.
+    pub phasors: [Phasor; 4],
+}
+
+fn refused(argument: &str, value: impl std::fmt::Display, cure: &str) -> Error {
+    Error::value(argument, value, format!("a closed form needs {cure}"))
+}
+
+fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
+    angle.turns().ok_or_else(|| {
+        refused(argument, angle.degrees(), "rational parts of a turn, such as 60 or \"360/7\"")
+    })
+}
+
+/// Levers in units of the spacing, and the spacing.
+fn levers(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> {
+    let Levers { units, of } = Levers::new(engine, loads, reference)?;
+    let unit = of.iter().flatten().find(|(_, ratio)| *ratio != Ratio::ZERO).map_or(0, |u| u.0);
+    let single = |lever: &Vec<(usize, Ratio)>| {
+        let others = lever.iter().any(|&(other, ratio)| other != unit && ratio != Ratio::ZERO);
+        let own = lever.iter().find(|(other, _)| *other == unit);
+        (!others).then(|| own.map_or(Ratio::ZERO, |&(_, ratio)| ratio))
+    };
+    let Some(levers) = of.iter().map(single).collect::<Option<Vec<Ratio>>>() else {
+        let value = format!("{:?}", loads.list.iter().map(|load| load.z).collect::<Vec<_>>());
+        return Err(refused("z", value, "distances that are rational multiples of each other"));
+    };
+    let measure = |levers: &[Ratio], from: Ratio| {
+        let mut distances = levers.iter().map(|lever| lever - from);
+        distances.try_fold(Ratio::ZERO, common_measure).ok_or_else(too_long)
+    };
+    let mut step = measure(&levers[..engine.placements().len()], levers[0])?;
+    if step == Ratio::ZERO {
+        step = measure(&levers, Ratio::ZERO)?;
+    }
+    if step == Ratio::ZERO {
+        return Ok((levers, 0.0));
+    }
+    let sign = Ratio::from(units[unit].signum() as i128);
+    let scaled = levers.into_iter().map(|lever| lever.checked_div(&step)?.checked_mul(&sign));
+    let scaled: Option<Vec<Ratio>> = scaled.collect();
+    Ok((scaled.ok_or_else(too_long)?, units[unit].abs() * nearest(*step.numer(), *step.denom())))
+}
+
+/// Weights of the loads of an order, in units of the first cylinder that has mass.
+fn weights(loads: &[Load]) -> Result<(usize, Vec<Ratio>)> {
+    let figures: Vec<f64> = loads.iter().map(|load| load.weight).collect();
+    let is_piston = |load: &Load| matches!(load.source, Source::Piston { .. });
+    let Some(unit) = loads.iter().position(|load| is_piston(load) && load.weight > 0.0) else {
+        return Err(refused("reciprocating_mass", 0, "a cylinder that has some"));
+    };
+    let multiples = Multiples::of_figures(&figures);
+    if multiples.units.len() > 1 {
+        let value = format!("m·r = {figures:?}");
+        let cure = "masses times radius that are rational multiples of each other";
+        return Err(refused("cylinders and unbalances", value, cure));
+    }
+    let one = multiples.of[unit].1;
+    let ratio = |&(_, ratio): &(usize, Ratio)| ratio.checked_div(&one).ok_or_else(too_long);
+    Ok((unit, multiples.of.iter().map(ratio).collect::<Result<_>>()?))
+}
+
+/// Force, or moment about the plane z = `reference_z`, of one order.
+pub fn closed_form(
+    engine: &Engine,
+    order: u32,
+    moment: bool,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<ClosedForm> {
+    Order::whole(order)?;
+    let mut loads = Loads::new(engine, engine.reference(reference_z)?, Alike::Proportions);
+    if loads.motions.len() > 1 {
+        return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
+    }
+    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
+    let offset = loads.motions[0].pin_offset();
+    let (unit, weights) = weights(&loads.list)?;
+    if loads.list.len() > engine.placements().len() {
+        if order > 1 {
+            let cure =
+                "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
+            return Err(refused("shafts", format!("of order {order}"), cure));
+        }
+        if offset != 0.0 {
+            let cure = "no rotating mass at order 1, whose phase is another, or no offset";
+            return Err(refused("pin_offset", offset, cure));
+        }
+    }
+    let (levers, spacing) = if moment {
+        levers(engine, &loads, reference_z)?
+    } else {
+        (vec![Ratio::ONE; loads.list.len()], 0.0)
+    };
+    let mut parts = Vec::with_capacity(loads.list.len());
+    for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
+        let (motion, square) = match load.source {
+            Source::Piston { .. } => (Motion::Along, 1),
+            Source::Unbalance { ratio, .. } if ratio > 0 => (Motion::Forward, ratio * ratio),
+            Source::Unbalance { ratio, .. } => (Motion::Backward, ratio * ratio),
+        };
+        let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
+        let argument = if motion == Motion::Along { "bank_deg" } else { "angle_deg" };
+        let direction = part_of_turn(argument, load.direction)?;
+        parts.push(Part {
+            weight,
+            lever,
+            motion,
+            direction,
+            phase: part_of_turn("tdc_deg", load.phase)?,
+        });
+    }
+    let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
+    let (denominator, [forward, backward_conj]) = sums(&parts, order)?;
+    // The moment of a force is i·lever times it; x = f + b*, y = −i(f − b*), b* conjugate.
+    let (forward, backward_conj) = if moment {
+        (forward.turned(1, 4), backward_conj.turned(-1, 4))
+    } else {
+        (forward, backward_conj)
+    };
+    let x = forward.plus(&backward_conj, 1)?;
+    let y = forward.plus(&backward_conj, -1)?.turned(-1, 4);
+    let backward = backward_conj.conjugate();
+    let phasors = [
+        phasor(&x, cancel)?,
+        phasor(&y, cancel)?,
+        phasor(&forward, cancel)?,
+        phasor(&backward, cancel)?,
+    ];
+    // Real parts come doubled, and forward and backward are halves: a quarter.
+    let denominator = denominator.checked_mul(4).ok_or_else(too_long)?;
+    let period = forward.period();
+    Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors })
+}
+
+/// Twice forward and twice the conjugate of backward force, times levers, over a denominator.
+fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
+    let product = |part: &Part| part.weight.checked_mul(&part.lever).ok_or_else(too_long);
+    let (weights, denominator) = whole(&parts.iter().map(product).collect::<Result<Vec<_>>>()?)?;
+    let (mut forward, mut backward) = (Vec::new(), Vec::new());
+    for (part, weight) in parts.iter().zip(weights) {
+        let (toward, at) = (part.direction, part.phase);
+        let common = i128::from(toward.1).checked_mul(at.1.into()).ok_or_else(too_long)?;
+        // Without whole turns, so that no product overflows.
+        let rest = |(k, n): (i64, i64)| i128::from(k.rem_euclid(n));
+        let direction = rest(toward) * i128::from(at.1);
+        let phase = i128::from(order) * rest(at) * i128::from(toward.1);
+        let turns = |numerator: i128| Ratio::new(numerator, common).into_raw();
+        let (ahead, against) = (turns(direction - phase), turns(-direction - phase));
+        let twice = weight.checked_mul(2).ok_or_else(too_long)?;
+        match part.motion {
+            Motion::Along => {
+                forward.push((ahead.0, ahead.1, weight));
+                backward.push((against.0, against.1, weight));
+            }
+            Motion::Forward => forward.push((ahead.0, ahead.1, twice)),
+            Motion::Backward => backward.push((against.0, against.1, twice)),
+        }
+    }
+    // A period for both, and with quarters of a turn for i; three at least, so that there is a cosine.
+    let one = RootSum::new(&forward, 4)?.period();
+    let backward = RootSum::new(&backward, one)?;
+    let forward = RootSum::new(&forward, backward.period())?;
+    Ok((denominator, [forward, backward]))
+}
+
+fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
+    let square = sum.squared_size()?.twice_real(cancel)?;
+    let doubled = |&c: &i128| c.checked_mul(2).ok_or_else(too_long);
+    Ok(Phasor {
+        real: sum.twice_real(cancel)?,
+        // Im z = Re(−iz).
+        imaginary: sum.turned(-1, 4).twice_real(cancel)?,
+        // Twice |z|², over the square of a denominator that has a 2 for the real parts.
+        square: square.iter().map(doubled).collect::<Result<_>>()?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Placement;
+    use crate::gear::slider_crank::Cylinder;
+    use crate::readings::balance::{Request, Vector, balance};
+
+    fn crossplane() -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let throws = [(0.0, 0.0), (270.0, 0.13), (90.0, 0.26), (180.0, 0.39)];
+        let place = |(tdc, z), bank: f64| Placement {
+            cylinder,
+            tdc: Angle::from_degrees(tdc + bank - 135.0).unwrap(),
+            bank: Angle::from_degrees(bank).unwrap(),
+            z,
+            rotating_mass: 0.0,
+        };
+        let places = throws.into_iter().flat_map(|t| [place(t, 135.0), place(t, 45.0)]);
+        Engine::new("", "", places.collect()).unwrap()
+    }
+
+    #[test]
+    fn the_couple_of_the_cross_plane_eight_is_root_ten() {
+        let form = closed_form(&crossplane(), 1, true, None, &Cancel::new()).unwrap();
+        assert!((form.spacing - 0.13).abs() < 1e-15);
+        assert_eq!(form.parts[0].lever, Ratio::new(-3, 2));
+        let square = &form.phasors[2].square;
+        let (value, rest) = square.split_first().unwrap();
+        assert_eq!(*value, 10 * form.denominator * form.denominator);
+        assert!(rest.iter().all(|&c| c == 0));
+        assert!(form.phasors[3].square.iter().all(|&c| c == 0));
+    }
+
+    /// c₀ + Σ cₖ·2cos(2πk/N).
+    fn value(coefficients: &[i128], period: i128) -> f64 {
+        let cosine = |k: usize| match k {
+            0 => 1.0,
+            _ => 2.0 * (std::f64::consts::TAU * k as f64 / period as f64).cos(),
+        };
+        coefficients.iter().enumerate().map(|(k, &c)| c as f64 * cosine(k)).sum()
+    }
+
+    #[test]
+    fn closed_forms_are_the_balance() {
+        let turning = |engine: &Engine| {
+            let with = |(i, p): (usize, &Placement)| Placement {
+                rotating_mass: if i == 1 { 0.75 } else { 0.0 },
+                ..*p
+            };
+            let places = engine.placements().iter().enumerate().map(with).collect();
+            Engine::new("", "", places).unwrap()
+        };
+        let v8 = crossplane();
+        let two = Engine::new("", "", v8.placements()[1..3].to_vec()).unwrap();
+        let single = Engine::new("", "", v8.placements()[..1].to_vec()).unwrap();
+        for engine in [turning(&v8), turning(&two), v8, two, single] {
+            for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
+                for moment in [false, true] {
+                    let form =
+                        closed_form(&engine, order, moment, reference, &Cancel::new()).unwrap();
+                    let rpm = 60.0 / std::f64::consts::TAU;
+                    let orders = crate::Orders::whole(&[order]).unwrap();
+                    let request =
+                        Request { rpm, reference_z: reference, spectrum: None, torque: false };
+                    let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
+                    let vector = if moment { Vector::Moment } else { Vector::Force };
+                    let planar = found.planar(vector, 0);
+                    let [x, y] = found.xy(vector, 0);
+                    let cylinder = engine.placements()[form.unit].cylinder;
+                    let harmonic = crate::gear::harmonics::coefficients(
+                        &cylinder.proportions(),
+                        &[order],
+                        &Cancel::new(),
+                    )
+                    .unwrap()[0];
+                    let length = if moment { form.spacing } else { 1.0 };
+                    let unit = harmonic.re * cylinder.first_order() * length;
+                    let expected = [x, y, planar.forward, planar.backward()];
+                    let denominator = form.denominator as f64;
+                    for (phasor, expected) in form.phasors.iter().zip(expected) {
+                        let real = value(&phasor.real, form.period) / denominator * unit;
+                        let imaginary = value(&phasor.imaginary, form.period) / denominator * unit;
+                        let size = value(&phasor.square, form.period).max(0.0).sqrt();
+                        let size = size / denominator * unit.abs();
+                        // Eight cylinders of m·r = 0.025 kg·m, levers of half a metre: 1e-16 each;
+                        // a size that is zero is the root of what rounding leaves.
+                        assert!((real - expected.re).abs() < 1e-14, "{order} {moment} {phasor:?}");
+                        assert!((imaginary - expected.im).abs() < 1e-14, "{order} {moment}");
+                        assert!((size - expected.norm()).abs() < 1e-9, "{order} {moment}");
+                    }
+                    assert!(!form.no_harmonic);
+                }
+            }
+            let none = |order| {
+                closed_form(&engine, order, false, None, &Cancel::new()).unwrap().no_harmonic
+            };
+            assert!(none(3) && none(5) && !none(1) && !none(6));
+        }
+    }
+
+    #[test]
+    fn what_has_none_is_refused_with_the_reason() {
+        let mut places = crossplane().placements().to_vec();
+        places[3].z = 0.13 * 2.0_f64.sqrt();
+        let engine = Engine::new("", "", places.clone()).unwrap();
+        assert!(
+            closed_form(&engine, 1, true, None, &Cancel::new())
+                .unwrap_err()
+                .to_string()
+                .contains('z')
+        );
+        assert!(closed_form(&engine, 1, false, None, &Cancel::new()).is_ok());
+        places[3].bank = Angle::from_degrees(49.541_234_567_89).unwrap();
+        let error = |places: &[Placement], order| {
+            let engine = Engine::new("", "", places.to_vec()).unwrap();
+            closed_form(&engine, order, false, None, &Cancel::new()).unwrap_err().to_string()
+        };
+        let text = error(&places, 1);
+        assert!(text.contains("bank_deg = 49.54123456789"), "{text}");
+        let mut places = crossplane().placements().to_vec();
+        places[2].cylinder = Cylinder::new(0.05, 0.15, 0.5 * 2.0_f64.sqrt(), 0.0).unwrap();
+        assert!(error(&places, 2).contains("rational multiples"));
+        // With an offset order 1 of the pistons is out of phase with what turns.
+        for place in &mut places {
+            place.cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.01).unwrap();
+        }
+        places[2].rotating_mass = 0.25;
+        assert!(error(&places, 1).contains("pin_offset = 0.01"));
+        let engine = Engine::new("", "", places).unwrap();
+        assert!(closed_form(&engine, 2, false, None, &Cancel::new()).is_ok());
+    }
+
+    #[test]
+    fn the_unit_is_the_first_cylinder_with_reciprocating_mass() {
+        let mut places = crossplane().placements()[..3].to_vec();
+        let massless = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
+        places[0].cylinder = massless;
+        let engine = Engine::new("", "", places.clone()).unwrap();
+        let form = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap();
+        assert_eq!(form.unit, 1);
+        let weights: Vec<Ratio> = form.parts.iter().map(|part| part.weight).collect();
+        assert_eq!(weights, [Ratio::ZERO, Ratio::ONE, Ratio::ONE]);
+        for place in &mut places {
+            place.cylinder = massless;
+        }
+        let engine = Engine::new("", "", places).unwrap();
+        let error = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap_err().to_string();
+        assert!(error.contains("reciprocating_mass"), "{error}");
+    }
+}

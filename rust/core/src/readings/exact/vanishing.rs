@@ -1,0 +1,324 @@
+//! Which orders of force, moment and torque vanish, with proof.
+//!
+//! Each order and direction is a sum over the loads, Σ w ζᵏ, where w is a weight (times a lever) and
+//! ζᵏ the load's direction turned by n times its phase. Where angles are rational parts of a turn and
+//! the weights rational multiples of each other, [`crate::numbers::ring`] decides in integers whether it is
+//! zero.
+//!
+//! A quantity with no rational relation to the others is treated as an independent symbol: an angle
+//! that is no rational part of a turn (others a rational part of a turn away from it share its
+//! symbol), a mass or a place that is no simple part of another, the harmonic of a slider-crank of
+//! other proportions. The sum is then one over these symbols, each times a sum of roots of unity. It
+//! vanishes if each of those does, whatever the symbols are. It remains if just one of them does not
+//! and its symbol is known not to be zero. Otherwise nothing is proved.
+//!
+//! Which harmonics are known not to be zero:
+//! - a₁ = 1 + ib of any slider-crank;
+//! - without pin offset the even orders of the force: √(1 − λ² sin²θ) is a power series in λ² sin²θ
+//!   whose coefficients all are negative, and so every even power gives cos nθ the sign (−1)^{n/2};
+//! - without pin offset every order of the torque of the masses, half the derivative of x′²: order n
+//!   has, of x′² = sin²θ − 2 sin θ h′ + h′², for odd n the difference of two neighbouring orders of
+//!   h′, of opposite signs, for even n > 2 a term of a geometric series, and for n = 2 such a term
+//!   and −½, both negative;
+//! - others where their value is beyond any error of its evaluation: 10⁻⁹ of n² p₂^{n−2}, which
+//!   bounds the terms that they are made of (p₂ as in [`crate::gear::harmonics`]).
+
+mod symbols;
+mod terms;
+
+use std::collections::BTreeMap;
+
+use self::symbols::{Channel, Direct, Symbol, Term, View};
+use self::terms::Proof;
+use super::whole;
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::gear::harmonics;
+use crate::gear::slider_crank::Cylinder;
+use crate::load::{Load, Source};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::order::{Order, check_list};
+use crate::numbers::ring::RootSum;
+use crate::readings::balance::{self, Orders, Request, Vector};
+
+/// What is known of a sum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is zero, proved.
+    Vanishes,
+    /// It is not, proved.
+    Remains,
+    /// Neither is proved.
+    Undecided,
+}
+
+/// The sums of one order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// Force along x.
+    ForceX,
+    /// Force along y.
+    ForceY,
+    /// Force that turns with the crank.
+    ForceForward,
+    /// Force that turns against it.
+    ForceBackward,
+    /// Moment about x.
+    MomentX,
+    /// Moment about y.
+    MomentY,
+    /// Moment that turns with the crank.
+    MomentForward,
+    /// Moment that turns against it.
+    MomentBackward,
+    /// Roll torque; that on the crank vanishes with it.
+    Torque,
+}
+
+/// All of them, in the order in which they are reported.
+pub const QUANTITIES: [Quantity; 9] = [
+    Quantity::ForceX,
+    Quantity::ForceY,
+    Quantity::ForceForward,
+    Quantity::ForceBackward,
+    Quantity::MomentX,
+    Quantity::MomentY,
+    Quantity::MomentForward,
+    Quantity::MomentBackward,
+    Quantity::Torque,
+];
+
+/// What vanishes, order by order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vanishing {
+    /// As asked for.
+    pub orders: Vec<u32>,
+    /// One for each of [`QUANTITIES`], order by order.
+    pub verdicts: Vec<[Verdict; 9]>,
+    /// Whether each is within the bound of rounding errors in floating point.
+    pub within_rounding: Vec<[bool; 9]>,
+    /// Why sums are undecided, where some are.
+    pub obstacles: Vec<String>,
+}
+
+impl Proof {
+    fn verdict(&self, quantity: Quantity, order: u32, cancel: &Cancel) -> (Verdict, Option<Error>) {
+        let torque = quantity == Quantity::Torque;
+        let views = [(false, torque), (true, torque), (false, false), (true, false)];
+        let views = views.into_iter().take(if torque { 4 } else { 2 });
+        let mut obstacle = None;
+        for view in views.map(|(parts, gears)| View { parts, gears }) {
+            let decided = self
+                .terms(quantity, order, view)
+                .and_then(|terms| self.decided(&terms, order, torque, view, cancel));
+            match decided {
+                Ok(Verdict::Undecided) => {}
+                Ok(verdict) => return (verdict, None),
+                Err(error) => obstacle = Some(error),
+            }
+        }
+        (Verdict::Undecided, obstacle)
+    }
+
+    /// The verdict on Σ symbol · weight · root.
+    fn decided(
+        &self,
+        terms: &[Term],
+        order: u32,
+        torque: bool,
+        view: View,
+        cancel: &Cancel,
+    ) -> Result<Verdict> {
+        let mut sums: BTreeMap<Symbol, Vec<&Term>> = BTreeMap::new();
+        for term in terms {
+            sums.entry(term.symbol).or_default().push(term);
+        }
+        let mut left = Vec::new();
+        for (symbol, terms) in sums {
+            let (weights, _) = whole(&terms.iter().map(|term| term.weight).collect::<Vec<_>>())?;
+            let roots: Vec<(i128, i128, i128)> =
+                terms.iter().zip(weights).map(|(t, w)| (t.turns.0, t.turns.1, w)).collect();
+            if !RootSum::new(&roots, 1)?.vanishes()? {
+                left.push(symbol.channel);
+            }
+        }
+        Ok(match left[..] {
+            [] => Verdict::Vanishes,
+            [channel] if self.is_nonzero(channel, order, torque, view, cancel)? => Verdict::Remains,
+            _ => Verdict::Undecided,
+        })
+    }
+
+    /// Whether a harmonic is known not to be zero; see the head of this file.
+    fn is_nonzero(
+        &self,
+        channel: Channel,
+        order: u32,
+        torque: bool,
+        view: View,
+        cancel: &Cancel,
+    ) -> Result<bool> {
+        use Channel::{Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
+        let (cylinder, [masses, inertia]) = match channel {
+            One => return Ok(true),
+            Masses(motion) | OddOfMasses(motion) => (self.loads.motions[motion], [1.0, 0.0]),
+            Rod(motion) | OddOfRod(motion) => (self.loads.motions[motion], [0.0, 1.0]),
+            Gear(gear) | OddOfGear(gear) => {
+                let gear = self.gears[gear];
+                (gear, [gear.second_moment(), gear.rod_inertia_excess()])
+            }
+        };
+        let centred = cylinder.pin_offset() == 0.0;
+        if (centred && inertia == 0.0 && masses != 0.0) || (!torque && order == 1 && !view.parts) {
+            return Ok(true);
+        }
+        let proportions = cylinder.proportions();
+        let terms = if torque {
+            let of_masses = harmonics::torque::torque(&proportions, &[order], cancel)?.roll[0];
+            let of_rod = harmonics::rod::torque(&proportions, &[order], cancel)?.roll[0];
+            [of_masses * masses, of_rod * inertia]
+        } else {
+            let force = harmonics::coefficients(&proportions, &[order], cancel)?[0];
+            [force, Complex64::default()]
+        };
+        let value = terms[0] + terms[1];
+        let value = match (view.parts, channel) {
+            (false, _) => value.norm(),
+            (true, OddOfMasses(_) | OddOfRod(_) | OddOfGear(_)) => value.re.abs(),
+            (true, _) if torque || order % 2 == 1 => value.im.abs(),
+            (true, _) => value.re.abs(),
+        };
+        // p₂ of l/r and e/r.
+        let reach = proportions.rod - proportions.offset.abs();
+        let root = 1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt());
+        let n = f64::from(order);
+        let made_of = n * n * root.powf(n - 2.0) * (masses + inertia.abs());
+        Ok(value > 1e-9 * made_of.max(terms[0].norm() + terms[1].norm()))
+    }
+
+    /// Why a sum may be undecided.
+    fn obstacles(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let cylinders = self.gear_of.len();
+        let listed = |directions: &[Direct]| {
+            let numbers: Vec<String> = (1..)
+                .zip(&directions[..cylinders])
+                .filter(|(_, d)| d.symbol > 0)
+                .map(|(number, _): (usize, _)| number.to_string())
+                .take(12)
+                .collect();
+            (!numbers.is_empty()).then(|| numbers.join(", "))
+        };
+        for (name, directions) in [("tdc_deg", &self.phases), ("bank_deg", &self.directions[0])] {
+            if let Some(numbers) = listed(directions) {
+                found.push(format!("{name} is no rational part of a turn in cylinders {numbers}"));
+            }
+        }
+        if self.directions[0][cylinders..].iter().any(|direction| direction.symbol > 0) {
+            found.push("angles of unbalances that are no rational part of a turn".to_owned());
+        }
+        if self.loads.motions.len() > 1 {
+            found.push("slider-cranks of different proportions".to_owned());
+        }
+        let inertia = |gear: &Cylinder| gear.rod_inertia_excess();
+        if self.gears.iter().any(|gear| inertia(gear) != inertia(&self.gears[0])) {
+            found.push("rods of different moments of inertia".to_owned());
+        }
+        if self.planar.units.len() > 1 {
+            found.push("masses times radius that are no rational multiples of each other".into());
+        }
+        if self.loads.list.len() > cylinders {
+            let above = self.loads.unbalance_orders().iter().any(|&order| order > 1);
+            if above {
+                found
+                    .push("unbalances of orders above 1, no rational multiples of pistons'".into());
+            }
+            let beside = |load: &Load| matches!(load.source, Source::Unbalance { axis, .. } if axis != Complex64::default());
+            if self.loads.list.iter().any(beside) {
+                found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
+            }
+        }
+        let mut units: Vec<usize> =
+            self.levers.of.iter().flatten().map(|&(unit, _)| unit).collect();
+        units.sort_unstable();
+        units.dedup();
+        if units.len() > 1 {
+            found.push("places that are no rational multiples of each other".to_owned());
+        }
+        let has_offset = |motion: &Cylinder| motion.pin_offset() != 0.0;
+        if found.is_empty() && self.loads.motions.iter().any(has_offset) {
+            found.push(
+                "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
+            );
+        }
+        if found.is_empty() && self.gears.iter().any(Cylinder::has_rod_inertia) {
+            found.push("rod inertia: its torque nearly cancels that of the masses".to_owned());
+        }
+        found
+    }
+}
+
+/// What vanishes of an engine, at any speed, about the plane z = `reference_z` (default: half-way
+/// between the first and the last cylinder).
+pub fn vanishing(
+    engine: &Engine,
+    orders: &[u32],
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Vanishing> {
+    let listed = Order::all_whole(orders)?;
+    check_list(&listed)?;
+    let proof = Proof::new(engine, reference_z)?;
+    let mut verdicts = Vec::with_capacity(orders.len());
+    let mut errors: Vec<String> = Vec::new();
+    for &order in orders {
+        let mut of_order = [Verdict::Undecided; 9];
+        for (verdict, quantity) in of_order.iter_mut().zip(QUANTITIES) {
+            cancel.check()?;
+            let (found, error) = proof.verdict(quantity, order, cancel);
+            *verdict = found;
+            if let Some(text) = error.map(|error| error.to_string())
+                && !errors.contains(&text)
+            {
+                errors.push(text);
+            }
+        }
+        verdicts.push(of_order);
+    }
+    let undecided = verdicts.iter().flatten().any(|&v| v == Verdict::Undecided);
+    let mut obstacles = if undecided { proof.obstacles() } else { Vec::new() };
+    obstacles.extend(errors);
+    Ok(Vanishing {
+        orders: orders.to_vec(),
+        verdicts,
+        within_rounding: within_rounding(engine, listed, reference_z, cancel)?,
+        obstacles,
+    })
+}
+
+/// What is zero within rounding, at no speed in particular.
+fn within_rounding(
+    engine: &Engine,
+    orders: Vec<Order>,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Vec<[bool; 9]>> {
+    let request = Request { rpm: 60.0, reference_z, spectrum: None, torque: true };
+    let found = balance::balance(engine, &request, &Orders::Given(orders), cancel)?;
+    Ok((0..found.orders.len())
+        .map(|k| {
+            let zero = Complex64::default();
+            let of = |vector: Vector| {
+                let [x, y] = found.xy(vector, k);
+                let planar = found.planar(vector, k);
+                [x, y, planar.forward, planar.backward_conj].map(|phasor| phasor == zero)
+            };
+            let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
+            [a, b, c, d, e, f, g, h, found.wrenches[k].torque.roll == zero]
+        })
+        .collect())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::*;
+use crate::engine::{Engine, Hold, Placement};
+use crate::numbers::error::Error;
+use crate::numbers::order::Order;
+use crate::readings::sweep::{Axes, Figure};
+use crate::{Angle, Cylinder};
+
+#[test]
+fn cancellation_stops_at_the_next_block() {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let place = |bank: f64| Placement {
+        cylinder,
+        tdc: Angle::ZERO,
+        bank: Angle::from_degrees(bank).unwrap(),
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let engine = Arc::new(Engine::new("", "", vec![place(60.0), place(120.0)]).unwrap());
+    let engines = vec![Arc::clone(&engine), engine];
+    let some = |count| Some(vec![0.3; count]);
+    let angles = |count| Some((vec![60.0; count], Hold::Pins));
+    // Blocks of two engines' rows, in pieces of 1024.
+    for (bank_angle, rod_ratio, blocks) in [
+        (None, None, 2),
+        (angles(300), None, 2 * 3),
+        (angles(300), some(4), 2 * (8 + 2)),
+        (None, some(1200), 2 * (8 + 2)),
+        (angles(2), some(200), 2 * 4),
+    ] {
+        for rpm in [vec![3000.0], vec![3000.0, 1000.0]] {
+            let (bank_angle, rod_ratio) = (bank_angle.clone(), rod_ratio.clone());
+            let rows = 2
+                * bank_angle.as_ref().map_or(1, |(angles, _)| angles.len())
+                * rod_ratio.as_ref().map_or(1, Vec::len);
+            // Pieces of values times speeds are steps too.
+            let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(PIECE) } else { 0 };
+            let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
+            let orders = vec![Order::whole(2).unwrap()];
+            let sweep =
+                Sweep::new(engines.clone(), axes, orders, None, None, &Cancel::new()).unwrap();
+            let run = |last: usize| {
+                let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
+                let shape = sweep.result_shape(Quantity::Force, Figure::Length);
+                let mut out = vec![0.0; shape.iter().product()];
+                let finish = |_: &Block, _: f64, _: &mut [f64]| {
+                    if done.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                        cancel.raise();
+                    }
+                    Ok(())
+                };
+                let what = (Quantity::Force, Figure::Length, false);
+                let result = sweep.fill(what, &mut out, &cancel, finish);
+                (result, done.into_inner(), cancel.progress())
+            };
+            assert_eq!(run(0), (Ok(()), blocks, (rows + pieces, rows + pieces)));
+            for last in 1..blocks {
+                let (result, done, _) = run(last);
+                assert_eq!((result, done), (Err(Error::Cancelled), last));
+            }
+            // After the last block only a step over speeds can notice.
+            assert_eq!(run(blocks).0.is_err(), pieces > 0);
+        }
+    }
+}
+
+/// Numbers without a pattern, each a whole number of quarters: sums of products are exact.
+pub(in crate::readings::sweep) fn numbers(count: usize, seed: usize) -> Vec<f64> {
+    (0..count).map(|k| ((k * 37 + seed * 101) % 113) as f64 * 0.25 - 14.0).collect()
+}
+
+#[test]
+fn rows_are_scaled_from_any_row_and_speed_on() {
+    let (rows, speeds, width) = (numbers(3 * 4, 1), numbers(5, 2), 3);
+    let all: Vec<f64> = rows
+        .chunks(width)
+        .flat_map(|row| speeds.iter().map(move |speed| row.iter().map(move |v| v * speed)))
+        .flatten()
+        .collect();
+    for first in 0..20 {
+        for count in 0..=20 - first {
+            let mut out = vec![f64::NAN; count * width];
+            scale(&rows, &speeds, width, first, &mut out);
+            assert_eq!(out, all[first * width..(first + count) * width]);
+        }
+    }
+}

@@ -1,0 +1,393 @@
+//! Sweeps over engines, bank angle, rod ratio, pin offset and speed, without a sample of θ.
+//!
+//! One point of a sweep is a product: ω², harmonics of rod ratio and pin offset, and sums of the
+//! engine's loads with its banks turned.
+
+mod axes;
+mod block;
+mod choice;
+mod factors;
+mod harmonics;
+mod kernel;
+mod layout;
+mod placed;
+mod tiles;
+mod waveform;
+
+use std::sync::Arc;
+
+use ndarray::{Array, IxDyn};
+
+pub use self::axes::Axes;
+use self::block::Block;
+use self::kernel::{Job, Number};
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::gear::spectrum::Spectrum;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::numbers::memory;
+use crate::numbers::order::{self, Order};
+use crate::readings::peaks::PeakFinder;
+
+/// What is evaluated at each point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Shaking force along x and y.
+    Force,
+    /// Rocking moment about x and y.
+    Moment,
+    /// Roll torque on the block.
+    Torque,
+    /// Inertia torque on the crank.
+    CrankTorque,
+}
+
+/// Which value of force, moment or torque over the turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Of each order along (about) each axis: (…, `n_orders`, and 2 except for torque).
+    Amplitude,
+    /// Forward and backward part of each order: (…, `n_orders`, 2).
+    Turning,
+    /// The longest vector of each order: (…, `n_orders`).
+    Length,
+    /// Bound of the rounding error of each order: (…, `n_orders`).
+    ZeroBound,
+    /// Of all orders together along (about) each axis: (…, and 2 except for torque).
+    Sum,
+    /// The longest vector of all orders together: (…).
+    LengthOfSum,
+}
+
+/// Engines and axes, checked; values are evaluated when they are asked for.
+#[derive(Debug)]
+pub struct Sweep {
+    engines: Vec<Arc<Engine>>,
+    axes: Axes,
+    orders: Vec<Order>,
+    references: Vec<f64>,
+    spectrum: Option<Spectrum>,
+    /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
+    extremes: [Option<f64>; 2],
+    /// ω² of each speed.
+    squares: Vec<f64>,
+    /// Whether torque is wanted.
+    torque: bool,
+    omitted: Vec<Order>,
+    error_bound: [f64; 3],
+}
+
+/// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
+pub type Values<T> = Array<T, IxDyn>;
+
+impl Sweep {
+    /// Checks everything that can be wrong.
+    pub fn new(
+        engines: Vec<Arc<Engine>>,
+        axes: Axes,
+        orders: Vec<Order>,
+        reference_z: Option<f64>,
+        spectrum: Option<Spectrum>,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        order::check_list(&orders)?;
+        axes::not_empty("engines", engines.len())?;
+        let squares = axes.squares(cancel)?;
+        axes.check(&engines, spectrum.is_some())?;
+        let extremes = axes.check_geometry(&engines)?;
+        let references = engines.iter().map(|engine| engine.reference(reference_z));
+        Ok(Self {
+            references: references.collect::<Result<_>>()?,
+            engines,
+            axes,
+            orders,
+            torque: spectrum.is_none(),
+            spectrum,
+            extremes,
+            squares,
+            omitted: Vec::new(),
+            error_bound: [0.0; 3],
+        })
+    }
+
+    /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed.
+    #[must_use]
+    pub fn shape(&self) -> [usize; 5] {
+        let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
+        [
+            self.engines.len(),
+            self.axes.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len()),
+            length(&self.axes.rod_ratio),
+            length(&self.axes.pin_offset),
+            self.squares.len(),
+        ]
+    }
+
+    /// Largest mean piston speed of any cylinder at any speed, m/s.
+    #[must_use]
+    pub fn mean_piston_speed(&self) -> f64 {
+        let radius = self.engines.iter().map(|e| e.largest_crank_radius()).fold(0.0, f64::max);
+        let square = self.squares.iter().copied().fold(0.0, f64::max);
+        // Four radii a turn.
+        4.0 * radius * square.sqrt() / std::f64::consts::TAU
+    }
+
+    /// Multiples of crank speed.
+    #[must_use]
+    pub fn orders(&self) -> &[Order] {
+        &self.orders
+    }
+
+    /// Orders evaluated and left out, of those that are not zero everywhere.
+    #[must_use]
+    pub fn omitted(&self) -> &[Order] {
+        &self.omitted
+    }
+
+    /// Bounds of what orders left out add to force, moment and torque at any crank angle and point.
+    #[must_use]
+    pub fn error_bound(&self) -> [f64; 3] {
+        self.error_bound
+    }
+
+    /// The same sweep without torque.
+    #[must_use]
+    pub fn without_torque(mut self) -> Self {
+        self.torque = false;
+        self
+    }
+
+    /// What is swept.
+    #[must_use]
+    pub fn axes(&self) -> &Axes {
+        &self.axes
+    }
+
+    /// Lengths of all axes of a result.
+    #[must_use]
+    pub fn result_shape(&self, quantity: Quantity, figure: Figure) -> Vec<usize> {
+        let orders = &[self.orders.len()][..];
+        let tail: [&[usize]; 2] = match figure {
+            Figure::Amplitude => [orders, quantity.shape()],
+            Figure::Turning => [orders, &[2]],
+            Figure::Length | Figure::ZeroBound => [orders, &[]],
+            Figure::Sum => [&[], quantity.shape()],
+            Figure::LengthOfSum => [&[], &[]],
+        };
+        [&self.shape()[..], &tail.concat()].concat()
+    }
+
+    /// Rejects a result of numbers of this many bytes that is too large for one call.
+    pub fn check_size(&self, quantity: Quantity, figure: Figure, bytes: usize) -> Result<()> {
+        let cure = "sweep one axis in parts, or use to_dask";
+        limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, cure)
+    }
+
+    /// Peak phasors of each order, along (about) x and y or as forward and backward parts.
+    pub fn phasors(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<Values<Complex64>> {
+        self.allocated(quantity, figure, |out| self.write_phasors(quantity, figure, out, cancel))
+    }
+
+    /// A figure of every point.
+    pub fn peaks(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<Values<f64>> {
+        self.allocated(quantity, figure, |out| self.write_peaks(quantity, figure, out, cancel))
+    }
+
+    /// [`Self::phasors`] into a buffer as long as the product of [`Self::result_shape`].
+    pub fn write_phasors(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        out: &mut [Complex64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let components = if figure == Figure::Turning { 2 } else { quantity.components() };
+        self.fill(
+            (quantity, figure, false),
+            out,
+            cancel,
+            #[inline(always)]
+            |block: &Block, factor: f64, out: &mut [Complex64]| {
+                for (i, row) in out.chunks_exact_mut(block.orders() * components).enumerate() {
+                    for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
+                        let values = if figure == Figure::Turning {
+                            let [forward, backward_conj] = block.turning(order, i);
+                            [forward, backward_conj.conj() + Complex64::default()]
+                        } else {
+                            block.phasors(order, i)
+                        };
+                        for (out, phasor) in phasors.iter_mut().zip(values) {
+                            *out = phasor * factor;
+                        }
+                    }
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// [`Self::peaks`] into a buffer as long as the product of [`Self::result_shape`].
+    pub fn write_peaks(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let orders = self.orders.len();
+        match figure {
+            Figure::Amplitude | Figure::Turning => self.fill(
+                (quantity, Figure::Amplitude, false),
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &Block, factor: f64, out: &mut [f64]| {
+                    block.magnitudes(quantity.components(), factor, out);
+                    Ok(())
+                },
+            ),
+            Figure::Length => self.fill(
+                (quantity, figure, false),
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &Block, factor: f64, out: &mut [f64]| {
+                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                        for (order, length) in row.iter_mut().enumerate() {
+                            let [forward, backward_conj] = block.turning(order, i);
+                            *length = (forward.norm() + backward_conj.norm()) * factor;
+                        }
+                    }
+                    Ok(())
+                },
+            ),
+            Figure::ZeroBound => self.fill(
+                (quantity, figure, false),
+                out,
+                cancel,
+                #[inline(always)]
+                |block: &Block, factor: f64, out: &mut [f64]| {
+                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                        for (order, bound) in row.iter_mut().enumerate() {
+                            *bound = block.bound(order, i) * factor;
+                        }
+                    }
+                    Ok(())
+                },
+            ),
+            Figure::Sum => {
+                let finder = PeakFinder::new(&self.orders);
+                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
+                    for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
+                        cancel.check()?;
+                        for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
+                            *peak = finder.along_axis(&phasors) * factor;
+                        }
+                    }
+                    Ok(())
+                })
+            }
+            Figure::LengthOfSum => {
+                let finder = PeakFinder::new(&self.orders);
+                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
+                    for (i, peak) in out.iter_mut().enumerate() {
+                        cancel.check()?;
+                        let [x, y] = block.by_component(i);
+                        *peak = finder.of_vector(&x, &y) * factor;
+                    }
+                    Ok(())
+                })
+            }
+        }
+    }
+
+    /// Rejects torque that was not asked for or that a spectrum does not determine.
+    fn check_known(&self, quantity: Quantity) -> Result<()> {
+        if !matches!(quantity, Quantity::Torque | Quantity::CrankTorque) || self.torque {
+            return Ok(());
+        }
+        let reason = if self.spectrum.is_some() {
+            "a force spectrum does not determine it; compute without `spectrum`"
+        } else {
+            "torque=False was given; leave it out"
+        };
+        Err(Error::NoTorque(reason))
+    }
+
+    fn allocated<T: Number>(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        write: impl FnOnce(&mut [T]) -> Result<()>,
+    ) -> Result<Values<T>> {
+        self.check_size(quantity, figure, size_of::<T>())?;
+        let shape = self.result_shape(quantity, figure);
+        let mut values: Vec<T> = memory::zeros(shape.iter().product())?;
+        write(&mut values)?;
+        Array::from_shape_vec(IxDyn(&shape), values)
+            .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
+    }
+
+    /// Evaluates every row; `finish` writes rows from their sums and a factor.
+    fn fill<T: Number>(
+        &self,
+        (quantity, figure, slow): (Quantity, Figure, bool),
+        out: &mut [T],
+        cancel: &Cancel,
+        finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
+    ) -> Result<()> {
+        self.check_known(quantity)?;
+        let shape = self.result_shape(quantity, figure);
+        if out.len() != shape.iter().product::<usize>() {
+            return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
+        }
+        if self.orders.is_empty() {
+            out.fill(T::default());
+            return Ok(());
+        }
+        let width = shape[5..].iter().product();
+        Job { sweep: self, quantity, width, slow, cancel, finish }.run(out)
+    }
+
+    /// Number of points of rod ratio and pin offset.
+    fn points(&self) -> usize {
+        let [_, _, ratios, offsets, _] = self.shape();
+        ratios * offsets
+    }
+
+    fn bank_angles(&self) -> &[f64] {
+        self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
+    }
+
+    /// The orders as whole numbers; 1 for half orders, which no load has.
+    fn whole_orders(&self) -> Vec<u32> {
+        self.orders.iter().map(|order| order.as_whole().unwrap_or(1)).collect()
+    }
+}
+
+impl Quantity {
+    /// Axes of one value: x and y, or none for what is about z alone.
+    fn shape(self) -> &'static [usize] {
+        match self {
+            Self::Force | Self::Moment => &[2],
+            Self::Torque | Self::CrankTorque => &[],
+        }
+    }
+
+    /// How many components one value has.
+    fn components(self) -> usize {
+        self.shape().iter().product()
+    }
+}

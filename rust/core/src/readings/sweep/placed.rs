@@ -1,0 +1,164 @@
+//! Exact kinematics of an engine at one bank angle: what does not depend on the rod is evaluated once
+//! for many points.
+
+use std::ops::Range;
+
+use super::Quantity;
+use crate::gear::rod::Swing;
+use crate::gear::slider_crank::{Crank, Proportions};
+use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::order::Order;
+use crate::readings::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
+
+/// An engine at one bank angle.
+pub(super) struct Placed {
+    pub kinematics: Kinematics,
+    /// Slider-cranks of its pistons at a point of rod ratio and offset, and ω² of its rows.
+    pub points: Vec<(Vec<Proportions>, Vec<f64>)>,
+}
+
+impl Placed {
+    /// Writes the values of every row at some crank angles, at most [`BLOCK`].
+    #[inline(always)]
+    pub fn write<'o>(
+        &self,
+        quantity: Quantity,
+        angles: &CrankAngles,
+        range: Range<usize>,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        let units = Units::new(angles, range.clone(), Order::FIRST);
+        let [mut x, mut y] = [Column::ZERO, Column::ZERO];
+        for unbalances in &self.kinematics.unbalances {
+            let Ok(order) = Order::whole(unbalances.ratio.unsigned_abs()) else { continue };
+            let units = Units::new(angles, range.clone(), order);
+            let at_start = match quantity {
+                Quantity::Force => unbalances.planar[0],
+                Quantity::Moment => unbalances.planar[1],
+                Quantity::Torque => unbalances.roll,
+                Quantity::CrankTorque => continue,
+            };
+            units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
+        }
+        match quantity {
+            Quantity::Force => self.planar(0, &units, &[x, y], outs),
+            Quantity::Moment => self.planar(1, &units, &[x, y], outs),
+            Quantity::Torque => self.torque::<true>(&units, &y, outs),
+            Quantity::CrankTorque => self.torque::<false>(&units, &Column::ZERO, outs),
+        }
+    }
+
+    /// Force (0) or moment (1).
+    #[inline(always)]
+    fn planar<'o>(
+        &self,
+        which: usize,
+        units: &Units,
+        unbalances: &[Column; 2],
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        let pistons = &self.kinematics.pistons;
+        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
+        for (proportions, squares) in &self.points {
+            let [mut x, mut y] = unbalances.clone();
+            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+                let along = pistons.planar[which];
+                for i in 0..BLOCK {
+                    let acceleration = proportions.motion_at(&cranks.at(i)).acceleration;
+                    x[i] = along.re.mul_add(acceleration, x[i]);
+                    y[i] = along.im.mul_add(acceleration, y[i]);
+                }
+            }
+            for (&square, out) in squares.iter().zip(&mut *outs) {
+                write_pairs(square, &x, &y, out);
+            }
+        }
+    }
+
+    /// Roll torque on the block, or torque on the crank.
+    #[inline(always)]
+    fn torque<'o, const ROLL: bool>(
+        &self,
+        units: &Units,
+        unbalances: &Column,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        let pistons = &self.kinematics.pistons;
+        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
+        for (proportions, squares) in &self.points {
+            let mut sum = unbalances.clone();
+            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+                for (i, sum) in sum.iter_mut().enumerate() {
+                    let motion = proportions.motion_at(&cranks.at(i));
+                    let torque = pistons.second_moment * motion.acceleration;
+                    let arm =
+                        if ROLL { motion.velocity + proportions.offset } else { -motion.velocity };
+                    *sum = torque.mul_add(arm, *sum);
+                }
+                if pistons.rod_inertia != 0.0 {
+                    for (i, sum) in sum.iter_mut().enumerate() {
+                        let swing = Swing::new(proportions, &cranks.at(i));
+                        let torque = if ROLL { swing.roll() } else { swing.crank() };
+                        *sum = pistons.rod_inertia.mul_add(torque, *sum);
+                    }
+                }
+            }
+            for (&square, out) in squares.iter().zip(&mut *outs) {
+                for (out, sum) in out.iter_mut().zip(&sum[..]) {
+                    *out = square * sum;
+                }
+            }
+        }
+    }
+}
+
+/// Positions of the cranks of pistons that move together.
+struct Cranks {
+    sin: Column,
+    cos: Column,
+    squared: Column,
+    to_above: Column,
+    to_below: Column,
+}
+
+impl Cranks {
+    #[inline(always)]
+    fn new(pistons: &Pistons, units: &Units) -> Self {
+        let mut cranks = Self {
+            sin: Column::ZERO,
+            cos: Column::ZERO,
+            squared: Column::ZERO,
+            to_above: Column::ZERO,
+            to_below: Column::ZERO,
+        };
+        for i in 0..BLOCK {
+            let crank = units.crank(pistons.phase, i);
+            cranks.sin[i] = crank.sin;
+            cranks.cos[i] = crank.cos;
+            cranks.squared[i] = crank.squared;
+            cranks.to_above[i] = crank.to_above;
+            cranks.to_below[i] = crank.to_below;
+        }
+        cranks
+    }
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> Crank {
+        Crank {
+            sin: self.sin[i],
+            cos: self.cos[i],
+            squared: self.squared[i],
+            to_above: self.to_above[i],
+            to_below: self.to_below[i],
+        }
+    }
+}
+
+/// x and y, times a factor, in turns.
+#[inline(always)]
+fn write_pairs(factor: f64, x: &Column, y: &Column, out: &mut [f64]) {
+    let (pairs, _) = out.as_chunks_mut::<2>();
+    for (pair, (x, y)) in pairs.iter_mut().zip(x.iter().zip(&y[..])) {
+        *pair = [factor * x, factor * y];
+    }
+}

@@ -1,0 +1,161 @@
+//! Sums of orders at many points: phasors, a row for each point, times cosines and sines of nθ.
+//!
+//! Tiles of cosines and sines stay in cache while the rows are processed; each row is written straight
+//! to its destination.
+
+use std::ops::Range;
+
+use crate::Complex64;
+use crate::numbers::crank_angles::{CrankAngles, parts};
+use crate::numbers::order::Order;
+use crate::numbers::simd::vectorised;
+
+/// Crank angles of a tile.
+pub(super) const TILE: usize = 256;
+/// Terms that are added in one pass over a row.
+const TOGETHER: usize = 4;
+
+/// A part of a sum that is not zero in every row: real or imaginary parts of the phasors of an order.
+#[derive(Clone, Copy)]
+pub(super) struct Term {
+    /// Place of the order.
+    order: usize,
+    sine: bool,
+}
+
+/// Cosines and sines of the multiples of crank angles, tile by tile; none of orders that have no term.
+pub(super) struct Tiles(Vec<Vec<Tile>>);
+
+/// Whole lines of the cache.
+#[repr(align(64))]
+struct Tile {
+    cos: [f64; TILE],
+    sin: [f64; TILE],
+}
+
+impl Term {
+    /// The terms of some rows of phasors of so many components.
+    ///
+    /// What a layout cancels is not summed, nor a part that in every row is less than half a unit in
+    /// the last place of the whole phasor.
+    pub fn of(phasors: &[Complex64], orders: usize, components: usize) -> Vec<Self> {
+        let all = (0..orders).flat_map(|order| [false, true].map(|sine| Self { order, sine }));
+        let adds = |term: &Self| {
+            let first = term.order * components;
+            let rows = phasors.chunks_exact(orders * components);
+            let mut of_order = rows.flat_map(|row| &row[first..first + components]);
+            of_order.any(|phasor| {
+                let larger = phasor.re.abs().max(phasor.im.abs());
+                term.weight(*phasor).abs() > 0.5 * f64::EPSILON * larger
+            })
+        };
+        all.filter(adds).collect()
+    }
+
+    /// By what cosine or sine is multiplied.
+    #[inline(always)]
+    fn weight(self, phasor: Complex64) -> f64 {
+        if self.sine { -phasor.im } else { phasor.re }
+    }
+}
+
+impl Tiles {
+    /// At a range of the angles, of the orders of these terms.
+    pub fn new(
+        angles: &CrankAngles,
+        range: &Range<usize>,
+        orders: &[Order],
+        terms: &[Term],
+    ) -> Self {
+        let tiles = orders.iter().enumerate().map(|(place, &order)| {
+            if terms.iter().all(|term| term.order != place) {
+                return Vec::new();
+            }
+            parts(range.clone(), TILE).map(|part| Tile::new(angles, part, order)).collect()
+        });
+        Self(tiles.collect())
+    }
+
+    /// Write the sum of a row's terms, of so many components, at the angles of some tiles, the first
+    /// of which has this place.
+    #[inline(always)]
+    pub fn sum<const COMPONENTS: usize>(
+        &self,
+        terms: &[Term],
+        row: &[Complex64],
+        first: usize,
+        out: &mut [f64],
+    ) {
+        let (row, _) = row.as_chunks::<COMPONENTS>();
+        let (out, _) = out.as_chunks_mut::<COMPONENTS>();
+        for (k, out) in (first..).zip(out.chunks_mut(TILE)) {
+            let of = |term: &Term| {
+                let tile = &self.0[term.order][k];
+                let numbers = if term.sine { &tile.sin } else { &tile.cos };
+                (row[term.order].map(|phasor| term.weight(phasor)), numbers)
+            };
+            // The first one to four are written, to them others are added.
+            let written = terms.len().checked_sub(1).map_or(0, |more| more % TOGETHER + 1);
+            let (start, rest) = terms.split_at(written);
+            match start {
+                [a, b, c, d] => write([a, b, c, d].map(of), out),
+                [a, b, c] => write([a, b, c].map(of), out),
+                [a, b] => write([a, b].map(of), out),
+                [a] => write([a].map(of), out),
+                _ => write([], out),
+            }
+            let (fours, _) = rest.as_chunks::<TOGETHER>();
+            for [a, b, c, d] in fours {
+                add([a, b, c, d].map(of), out);
+            }
+        }
+    }
+}
+
+impl Tile {
+    fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
+        let mut tile = Self { cos: [0.0; TILE], sin: [0.0; TILE] };
+        vectorised(
+            #[inline(always)]
+            || angles.multiples(order, range, &mut tile.cos, &mut tile.sin),
+        );
+        tile
+    }
+}
+
+/// Write the sum of some terms.
+#[inline(always)]
+fn write<const N: usize, const COMPONENTS: usize>(
+    terms: [([f64; COMPONENTS], &[f64; TILE]); N],
+    out: &mut [[f64; COMPONENTS]],
+) {
+    for (i, out) in out.iter_mut().enumerate().take(TILE) {
+        *out = [0.0; COMPONENTS];
+        *out = plus(&terms, i, *out);
+    }
+}
+
+/// Add some terms to what is there.
+#[inline(always)]
+fn add<const N: usize, const COMPONENTS: usize>(
+    terms: [([f64; COMPONENTS], &[f64; TILE]); N],
+    out: &mut [[f64; COMPONENTS]],
+) {
+    for (i, out) in out.iter_mut().enumerate().take(TILE) {
+        *out = plus(&terms, i, *out);
+    }
+}
+
+#[inline(always)]
+fn plus<const N: usize, const COMPONENTS: usize>(
+    terms: &[([f64; COMPONENTS], &[f64; TILE]); N],
+    i: usize,
+    mut sum: [f64; COMPONENTS],
+) -> [f64; COMPONENTS] {
+    for (weights, numbers) in terms {
+        for (sum, weight) in sum.iter_mut().zip(weights) {
+            *sum = weight.mul_add(numbers[i], *sum);
+        }
+    }
+    sum
+}

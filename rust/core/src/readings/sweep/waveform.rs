@@ -1,0 +1,257 @@
+//! Waveforms of every point of a sweep: sums of orders, or exact kinematics.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::harmonics::proportions;
+use super::placed::Placed;
+use super::tiles::{TILE, Term, Tiles};
+use super::{Figure, Quantity, Sweep};
+use crate::Complex64;
+use crate::load::{Alike, Loads};
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::{CrankAngles, parts};
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::numbers::memory;
+use crate::numbers::pool;
+use crate::numbers::simd::vectorised;
+use crate::readings::kinematics::{BLOCK, Kinematics};
+
+/// Points, each at a speed, that share a tile of cosines and sines.
+const ROWS: usize = 128;
+/// Crank angles of a task: a stretch of memory long enough that the processor foresees it.
+const SPAN: usize = 4 * TILE;
+/// A result of fewer numbers is not worth waking another thread for (some 30 µs).
+const WORTH_A_THREAD: usize = 1 << 15;
+
+impl Sweep {
+    /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
+    pub fn waveform_shape(&self, quantity: Quantity, angles: usize) -> Result<Vec<usize>> {
+        let shape = [&self.shape()[..], &[angles], quantity.shape()].concat();
+        let cure = "sweep one axis in parts, or split theta_deg";
+        limits::result_size("sweep", &shape, size_of::<f64>(), cure)?;
+        Ok(shape)
+    }
+
+    /// Values over crank angle, as a sum of orders or by exact kinematics: (…, `n_theta`, and 2 but
+    /// for torque), row by row.
+    pub fn waveforms(
+        &self,
+        quantity: Quantity,
+        angles: &CrankAngles,
+        exact: bool,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let shape = self.waveform_shape(quantity, angles.len())?;
+        if out.len() != shape.iter().product::<usize>() {
+            return Err(Error::value(
+                "out",
+                out.len(),
+                format!("give an array of shape {shape:?}"),
+            ));
+        }
+        self.check_known(quantity)?;
+        let rows = Rows { angles, components: quantity.components(), cancel };
+        if exact {
+            return self.by_kinematics(quantity, &rows, out);
+        }
+        if self.orders.is_empty() {
+            out.fill(0.0);
+            return Ok(());
+        }
+        self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
+        let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
+        let mut phasors: Vec<Complex64> = memory::zeros(phasors)?;
+        self.write_phasors(quantity, Figure::Amplitude, &mut phasors, cancel)?;
+        self.by_orders(&phasors, &rows, out)
+    }
+
+    fn by_orders(&self, phasors: &[Complex64], rows: &Rows, out: &mut [f64]) -> Result<()> {
+        let (orders, components) = (self.orders.len(), rows.components);
+        let width = orders * components;
+        let tiles = |range: &Range<usize>, terms: &[Term]| {
+            Tiles::new(rows.angles, range, &self.orders, terms)
+        };
+        // Of fewer rows than share a tile each is used once, and not worth keeping.
+        let shared = (phasors.chunks_exact(width).len() > ROWS)
+            .then(|| tiles(&(0..rows.angles.len()), &Term::of(phasors, orders, components)));
+        rows.fill(
+            out,
+            |rows_of| {
+                let phasors = &phasors[rows_of.start * width..rows_of.end * width];
+                Ok((phasors, Term::of(phasors, orders, components)))
+            },
+            |(phasors, terms), range, outs| {
+                let own = shared.is_none().then(|| tiles(&range, terms));
+                let (tiles, first) = match &shared {
+                    Some(tiles) => (Some(tiles), range.start / TILE),
+                    None => (own.as_ref(), 0),
+                };
+                let Some(tiles) = tiles else { return };
+                vectorised(
+                    #[inline(always)]
+                    || {
+                        for (row, out) in phasors.chunks_exact(width).zip(outs) {
+                            if components == 2 {
+                                tiles.sum::<2>(terms, row, first, out);
+                            } else {
+                                tiles.sum::<1>(terms, row, first, out);
+                            }
+                        }
+                    },
+                );
+            },
+        )
+    }
+
+    fn by_kinematics(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
+        if self.spectrum.is_some() {
+            let cure = "exact kinematics needs the slider-crank; sum orders";
+            return Err(Error::value("spectrum", "given", cure));
+        }
+        let [_, angles, ratios, offsets, speeds] = self.shape();
+        let list = |values: &Option<Vec<f64>>, k: usize| values.as_ref().map(|values| values[k]);
+        rows.fill(
+            out,
+            |rows_of| {
+                let mut placed: Vec<Placed> = Vec::new();
+                let mut last = None;
+                for row in rows_of {
+                    let (point, speed) = (row / speeds, row % speeds);
+                    let (place, point) = (point / (ratios * offsets), point % (ratios * offsets));
+                    if last.is_none_or(|(before, _)| before != place) {
+                        placed.push(self.placed(place / angles, place % angles)?);
+                    }
+                    let Some(here) = placed.last_mut() else { continue };
+                    if last != Some((place, point)) {
+                        let ratio = list(&self.axes.rod_ratio, point / offsets);
+                        let offset = list(&self.axes.pin_offset, point % offsets);
+                        let pistons = here.kinematics.pistons.iter();
+                        let cranks = pistons.map(|p| proportions(&p.cylinder, ratio, offset));
+                        here.points.push((cranks.collect::<Result<_>>()?, Vec::new()));
+                    }
+                    let Some((_, squares)) = here.points.last_mut() else { continue };
+                    squares.push(self.squares[speed]);
+                    last = Some((place, point));
+                }
+                Ok(placed)
+            },
+            |placed, range, mut outs| {
+                vectorised(
+                    #[inline(always)]
+                    || {
+                        for (k, part) in parts(range, BLOCK).enumerate() {
+                            let size = BLOCK * rows.components;
+                            let mut outs =
+                                outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
+                            for here in placed {
+                                here.write(quantity, rows.angles, part.clone(), &mut outs);
+                            }
+                        }
+                    },
+                );
+            },
+        )
+    }
+
+    /// An engine with one of the swept bank angles.
+    fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
+        let reference = self.references[engine];
+        let engine = &self.engines[engine];
+        let loads = match &self.axes.bank_angle {
+            Some((angles, hold)) => {
+                let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
+                Loads::new(&turned, reference, Alike::Dimensions)
+            }
+            None => Loads::new(engine, reference, Alike::Dimensions),
+        };
+        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
+    }
+}
+
+/// Rows of a result: one for each point at a speed, over crank angle.
+struct Rows<'a> {
+    angles: &'a CrankAngles,
+    /// Numbers to an angle.
+    components: usize,
+    cancel: &'a Cancel,
+}
+
+impl Rows<'_> {
+    /// Prepares some rows, then evaluates spans of their angles; in parallel where there is enough.
+    ///
+    /// No value depends on how the work is split.
+    fn fill<P: Sync>(
+        &self,
+        out: &mut [f64],
+        prepare: impl Fn(Range<usize>) -> Result<P> + Sync,
+        work: impl Fn(&P, Range<usize>, Vec<&mut [f64]>) + Sync,
+    ) -> Result<()> {
+        let row = self.angles.len() * self.components;
+        if out.is_empty() {
+            return Ok(());
+        }
+        let large = out.len() >= WORTH_A_THREAD;
+        let parts: Vec<Range<usize>> = parts(0..self.angles.len(), SPAN).collect();
+        self.cancel.expect((out.len() / row).div_ceil(ROWS) * parts.len());
+        let part = |prepared: &P, part: usize, outs: Vec<&mut [f64]>| -> Result<()> {
+            work(prepared, parts[part].clone(), outs);
+            self.cancel.step()
+        };
+        let group = |(k, out): (usize, &mut [f64])| -> Result<()> {
+            self.cancel.check()?;
+            let prepared = prepare(k * ROWS..k * ROWS + out.len() / row)?;
+            let mut by_part: Vec<Vec<&mut [f64]>> = parts.iter().map(|_| Vec::new()).collect();
+            for out in out.chunks_mut(row) {
+                let blocks = out.chunks_mut(SPAN * self.components);
+                by_part.iter_mut().zip(blocks).for_each(|(outs, block)| outs.push(block));
+            }
+            if large {
+                let tasks = by_part.into_par_iter().enumerate();
+                return tasks.try_for_each(|(k, outs)| part(&prepared, k, outs));
+            }
+            by_part.into_iter().enumerate().try_for_each(|(k, outs)| part(&prepared, k, outs))
+        };
+        if large {
+            let groups = out.par_chunks_mut(ROWS * row).enumerate();
+            return pool::run(self.cancel, || groups.try_for_each(group));
+        }
+        out.chunks_mut(ROWS * row).enumerate().try_for_each(group)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn cancellation_stops_at_the_next_step() {
+        // Three groups of rows of two spans each.
+        let angles = CrankAngles::new(&[0.0; SPAN + 1]).unwrap();
+        let mut out = vec![0.0; 3 * ROWS * angles.len()];
+        let mut run = |last: usize| {
+            let (cancel, steps) = (Cancel::new(), AtomicUsize::new(0));
+            let rows = Rows { angles: &angles, components: 1, cancel: &cancel };
+            let work = |(): &(), _: Range<usize>, _: Vec<&mut [f64]>| {
+                if steps.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                    cancel.raise();
+                }
+            };
+            let result = rows.fill(&mut out, |_| Ok(()), work);
+            (result, steps.into_inner(), cancel.progress().1)
+        };
+        assert_eq!(run(0), (Ok(()), 6, 6));
+        for last in 1..=6 {
+            let (result, steps, _) = run(last);
+            assert_eq!(result, Err(Error::Cancelled));
+            // Threads that were at work finish their step.
+            assert!((last..=last + rayon::current_num_threads()).contains(&steps));
+        }
+    }
+}

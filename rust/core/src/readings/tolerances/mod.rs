@@ -1,0 +1,350 @@
+//! What remains of an engine's balance when its parts deviate from their figures: Monte Carlo samples.
+//!
+//! Imports run downwards: `random` → `draws`, `amplitudes` → `terms`, `totals` → here.
+
+mod amplitudes;
+mod draws;
+mod random;
+mod terms;
+mod totals;
+
+use std::ops::Range;
+
+use ndarray::Array2;
+use rayon::prelude::*;
+
+use self::draws::{CHUNK, Column, Draws};
+use self::terms::Terms;
+use self::totals::Totals;
+pub use self::totals::largest_sums;
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::numbers::memory;
+use crate::numbers::pool;
+use crate::readings::balance::{Balance, Orders, Request, Vector, angular_speed, balance};
+use crate::readings::peaks::PeakFinder;
+use crate::wrench::Planar;
+
+/// A figure that may spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Mass that moves with the piston, of each cylinder, kg.
+    ReciprocatingMass,
+    /// Mass that turns at crank radius, of each cylinder, kg.
+    RotatingMass,
+    /// Crank radius of each pin, m.
+    CrankRadius,
+    /// Direction of each pin, degrees.
+    Pin,
+    /// Place of each cylinder along the crank, m.
+    Z,
+    /// Rod length of each cylinder, m.
+    RodLength,
+}
+
+/// Number of figures.
+pub const FIGURES: usize = 6;
+
+impl Figure {
+    /// All figures, in the order of their random streams.
+    pub const ALL: [Self; FIGURES] = [
+        Self::ReciprocatingMass,
+        Self::RotatingMass,
+        Self::CrankRadius,
+        Self::Pin,
+        Self::Z,
+        Self::RodLength,
+    ];
+
+    /// Name as callers know it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ReciprocatingMass => "reciprocating_mass",
+            Self::RotatingMass => "rotating_mass",
+            Self::CrankRadius => "crank_radius",
+            Self::Pin => "pin_deg",
+            Self::Z => "z",
+            Self::RodLength => "rod_length",
+        }
+    }
+
+    /// Whether it is a figure of each pin, not of each cylinder.
+    #[must_use]
+    pub fn of_pin(self) -> bool {
+        matches!(self, Self::CrankRadius | Self::Pin)
+    }
+}
+
+/// How figures deviate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Distribution {
+    /// Normal; a spread is the standard deviation.
+    Normal,
+    /// Uniform; a spread is half the width.
+    Uniform,
+}
+
+/// An engine, the spreads of its figures, and what is asked of its samples; checked.
+pub struct Tolerances {
+    draws: Draws,
+    terms: Terms,
+    nominal: Balance,
+    totals: Totals,
+    /// ω².
+    square: f64,
+}
+
+/// What remains of each sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampled {
+    /// Force of each sample and order: peak phasors along x and y, forward and backward part.
+    pub force: Vec<[Complex64; 4]>,
+    /// The same of the moment.
+    pub moment: Vec<[Complex64; 4]>,
+    /// Torque of each sample and order on the block and on the crank; empty where it was not wanted.
+    pub torque: Vec<[Complex64; 2]>,
+    /// Of each sample the longest force and moment and the largest torques, all orders together.
+    pub peaks: Vec<[f64; 4]>,
+}
+
+impl Tolerances {
+    /// Checks everything that can be wrong.
+    ///
+    /// `spreads` has for each of [`Figure::ALL`] one of each cylinder or pin, or nothing; `pin_of` the
+    /// pin of each cylinder, counted from 0.
+    pub fn new(
+        engine: &Engine,
+        request: &Request,
+        orders: &[u32],
+        mut spreads: [Vec<f64>; FIGURES],
+        (distribution, seed): (Distribution, u64),
+        pin_of: &[usize],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        check_pins(engine, pin_of)?;
+        for (figure, spreads) in Figure::ALL.into_iter().zip(&mut spreads) {
+            check_spreads(engine, pin_of, figure, spreads)?;
+            if spreads.iter().all(|&spread| spread == 0.0) {
+                spreads.clear();
+            }
+        }
+        let draws = Draws { spreads, distribution, seed };
+        check_reach(engine, pin_of, &draws)?;
+        let nominal = balance(engine, request, &Orders::whole(orders)?, cancel)?;
+        let reference = engine.reference(request.reference_z)?;
+        let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
+        let omega = angular_speed(request.rpm)?;
+        let totals = Totals::new(&nominal);
+        Ok(Self { draws, terms, nominal, totals, square: omega * omega })
+    }
+
+    /// Deviations of a figure in some samples: (samples, cylinders or pins); zero where it does not
+    /// spread.
+    pub fn deviations(
+        &self,
+        figure: Figure,
+        samples: Range<usize>,
+        cancel: &Cancel,
+    ) -> Result<Array2<f64>> {
+        let width = self.terms.count(figure);
+        let cure = "ask for fewer samples";
+        limits::result_size("samples", &[samples.len(), width], size_of::<f64>(), cure)?;
+        let mut values: Vec<f64> = memory::zeros(samples.len() * width)?;
+        let rows = values.chunks_mut((CHUNK * width).max(1)).enumerate();
+        for (k, rows) in rows {
+            cancel.check()?;
+            let Some(columns) = self.draws.chunk(figure, samples.start + k * CHUNK) else { break };
+            for (i, row) in rows.chunks_mut(width).enumerate() {
+                row.iter_mut().zip(&columns).for_each(|(value, column)| *value = column[i]);
+            }
+        }
+        let shape = (samples.len(), width);
+        Array2::from_shape_vec(shape, values)
+            .map_err(|error| Error::value("samples", format!("{shape:?}"), error.to_string()))
+    }
+
+    /// What remains of some samples. A sample is the same whichever others are evaluated with it.
+    pub fn sample(&self, samples: Range<usize>, cancel: &Cancel) -> Result<Sampled> {
+        /// Chunks that are not worth waking another thread for.
+        const FEW: usize = 4;
+        let (count, orders) = (samples.len(), self.nominal.orders.len());
+        let cure = "ask for fewer samples or orders";
+        limits::result_size("samples", &[count, orders, 10], size_of::<Complex64>(), cure)?;
+        let mut sampled = Sampled {
+            force: memory::zeros(count * orders)?,
+            moment: memory::zeros(count * orders)?,
+            torque: memory::zeros(if self.nominal.has_torque { count * orders } else { 0 })?,
+            peaks: memory::zeros(count)?,
+        };
+        let finder = PeakFinder::new(&self.nominal.orders);
+        let Sampled { force, moment, torque, peaks } = &mut sampled;
+        let mut torque = torque.chunks_mut(CHUNK * orders);
+        let planar = force.chunks_mut(CHUNK * orders).zip(moment.chunks_mut(CHUNK * orders));
+        let mut tasks = memory::room(count.div_ceil(CHUNK))?;
+        for (k, ((force, moment), peaks)) in planar.zip(peaks.chunks_mut(CHUNK)).enumerate() {
+            let torque = torque.next().unwrap_or_default();
+            tasks.push((
+                samples.start + k * CHUNK,
+                Chunk { planar: [force, moment], torque, peaks },
+            ));
+        }
+        let work = |(first, out): (usize, Chunk)| {
+            self.write(first, &finder, out, cancel)?;
+            cancel.step()
+        };
+        cancel.expect(tasks.len());
+        if tasks.len() < FEW {
+            tasks.into_iter().try_for_each(work)?;
+        } else {
+            pool::run(cancel, || tasks.into_par_iter().try_for_each(work))?;
+        }
+        Ok(sampled)
+    }
+
+    /// Writes the samples of a chunk.
+    fn write(&self, first: usize, finder: &PeakFinder, out: Chunk, cancel: &Cancel) -> Result<()> {
+        let orders = self.nominal.orders.len();
+        let sums = self.terms.sums(&self.draws, first, cancel)?;
+        let Chunk { planar: [force, moment], torque, peaks } = out;
+        let mut by_component = vec![Complex64::default(); 6 * orders];
+        for (i, peaks) in peaks.iter_mut().enumerate() {
+            let row = i * orders..(i + 1) * orders;
+            // Of force and moment along (about) x and y, of torque on block and crank.
+            let [force_xy, moment_xy, torques] = thirds(&mut by_component);
+            for (k, sums) in sums.iter().enumerate() {
+                let vectors = [
+                    (Vector::Force, &sums.force, &mut force[row.clone()], &mut *force_xy),
+                    (Vector::Moment, &sums.moment, &mut moment[row.clone()], &mut *moment_xy),
+                ];
+                for (vector, change, out, xy) in vectors {
+                    let nominal = self.nominal.planar(vector, k);
+                    let planar = Planar {
+                        forward: nominal.forward + at(&change[0], i) * self.square,
+                        backward_conj: nominal.backward_conj + at(&change[1], i) * self.square,
+                        size: nominal.size,
+                    };
+                    let [x, y] = planar.xy(self.nominal.zero_bound(vector, k));
+                    [xy[k], xy[orders + k]] = [x, y];
+                    out[k] = [x, y, planar.forward, planar.backward()];
+                }
+                if self.nominal.has_torque {
+                    let nominal = &self.nominal.wrenches[k].torque;
+                    let nominal = [nominal.roll, nominal.crank];
+                    let sum =
+                        |which: usize| nominal[which] + at(&sums.torque[which], i) * self.square;
+                    torque[i * orders + k] = [sum(0), sum(1)];
+                    [torques[k], torques[orders + k]] = torque[i * orders + k];
+                }
+            }
+            *peaks = self.totals.peaks(finder, &by_component);
+        }
+        Ok(())
+    }
+}
+
+/// Buffers of the samples of a chunk, as those of [`Sampled`].
+struct Chunk<'a> {
+    planar: [&'a mut [[Complex64; 4]]; 2],
+    torque: &'a mut [[Complex64; 2]],
+    peaks: &'a mut [[f64; 4]],
+}
+
+fn thirds<T>(values: &mut [T]) -> [&mut [T]; 3] {
+    let (first, rest) = values.split_at_mut(values.len() / 3);
+    let (second, third) = rest.split_at_mut(rest.len() / 2);
+    [first, second, third]
+}
+
+/// The complex number of one sample.
+fn at([re, im]: &[Column; 2], sample: usize) -> Complex64 {
+    Complex64::new(re[sample], im[sample])
+}
+
+/// One pin of each cylinder, counted from 0 without gaps.
+fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
+    let count = engine.placements().len();
+    if pin_of.len() != count {
+        return Err(Error::Length {
+            argument: "pins".into(),
+            found: pin_of.len(),
+            reference: "the engine".into(),
+            expected: count,
+            item: "cylinder",
+        });
+    }
+    let pins = pins(pin_of);
+    if pins > count || (0..pins).any(|pin| !pin_of.contains(&pin)) {
+        let cure = "count the pins from 0, each with a cylinder";
+        return Err(Error::value("pins", format!("{pin_of:?}"), cure));
+    }
+    Ok(())
+}
+
+/// Number of pins.
+fn pins(pin_of: &[usize]) -> usize {
+    pin_of.iter().max().map_or(0, |last| last + 1)
+}
+
+/// As many spreads as cylinders or pins, each zero or more; or none.
+fn check_spreads(engine: &Engine, pin_of: &[usize], figure: Figure, spreads: &[f64]) -> Result<()> {
+    let (expected, item) = if figure.of_pin() {
+        (pins(pin_of), "crankpin")
+    } else {
+        (engine.placements().len(), "cylinder")
+    };
+    if !spreads.is_empty() && spreads.len() != expected {
+        return Err(Error::Length {
+            argument: figure.name().into(),
+            found: spreads.len(),
+            reference: "the engine".into(),
+            expected,
+            item,
+        });
+    }
+    spreads.iter().try_for_each(|&spread| limits::not_negative(figure.name(), spread).map(drop))
+}
+
+/// Every sample is an engine: no draw takes more of a mass than there is, or keeps a crank from turning.
+///
+/// A rotating mass may fall below zero: what deviates from a throw that is balanced is an unbalance.
+fn check_reach(engine: &Engine, pin_of: &[usize], draws: &Draws) -> Result<()> {
+    let largest = draws.distribution.largest();
+    let spread = |figure: Figure, k: usize| draws.spreads[figure as usize].get(k).copied();
+    let name = Figure::name;
+    for (i, place) in engine.placements().iter().enumerate() {
+        let (cylinder, number) = (place.cylinder, i + 1);
+        let mass = spread(Figure::ReciprocatingMass, i).unwrap_or(0.0);
+        if largest * mass > cylinder.reciprocating_mass() {
+            let most = cylinder.reciprocating_mass() / largest;
+            let cure = format!(
+                "a draw may take more than the {} kg of cylinder {number}; give {most:.3e} at most",
+                cylinder.reciprocating_mass()
+            );
+            return Err(Error::figure(name(Figure::ReciprocatingMass), mass, cure));
+        }
+        let radius = spread(Figure::CrankRadius, pin_of[i]).unwrap_or(0.0);
+        let rod = spread(Figure::RodLength, i).unwrap_or(0.0);
+        let smallest = cylinder.crank_radius() - largest * radius;
+        let slack = cylinder.rod_length() - cylinder.pin_offset().abs() - cylinder.crank_radius();
+        let shrunk = largest * (radius + rod);
+        if (radius > 0.0 && smallest < limits::SMALLEST) || (shrunk > 0.0 && shrunk >= slack) {
+            let figure = if radius >= rod { Figure::CrankRadius } else { Figure::RodLength };
+            let cure =
+                format!("a draw may keep the crank of cylinder {number} from turning; give less");
+            return Err(Error::figure(name(figure), radius.max(rod), cure));
+        }
+    }
+    let turn = draws.spreads[Figure::Pin as usize].iter().copied().fold(0.0, f64::max);
+    if largest * turn > 180.0 {
+        let cure = format!("a draw may exceed half a turn; give {:.3} at most", 180.0 / largest);
+        return Err(Error::figure(name(Figure::Pin), turn, cure));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;
