@@ -19,6 +19,9 @@ from crankpin.analysis.design import built
 from designing import A2, RPM, SPACING, UNIT, design, question
 from rederivation import design as brute
 
+CROSS_PLANE: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 90, 180, 270]}
+"""A V8 whose four throws all point another way."""
+
 
 def test_the_manual() -> None:
     manual = Path(__file__).parents[3] / "docs" / "inverse-design.md"
@@ -71,14 +74,13 @@ def test_the_least_first_order_couple_of_v10s_at_72_by_a_grid() -> None:
 
 
 def test_four_throw_cranks_of_a_90_degree_v8() -> None:
-    v8 = {"bank_angle_deg": 90, "throws_deg": [0, 90, 180, 270]}
-    bare = design(8, **v8, by="[1].moment.peak")
+    bare = design(8, **CROSS_PLANE, by="[1].moment.peak")
     assert bare[0].throws_deg == (0, 180, 90, 270)
     couples = {each.throws_deg: each.value / (UNIT * SPACING) for each in bare}
     # √10 and √2 of a·m·r·ω² (balancing and torque, table): a ratio of √5.
     assert couples[0, 180, 90, 270] == pytest.approx(math.sqrt(2.0), rel=1e-12)
     assert couples[0, 90, 270, 180] == pytest.approx(math.sqrt(10.0), rel=1e-12)
-    weighted = design(8, **v8, counterweights=True, by="[1].moment.peak,[2].moment.peak")
+    weighted = design(8, **CROSS_PLANE, counterweights=True, by="[1].moment.peak,[2].moment.peak")
     assert weighted[0].throws_deg == (0, 90, 270, 180)
     assert weighted[0].values == (0.0, 0.0)
     assert weighted[0].engine.vanishing_orders([1, 2]).moment.vanishing == (1, 2)
@@ -108,6 +110,45 @@ def test_an_odd_fire_90_degree_v6_from_its_intervals() -> None:
         found[0].throws_deg,
         *(image.throws_deg for image in found[0].images),
     }
+
+
+@pytest.mark.parametrize(
+    ("cylinders", "layout", "given", "throws"),
+    [
+        (4, "inline", {}, (0, 180, 180, 0)),
+        (6, "inline", {}, (0, 120, 240, 240, 120, 0)),
+        (8, "vee", {"bank_angle_deg": 90}, (0, 180, 180, 0)),
+    ],
+)
+def test_throws_that_point_the_same_way_are_compared_too(
+    cylinders: int, layout: str, given: dict[str, Any], throws: tuple[float, ...]
+) -> None:
+    by = "[1].moment.peak" if layout == "vee" else "total.moment.peak"
+    best = design(cylinders, layout, **given, by=by)[0]
+    assert (best.throws_deg, best.value) == (throws, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("cylinders", "given", "intervals"),
+    [
+        (6, {"bank_angle_deg": (40, 130)}, [150, 90] * 3),
+        (4, {"bank_angle_deg": 90, "shared_pins": False}, [180, 90, 180, 270]),
+        (4, {"layout": "inline"}, [180, 180, 180, 180]),
+        # Only its mirror image fires in this sequence.
+        (3, {"layout": "inline"}, [100, 200, 420]),
+        (2, {"layout": "inline", "strokes": 2}, [180, 180]),
+    ],
+)
+def test_designs_fire_at_the_intervals_asked_for(
+    cylinders: int, given: dict[str, Any], intervals: list[int]
+) -> None:
+    found = design(cylinders, **given, intervals_deg=intervals, by="[1].moment.peak")
+    turned = [[*intervals[k:], *intervals[:k]] for k in range(cylinders)]
+    for each in found:
+        engine = each.engine
+        assert engine.strokes == sum(intervals) / 180
+        firings = engine.firings(engine.firing_order)
+        assert any(list(firing.intervals_deg) in turned for firing in firings), engine.firing_order
 
 
 @pytest.mark.parametrize(
@@ -322,7 +363,7 @@ def test_a_function_where_nothing_varies() -> None:
 
 
 def test_the_result_is_a_table() -> None:
-    found = design(8, bank_angle_deg=90, by="[1].moment.peak,[2].moment.peak", count=2)
+    found = design(8, **CROSS_PLANE, by="[1].moment.peak,[2].moment.peak", count=2)
     assert (found.optima, len(found), found.cranks) == (3, 2, 6)
     lines = repr(found).splitlines()
     assert lines[0].endswith("order 2, 6000 rpm; 2 of 3")
@@ -345,7 +386,7 @@ def test_ties_share_a_place() -> None:
     assert [each.place for each in found] == [1] * 8
     # Couples of √2, √8 and √10; in phase all cylinders would make 8.
     for tolerance, places in ((0.04, [1, 2, 3]), (0.05, [1, 2, 2]), (0.25, [1, 1, 1])):
-        found = design(8, bank_angle_deg=90, by="[1].moment.peak", tie_rtol=tolerance)
+        found = design(8, **CROSS_PLANE, by="[1].moment.peak", tie_rtol=tolerance)
         assert [each.place for each in found] == places
 
 

@@ -55,6 +55,14 @@ class Crank:
             return ()
         return tuple(a + b for a, b in zip(self.throws, self.splits, strict=True))
 
+    @property
+    def tdc(self) -> tuple[Exact, ...]:
+        """Top dead centres of the cylinders, numbered along the crank, less that of the first."""
+        if self.bank_angle is None:
+            return tuple(-throw % TURN for throw in self.throws)
+        pairs = zip(self.throws, self.left, strict=True)
+        return tuple(each for a, b in pairs for each in (-a % TURN, (self.bank_angle - b) % TURN))
+
     def mirrored(self) -> Crank:
         """Return the engine seen in a mirror that exchanges left and right.
 

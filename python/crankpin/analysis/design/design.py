@@ -84,8 +84,9 @@ def design(
     same_split
         False for a split of each throw's own.
     throws_deg
-        Throws to be put in the best order, one for each; by default equally spaced ones.
-        ``"free"`` for throws of any angles.
+        Throws to be put in the best order, one for each; by default equally spaced ones, and of an
+        even number also half as many directions, each twice (0-180-180-0). ``"free"`` for throws of
+        any angles.
     even_firing, intervals_deg
         Firing that the engine must allow: even, or these intervals one after another, which add up
         to 720. It determines the throws, and, on shared pins, the bank angles.

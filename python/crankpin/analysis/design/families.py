@@ -105,7 +105,6 @@ def _all(question: Question) -> Iterator[Family]:
 
 def _of_throws(question: Question) -> Iterator[Family]:
     """Yield the families of given throws in all orders, or of free ones."""
-    assert question.throws is not None  # noqa: S101 - there is no firing to determine them
     count = question.count
     variables = []
     fixed: Exact = 0
@@ -126,8 +125,9 @@ def _of_throws(question: Question) -> Iterator[Family]:
         base = Crank.of([0] * count, splits, angle)
         yield Family(base, (*variables, *turning))
         return
-    for throws in throw_orders(question.throws):
-        yield Family(Crank.of(throws, splits, angle), tuple(variables))
+    for angles in question.throws:
+        for throws in throw_orders(angles):
+            yield Family(Crank.of(throws, splits, angle), tuple(variables))
 
 
 # --- a given firing -----------------------------------------------------------------------------

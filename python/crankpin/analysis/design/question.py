@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -10,7 +11,15 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.arrangements.cranks import HALF, TURN, Exact, Symmetries, exact, simple
+from crankpin.analysis.arrangements.cranks import (
+    HALF,
+    TURN,
+    Crank,
+    Exact,
+    Symmetries,
+    exact,
+    simple,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -41,12 +50,14 @@ class Question:
     """Lowest and highest."""
     same_split: bool
     """True if all throws have one split."""
-    throws: tuple[Exact, ...] | None
-    """Throws to be put in order; None for those that the firing needs."""
+    throws: tuple[tuple[Exact, ...], ...]
+    """Sets of throws to be put in order; empty where the firing determines them."""
     free_throws: bool
     """True if throws may have any angles."""
-    tdcs: tuple[Exact, ...] | None
-    """Top dead centres that the firing needs, one for each cylinder; None for any firing."""
+    strokes: int
+    """4 or 2: strokes of a cycle."""
+    intervals: tuple[Exact, ...] | None
+    """Firing intervals that the engine must allow; None for any firing."""
     bank_stagger: float
     rotating_mass: float
     counterweights: bool
@@ -60,9 +71,33 @@ class Question:
         return self.cylinders // self.banks
 
     @property
+    def tdcs(self) -> tuple[Exact, ...] | None:
+        """Top dead centres that the firing needs, one for each cylinder; None for any firing."""
+        if self.intervals is None:
+            return None
+        return tuple(time % TURN for time in itertools.accumulate(self.intervals[:-1], initial=0))
+
+    def firing_order(self, crank: Crank) -> str:
+        """Return a sequence in which a crank fires at the intervals; empty if it has none."""
+        tdcs, intervals = crank.tdc, self.intervals or ()
+        for k in range(len(intervals)):
+            waiting: dict[Exact, list[int]] = {}
+            for number, tdc in enumerate(tdcs, start=1):
+                waiting.setdefault(tdc, []).append(number)
+            text, time = "", tdcs[0]
+            for interval in (*intervals[k:], *intervals[:k]):
+                if not waiting.get(time % TURN):
+                    break
+                text += f"{waiting[time % TURN].pop(0)}{'-' if interval else '+'}"
+                time += interval
+            else:
+                return text[:-1]
+        return ""
+
+    @property
     def hold(self) -> Hold:
         """What does not change with the bank angle."""
-        return "firing" if self.tdcs is not None and not self.fixed_split else "pins"
+        return "firing" if self.intervals is not None and not self.fixed_split else "pins"
 
     @property
     def fixed_split(self) -> bool:
@@ -98,11 +133,12 @@ def checked(
     kind = inputs.one_of("layout", layout, ("inline", "vee", "flat", "boxer"))
     banks = 1 if kind == "inline" else 2
     number = _cylinders(cylinders, banks)
-    tdcs = _tdcs(number, even_firing, intervals_deg, inputs.strokes(strokes))
+    cycle = inputs.strokes(strokes)
+    intervals = _intervals(number, even_firing, intervals_deg, HALF * cycle)
     angles = _bank_angles(kind, bank_angle_deg)
     split = _splits(kind, shared_pins, pin_split_deg)
     free = isinstance(throws_deg, str) and throws_deg == "free"
-    if tdcs is not None and throws_deg is not None:
+    if intervals is not None and throws_deg is not None:
         raise InputError(
             f"throws_deg = {inputs.shorten(throws_deg)}: the firing intervals determine the "
             "throws; leave out throws_deg, or even_firing and intervals_deg"
@@ -116,9 +152,10 @@ def checked(
         bank_angle=angles,
         pin_split=split,
         same_split=inputs.flag("same_split", same_split) or split[0] == split[1],
-        throws=None if tdcs is not None else _throws(count, None if free else throws_deg),
+        throws=() if intervals is not None or free else _throws(count, throws_deg),
         free_throws=free,
-        tdcs=tdcs,
+        strokes=cycle,
+        intervals=intervals,
         bank_stagger=inputs.number("bank_stagger", bank_stagger) if banks == 2 else 0.0,
         rotating_mass=inputs.number("rotating_mass", rotating_mass),
         counterweights=inputs.flag("counterweights", counterweights),
@@ -134,13 +171,12 @@ def _cylinders(given: object, banks: int) -> int:
     return number
 
 
-def _tdcs(
-    number: int, even_firing: object, intervals_deg: Angles | None, strokes: int
+def _intervals(
+    number: int, even_firing: object, intervals_deg: Angles | None, cycle: int
 ) -> tuple[Exact, ...] | None:
-    cycle = HALF * strokes
     even = inputs.flag("even_firing", even_firing)
     if intervals_deg is None:
-        return _spread(number, cycle) if even else None
+        return (simple(Fraction(cycle, number)),) * number if even else None
     if even:
         given = inputs.shorten(intervals_deg)
         raise InputError(f"intervals_deg = {given}: leave it out, or even_firing")
@@ -150,7 +186,7 @@ def _tdcs(
             f"intervals_deg = {inputs.shorten(intervals_deg)}: give {number} intervals, none "
             f"negative, that add up to {cycle}"
         )
-    return tuple(sum(listed[:k]) % TURN for k in range(number))
+    return tuple(listed)
 
 
 def _spread(number: int, over: int) -> tuple[Exact, ...]:
@@ -200,16 +236,17 @@ def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact
     return first, last
 
 
-def _throws(count: int, given: Any) -> tuple[Exact, ...]:  # noqa: ANN401 - checked here
+def _throws(count: int, given: Any) -> tuple[tuple[Exact, ...], ...]:  # noqa: ANN401 - checked here
     if given is None:
-        return _spread(count, TURN)
+        # Over two turns an even number of throws comes to half as many directions, each twice.
+        return tuple(_spread(count, turns * TURN) for turns in ((1,) if count % 2 else (1, 2)))
     cure = f'give {count} angles to be put in order, or "free"'
     if isinstance(given, str):
         raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
     listed = [exact(each) % TURN for each in inputs.angles("throws_deg", given)]
     if len(listed) != count:
         raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
-    return tuple(listed)
+    return (tuple(listed),)
 
 
 def _shafts(given: Iterable[int]) -> tuple[int, ...]:

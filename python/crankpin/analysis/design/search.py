@@ -92,7 +92,7 @@ class Search:
     ) -> tuple[tuple[Design, ...], Sweep]:
         """Return the best designs, and the sweep of all that were found."""
         symmetries = self._question.symmetries
-        cranks = [symmetries.first(each.crank) for each in found]
+        cranks = [self._firing(symmetries.first(each.crank)) for each in found]
         swept, rows = self._values(cranks)
         tolerances = rtol * self._scales(rows)
         designs: list[Design] = []
@@ -104,10 +104,23 @@ class Search:
                     for change, image in symmetries.images(cranks[k])
                 )
                 values, isolated = tuple(rows[k].tolist()), found[k].isolated
-                designs.append(Design(place, swept.engines[k], values, isolated, cranks[k], images))
+                engine = swept.engines[k]
+                if order := self._question.firing_order(cranks[k]):
+                    engine = engine.replace(firing_order=order, strokes=self._question.strokes)
+                designs.append(Design(place, engine, values, isolated, cranks[k], images))
             if len(designs) >= count:
                 break
         return tuple(designs), swept
+
+    def _firing(self, crank: Crank) -> Crank:
+        """Return the first of the cranks that shake alike which fires at the intervals asked for.
+
+        A mirror reverses the sequence of the intervals.
+        """
+        if self._question.intervals is None:
+            return crank
+        alike = (crank, *(image for _, image in self._question.symmetries.images(crank)))
+        return next(filter(self._question.firing_order, alike), crank)
 
     def _values(self, cranks: Sequence[Crank]) -> tuple[Sweep, NDArray[np.float64]]:
         """Return the sweep of the engines, and their objectives: (n_cranks, n_objectives)."""
