@@ -296,6 +296,30 @@ def test_parts_of_force_and_moment_are_removed_each() -> None:
     assert fitted.residual.moment == pytest.approx(0.25 * before.residual.moment)
 
 
+def test_weights_beside_the_right_ones_are_not_called_exact() -> None:
+    """Angles 1e-8° off, bounds too low by 2e-10: 2e-10 is left, and no bound is broken for it."""
+    right = cp.counterweights(CROSSPLANE, planes="ends")
+    needed = right.unbalances[0].amount
+    assert right.exact
+    assert right.missing == 0.0
+    beside = {name: [degrees(w.angle_deg) + 1e-8] for name, w in right.by_plane}
+    turned = cp.counterweights(CROSSPLANE, planes="ends", angles_deg=beside)
+    # sin(1e-8°) of the couple, a bit more than the error of a double.
+    assert turned.missing == pytest.approx(np.radians(1e-8), rel=1e-3)
+    low = needed * (1.0 - 2e-10)
+    for minimise in ("squares", "largest"):
+        short = cp.counterweights(CROSSPLANE, planes="ends", bound=low, minimise=minimise)
+        assert short.largest <= low
+        # 1e-12: what the solver leaves of its equations
+        assert short.missing == pytest.approx(2e-10, abs=1e-11)
+        for fit in (turned, short):
+            assert not fit.exact
+            assert not fit.vanishes
+            assert fit.verdicts.moment.forward == "undecided"
+    enough = cp.counterweights(CROSSPLANE, planes=[0.0, 1.0, 3.0], bound=1.001 * needed)
+    assert enough.exact
+
+
 def test_one_plane_is_exact_only_where_that_is_proved() -> None:
     single = preset("single")
     assert cp.counterweights(single, planes=[0.0]).exact
@@ -470,7 +494,8 @@ def test_drilling_places_that_do_not_suffice_leave_the_least() -> None:
     each = cp.counterweights(
         single, planes={"a": -1.0, "b": 1.0}, angles_deg={"a": [angle], "b": [angle]}, bound=0.3
     )
-    assert each.exact
+    assert not each.exact  # two angles in all: nothing but rounding shows that they suffice
+    assert each.missing < 1e-12  # some units in the last place
     assert [w.amount for w in each.unbalances] == pytest.approx([0.25, 0.25])
 
 
@@ -589,7 +614,7 @@ def test_results_are_frozen_and_copied() -> None:
     with pytest.raises(AttributeError):
         fitted.exact = False
     with pytest.raises(cp.InputError, match=r"use crankpin\.counterweights"):
-        cp.types.Counterweights(V6_90, (), None, (), True)  # type: ignore[arg-type]
+        cp.types.Counterweights(V6_90, (), None, (), True, 0.0)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

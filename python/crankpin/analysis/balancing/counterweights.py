@@ -136,7 +136,7 @@ def counterweights(
         correction_planes.angles(names, angles_deg),
         fit,
     )
-    return Counterweights(engine, tuple(places.items()), fit, found.unbalances, found.exact)
+    return Counterweights(engine, tuple(places.items()), fit, *found)
 
 
 class PartVerdict(NamedTuple):
@@ -172,7 +172,9 @@ class Counterweights(Frozen):
     PartVerdict(forward='vanishes', backward='remains')
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("before", "places", "fit", "by_plane", "exact")
+    _fields: ClassVar[tuple[str, ...]] = (
+        "before", "places", "fit", "by_plane", "exact", "missing",
+    )  # fmt: skip
 
     before: Engine
     """The engine that was given."""
@@ -183,8 +185,10 @@ class Counterweights(Frozen):
     by_plane: tuple[tuple[str, Unbalance], ...]
     """The weights, each with the name of its plane; planes without are left out."""
     exact: bool
-    """True if the weights remove all that was wanted. Decided by the rank of the equations, not by
-    the size of what stays; where bounds or allowed angles bind, weights were found besides."""
+    """True if the weights are proved to remove all that was wanted: by the rank of the equations of
+    those with room within bounds and angles, not by the size of what stays."""
+    missing: float
+    """Part of what was wanted that they do not remove; 0 where they are exact."""
 
     def __init__(
         self,
@@ -193,13 +197,20 @@ class Counterweights(Frozen):
         fit: Fit,
         by_plane: tuple[tuple[str, Unbalance], ...],
         exact: bool,
+        missing: float,
     ) -> None:
         if not isinstance(fit, Fit):
             raise InputError(f"fit = {inputs.shorten(fit)}: use crankpin.counterweights")
         weights = (*before.counterweights, *(weight for _, weight in by_plane))
         engine = before.with_counterweights(weights)
         self._set(
-            before=before, places=places, fit=fit, by_plane=by_plane, exact=exact, engine=engine
+            before=before,
+            places=places,
+            fit=fit,
+            by_plane=by_plane,
+            exact=exact,
+            missing=missing,
+            engine=engine,
         )
 
     engine: Engine
@@ -353,7 +364,10 @@ class Counterweights(Frozen):
             for part in ("forward", "backward")
         ]
         header = ["order 1 over ω²", "", "longest", "shortest"]
-        return Table("What stays", header, names, np.array(rows), note="; ".join(words) + ".")
+        note = "; ".join(words) + "."
+        if "undecided" in note and self.missing:
+            note += f" Within {self.missing:.1e} of what was wanted."
+        return Table("What stays", header, names, np.array(rows), note=note)
 
     def __repr__(self) -> str:
         return f"{self.table().text()}\n{self.table_of_order_1().text()}"

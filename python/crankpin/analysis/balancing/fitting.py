@@ -98,10 +98,13 @@ def _parts(given: object) -> dict[str, float]:
 
 
 class Fitted(NamedTuple):
-    """Unbalances with the names of their planes, and whether they do all that was wanted."""
+    """Unbalances with the names of their planes."""
 
     unbalances: tuple[tuple[str, Unbalance], ...]
     exact: bool
+    """True if they are proved to do all that was wanted."""
+    missing: float
+    """Part of what was wanted that they do not do, but for rounding."""
 
 
 # --- the whole engine ---------------------------------------------------------------------------
@@ -142,7 +145,8 @@ def external(
             weight = dataclasses.replace(weight, angle_deg=angles[name][found.angle[k]])
         unbalances.append((name, weight))
     usable = [z for name, z in planes.items() if bounds[name] > 0.0]
-    return Fitted(tuple(unbalances), found.reached and can_remove(engine, usable, fit, plane))
+    exact = found.reached and can_remove(engine, usable, fit, plane)
+    return Fitted(tuple(unbalances), exact, 0.0 if exact else found.missing)
 
 
 def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> bool:
@@ -201,11 +205,13 @@ def internal(
             ),
         )
         if within
-        else Fitted((), exact=False)
+        else Fitted((), exact=False, missing=1.0)
         for bay, within in zip(listed, inside, strict=True)
     ]
     return Fitted(
-        tuple(one for each in found for one in each.unbalances), all(each.exact for each in found)
+        tuple(one for each in found for one in each.unbalances),
+        all(each.exact for each in found),
+        max(each.missing for each in found),
     )
 
 

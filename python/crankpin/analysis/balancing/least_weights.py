@@ -12,7 +12,7 @@ the list is refined about the angles in use until it makes no difference.
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -33,7 +33,11 @@ FAN = np.arange(-5, 6)
 MOST_AGAIN = 8
 """Fans of one distance between angles that are tried where the best was at the end of the last."""
 REACHED = 1e-9
-"""What may be missing where weights make the target, relative to it."""
+"""Part of the target that solvers may miss, to be made up by weights with room for it."""
+ROOM = 1e-6
+"""Room of such weights, relative to the target and to their bounds."""
+RANK = 1e-12
+"""Singular values below this part of the largest are zero."""
 NOTHING = 1e-200
 """Targets below this are none."""
 UNBOUNDED = 1e9
@@ -66,7 +70,10 @@ class Weights(NamedTuple):
     value: NDArray[np.complex128]
     """Mass·radius and direction: (n_weights,)."""
     reached: bool
-    """True if they make the target."""
+    """True if weights beside these, by no more than rounding, are proved to make the target
+    wherever weights of any size in these planes do."""
+    missing: float
+    """Part of the target that is not made."""
 
 
 class Columns(NamedTuple):
@@ -101,7 +108,13 @@ def least(problem: Problem) -> Weights:
     kept = np.flatnonzero(bounds > 1.0 / UNBOUNDED)
     if not kept.size:
         nothing = np.empty(0, dtype=np.intp)
-        return Weights(nothing, nothing, nothing.astype(np.complex128), reached=not wanted)
+        return Weights(
+            nothing,
+            nothing,
+            nothing.astype(np.complex128),
+            reached=not wanted,
+            missing=float(wanted),
+        )
     scaled = Problem(
         problem.matrix[:, kept],
         problem.target / scale,
@@ -111,34 +124,37 @@ def least(problem: Problem) -> Weights:
     )
     if scaled.angles is None:
         plane, angle = np.arange(len(kept)), np.zeros(len(kept), dtype=np.intp)
-        value = _at_any_angle(scaled)
+        value, reached = _at_any_angle(scaled)
     else:
         columns = Columns.at(scaled.angles)
-        amounts = _at_angles(scaled, columns)
+        amounts, reached = _at_angles(scaled, columns)
         used = np.flatnonzero(amounts)
         first = np.searchsorted(columns.plane, np.arange(len(kept)))
         plane, angle = columns.plane[used], used - first[columns.plane[used]]
         value = (amounts * columns.direction)[used]
-    missing = np.abs(scaled.target - scaled.matrix[:, plane] @ value).max()
-    return Weights(kept[plane], angle, scale * value, reached=bool(missing <= REACHED))
+    missing = float(np.abs(scaled.target - scaled.matrix[:, plane] @ value).max())
+    return Weights(kept[plane], angle, scale * value, reached, missing)
 
 
-def _at_angles(problem: Problem, columns: Columns) -> NDArray[np.float64]:
-    """Return the amount in each column."""
+def _at_angles(problem: Problem, columns: Columns) -> tuple[NDArray[np.float64], bool]:
+    """Return the amount in each column, and whether the target is reached."""
     amounts = _nearest(problem, columns, np.zeros(len(columns.plane)))
     solve = _largest if problem.largest else _squares
-    amounts = solve(problem, columns, amounts)
-    used = amounts > 0.0
+    amounts = np.maximum(solve(problem, columns, amounts), 0.0)
+    sums = np.bincount(columns.plane, amounts, len(problem.bounds))
+    with np.errstate(divide="ignore"):
+        amounts *= np.minimum(1.0, problem.bounds / sums)[columns.plane]
     rows = _real(problem.matrix[:, columns.plane] * columns.direction)
     missing = _real(problem.target[:, None])[:, 0] - rows @ amounts
-    if np.abs(missing).max() <= REACHED and used.any():
-        amounts[used] += np.linalg.lstsq(rows[:, used], missing, rcond=1e-12)[0]
-    return np.maximum(amounts, 0.0)
+    count = np.bincount(columns.plane, minlength=len(problem.bounds))
+    room = np.minimum(amounts, ((problem.bounds - sums) / count)[columns.plane])
+    change, reached = _made_up(rows, missing, room, 2 * _rank(problem.matrix))
+    return amounts + change, reached
 
 
-def _at_any_angle(problem: Problem) -> NDArray[np.complex128]:
-    """Return the weight in each plane."""
-    inverse = np.linalg.pinv(problem.matrix, rcond=1e-12)
+def _at_any_angle(problem: Problem) -> tuple[NDArray[np.complex128], bool]:
+    """Return the weight in each plane, and whether the target is reached."""
+    inverse = np.linalg.pinv(problem.matrix, rcond=RANK)
     found: NDArray[np.complex128] = inverse @ problem.target
     bound = bool((np.abs(found) > problem.bounds).any())
     if bound:
@@ -147,8 +163,38 @@ def _at_any_angle(problem: Problem) -> NDArray[np.complex128]:
         found = _refined(problem, found, _largest)
     elif bound:
         found = _refined(problem, found, _squares)
+    with np.errstate(divide="ignore"):
+        found *= np.minimum(1.0, problem.bounds / np.abs(found))
     missing = problem.target - problem.matrix @ found
-    return found + inverse @ missing if np.abs(missing).max() <= REACHED else found
+    room = problem.bounds - np.abs(found)
+    change, reached = _made_up(problem.matrix, missing, room, _rank(problem.matrix))
+    return found + change, reached
+
+
+def _made_up(
+    rows: NDArray[Any], missing: NDArray[Any], room: NDArray[np.float64], rank: int
+) -> tuple[NDArray[Any], bool]:
+    """Return the change of weights with room that makes what is missing, and whether it is proved.
+
+    The weights with room make whatever all of them can if their equations have the same rank. The
+    change then exists, however small what is missing looks; otherwise it is the nearest.
+    """
+    change = np.zeros(rows.shape[1], dtype=rows.dtype)
+    free = room > ROOM
+    made = rows[:, free]
+    if np.abs(missing).max() > REACHED or not free.any():
+        return change, False
+    change[free] = np.linalg.lstsq(made, missing, rcond=RANK)[0]
+    if (np.abs(change) > np.maximum(room, 0.0)).any():
+        return np.zeros_like(change), False
+    return change, _rank(made) == rank
+
+
+def _rank(rows: NDArray[Any]) -> int:
+    if not rows.size:
+        return 0
+    values = np.linalg.svd(rows, compute_uv=False)
+    return int((values > RANK * values[0]).sum())
 
 
 class _Solver(Protocol):
