@@ -254,9 +254,41 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "spacing in mm": (
         lambda: vee(spacing=100),
-        "spacing. = 100 m apart at a crank radius of 0.043 m: were they given in millimetres",
+        r"bank_stagger. = 100 m apart at a crank radius of 0\.043 m: was it given in millimetres",
     ),
     "z in mm": (lambda: I4.replace(z=[0, 100, 200, 300]), "= 100 m apart"),
+    "stagger in mm": (lambda: vee(bank_stagger=20), "bank_stagger. = 19.* m apart"),
+    "rod in mm": (
+        lambda: cp.Engine.inline(cp.Cylinder(0.043, 158, 0.5), throws_deg=[0], spacing=0.1),
+        "^rod_length = 158 m at a crank radius of 0.043 m: was it given in millimetres",
+    ),
+    "bore in mm": (
+        lambda: cp.Cylinder.from_bore_stroke(
+            bore=86, stroke=0.086, rod_length=0.145, reciprocating_mass=0.5
+        ),
+        "^bore = 86 m and stroke = 0.086 m: are both in metres",
+    ),
+    "shaft in mm": (
+        lambda: I4.with_shafts([cp.Shaft(2, [cp.Unbalance(0.003, 0.15)], x=80)]),
+        "^x = 80 m at a crank radius of 0.043 m: was it given in millimetres",
+    ),
+    "weight in mm": (
+        lambda: I4.with_counterweights([cp.Unbalance(0.003, z=150)]),
+        "^z = 150 m at",
+    ),
+    "weight in g·mm": (
+        lambda: I4.with_counterweights([cp.Unbalance(8000, z=0.1)]),
+        "^amount = 8000 kg·m at a crank radius of 0.043 m: was it given in g·mm or g·m",
+    ),
+    "shaft's weight in g·mm": (
+        lambda: I4.with_shafts([cp.Shaft(2, [cp.Unbalance(3100, 0.15)])]),
+        "^amount = 3100 kg·m",
+    ),
+    "oil in g": (lambda: cp.bob_weight(I4, oil=4), "^oil = 4 kg .*: was it given in grams"),
+    "pistons in g": (
+        lambda: cp.match_parts(I4, [402, 398, 405, 401]),
+        "^pistons = 405 kg at a crank radius of 0.043 m: was it given in grams",
+    ),
     "grams": (
         lambda: cp.Engine.inline(GRAMS, throws_deg=[0], spacing=0.1),
         "^reciprocating_mass = 450 kg .* was it given in grams",
@@ -300,6 +332,13 @@ SOUND: dict[str, Callable[[], Any]] = {
         throws_deg=[0, 90, 270, 180],
         spacing=0.11,
         rotating_mass=0.25,
+    ),
+    "rod without end": lambda: cp.Engine.inline(
+        cp.Cylinder(0.043, 1e6, 0.4), throws_deg=[0], spacing=0.1
+    ),
+    "8/41 of a turn within rounding": lambda: I4.replace(tdc_deg=[0, 70.2439024390244, 90, 90]),
+    "a shaft two metres beside": lambda: I4.with_shafts(
+        [cp.Shaft(1, [cp.Unbalance(0.5, 1.2)], x=2.0)]
     ),
     "model": lambda: cp.Engine.inline(cp.Cylinder(0.005, 0.02, 0.002), throws_deg=[0], spacing=0.1),
     "small angles": lambda: vee(bank_angle_deg=5, throws_deg=[0, 1.5, 3], pin_split_deg=-2.25),

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import math
 import operator
 import reprlib
-import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -46,6 +44,8 @@ MOST_EXACT = 10**18
 HIGHEST_ORDER = 10_000
 """Highest order that the core sums."""
 
+_BOOLEANS = {bool, np.bool_}
+
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is refused."""
 
@@ -69,8 +69,10 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             raise TypeError("masked arrays are not supported; use .filled()")
         if type(values) is int or type(values) is float:
             return np.array(float(values))
+        if isinstance(values, (list, tuple)) and _BOOLEANS & {*map(type, values)}:
+            raise TypeError("a truth value is not a number")
         found = _from_list(values)
-        if found.dtype.kind not in "fiub":
+        if found.dtype.kind not in "fiu":
             if found.dtype.kind != "O":
                 raise TypeError(f"{found.dtype} is not a real number")
             # Fractions and the like, each by its own conversion.
@@ -132,12 +134,12 @@ def _too_many(name: str, count: int) -> InputError:
 
 def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return an array that results of this shape can be written to."""
-    cure = f"give a writeable, aligned, C-contiguous array of float64, of shape {shape}"
+    hint = f"give a writeable, aligned, C-contiguous array of float64, of shape {shape}"
     if not isinstance(values, np.ndarray):
-        raise InputError(f"{name} = {shorten(values)}: {cure}")
+        raise InputError(f"{name} = {shorten(values)}: {hint}")
     if values.dtype != np.float64 or values.shape != shape or not values.flags.carray:
         kind = "" if values.flags.carray else ", not writeable, aligned and contiguous"
-        raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {cure}")
+        raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {hint}")
     return values
 
 
@@ -153,8 +155,13 @@ def number(name: str, value: Any) -> float:  # noqa: ANN401 - anything that floa
 
 
 def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
-    if np.iscomplexobj(value) or value is np.ma.masked:
-        raise TypeError("it is complex or masked")
+    """Return a float of a real number: not of text, a truth value, or a list, however short."""
+    # Neither text nor bytes have __float__, though float() parses them.
+    if type(value) in _BOOLEANS or not (hasattr(value, "__float__") or hasattr(value, "__index__")):
+        raise TypeError(f"{type(value).__name__} is not a number")
+    kind = getattr(getattr(value, "dtype", None), "kind", "f")
+    if kind not in "fiuO" or getattr(value, "ndim", 0) != 0 or value is np.ma.masked:
+        raise TypeError("it is an array, complex, masked or a truth value")
     return float(value)
 
 
@@ -185,46 +192,51 @@ def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() ta
 # --- words --------------------------------------------------------------------------------------
 
 
-def text(name: str, value: object, cure: str = "give text") -> str:
+def text(name: str, value: object, hint: str = "give text") -> str:
     """Return a string that can be written as UTF-8."""
     if not isinstance(value, str):
-        raise InputError(f"{name} = {shorten(value)}: {cure}")
+        raise InputError(f"{name} = {shorten(value)}: {hint}")
     try:
         value.encode()
     except UnicodeEncodeError as error:
-        raise InputError(f"{name} = {shorten(value)}: {cure} ({reason(error)})") from None
+        raise InputError(f"{name} = {shorten(value)}: {hint} ({reason(error)})") from None
     return value
 
 
-def file_path(path: object, endings: tuple[str, ...], cure: str) -> Path:
+def file_path(path: object, endings: tuple[str, ...], hint: str) -> Path:
     """Return the path of a file whose name has one of these endings, ``.toml`` or the like."""
     try:
         file = Path(path)  # type: ignore[arg-type]
     except TypeError:
-        raise InputError(f"path = {shorten(path)}: give a path; {cure}") from None
+        raise InputError(f"path = {shorten(path)}: give a path; {hint}") from None
     if file.suffix.lower() not in endings:
-        raise InputError(f"path = {shorten(str(path))}: {cure}")
+        raise InputError(f"path = {shorten(str(path))}: {hint}")
     return file
 
 
 def whole(name: str, value: object) -> int:
     """Return a whole number."""
     try:
-        return operator.index(value)  # type: ignore[arg-type]
+        return _index(value)
     except TypeError:
         raise InputError(f"{name} = {shorten(value)}: give a whole number") from None
+
+
+def _index(value: Any) -> int:  # noqa: ANN401 - anything that operator.index() takes
+    if type(value) in _BOOLEANS:
+        raise TypeError("a truth value is not a number")
+    return operator.index(value)
 
 
 def strokes(value: object) -> int:
     """Return 2 or 4."""
     try:
-        number = operator.index(value)  # type: ignore[arg-type]
+        if (number := _index(value)) in (2, 4):
+            return number
     except TypeError:
-        number = 0
-    if number not in (2, 4):
-        cure = "give 4 for a four-stroke or 2 for a two-stroke"
-        raise InputError(f"strokes = {shorten(value)}: {cure}")
-    return number
+        pass
+    hint = "give 4 for a four-stroke or 2 for a two-stroke"
+    raise InputError(f"strokes = {shorten(value)}: {hint}")
 
 
 def flag(name: str, value: object) -> bool:
@@ -238,24 +250,24 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     """Return one of a few words."""
     listed = list(choices)
     if not isinstance(value, str) or value not in listed:
-        cure = " or ".join(f'"{choice}"' for choice in listed)
-        raise InputError(f"{name} = {shorten(value)}: give {cure}")
+        hint = " or ".join(f'"{choice}"' for choice in listed)
+        raise InputError(f"{name} = {shorten(value)}: give {hint}")
     return value
 
 
 # --- lists --------------------------------------------------------------------------------------
 
 
-def items(name: str, values: object, cure: str) -> list[Any]:
+def items(name: str, values: object, hint: str) -> list[Any]:
     """Return a list of what an iterable gives, unless it gives too much."""
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise InputError(f"{name} = {shorten(values)}: {cure}")
+        raise InputError(f"{name} = {shorten(values)}: {hint}")
     try:
         listed = list(itertools.islice(values, MOST_ITEMS + 1))
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} = {shorten(values)}: {cure} ({reason(error)})") from None
+        raise InputError(f"{name} = {shorten(values)}: {hint} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:
-        raise InputError(f"{name} has more than {MOST_ITEMS} entries: {cure}")
+        raise InputError(f"{name} has more than {MOST_ITEMS} entries: {hint}")
     return listed
 
 
@@ -267,6 +279,8 @@ def angle(name: str, value: object) -> str:
     if isinstance(value, Fraction):
         if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT:
             value = f"{value.numerator}/{value.denominator}"
+    elif isinstance(value, np.ndarray) and not value.ndim:
+        return angle(name, value[()])
     elif isinstance(value, (Decimal, np.float16, np.float32, np.longdouble)):
         # The shortest decimal of a NumPy float is that of its own precision.
         value = str(value)
@@ -281,27 +295,27 @@ def angles(name: str, values: object) -> list[str]:
 
 def firing_order(name: str, values: object) -> str:
     """Return a firing order as text."""
-    cure = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
+    hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
     if isinstance(values, str):
-        return text(name, values, cure)
-    return "-".join(shorten(number) for number in items(name, values, cure))
+        return text(name, values, hint)
+    return "-".join(shorten(number) for number in items(name, values, hint))
 
 
 def orders(values: object, name: str = "orders") -> list[int] | None:
     """Return a list of orders, or None for ``"auto"``."""
-    cure = "orders are whole multiples of crank speed, such as [1, 2]"
+    hint = "orders are whole multiples of crank speed, such as [1, 2]"
     if isinstance(values, str):
         if values == "auto":
             return None
-        raise InputError(f'{name} = {shorten(values)}: {cure}, or "auto"')
-    listed = items(name, values if isinstance(values, Iterable) else [values], cure)
+        raise InputError(f'{name} = {shorten(values)}: {hint}, or "auto"')
+    listed = items(name, values if isinstance(values, Iterable) else [values], hint)
     try:
-        result = [operator.index(order) for order in listed]
+        result = [_index(order) for order in listed]
     except TypeError:
-        raise InputError(f"{name} = {shorten(values)}: {cure}") from None
+        raise InputError(f"{name} = {shorten(values)}: {hint}") from None
     for order in result:
         if not 1 <= order <= HIGHEST_ORDER:
-            raise InputError(f"{name} = {shorten(order)}: {cure}, 1 to {HIGHEST_ORDER}")
+            raise InputError(f"{name} = {shorten(order)}: {hint}, 1 to {HIGHEST_ORDER}")
     return result
 
 
@@ -318,8 +332,8 @@ def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
     if rtol is None:
         return default
     if orders is not None:
-        cure = 'leave it out, or give orders="auto"'
-        raise InputError(f"rtol = {shorten(rtol)}: rtol is for the choice of orders; {cure}")
+        hint = 'leave it out, or give orders="auto"'
+        raise InputError(f"rtol = {shorten(rtol)}: rtol is for the choice of orders; {hint}")
     return number("rtol", rtol)
 
 
@@ -327,14 +341,17 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
     """Return (order, amplitude) pairs."""
     if values is None:
         return None
-    cure = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
+    hint = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
     if not isinstance(values, Mapping):
-        raise InputError(f"spectrum = {shorten(values)}: {cure}")
+        raise InputError(f"spectrum = {shorten(values)}: {hint}")
     listed = explicit_orders(values, "spectrum")
     try:
+        for amplitude in values.values():
+            if type(amplitude) in _BOOLEANS or isinstance(amplitude, str):
+                raise TypeError("text or a truth value is not a number")
         return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"spectrum = {shorten(values)}: {cure} ({reason(error)})") from None
+        raise InputError(f"spectrum = {shorten(values)}: {hint} ({reason(error)})") from None
 
 
 # --- messages -----------------------------------------------------------------------------------
@@ -348,14 +365,6 @@ def warn_of_units(mean_piston_speed: float) -> None:
             f"({FASTEST_PISTON:.0f}): were lengths given in millimetres? They are metres here, and "
             "masses kilograms."
         )
-
-
-@contextlib.contextmanager
-def units_warned_of_elsewhere() -> Iterator[None]:
-    """Keep warnings of units back where a whole call warns once."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "mean piston speed", UserWarning)
-        yield
 
 
 _SHORT = reprlib.Repr()

@@ -2,16 +2,40 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import warnings
+from contextvars import ContextVar
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _PACKAGE = os.fspath(Path(__file__).parents[1]) + os.sep
 
+# Not the context manager of ``warnings``: that replaces the filters of all threads.
+_suppressed: ContextVar[tuple[str, ...]] = ContextVar("suppressed", default=())
+
+
+@contextlib.contextmanager
+def suppressed(beginning: str = "") -> Iterator[None]:
+    """Suppress this package's warnings that begin with a text, in this thread alone.
+
+    For calls within a call that has warned already.
+    """
+    token = _suppressed.set((*_suppressed.get(), beginning))
+    try:
+        yield
+    finally:
+        _suppressed.reset(token)
+
 
 def warn(message: str) -> None:
-    """Warn whoever called crankpin, at the line of that call."""
+    """Warn the caller of crankpin, at the line of that call."""
+    if message.startswith(_suppressed.get()):
+        return
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         level, frame = level + 1, frame.f_back

@@ -17,7 +17,13 @@ from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from numpy.typing import NDArray
+
+    from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Shaft, Unbalance
+
 
 LARGEST_CRANK_RADIUS = 5.0
 """Crank radius, m, above which lengths are not in metres.
@@ -38,6 +44,21 @@ Cars have 4e3 to 2e4, large two-strokes 8e3, a Formula 1 V10 of 20 mm crank radi
 grams all but the largest engines are above 1e6.
 """
 
+MILLIMETRES = ": was it given in millimetres?"
+
+RODS_IN_MILLIMETRES = (1e3, 2e4)
+"""Rod lengths, in crank radii, that are rods of 2.5 to 10 in millimetres; longer ones stand for
+rods without end."""
+
+FARTHEST = 300.0
+"""Distance from the engine, in crank radii, beyond which a place is not in metres (car: 13 m)."""
+
+LARGEST_BORE = 10.0
+"""Bore over stroke, or stroke over bore, above which units differ; engines have 0.25 to 2.5."""
+
+LARGEST_OIL = 0.5
+"""Oil of a crankpin over the masses beside it above which it is in grams: a pin holds 2 to 10 g."""
+
 PARTS_OF_A_TURN = range(1, 25)
 """Denominators of the parts of a turn for which radians are recognised: angles of 2 to 24 throws
 and firing intervals."""
@@ -48,28 +69,86 @@ four decimals are within 0.003°."""
 
 
 def units(core: _core.Engine) -> None:
-    """Warn of lengths in millimetres and masses in grams."""
+    """Warn of an engine's lengths in millimetres and masses in grams."""
     cylinders = set(core.cylinders)
-    radius = max(parts[0] for parts in cylinders)
+    radius = core.largest_crank_radius
     found = []
     if radius > LARGEST_CRANK_RADIUS:
-        found.append(f"crank_radius = {radius:g} m: was it given in millimetres?")
+        found.append(f"crank_radius = {radius:g} m{MILLIMETRES}")
+    longest, its_radius = max((parts[1], parts[0]) for parts in cylinders)
+    low, high = RODS_IN_MILLIMETRES
+    if low < longest / its_radius < high:
+        found.append(f"rod_length = {longest:g} m{_at(its_radius)}{MILLIMETRES}")
     places = sorted(set(core.z.tolist()))
-    spacing = min((after - before for before, after in pairwise(places)), default=0.0)
+    spacing = max((after - before for before, after in pairwise(places)), default=0.0)
     if spacing > LARGEST_SPACING * radius:
         found.append(
-            f"z (or spacing) = {spacing:g} m apart at a crank radius of {radius:g} m: were they "
-            "given in millimetres?"
+            f"z (or spacing, bank_stagger) = {spacing:g} m apart{_at(radius)}{MILLIMETRES}"
         )
     masses = {
-        "reciprocating_mass": max(cylinders, key=lambda parts: parts[2])[2],
+        "reciprocating_mass": max(parts[2] for parts in cylinders),
         "rotating_mass": float(core.rotating_mass.max()),
     }
-    found += [
-        f"{name} = {mass:g} kg at a crank radius of {radius:g} m: was it given in grams?"
+    _report([*found, *_grams(radius, masses)])
+
+
+def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[Shaft]) -> None:
+    """Warn of counterweights and balance shafts whose amounts or places are in other units."""
+    radius = core.largest_crank_radius
+    carried = [*weights, *(weight for shaft in shafts for weight in shaft.unbalances)]
+    amount = max((weight.amount for weight in carried), default=0.0)
+    found = []
+    if amount > LARGEST_DENSITY * radius**4:
+        found.append(f"amount = {amount:g} kg·m{_at(radius)}: was it given in g·mm or g·m?")
+    for weight in carried:
+        found += _far(core, "z", weight.z)
+    for shaft in shafts:
+        found += _far(core, "x", shaft.x, 0.0) + _far(core, "y", shaft.y, 0.0)
+    _report(list(dict.fromkeys(found))[:4])
+
+
+def place(core: _core.Engine, name: str, z: float) -> None:
+    """Warn of a place along the crank, such as a reference plane, that is in millimetres."""
+    _report(_far(core, name, z))
+
+
+def masses(engine: Engine, **given: float) -> None:
+    """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
+    _report(_grams(engine.core.largest_crank_radius, given))
+
+
+def oil(mass: float, beside: float) -> None:
+    """Warn of more oil in a crankpin than a part of the masses beside it can be, kg."""
+    if mass > LARGEST_OIL * beside > 0.0:
+        _report([f"oil = {mass:g} kg beside {beside:g} kg: was it given in grams?"])
+
+
+def bore(diameter: float, stroke: float) -> None:
+    """Warn of a bore and a stroke that are not in one unit."""
+    if not 1.0 / LARGEST_BORE < diameter / stroke < LARGEST_BORE:
+        _report([f"bore = {diameter:g} m and stroke = {stroke:g} m: are both in metres?"])
+
+
+def _at(radius: float) -> str:
+    return f" at a crank radius of {radius:g} m"
+
+
+def _grams(radius: float, masses: Mapping[str, float]) -> list[str]:
+    return [
+        f"{name} = {mass:g} kg{_at(radius)}: was it given in grams?"
         for name, mass in masses.items()
         if mass > LARGEST_DENSITY * radius**3
     ]
+
+
+def _far(core: _core.Engine, name: str, at: float, middle: float | None = None) -> list[str]:
+    """Return what to say of a place that is too far from the engine, if it is."""
+    radius, z = core.largest_crank_radius, core.z
+    distance = abs(at - (core.middle if middle is None else middle)) - float(np.ptp(z))
+    return [f"{name} = {at:g} m{_at(radius)}{MILLIMETRES}"] if distance > FARTHEST * radius else []
+
+
+def _report(found: list[str]) -> None:
     if found:
         warn(f"{'; '.join(found)} Lengths are metres here, masses kilograms")
 
@@ -77,7 +156,8 @@ def units(core: _core.Engine) -> None:
 def angles(**given: object) -> None:
     """Warn of angles given in radians, and of angles beside a part of a turn."""
     for name, values in given.items():
-        listed = values if isinstance(values, (list, tuple, np.ndarray)) else [values]
+        listed = list(values.flat) if isinstance(values, np.ndarray) else values
+        listed = listed if isinstance(listed, (list, tuple)) else [listed]
         hints = filter(None, (_near_miss(value) for value in listed))
         if hint := next(hints, None):
             warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")

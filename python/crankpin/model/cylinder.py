@@ -9,6 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -102,6 +103,7 @@ class Cylinder:
             inputs.number("pin_offset", pin_offset),
         )
         radius = _core.crank_radius_of_stroke(figures)
+        checks.bore(*figures[:2])
         return cls(radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess)
 
     @classmethod

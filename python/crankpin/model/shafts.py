@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -122,8 +123,10 @@ class Shaft:
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
     """Return an engine with these unbalances on its crankshaft."""
-    given = [_weight(weight) for weight in _listed("counterweights", weights)]
-    return core.with_counterweights(given)
+    listed = _listed("counterweights", weights)
+    made = core.with_counterweights([_weight(weight) for weight in listed])
+    checks.hardware(core, listed, ())
+    return made
 
 
 def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
@@ -137,12 +140,14 @@ def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     for k, each in enumerate(listed):
         if not isinstance(each, Shaft):
             raise InputError(f"shafts[{k}] = {inputs.shorten(each)}: give a crankpin.Shaft")
-    return core.with_shafts(
+    made = core.with_shafts(
         [
             (each.name, each.ratio, each.x, each.y, [_weight(u) for u in each.unbalances])
             for each in listed
         ]
     )
+    checks.hardware(core, (), listed)
+    return made
 
 
 def shafts(core: _core.Engine) -> tuple[Shaft, ...]:

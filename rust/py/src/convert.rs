@@ -65,6 +65,8 @@ pub fn near_miss(degrees: &str) -> Option<String> {
     /// Fractions of more parts lie so close together that many angles are next to one.
     const MOST_PARTS: i64 = 100;
     let angle: core::Angle = degrees.parse().ok()?;
+    // A double within rounding of the fraction is taken as it.
+    core::Angle::from_degrees(degrees.parse().ok()?).ok()?.near_miss()?;
     let (simple, distance) = angle.near_miss()?;
     let (turns, parts) = simple.turns().filter(|(_, parts)| *parts <= MOST_PARTS)?;
     let simple = Ratio::new(360 * i128::from(turns), parts.into());

@@ -1,7 +1,9 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{Complex64, Cylinder, Error, Order, angle, limits, memory, order, rod};
+use crankpin_core::{
+    Complex64, Cylinder, Error, Order, angle, crank_angles, limits, memory, order, rod,
+};
 use ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -56,13 +58,13 @@ pub fn motion<'py>(
     let cure = "split theta_deg into parts";
     limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), cure).or_raise()?;
     let rows = interrupt::run(py, |cancel| {
+        crank_angles::check(thetas, cancel)?;
         let (proportions, radius) = (cylinder.proportions(), cylinder.crank_radius());
         let mut rows: Vec<f64> = memory::zeros(3 * thetas.len())?;
         for (i, (&theta, row)) in thetas.iter().zip(rows.chunks_exact_mut(3)).enumerate() {
             if i % 4096 == 0 {
                 cancel.check()?;
             }
-            limits::finite("theta_deg", theta)?;
             let unit = angle::cis_degrees(theta);
             let motion = proportions.motion(unit.im, unit.re);
             row[0] = motion.position * radius;

@@ -17,6 +17,7 @@ from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantities import Ellipse
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
 from crankpin.model.shafts import Unbalance
 
@@ -81,6 +82,7 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     _check("factor", part)
     if not 0.0 <= of_oil <= 1e6:
         raise InputError(f"oil = {of_oil}: give the oil of a crankpin in kilograms, 0 or more")
+    checks.oil(of_oil, engine.cylinders[0].reciprocating_mass)
     return BobWeight(engine, part, of_oil)
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.cranks import Crank, exact
 from crankpin.analysis.balance import UNIT_RPM
 from crankpin.analysis.balancing.planes import (
@@ -33,9 +33,8 @@ if TYPE_CHECKING:
 def engines(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
     """Return the engine of each crank."""
     found = []
-    with warnings.catch_warnings():
+    with suppressed():
         # Of units once for the whole call; pins may be split to any side here.
-        warnings.simplefilter("ignore", UserWarning)
         for crank in cranks:
             engine = _bare(question, crank)
             if question.counterweights:

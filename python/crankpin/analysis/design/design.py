@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.design import built
 from crankpin.analysis.design.designs import Designs
 from crankpin.analysis.design.question import checked
@@ -171,7 +172,7 @@ def design(
         counterweights=counterweights,
         shafts=shafts,
     )
-    with inputs.units_warned_of_elsewhere():
+    with suppressed("mean piston speed"):
         built.warn_of_units(asked)
         search = Search(asked, objectives, speed, summed)
         found = search.optima(wanted, start, watched)

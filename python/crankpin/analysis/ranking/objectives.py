@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.sweeps.sweep import sweep
 
@@ -88,7 +89,7 @@ def again(swept: Sweep, **changes: object) -> Sweep:
     arguments |= changes
     if "orders" in changes:
         arguments.pop("rtol", None)
-    with inputs.units_warned_of_elsewhere():
+    with suppressed("mean piston speed"):
         return sweep(**arguments)  # type: ignore[arg-type]
 
 

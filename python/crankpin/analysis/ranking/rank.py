@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.ranking.choices import chosen
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
@@ -141,7 +142,7 @@ def rank(
     if between and bank_angle_deg is None:
         raise InputError("refine = True: searches between bank angles; give bank_angle_deg")
     of_engines = _engines(engines, cylinder, spacing)
-    with inputs.units_warned_of_elsewhere():
+    with suppressed("mean piston speed"):
         swept = sweep(
             of_engines,
             rpm=inputs.number("rpm", rpm),

@@ -11,6 +11,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
+from crankpin._support.warnings import suppressed
 from crankpin.analysis import export
 from crankpin.analysis.sweeps.sweep import Sweep, sweep
 
@@ -81,7 +82,7 @@ def _block(
     given = dict(zip(dims, slices, strict=True))
     if "engine" in given:
         given["engines"] = list(given.pop("engine"))
-    with inputs.units_warned_of_elsewhere():
+    with suppressed("mean piston speed"):
         return sweep(**fixed, **given).source.read(quantity, what)
 
 

@@ -15,6 +15,7 @@ from crankpin._support.tables import Shown, Table
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.tolerances import matching
 from crankpin.analysis.tolerances.measured_parts import Assignment, MeasuredParts, assignment_of
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -119,14 +120,17 @@ def match_parts(
     wanted = several if sets is None else inputs.whole("sets", sets)
     if not 1 <= wanted <= several:
         parts = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
-        remedy = f"sets × {count} cylinders need as many"
-        raise InputError(f"sets = {max(wanted, 1)}: there are {parts}; {remedy}")
+        if sets is None:
+            raise InputError(f"pistons and rods: {parts} given; give {count} or more of each")
+        hint = f"sets × {count} cylinders need as many"
+        raise InputError(f"sets = {wanted}: there are {parts}; {hint}")
     listed = inputs.explicit_orders(orders)
     start = inputs.whole("seed", seed)
     if start < 0:
         raise InputError(f"seed = {start}: give zero or more")
     plane = inputs.optional_number("reference_z", reference_z)
     asked = progress_bar.checked(progress)
+    checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed), plane)
     if word == "spread":
         chosen, exact = _by_spread(measured, wanted)

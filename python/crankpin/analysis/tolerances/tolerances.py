@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance, mean_piston_speed
 from crankpin.analysis.request import Request, engine_core
 from crankpin.analysis.source import ErrorBound
@@ -172,9 +172,8 @@ def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[int, ..
     for cylinder, lever in zip(engine.cylinders, levers.tolist(), strict=True):
         if cylinder not in bounds:
             single = Engine.from_lists(cylinder, bank_deg=[90], tdc_deg=[0], z=[0])
-            with warnings.catch_warnings():
+            with suppressed():
                 # Units are checked of the engine as a whole.
-                warnings.simplefilter("ignore", UserWarning)
                 alone = balance(single, rpm, rtol=request.rtol, torque=request.torque)
             found |= set(alone.orders)
             bounds[cylinder] = alone.error_bound

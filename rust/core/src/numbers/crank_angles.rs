@@ -72,8 +72,8 @@ impl CrankAngles {
     }
 }
 
-/// Finite degrees that are not too many turns.
-pub(crate) fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
+/// Rejects crank angles that are not finite, or so large that doubles no longer resolve a turn.
+pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
     /// Angles looked at between two looks at cancellation.
     const PIECE: usize = 1 << 16;
     let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
