@@ -50,9 +50,7 @@ def test_counterweights_are_those_of_the_library(
 ) -> None:
     engine = cp.Engine.preset("v6-90")
     fitted = cp.counterweights(engine, planes=planes)  # type: ignore[arg-type]
-    assert printed(capsys, "counterweights", "v6-90", *typed) == (
-        f"{fitted.table().text()}\n\n{fitted.table_of_order_1().text()}\n"
-    )
+    assert printed(capsys, "counterweights", "v6-90", *typed) == (f"{fitted.table.text()}\n")
     head, *rows = csv.reader(
         io.StringIO(printed(capsys, "counterweights", "v6-90", "--csv", *typed))
     )
@@ -72,10 +70,10 @@ def test_options_of_counterweights_are_those_of_the_library(capsys: CAPTURE) -> 
         bound=0.004,
         angles_deg=[30.0 * k for k in range(12)],
     )
-    assert fitted.table().text() in printed(capsys, "counterweights", "i4", *options)
+    assert fitted.table.text() in printed(capsys, "counterweights", "i4", *options)
     elsewhere = printed(capsys, "counterweights", "single", "--reference-z", "1", "--planes", "0.2")
     one = cp.counterweights(cp.Engine.preset("single"), planes=[0.2], reference_z=1.0)
-    assert one.table().text() in elsewhere
+    assert one.table.text() in elsewhere
 
 
 def test_bob_weights_are_those_of_the_library(capsys: CAPTURE) -> None:
@@ -83,9 +81,7 @@ def test_bob_weights_are_those_of_the_library(capsys: CAPTURE) -> None:
     engine = cp.Engine.preset("v8-crossplane", rotating_mass=0.55)
     cylinders = [each.replace(reciprocating_mass=0.62) for each in engine.cylinders]
     bob = cp.bob_weight(engine.replace(cylinder=cylinders), 0.52, oil=0.004)
-    assert printed(capsys, "bob-weight", "v8-crossplane", *typed) == (
-        f"{bob.table().text()}\n\n{bob.table_of_factors().text()}\n"
-    )
+    assert printed(capsys, "bob-weight", "v8-crossplane", *typed) == (f"{bob.table.text()}\n")
     *_, last = csv.reader(io.StringIO(printed(capsys, "bob-weight", "v8-crossplane", "--csv")))
     assert last == ["7, 8", "315.0", "0.0", "900.0", "0.0", "450.0"]
     assert "50 %" in printed(capsys, "bob-weight", "single")

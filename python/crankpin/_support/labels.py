@@ -1,4 +1,4 @@
-"""Names, symbols and units of quantities and of swept dimensions."""
+"""Names and units of swept dimensions, and texts that tables and pictures share."""
 
 from __future__ import annotations
 
@@ -9,38 +9,8 @@ if TYPE_CHECKING:
 
     from crankpin.model.engine import Engine
 
-SYMBOLS = {
-    "force": ("|F_x|", "|F_y|"),
-    "moment": ("|M_x|", "|M_y|"),
-    "torque": ("|M_z|",),
-    "crank_torque": ("|T|",),
-}
-"""Quantity → symbols of the peaks of its components."""
-
-UNITS = {"force": "N", "moment": "N·m", "torque": "N·m", "crank_torque": "N·m"}
-"""Quantity → unit."""
-
-OVER_SQUARE = {"force": "kg·m", "moment": "kg·m²"}
-"""Quantity → unit of order 1 over ω²."""
-
 TURNING = {"forward": "with the crank", "backward": "against the crank"}
 """Part of a plane vector → how it turns."""
-
-NAMES = {
-    "force": "shaking force",
-    "moment": "rocking moment",
-    "torque": "roll torque",
-    "crank_torque": "crank torque",
-}
-"""Quantity → name."""
-
-COMPONENTS = {
-    "force": ("along x", "along y"),
-    "moment": ("about x (pitch)", "about y (yaw)"),
-    "torque": ("about z (roll)",),
-    "crank_torque": ("on the crank",),
-}
-"""Quantity → names of its components."""
 
 XARRAY_UNITS = {
     "bank_angle_deg": "degree",
@@ -49,12 +19,8 @@ XARRAY_UNITS = {
     "rpm": "1/min",
     "theta_deg": "degree",
     "order": "1/rev",
-    "force": "N",
-    "moment": "N m",
-    "torque": "N m",
-    "crank_torque": "N m",
 }
-"""Dimension or quantity → unit as xarray's users write it."""
+"""Dimension → unit as xarray's users write it."""
 
 SWEPT = {
     "bank_angle_deg": ("bank angle", "°"),

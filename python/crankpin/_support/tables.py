@@ -1,121 +1,228 @@
-"""Tables as text, HTML and CSV."""
+"""Tables: columns with units, as text, HTML, CSV, DataFrame or Dataset."""
 
 from __future__ import annotations
 
 import csv
-import dataclasses
 import html
 import io
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from crankpin._support import optional
+from crankpin._support.record import Record
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
+    import pandas as pd
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
 
 Label: TypeAlias = "str | Sequence[str | float]"
 """Text before a row's numbers, or several texts and numbers, a column each."""
 
+SHOWN = 30
+"""Rows of a long table in text: a screen."""
+SHOWN_IN_NOTEBOOKS = 60
+"""Rows of a long table in a notebook."""
 
-@dataclasses.dataclass(frozen=True, repr=False)
-class Table:
-    """Labelled rows of numbers under a title."""
+
+class Column(Record):
+    """Column of a table: its name, its values, their unit."""
+
+    name: str
+    """Head of the column."""
+    values: tuple[Any, ...]
+    """Numbers, texts, or both."""
+    unit: str = ""
+    """Unit, as read by people; empty for texts, counts and ratios."""
+    digits: int = 5
+    """Significant digits of numbers in text; integers are shown whole."""
+    decimals: int | None = None
+    """Digits after the decimal point instead, so that the points of a column are aligned."""
+
+    @property
+    def header(self) -> str:
+        """Name and unit."""
+        return f"{self.name} {self.unit}".strip()
+
+    def cells(self) -> list[str]:
+        """Return the values as text, numbers rounded and exact zeros as 0."""
+        return [each if isinstance(each, str) else self._rounded(each) for each in self.values]
+
+    def _rounded(self, value: float | None) -> str:
+        if value is None:
+            return "–"
+        if not value or isinstance(value, (int, np.integer)):
+            return str(value) if value else "0"
+        return f"{value:.{self.digits}g}" if self.decimals is None else f"{value:.{self.decimals}f}"
+
+    @property
+    def is_text(self) -> bool:
+        """True if all values are texts: they are aligned at their left."""
+        return all(isinstance(each, str) for each in self.values)
+
+
+class Table(Record):
+    """Columns under a title: text, HTML, CSV, DataFrame and Dataset follow from them."""
 
     title: str
-    header: list[str]
-    """Names of the label columns and of the columns of numbers."""
-    labels: Sequence[Label]
-    rows: NDArray[np.float64]
-    decimals: int | None = None
-    """Digits after the point in text; None for five significant digits."""
+    """Line above the table."""
+    columns: tuple[Column, ...]
+    """Columns, all of one length."""
     note: str = ""
     """Line under the table in text and HTML."""
+    below: Table | None = None
+    """A further table of the same result, shown below this one."""
+
+    @classmethod
+    def from_rows(
+        cls,
+        title: str,
+        header: Sequence[str | tuple[str, str]],
+        labels: Sequence[Label],
+        rows: NDArray[np.float64],
+        decimals: int | None = None,
+        note: str = "",
+        below: Table | None = None,
+    ) -> Table:
+        """Return a table of rows: labels before numbers; heads are names or (name, unit)."""
+        listed = [[label] if isinstance(label, str) else list(label) for label in labels]
+        heads = [(head, "") if isinstance(head, str) else head for head in header]
+        before = len(heads) - rows.shape[1]
+        texts = zip(*listed, strict=True) if listed else [()] * before
+        columns = [
+            Column(name, tuple(values), unit, digits=10)
+            for (name, unit), values in zip(heads, texts, strict=False)
+        ]
+        columns += [
+            Column(name, tuple(values), unit, decimals=decimals)
+            for (name, unit), values in zip(heads[before:], rows.T.tolist(), strict=True)
+        ]
+        return cls(title, tuple(columns), note, below)
+
+    @property
+    def header(self) -> list[str]:
+        """Names and units of the columns."""
+        return [column.header for column in self.columns]
+
+    def __len__(self) -> int:
+        return len(self.columns[0].values) if self.columns else 0
+
+    def __getitem__(self, name: str) -> Column:
+        """Return the column of a name."""
+        return next(column for column in self.columns if column.name == name)
 
     def cells(self) -> list[list[str]]:
         """Return the rows as text, numbers rounded and exact zeros as 0."""
-        return [
-            [*(_short(part) for part in label), *(self._rounded(value) for value in row)]
-            for label, row in self._lines()
-        ]
+        return [list(row) for row in zip(*(each.cells() for each in self.columns), strict=True)]
 
-    def text(self) -> str:
-        """Return the table as aligned text, columns of words to the left."""
-        lines = [self.header, *self.cells()]
-        widths = [max(len(line[k]) for line in lines) for k in range(len(self.header))]
-        # A label that is a single text stays to the right: most are orders.
-        first = next(iter(self.labels), "")
-        words = () if isinstance(first, str) else [isinstance(part, str) for part in first]
-        leftwards = {k for k, is_text in enumerate(words) if is_text}
+    def text(self, rows: int | None = None) -> str:
+        """Return the first rows, or all, as aligned text, columns of words to the left."""
+        lines = [self.header, *self.cells()[:rows]]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        leftwards = [column.is_text and len(self) > 0 for column in self.columns]
         body = (
             "  ".join(
-                cell.ljust(width) if k in leftwards else cell.rjust(width)
-                for k, (cell, width) in enumerate(zip(line, widths, strict=True))
+                cell.ljust(width) if left else cell.rjust(width)
+                for cell, width, left in zip(line, widths, leftwards, strict=True)
             ).rstrip()
             for line in lines
         )
-        return "\n".join(filter(None, [self.title, *body, self.note]))
+        text = "\n".join(filter(None, [self.title, *body, self._rest(rows), self.note]))
+        return f"{text}\n\n{self.below.text(rows)}" if self.below is not None else text
 
     def __repr__(self) -> str:
-        return self.text()
+        return self.text(SHOWN)
 
     def _repr_html_(self) -> str:
-        return self.html()
+        return self.html(SHOWN_IN_NOTEBOOKS)
 
-    def html(self) -> str:
-        """Return the table as HTML for notebooks."""
+    def html(self, rows: int | None = None) -> str:
+        """Return the first rows, or all, as HTML for notebooks."""
         head = "".join(f"<th>{html.escape(name)}</th>" for name in self.header)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>"
-            for row in self.cells()
+            for row in self.cells()[:rows]
         )
         caption = f"<caption>{html.escape(self.title)}</caption>"
-        note = f"<p>{html.escape(self.note)}</p>" if self.note else ""
-        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{note}"
+        notes = "".join(
+            f"<p>{html.escape(note)}</p>" for note in (self._rest(rows), self.note) if note
+        )
+        below = self.below.html(rows) if self.below is not None else ""
+        return (
+            f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+            f"{notes}{below}"
+        )
+
+    def _rest(self, rows: int | None) -> str:
+        shown = len(self) if rows is None else rows
+        return f"{shown} of {len(self)} rows" if shown < len(self) else ""
 
     def csv(self) -> str:
         """Return the table as CSV, numbers in full: they read back unchanged."""
         file = io.StringIO()
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.header)
-        writer.writerows([*label, *row] for label, row in self._lines())
+        writer.writerows(zip(*(each.values for each in self.columns), strict=True))
         return file.getvalue()
 
-    def _lines(self) -> list[tuple[Sequence[str | float], list[float]]]:
-        pairs = zip(self.labels, self.rows.tolist(), strict=True)
-        return [([label] if isinstance(label, str) else label, row) for label, row in pairs]
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a DataFrame, names and units as the heads of its columns (needs pandas)."""
+        data = {head: list(each.values) for head, each in self._distinct()}
+        return optional.data_frame(data)
 
-    def _rounded(self, value: float) -> str:
-        if not value:
-            return "0"
-        return f"{value:.5g}" if self.decimals is None else f"{value:.{self.decimals}f}"
+    def to_xarray(self) -> xr.Dataset:
+        """Return a Dataset over the rows, units as attributes (needs xarray)."""
+        found: xr.Dataset = optional.xarray().Dataset(
+            {
+                head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
+                for head, each in self._distinct(units=False)
+            },
+            attrs={"title": self.title},
+        )
+        return found
+
+    def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
+        """Yield the columns with heads that are distinct."""
+        seen: set[str] = set()
+        for place, each in enumerate(self.columns):
+            head = each.header if units else each.name
+            head = f"{head} {place}".strip() if head in seen else head
+            seen.add(head)
+            yield head, each
 
 
 class Shown:
     """Base class of results that are shown by their table."""
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown."""
+        """Table that is shown."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        return self.table().text()
+        return repr(self.table)
 
     def _repr_html_(self) -> str:
-        return self.table().html()
+        return self.table._repr_html_()
 
 
-def decimals(rows: NDArray[np.float64]) -> int | None:
+def common_decimals(values: ArrayLike) -> int | None:
     """Return how many decimals show the largest number to six digits, None outside 0.01 to 1e9.
 
     Columns of one quantity read best with their points aligned.
     """
-    largest = float(abs(rows).max(initial=0.0))
+    largest = float(np.abs(values).max(initial=0.0))
     if not 0.01 <= largest < 1e9:
         return None
     return max(0, 5 - math.floor(math.log10(largest)))
 
 
-def _short(part: str | float) -> str:
-    return part if isinstance(part, str) else f"{part:.10g}"
+def stacked(*tables: Table) -> Table:
+    """Return the first of some tables with the others below it."""
+    *above, whole = tables
+    for table in reversed(above):
+        whole = table.replace(below=whole)
+    return whole

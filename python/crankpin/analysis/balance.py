@@ -12,12 +12,13 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Shown, Table
 from crankpin.analysis import export
 from crankpin.analysis.by_order import AllOrders
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
-from crankpin.analysis.source import PLANE_VECTORS, ErrorBound, Source, shown_orders
+from crankpin.analysis.source import ErrorBound, Source, shown_orders
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -282,14 +283,15 @@ class Balance(AllOrders, Shown):
         """
         return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: peaks by order, negligible orders left out."""
+        """Table that is shown: peaks by order, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
         shown, left_out = shown_orders(self.source, *names)
         header = ["order"]
         columns = []
         for name in names:
-            header += [f"{symbol} {labels.UNITS[name]}" for symbol in labels.SYMBOLS[name]]
+            header += [f"{symbol} {QUANTITIES[name].unit}" for symbol in QUANTITIES[name].symbols]
             peaks = self.source.read(name, "peak_xy" if name in PLANE_VECTORS else "peak")
             columns.append(peaks.reshape(len(self.orders), -1))
         rows = np.hstack(columns)[list(shown)].reshape(-1, len(header) - 1)
@@ -297,4 +299,4 @@ class Balance(AllOrders, Shown):
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: peaks{given}"
         names = [f"{self.orders[place]}" for place in shown]
-        return Table(title, header, names, rows, note=labels.not_shown(left_out))
+        return Table.from_rows(title, header, names, rows, note=labels.not_shown(left_out))

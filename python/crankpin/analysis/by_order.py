@@ -10,6 +10,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.quantities import PlaneVector, Scalar
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class TotalQuantity(Frozen):
     @property
     def unit(self) -> str:
         """Unit: N for a force, N·m for a moment or a torque."""
-        return labels.UNITS[self.name]
+        return QUANTITIES[self.name].unit
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -69,7 +70,7 @@ class TotalQuantity(Frozen):
         return float(getattr(self.source.error_bound, name))
 
     def __repr__(self) -> str:
-        what = f"total {labels.NAMES[self.name]}"
+        what = f"total {QUANTITIES[self.name].words}"
         if self.source.dims:
             over = ", ".join(f"{d}: {n}" for d, n in zip(self.dims, self.peak.shape, strict=True))
             return f"<{type(self).__name__} {what}, {self.unit}, over ({over})>"

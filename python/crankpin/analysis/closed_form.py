@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -292,7 +293,7 @@ class ClosedForm(Frozen):
 
     def __repr__(self) -> str:
         name = labels.name_of(self.engine)
-        lines = [f"{name}: {labels.NAMES[self.quantity]} of order {self.order}"]
+        lines = [f"{name}: {QUANTITIES[self.quantity].words} of order {self.order}"]
         lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
         lines.append(f"{'longest':>9} {self.peak}")
         return "\n".join(lines)

@@ -9,6 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balance import Balance, at_orders, balance
 from crankpin.analysis.drawing import draw
@@ -183,11 +184,12 @@ class Comparison(Frozen, Shown):
         return kept
 
     def _peaks(self, quantity: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        name = inputs.one_of("quantity", quantity, QUANTITIES)
         return getattr(self.before, name).peak, getattr(self.after, name).peak
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: the peak of each quantity and order before and after."""
+        """Table that is shown: the peak of each quantity and order before and after."""
         texts, rows = [], []
         for name in self.before.request.quantities:
             if name == "crank_torque":
@@ -195,11 +197,13 @@ class Comparison(Frozen, Shown):
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
             for k in self.shown_orders(name):
-                texts.append((f"{labels.NAMES[name]}, {labels.UNITS[name]}", f"{self.orders[k]}"))
+                texts.append(
+                    (f"{QUANTITIES[name].words}, {QUANTITIES[name].unit}", f"{self.orders[k]}")
+                )
                 rows.append((before[k], after[k], change[k]))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
-        return Table(title, header, texts, np.array(rows).reshape(-1, 3))
+        return Table.from_rows(title, header, texts, np.array(rows).reshape(-1, 3))
 
     @property
     def names(self) -> tuple[str, str]:

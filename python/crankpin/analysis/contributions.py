@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from crankpin import _core
+from crankpin._support.quantities import PLANE_VECTORS
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:

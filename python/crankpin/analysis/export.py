@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
-from crankpin.analysis.source import PLANE_VECTORS, arrays_of
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin.analysis.source import arrays_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -39,7 +40,11 @@ def to_xarray(
 ) -> xr.Dataset:
     """Return all arrays of some quantities with named dimensions and units."""
     arrays = {
-        name: ((*source.dims, *dims), source.read(quantity, what), {"units": unit(quantity)})
+        name: (
+            (*source.dims, *dims),
+            source.read(quantity, what),
+            {"units": QUANTITIES[quantity].xarray_unit},
+        )
         for name, quantity, what, dims in variables(quantities)
     }
     return dataset(source, quantities, arrays, coords, attributes, split_complex=split_complex)
@@ -76,7 +81,7 @@ def waveforms_to_xarray(
     arrays = {}
     for name in quantities:
         dims = (*coords, "axis") if name in PLANE_VECTORS else tuple(coords)
-        arrays[name] = (dims, getattr(result, name), {"units": unit(name)})
+        arrays[name] = (dims, getattr(result, name), units(name))
     return made(arrays, _labelled(coords, quantities), attributes)
 
 
@@ -108,9 +113,9 @@ def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noq
     return ((*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes)
 
 
-def unit(quantity: str) -> str:
-    """Return the unit of a quantity as xarray's users write it."""
-    return labels.XARRAY_UNITS[quantity]
+def units(quantity: str) -> dict[str, str]:
+    """Return the attributes of a quantity's variables."""
+    return {"units": QUANTITIES[quantity].xarray_unit}
 
 
 def to_pandas(source: Source, quantities: Sequence[str], coords: Mapping[str, Any]) -> pd.DataFrame:
@@ -139,7 +144,7 @@ def to_pandas(source: Source, quantities: Sequence[str], coords: Mapping[str, An
                 "real": flat.real,
                 "imag": flat.imag,
                 "peak": np.abs(flat),
-                "unit": labels.UNITS[quantity],
+                "unit": QUANTITIES[quantity].unit,
             }
             parts.append(pandas.DataFrame(columns, index=index).reset_index())
     table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
@@ -162,7 +167,7 @@ def waveforms_to_pandas(
                 "quantity": name,
                 "component": component,
                 "value": (values[..., k] if planar else values).ravel(),
-                "unit": labels.UNITS[name],
+                "unit": QUANTITIES[name].unit,
             }
             parts.append(pandas.DataFrame(columns, index=index).reset_index())
     table: pd.DataFrame = pandas.concat(parts, ignore_index=True)

@@ -276,6 +276,7 @@ class Firing(Frozen):
         gaps = {gap.before: gap.gap_deg for bank in self.gaps() for gap in bank}
         return np.array([gaps[cylinder] for cylinder in self.order])
 
+    @property
     def table(self) -> tables.Table:
         """Return a table of the cylinders in firing order."""
         name = labels.name_of(self.engine)
@@ -283,7 +284,7 @@ class Firing(Frozen):
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
         names = [f"{cylinder}" for cylinder in self.order]
-        return tables.Table(f"{name}: {self.summary}", header, names, rows)
+        return tables.Table.from_rows(f"{name}: {self.summary}", header, names, rows)
 
     @property
     def summary(self) -> str:
@@ -300,7 +301,7 @@ class Firing(Frozen):
         return f"<Firing {self.summary}>"
 
     def _repr_html_(self) -> str:
-        return self.table().html()
+        return self.table.html()
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Firing):

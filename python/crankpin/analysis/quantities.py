@@ -10,6 +10,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from crankpin._support import labels
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Table
 from crankpin.analysis.source import Source, shown_orders
 
@@ -49,7 +50,7 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
     @property
     def unit(self) -> str:
         """Unit: N for a force, N·m for a moment or a torque."""
-        return labels.UNITS[self.name]
+        return QUANTITIES[self.name].unit
 
     @property
     def orders(self) -> tuple[int, ...]:
@@ -148,32 +149,33 @@ class Quantity(NDArrayOperatorsMixin, Frozen):
         """Columns of the table of a balance: head → (n_orders,)."""
         raise NotImplementedError
 
+    @property
     def table(self) -> Table:
-        """Return the table that a quantity of a balance shows."""
+        """Table that a quantity of a balance shows."""
         shown, omitted = shown_orders(self.source, self.name)
         columns = self._columns()
         rows = np.stack([values[list(shown)] for values in columns.values()], axis=-1)
-        title = f"{labels.NAMES[self.name]}, {self.unit}"
+        title = f"{QUANTITIES[self.name].words}, {self.unit}"
         names = [str(self.source.orders[place]) for place in shown]
-        return Table(
+        return Table.from_rows(
             title, ["order", *columns], names, rows.reshape(-1, len(columns)),
             note=labels.not_shown(omitted),
         )  # fmt: skip
 
     def __repr__(self) -> str:
-        name = labels.NAMES[self.name]
+        name = QUANTITIES[self.name].words
         if self.source.dims:
             over = ", ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape, strict=True))
             return f"<{type(self).__name__} {name}, {self.unit}, over ({over})>"
         if self.place is not None:
             peak = f"{self.peak:.5g} {self.unit}"
             return f"<{type(self).__name__} {name} of order {self.orders[0]}: peak {peak}>"
-        return self.table().text()
+        return self.table.text()
 
     def _repr_html_(self) -> str | None:
         if self.source.dims or self.place is not None:
             return None
-        return self.table().html()
+        return self.table.html()
 
 
 class PlaneVector(Quantity):
@@ -248,7 +250,7 @@ class PlaneVector(Quantity):
         return Ellipse(*parts)
 
     def _columns(self) -> dict[str, NDArray[np.float64]]:
-        along = labels.SYMBOLS[self.name]
+        along = QUANTITIES[self.name].symbols
         letter = along[0][1]
         return {
             along[0]: self.peak_xy[:, 0],
@@ -278,4 +280,4 @@ class Scalar(Quantity):
         return self._read("phasors")  # type: ignore[no-any-return]
 
     def _columns(self) -> dict[str, NDArray[np.float64]]:
-        return {labels.SYMBOLS[self.name][0]: self.peak}
+        return {QUANTITIES[self.name].symbols[0]: self.peak}

@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._support import labels
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import PLANE_VECTORS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,8 +26,6 @@ TRAILING: dict[str, tuple[str, ...]] = {
     "total_peak_xy": ("axis",),
 }
 """Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
-
-PLANE_VECTORS = ("force", "moment")
 
 
 def arrays_of(quantity: str) -> dict[str, tuple[str, ...]]:

@@ -277,8 +277,9 @@ class VanishingOrders(Frozen):
         columns = ["order", "quantity", "component", "verdict", "within_rounding"]
         return optional.data_frame(rows, columns=columns)
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: a verdict for each order and sum."""
+        """Table that is shown: a verdict for each order and sum."""
         name = labels.name_of(self.engine)
         title = f"{name}: 0 vanishes, ≠0 remains, both proved"
         if self.undecided.any():
@@ -291,11 +292,11 @@ class VanishingOrders(Frozen):
                 guess = "?0" if self.within_rounding[k, column] else "?≠0"
                 row.append(words.get(self._word(k, column), guess))
             cells.append(row)
-        return Table(title, ["order", *SUMS.values()], cells, np.empty((len(cells), 0)))
+        return Table.from_rows(title, ["order", *SUMS.values()], cells, np.empty((len(cells), 0)))
 
     def __repr__(self) -> str:
-        return "\n".join([self.table().text(), *self.obstacles])
+        return "\n".join([self.table.text(), *self.obstacles])
 
     def _repr_html_(self) -> str:
         reasons = (f"<p>{html.escape(obstacle)}</p>" for obstacle in self.obstacles)
-        return "".join([self.table().html(), *reasons])
+        return "".join([self.table.html(), *reasons])

@@ -38,5 +38,5 @@ def run(arguments: argparse.Namespace) -> str:
         **chosen,
     )
     outputs.draw(balance, picture, quantity=arguments.quantity)
-    text = outputs.printed([balance.table()], csv=arguments.csv)
+    text = outputs.printed([balance.table], csv=arguments.csv)
     return text if arguments.csv or chosen["orders"] != "auto" else text + outputs.left_out(balance)

@@ -50,4 +50,4 @@ def run(arguments: argparse.Namespace) -> str:
         inputs.number("--oil", arguments.oil) / 1e3,
     )
     outputs.draw(bob, picture)
-    return outputs.printed([bob.table(), bob.table_of_factors()], csv=arguments.csv)
+    return outputs.printed([bob.table], csv=arguments.csv)

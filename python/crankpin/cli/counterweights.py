@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> str:
         reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
     outputs.draw(fitted, picture)
-    return outputs.printed([fitted.table(), fitted.table_of_order_1()], csv=arguments.csv)
+    return outputs.printed([fitted.table], csv=arguments.csv)
 
 
 def _planes(text: str) -> Planes:

@@ -110,7 +110,7 @@ def run(arguments: argparse.Namespace) -> str:
         seed=inputs.whole("--seed", arguments.seed),
     )
     outputs.draw(found, picture)
-    return outputs.printed([found.table_of_designs()], csv=arguments.csv)
+    return outputs.printed([found.table], csv=arguments.csv)
 
 
 def _spacing(engine: Engine) -> float:

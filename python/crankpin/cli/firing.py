@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> str:
     ways = engine.firings(arguments.order, strokes=strokes)
     best = engine.firing(arguments.order, strokes=strokes)
     outputs.draw(best, picture)
-    text = outputs.printed([best.table()], csv=arguments.csv)
+    text = outputs.printed([best.table], csv=arguments.csv)
     if arguments.csv or len(ways) == 1:
         return text
     others = "".join(f"  {way.intervals_text}\n" for way in ways[1:])
@@ -71,7 +71,7 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> str:
     rows = np.array([[each.unevenness_deg] for each in shown])
     name = labels.name_of(engine)
     header = ["firing order", "intervals °", "rms from even °"]
-    table = tables.Table(
+    table = tables.Table.from_rows(
         f"{name}: {firings[0].strokes}-stroke, most even first", header, listed, rows
     )
     text = outputs.printed([table], csv=csv)

@@ -64,4 +64,4 @@ def run(arguments: argparse.Namespace) -> str:
         orders=inputs.orders(arguments.orders),
     )
     outputs.draw(ranking, picture)
-    return outputs.printed([ranking.table_of_choices()], csv=arguments.csv)
+    return outputs.printed([ranking.table], csv=arguments.csv)

@@ -102,7 +102,7 @@ def _fit(engine: Engine, arguments: argparse.Namespace) -> str:
     if arguments.save is not None:
         fit.engine.save(arguments.save)
     outputs.draw(fit, picture, quantity=arguments.quantity or "moment")
-    return outputs.printed(fit.tables(), csv=arguments.csv)
+    return outputs.printed([fit.table], csv=arguments.csv)
 
 
 def _compare(engine: Engine, arguments: argparse.Namespace) -> str:
@@ -122,7 +122,7 @@ def _compare(engine: Engine, arguments: argparse.Namespace) -> str:
             raise InputError("--save needs --ratio or --target")
         options.engine.save(arguments.save)
     outputs.draw(options, picture)
-    return outputs.printed([options.table()], csv=arguments.csv)
+    return outputs.printed([options.table], csv=arguments.csv)
 
 
 def _coordinates(name: str, text: str | None) -> float | list[float | None] | None:

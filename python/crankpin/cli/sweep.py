@@ -10,6 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels, tables
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli import inputs, outputs, parser
 
@@ -115,7 +116,7 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> tuple[list[table
     names the chosen orders that are left out of tables for reading.
     """
     quantity = arguments.quantity
-    symbols = labels.SYMBOLS[quantity]
+    symbols = QUANTITIES[quantity].symbols
     peaks = _peaks(result, quantity).reshape(-1, len(result.orders), len(symbols))
     shown, note = np.full(len(result.orders), fill_value=True), ""
     if arguments.orders == "auto" and not arguments.csv:
@@ -128,21 +129,21 @@ def _tables_of(result: Sweep, arguments: argparse.Namespace) -> tuple[list[table
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     heads = [COLUMNS[dim] for dim in dims]
     heads += [
-        f"{symbol} order {order} {labels.UNITS[quantity]}"
+        f"{symbol} order {order} {QUANTITIES[quantity].unit}"
         for order in np.array(result.orders)[shown].tolist()
         for symbol in symbols
     ]
     how = _how(result, arguments)
-    decimals = tables.decimals(rows)
+    decimals = tables.common_decimals(rows)
     if "engine" not in result.coords or (dims and not arguments.csv):
         return [
-            tables.Table(f"{name}: {how}", heads, swept, each, decimals)
+            tables.Table.from_rows(f"{name}: {how}", heads, swept, each, decimals)
             for name, each in zip(engine_titles(result), rows, strict=True)
         ], note
     points = [(name, *point) for name in result.coords["engine"] for point in swept]
     title = f"{how[0].upper()}{how[1:]}"
     table = rows.reshape(len(points), -1)
-    return [tables.Table(title, ["engine", *heads], points, table, decimals)], note
+    return [tables.Table.from_rows(title, ["engine", *heads], points, table, decimals)], note
 
 
 def _peaks(result: Sweep, quantity: str) -> NDArray[np.float64]:
@@ -154,7 +155,7 @@ def _peaks(result: Sweep, quantity: str) -> NDArray[np.float64]:
 
 def _how(result: Sweep, arguments: argparse.Namespace) -> str:
     """Return what the table shows, and what is fixed, held or given."""
-    parts = [f"peaks of {labels.NAMES[arguments.quantity]}"]
+    parts = [f"peaks of {QUANTITIES[arguments.quantity].words}"]
     parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:
         parts.append(labels.HELD[result.hold])

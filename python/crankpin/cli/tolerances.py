@@ -77,5 +77,5 @@ def run(arguments: argparse.Namespace) -> str:
         reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
     )
     outputs.draw(result, picture, kind="shares" if arguments.shares else "histogram")
-    table = result.shares.table() if arguments.shares else result.table()
+    table = result.shares.table if arguments.shares else result.table
     return outputs.printed([table], csv=arguments.csv)

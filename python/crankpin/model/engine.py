@@ -728,7 +728,7 @@ class Engine(Frozen):
             columns["rotating mass kg"] = self.rotating_mass
         labels = [(number, names[number]) for number in range(1, len(self) + 1)][:MOST_SHOWN]
         rows = np.stack(list(columns.values()), axis=1)[:MOST_SHOWN]
-        return tables.Table(title, ["cylinder", "bank", *columns], labels, rows)
+        return tables.Table.from_rows(title, ["cylinder", "bank", *columns], labels, rows)
 
     def __repr__(self) -> str:
         rest = len(self) - MOST_SHOWN

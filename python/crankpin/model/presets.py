@@ -67,7 +67,7 @@ class Presets(Mapping[str, Engine]):
             text = labels.cut(_data()["engines"][name][column], longest)
             order = labels.cut(engine.firing_order or "–", max(longest, 25))
             rows.append((name, len(engine), _bank_angle(engine), order, text))
-        return tables.Table("Presets", header, rows, np.empty((len(rows), 0)))
+        return tables.Table.from_rows("Presets", header, rows, np.empty((len(rows), 0)))
 
 
 class UnknownPresetError(InputError, KeyError):

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
-from crankpin.analysis.balancing.fitted_shafts import OVER_SPEED, BalanceShafts
+from crankpin._support.quantities import QUANTITIES
+from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
 from crankpin.plot.axes import entitle, label_x, one_panel
 from crankpin.plot.dispatch import draw
 from crankpin.plot.legend import legend_below
@@ -33,7 +34,7 @@ def _balance_shafts(
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of markers
 ) -> Axes:
-    name = inputs.one_of("quantity", quantity, OVER_SPEED)
+    name = inputs.one_of("quantity", quantity, SHAKEN)
     ax = one_panel(ax)
     parts = [each for each in result.parts() if each.quantity == name]
     before, after = (
@@ -55,6 +56,6 @@ def _balance_shafts(
         named = f"{label}, {text}" if label else text
         ax.plot(values, rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
     numeric(ax.xaxis)
-    label_x(ax, f"{labels.NAMES[name]} over ω², {OVER_SPEED[name]}")
+    label_x(ax, f"{QUANTITIES[name].words} over ω², {QUANTITIES[name].unit_over_square}")
     legend_below(ax)
     return ax

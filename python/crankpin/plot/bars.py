@@ -8,6 +8,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.axes import entitle, entitle_figure, head, many_panels, one_panel
 from crankpin.plot.legend import figure_legend, legend_below
 from crankpin.plot.orders import largest
@@ -52,7 +53,7 @@ def bars(
         raise InputError(f'kind = "bars" needs a sweep over engines alone, not over {swept}')
     names = ["force", "moment"] if quantity is None and ax is None else [quantity or "moment"]
     for name in names:
-        inputs.one_of("quantity", name, labels.UNITS)
+        inputs.one_of("quantity", name, QUANTITIES)
     chosen = _orders(sweep, names, orders)
     peaks = [np.stack([getattr(sweep[n], name).peak for n in chosen], axis=-1) for name in names]
     classes, words = _classes(sweep, chosen), words_of(sweep)
@@ -133,7 +134,7 @@ def _panel(
         hollow.set_in_layout(bool((values == 0.0).any()))
     numeric(ax.xaxis)
     ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
-    ax.set_xlabel(f"peak, {labels.UNITS[quantity]}")
+    ax.set_xlabel(f"peak, {QUANTITIES[quantity].unit}")
     ax.set_yticks(rows, [plain_text(name) for name in names[:engines]])
     ax.tick_params(axis="y", length=0)
     ax.set_ylim(engines - 0.5, -0.5)

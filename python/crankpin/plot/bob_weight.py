@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel
 from crankpin.plot.dispatch import draw
@@ -42,7 +43,7 @@ def _bob_weight(
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
     stays = result.stays(name, factors)
     own = result.stays(name)
-    entitle(ax, labels.name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
+    entitle(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
     curves = {"longest": stays.major, "shortest": np.abs(stays.minor)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
         full = f"{label}: {text}" if label else text
@@ -61,7 +62,7 @@ def _bob_weight(
         for line in lines:
             write(ax, line.factor, 0.0, in_degrees(round(line.direction_deg, 1)))
     label_x(ax, "balance factor")
-    label_y(ax, f"half axes, {labels.OVER_SQUARE[name]}")
+    label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
     legend_below(ax)
     return ax
 
@@ -69,5 +70,5 @@ def _bob_weight(
 def _chosen(result: BobWeight, quantity: object) -> str:
     """Return the quantity given, or the force, or the moment if there is no force."""
     if quantity is not None:
-        return inputs.one_of("quantity", quantity, labels.OVER_SQUARE)
+        return inputs.one_of("quantity", quantity, PLANE_VECTORS)
     return "force" if result.stays("force", 0.0).major > 0.0 else "moment"

@@ -8,9 +8,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
-from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.axes import (
     check_one_place,
@@ -51,7 +51,7 @@ def _comparison(
     **style: Any,  # noqa: ANN401 - of bars
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     result.before.request.check(name)
     lines = (result.title, f"{number(result.rpm)} rpm, {_total(result, name)}")
     if ax is not None:
@@ -77,10 +77,12 @@ def _total(result: Comparison, name: str) -> str:
     """Return what becomes of all orders together."""
     before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
     what = (
-        f"longest {labels.NAMES[name]}" if name in PLANE_VECTORS else f"peak {labels.NAMES[name]}"
+        f"longest {QUANTITIES[name].words}"
+        if name in PLANE_VECTORS
+        else f"peak {QUANTITIES[name].words}"
     )
     return (
-        f"{what} {rounded(before, 4)} → {rounded(after, 4)} {labels.UNITS[name]}"
+        f"{what} {rounded(before, 4)} → {rounded(after, 4)} {QUANTITIES[name].unit}"
         f" ({changed(before, after)})"
     )
 

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.first_order import first_order
 from crankpin.model.crankpins import crankpins
@@ -58,13 +59,13 @@ def _counterweights(
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
-    name = inputs.one_of("quantity", quantity, labels.OVER_SQUARE)
+    name = inputs.one_of("quantity", quantity, PLANE_VECTORS)
     if chosen == "summary" and ax is None:
         return _summary(result, figure, style)
     refuse_figure(figure, chosen)
     ax = one_panel(ax)
     if chosen == "ellipses":
-        entitle(ax, labels.name_of(result.before), f"{labels.NAMES[name]} of order 1 over ω²")
+        entitle(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
         _ellipses(ax, result, name, style)
         legend_below(ax)
         return ax
@@ -79,7 +80,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
     before = result.ellipses_before
-    shown = [name for name in labels.OVER_SQUARE if getattr(before, name).major > 0.0]
+    shown = [name for name in PLANE_VECTORS if getattr(before, name).major > 0.0]
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
     given = isinstance(figure, FigureBase)
@@ -92,7 +93,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     head(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
     for panel, name in zip(panels[1:], shown, strict=True):
-        head(panel, labels.NAMES[name])
+        head(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
     entitle_figure(
         made.figure, labels.name_of(result.before), "counterweights, and order 1 over ω²"
@@ -180,5 +181,5 @@ def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]
         given = style.get("label")
         ellipse(ax, order, name, f"{given}, {text}" if given else text, look)
         entries.append(Line2D([], [], label=state, **look))
-    dress_plane(ax, name, unit=labels.OVER_SQUARE[name])
+    dress_plane(ax, name, unit=QUANTITIES[name].unit_over_square)
     return entries

@@ -8,7 +8,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
+from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.axes import (
     BESIDE_A_SCALE,
     entitle,
@@ -54,7 +55,7 @@ def curves(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over a swept dimension, rows for orders and columns for axes."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     rows = rows_of(sweep, name, orders, single=ax is not None)
     along, words = along_x(sweep, x), words_of(sweep)
     if ax is not None:
@@ -148,7 +149,7 @@ def _dots(
 
 def _scale(panels: Sequence[Axes], largest: float, quantity: str, along: str, name: str) -> None:
     """Let the axis of the peaks begin at zero; label it with the row's name."""
-    unit = f"peak, {labels.UNITS[quantity]}"
+    unit = f"peak, {QUANTITIES[quantity].unit}"
     for panel in panels:
         if along == "engine":
             numeric(panel.xaxis)

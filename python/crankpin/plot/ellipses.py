@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.axes import entitle, entitle_figure, head, many_panels, one_panel
 from crankpin.plot.legend import legend_below
 from crankpin.plot.orders import largest
@@ -39,7 +40,7 @@ def ellipses(
     name = plane_vector(quantity)
     places, note = largest(result.source, name)
     shown = [result.orders[place] for place in places]
-    where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm"
+    where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm"
     if ax is not None:
         ax = one_panel(ax)
         entitle(ax, labels.name_of(result.engine), where, note)
@@ -59,9 +60,9 @@ def ellipses(
         panels[0].set(xlabel="", ylabel="")
     for panel in panels[max(1, len(shown)) :]:
         panel.set_visible(False)
-    along_x, along_y = labels.COMPONENTS[name]
-    made.figure.supxlabel(f"{along_x}, {labels.UNITS[name]}", fontsize="medium")
-    made.figure.supylabel(f"{along_y}, {labels.UNITS[name]}", fontsize="medium")
+    along_x, along_y = QUANTITIES[name].components
+    made.figure.supxlabel(f"{along_x}, {QUANTITIES[name].unit}", fontsize="medium")
+    made.figure.supylabel(f"{along_y}, {QUANTITIES[name].unit}", fontsize="medium")
     scales = "each panel to its own scale; dot: θ = 0"
     entitle_figure(made.figure, labels.name_of(result.engine), where, scales, note)
     return made.axes

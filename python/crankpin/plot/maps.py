@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
+from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.axes import (
     entitle,
     entitle_figure,
@@ -49,7 +50,7 @@ def heat_map(
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
     words = words_of(sweep)
@@ -84,7 +85,7 @@ def order_map(
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over speed, or another swept number, and order, in a logarithmic scale."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     dims = [dim for dim in sweep.coords if dim != "engine"]
     along = along_x(sweep, x or ("rpm" if "rpm" in dims else None), dims or ["engine"])
     if dims != [along]:
@@ -223,7 +224,7 @@ def _colour_bar(
 ) -> None:
     first = panels[0]
     bar = first.get_figure(root=False).colorbar(mesh, ax=list(panels), aspect=25, pad=0.02)  # type: ignore[union-attr]
-    bar.set_label(f"peak, {labels.UNITS[quantity]}")
+    bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
     if plain:
         numeric(bar.ax.yaxis)

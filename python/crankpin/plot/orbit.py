@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.axes import entitle, one_panel
 from crankpin.plot.legend import legend_below
 from crankpin.plot.plane import arrow_at, dress_plane, plane_vector
@@ -40,7 +41,7 @@ def orbit(
     """Draw the tip of a force or moment, with crank angles and the direction marked."""
     name = plane_vector(quantity)
     ax = one_panel(ax)
-    where = f"{labels.NAMES[name]}, {number(result.rpm)} rpm, {summed(result, name)}"
+    where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm, {summed(result, name)}"
     entitle(ax, labels.name_of(result.engine), where)
     values, theta = getattr(result, name), result.theta_deg
     # A second turn would fill the gaps of dashes.

@@ -13,7 +13,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.axes import (
     entitle,
     entitle_figure,
@@ -78,7 +78,7 @@ def parts(
         ax = one_panel(ax)
         entitle(ax, words.title, words.subtitle(name), f"order {chosen[0]}")
         _draw(ax, sweep, vectors[0], along, style)
-        label_y(ax, labels.NAMES[name], labels.UNITS[name])
+        label_y(ax, QUANTITIES[name].words, QUANTITIES[name].unit)
         legend_below(ax)
         return ax
     made, panels = _panels(figure, len(chosen), len(names))
@@ -86,7 +86,7 @@ def parts(
         head(panel, ", ".join(filter(None, (f"order {chosen[row]}", names[column]))))
         _draw(panel, sweep, vectors[row], along, style, column)
         if not panel.get_subplotspec().colspan.start:
-            label_y(panel, labels.NAMES[name], labels.UNITS[name])
+            label_y(panel, QUANTITIES[name].words, QUANTITIES[name].unit)
     for of_order in panels:
         top = max(panel.get_ylim()[1] for panel in of_order)
         for panel in of_order:

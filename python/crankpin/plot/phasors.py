@@ -13,9 +13,9 @@ from matplotlib.transforms import ScaledTranslation
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.analysis.balance import at_orders
-from crankpin.analysis.source import PLANE_VECTORS
 from crankpin.plot import ticks
 from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
 from crankpin.plot.legend import figure_legend
@@ -57,7 +57,7 @@ def phasors(
     """
     if ax is not None:
         raise InputError('ax: kind="phasors" has several panels; give figure=')
-    kind = inputs.one_of("quantity", quantity, labels.UNITS)
+    kind = inputs.one_of("quantity", quantity, QUANTITIES)
     result.request.check(kind)
     shown = inputs.explicit_orders(
         orders if orders is not None else result.request.orders or ORDERS
@@ -80,7 +80,7 @@ def phasors(
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
             room = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
-            length = f"{rounded(abs(total), 4)} {labels.UNITS[kind]}" if total else "0"
+            length = f"{rounded(abs(total), 4)} {QUANTITIES[kind].unit}" if total else "0"
             head(panel, f"order {order} {part}".strip() + f"\n{length}")
     axes[-1, 0].set_xlabel(_axis_label(kind, 0))
     for panel in axes[:, 0]:
@@ -88,7 +88,7 @@ def phasors(
     entitle_figure(
         figure,
         labels.name_of(result.engine),
-        f"{labels.NAMES[kind]}, {number(result.rpm)} rpm, θ = 0",
+        f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
     handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))
@@ -208,5 +208,5 @@ def _frame(ax: Axes, chain: NDArray[np.complex128], room: float) -> None:
 
 def _axis_label(kind: str, axis: int) -> str:
     if kind in PLANE_VECTORS:
-        return f"{labels.COMPONENTS[kind][axis].split(' (')[0]}, {labels.UNITS[kind]}"
-    return f"{('real', 'imaginary')[axis]} part, {labels.UNITS[kind]}"
+        return f"{QUANTITIES[kind].components[axis].split(' (')[0]}, {QUANTITIES[kind].unit}"
+    return f"{('real', 'imaginary')[axis]} part, {QUANTITIES[kind].unit}"

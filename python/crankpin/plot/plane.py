@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support import inputs
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.axes import label_x, label_y, say_zero
 from crankpin.plot.style import muted
 from crankpin.plot.ticks import numeric
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def plane_vector(quantity: object) -> str:
     """Return a quantity that traces a curve, force or moment, or raise an InputError."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     if name not in PLANE_VECTORS:
         cure = 'give quantity="force" or "moment"'
         raise InputError(f"quantity = {name!r} traces no curve; {cure}")
@@ -45,8 +45,8 @@ def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -
 
 def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15, unit: str = "") -> None:
     """Label both axes, with one scale about zero, ``reach`` times as long as the curves need."""
-    along_x, along_y = labels.COMPONENTS[quantity]
-    unit = unit or labels.UNITS[quantity]
+    along_x, along_y = QUANTITIES[quantity].components
+    unit = unit or QUANTITIES[quantity].unit
     label_x(ax, f"{along_x}, {unit}")
     label_y(ax, f"{along_y}, {unit}")
     ends = np.concatenate([np.abs(line.get_xydata()).ravel() for line in ax.lines] or [np.zeros(1)])

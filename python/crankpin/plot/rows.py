@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.plot.orders import MOST, largest
 from crankpin.plot.words import numbers, short_names
@@ -52,7 +52,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
         values = getattr(getattr(sweep[order], quantity), what)
         return Row(f"order {order}", values if planar else values[..., np.newaxis])
 
-    columns = labels.COMPONENTS[quantity]
+    columns = QUANTITIES[quantity].components
     if single and quantity in PLANE_VECTORS:
         columns = ("longest vector",)
     if orders is not None:
@@ -90,7 +90,7 @@ class Words(NamedTuple):
 
     def subtitle(self, quantity: str) -> str:
         """Return the quantity and the arguments that are fixed or held."""
-        return ", ".join([labels.NAMES[quantity], *self.parts])
+        return ", ".join([QUANTITIES[quantity].words, *self.parts])
 
 
 def words_of(sweep: Sweep) -> Words:

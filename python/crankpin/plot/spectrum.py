@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel, refuse_figure
 from crankpin.plot.legend import legend_below
 from crankpin.plot.style import SERIES, background, count_series, series
@@ -40,7 +40,7 @@ def spectrum(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw peaks over order; exact zeros as hollow circles on the axis."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     logarithmic = inputs.flag("log", log)
     drawn = getattr(result, name)
     refuse_figure(figure, "spectrum")

@@ -9,8 +9,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs, labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support import inputs
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.plot.axes import (
     check_one_place,
@@ -51,12 +51,12 @@ def _sweep_waveform(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= MOST_TOLD_APART else "envelope"
     if kind is not None:
         chosen = inputs.one_of("kind", kind, KINDS)
-    values, columns = np.asarray(getattr(result, name)), list(labels.COMPONENTS[name])
+    values, columns = np.asarray(getattr(result, name)), list(QUANTITIES[name].components)
     if ax is not None and name in PLANE_VECTORS:
         values, columns = np.linalg.norm(values, axis=-1, keepdims=True), ["length of the vector"]
     else:

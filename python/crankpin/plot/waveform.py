@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.axes import entitle, label_x, label_y, one_panel, say_zero
 from crankpin.plot.dispatch import draw
@@ -38,7 +39,7 @@ def curves(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw a quantity over crank angle, a curve for each axis."""
-    name = inputs.one_of("quantity", quantity, labels.UNITS)
+    name = inputs.one_of("quantity", quantity, QUANTITIES)
     values = by_component(getattr(result, name), name)
     ax = one_panel(ax)
     where = f"{number(result.rpm)} rpm, {summed(result, name)}"

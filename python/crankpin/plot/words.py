@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.textpath import TextPath
 
 from crankpin._support import labels
-from crankpin.analysis.source import PLANE_VECTORS
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -110,8 +110,8 @@ def shortened(text: str, width: float, font: FontProperties) -> str:
 
 def with_unit(quantity: str, *, peak: bool = False) -> str:
     """Return the name of a quantity with its unit, for an axis."""
-    name = labels.NAMES[quantity]
-    return f"{'peak ' if peak else ''}{name}, {labels.UNITS[quantity]}"
+    name = QUANTITIES[quantity].words
+    return f"{'peak ' if peak else ''}{name}, {QUANTITIES[quantity].unit}"
 
 
 def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:
@@ -121,7 +121,7 @@ def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:
 
 def series_names(quantity: str, label: str | None) -> list[str]:
     """Return names of the components of a quantity for a legend, with a label before them."""
-    names = list(labels.COMPONENTS[quantity])
+    names = list(QUANTITIES[quantity].components)
     if not label:
         return names
     return [label] if len(names) == 1 else [f"{label}, {name}" for name in names]
@@ -133,4 +133,4 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
     bound = getattr(result.error_bound, "torque" if quantity == "crank_torque" else quantity)
-    return f"{text} (the rest ≤ {rounded(bound, 2)} {labels.UNITS[quantity]})" if bound else text
+    return f"{text} (the rest ≤ {rounded(bound, 2)} {QUANTITIES[quantity].unit})" if bound else text

@@ -552,21 +552,26 @@ def test_result_is_frozen_and_copies() -> None:
 
 
 def test_tables_show_the_fit() -> None:
-    unbalances, shafts, stays = FIT.tables()
+    unbalances = FIT.table
+    shafts = unbalances.below
+    assert shafts is not None
+    stays = shafts.below
+    assert stays is not None
     weights = [w for each in FIT for w in each.shaft.unbalances]
-    assert unbalances.rows[:, 3].tolist() == [w.amount for w in weights]
-    assert unbalances.rows[:, 4].tolist() == [w.angle_deg for w in weights]
-    assert unbalances.rows[:, 2].tolist() == [w.z for w in weights]
-    assert shafts.rows[:, 1].tolist() == [each.removed_moment for each in FIT]
+    assert list(unbalances["unbalance kg·m"].values) == [w.amount for w in weights]
+    assert list(unbalances["phase °"].values) == [w.angle_deg for w in weights]
+    assert list(unbalances["z m"].values) == [w.z for w in weights]
+    assert list(shafts["moment kg·m²"].values) == [each.removed_moment for each in FIT]
     loads = [abs(each.bearing_loads(RPM)) / OMEGA**2 for each in FIT]
-    np.testing.assert_allclose(shafts.rows[:, 3:], loads, rtol=1e-12)
-    for label, (before, after) in zip(stays.labels, stays.rows.tolist(), strict=True):
-        order, quantity, part = label
+    found = [shafts["front load kg·m"].values, shafts["rear load kg·m"].values]
+    np.testing.assert_allclose(np.transpose(found), loads, rtol=1e-12)
+    rows = zip(*(column.values for column in stays.columns), strict=True)
+    for order, quantity, part, before, after in rows:
         names = {"shaking": "force", "rocking": "moment", "roll": "torque"}
         name = names[str(quantity).split()[0]]
         for engine, value in ((V6_90, before), (FIT.engine, after)):
-            found = getattr(engine.balance(RPM, orders=[1, 2])[int(order)], name)
-            expected = abs(getattr(found, str(part) if part else "phasor")) / OMEGA**2
+            one = getattr(engine.balance(RPM, orders=[1, 2])[int(order)], name)
+            expected = abs(getattr(one, str(part) if part else "phasor")) / OMEGA**2
             assert value == pytest.approx(float(expected), rel=1e-9, abs=1e-15)
     assert repr(FIT).count("\n\n") == 2
     assert FIT._repr_html_().count("<table>") == 3

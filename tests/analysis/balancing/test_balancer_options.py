@@ -239,14 +239,13 @@ def test_result_is_frozen_and_copies() -> None:
 
 
 def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
-    table = OPTIONS.table()
+    table = OPTIONS.table
     words = {True: "reached", False: "missed"}
-    assert table.labels == [
-        (each.name, str(len(each.shafts)), words[each.reaches]) for each in OPTIONS.front
+    expected = [
+        (each.name, str(len(each.shafts)), words[each.reaches], each.unbalance, *each.values)
+        for each in OPTIONS.front
     ]
-    np.testing.assert_array_equal(
-        table.rows, [(each.unbalance, *each.values) for each in OPTIONS.front]
-    )
+    assert list(zip(*(column.values for column in table.columns), strict=True)) == expected
     last = repr(OPTIONS).splitlines()[-1]
     assert last == "Target: [1].moment.peak ≤ 0 N·m; least counterweights + shaft −1."
     assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]

@@ -271,9 +271,9 @@ def test_tables_and_copies() -> None:
     assert "\n0.55 " in text
     assert "-0°" not in text
     assert bob._repr_html_().count("<table>") == 2
-    rows = bob.table_of_factors([0.5, 0.1]).rows
-    assert rows.shape == (2, 2)  # without the force, of which there is none
-    assert rows[1, 0] == bob.stays("moment", 0.5).major
+    table = bob.table_of_factors([0.5, 0.1])
+    assert len(table.columns) == 4  # without the force, of which there is none
+    assert table.columns[2].values[1] == bob.stays("moment", 0.5).major
     back = pickle.loads(pickle.dumps(bob))  # noqa: S301 - its own
     assert back == bob
     assert hash(back) == hash(bob)

@@ -173,7 +173,7 @@ def test_a_function_agrees_with_the_name(name: str, hold: Any) -> None:
     )
     assert angles(by_name) == angles(by_function)
     assert [choice.place for choice in by_name] == [choice.place for choice in by_function]
-    np.testing.assert_array_equal(by_name.table[name], by_name.values)
+    np.testing.assert_array_equal(by_name.trade_off[name], by_name.values)
 
 
 @pytest.mark.parametrize("name", SAME)
@@ -192,7 +192,7 @@ def test_engines_as_they_are(name: str) -> None:
 
 def test_the_table_has_the_objectives_that_are_known() -> None:
     ranking = paper(by=[parts_left, "[2].moment.peak"], spectrum=None)
-    assert list(ranking.table) == [
+    assert list(ranking.trade_off) == [
         "parts_left",
         "[2].moment.peak",
         "total.moment.peak",
@@ -203,14 +203,14 @@ def test_the_table_has_the_objectives_that_are_known() -> None:
         "total.torque.peak",
         "unevenness_deg",
     ]
-    for name in itertools.islice(ranking.table, 1, None):
-        np.testing.assert_array_equal(ranking.table[name], paper(by=name, spectrum=None).values)
-    known = paper().table
+    for name in itertools.islice(ranking.trade_off, 1, None):
+        np.testing.assert_array_equal(ranking.trade_off[name], paper(by=name, spectrum=None).values)
+    known = paper().trade_off
     assert "total.torque.peak" not in known  # a spectrum of forces tells nothing of it
-    assert "[2].moment.peak" not in paper(orders=[1]).table
+    assert "[2].moment.peak" not in paper(orders=[1]).trade_off
     assert (
         "unevenness_deg"
-        not in cp.rank(cp.Engine.preset("v12-60"), rpm=5000, by="total.moment.peak").table
+        not in cp.rank(cp.Engine.preset("v12-60"), rpm=5000, by="total.moment.peak").trade_off
     )
 
 
@@ -436,16 +436,16 @@ def test_what_is_shown() -> None:
 def test_a_long_ranking_is_cut_in_text() -> None:
     search = cp.search_arrangements(14, alternating=True)
     ranking = cp.rank(search, cylinder=IJESC, spacing=0.1, rpm=3000, by="total.moment.peak")
-    assert "10 of 218" in repr(ranking)
-    assert len(repr(ranking).splitlines()) == 12
-    assert ranking._repr_html_().count("<tr>") == 51
+    assert "30 of 218 rows" in repr(ranking)
+    assert len(repr(ranking).splitlines()) == 33
+    assert ranking._repr_html_().count("<tr>") == 61
 
 
 def test_to_pandas_and_xarray() -> None:
     ranking = paper(by=parts_left)
     frame = ranking.to_pandas()
     assert list(frame.columns) == ["engine", "bank_angle_deg", "objective", "value", "unit"]
-    assert list(frame.objective.unique()) == list(ranking.table)
+    assert list(frame.objective.unique()) == list(ranking.trade_off)
     at = (frame.engine == "1-4-5-2-3-6") & (frame.bank_angle_deg == 60.0)
     assert frame[at & (frame.objective == "parts_left")].value.tolist() == [2.0]
     dataset = ranking.to_xarray()

@@ -293,10 +293,10 @@ def test_statistics_are_those_of_the_values() -> None:
     assert (t.mean(), t.std()) == (values.mean(), values.std())
     assert np.array_equal(t.quantile([0.1, 0.9]), np.quantile(values, [0.1, 0.9]))
     assert t.nominal_value("total.moment.peak") == t.nominal.total.moment.peak
-    table = t.table()
-    assert table.labels == [("[1].moment.backward", "N·m"), ("total.force.peak", "N")]
-    assert table.rows[0].tolist() == [
-        t.nominal_value(), t.mean(), t.std(), *np.quantile(values, [0.05, 0.5, 0.95])
+    table = t.table
+    assert [column.values[0] for column in table.columns] == [
+        "[1].moment.backward", "N·m", t.nominal_value(), t.mean(), t.std(),
+        *np.quantile(values, [0.05, 0.5, 0.95]),
     ]  # fmt: skip
     assert "standard deviations: reciprocating mass 0.005 kg" in repr(t)
     assert "<table>" in t._repr_html_()

@@ -176,8 +176,9 @@ class BalancerOptions(Listed[BalancerOption], Shown):
         """
         return draw(self, ax, **style)  # type: ignore[no-any-return]
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: the Pareto front."""
+        """Table that is shown: the Pareto front."""
         engine = labels.name_of(self.before)
         front = self.front[:SHOWN]
         columns = {
@@ -187,7 +188,7 @@ class BalancerOptions(Listed[BalancerOption], Shown):
         if self.targets:
             columns["target"] = ["reached" if each.reaches else "missed" for each in front]
         heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
-        return Table(
+        return Table.from_rows(
             f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, "
             f"{len(self.front)} of {len(self)} sets on the Pareto front",
             [*columns, "unbalance kg·m", *heads],

@@ -12,7 +12,8 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen, read_only
-from crankpin._support.tables import Table
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantities import Ellipse
@@ -97,7 +98,7 @@ class Straight(NamedTuple):
     """Half of its length over ω², kg·m or kg·m²."""
 
 
-class BobWeight(Frozen):
+class BobWeight(Frozen, Shown):
     """Bob weights of an engine's crankpins, from front to flywheel.
 
     Made by :func:`crankpin.bob_weight`.
@@ -296,8 +297,9 @@ class BobWeight(Frozen):
         }
         return optional.data_frame(columns)
 
+    @property
     def table(self) -> Table:
-        """Return the table of the bob weights in grams."""
+        """Table of the bob weights in grams."""
         rows = np.stack(
             [
                 np.array([pin.pin_deg for pin in self.crankpins]),
@@ -319,7 +321,14 @@ class BobWeight(Frozen):
             "oil g",
             "bob weight g",
         ]
-        return Table(title, header, [(_numbers(pin),) for pin in self.crankpins], rows, decimals=1)
+        return Table.from_rows(
+            title,
+            header,
+            [(_numbers(pin),) for pin in self.crankpins],
+            rows,
+            decimals=1,
+            below=self.table_of_factors(),
+        )
 
     def table_of_factors(self, factors: ArrayLike | None = None) -> Table:
         """Return the table of what factors leave of order 1: half axes over ω².
@@ -339,30 +348,24 @@ class BobWeight(Frozen):
             words.setdefault(near, []).extend([text] if text else [])
         listed = sorted(words)
         # An engine without force or moment of order 1 has no columns of it.
-        quantities = [name for name in labels.OVER_SQUARE if any(self._parts(name))]
+        quantities = [name for name in PLANE_VECTORS if any(self._parts(name))]
         header, columns = ["factor", ""], []
         for name in quantities or ["moment"]:
-            stays, unit = self.stays(name, listed), labels.OVER_SQUARE[name]
+            stays, unit = self.stays(name, listed), QUANTITIES[name].unit_over_square
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
             columns += [stays.major, abs(stays.minor)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         title = "What stays of order 1, half axes over ω²"
-        return Table(title, header, names, np.stack(columns, axis=-1))
+        return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
 
     def _remarkable(self) -> Iterator[tuple[float, str]]:
         """Return the factors that are something special, and what."""
         yield self.factor, ""
-        for name in labels.OVER_SQUARE:
+        for name in PLANE_VECTORS:
             if (least := self.least(name)) is not None:
                 yield least, f"least {name}"
             for line in self.straight(name):
                 yield line.factor, f"{name} along {line.direction_deg:.4g}°"
-
-    def __repr__(self) -> str:
-        return f"{self.table().text()}\n{self.table_of_factors().text()}"
-
-    def _repr_html_(self) -> str:
-        return self.table().html() + self.table_of_factors().html()
 
     def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
         """Draw what stays of order 1 over the factor: longest and shortest vector; return the axes.

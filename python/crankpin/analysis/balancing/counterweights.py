@@ -10,7 +10,8 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Table
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balancing import correction_planes
 from crankpin.analysis.balancing.first_order import (
     BayLoad,
@@ -157,7 +158,7 @@ class Remainder(NamedTuple):
     """Rocking moment."""
 
 
-class Counterweights(Frozen):
+class Counterweights(Frozen, Shown):
     """Counterweights fitted to an engine, and what they leave.
 
     Made by :func:`crankpin.counterweights`.
@@ -339,24 +340,32 @@ class Counterweights(Frozen):
     def _rows(self) -> list[tuple[float, float, float]]:
         return [(weight.z, weight.amount, degrees(weight.angle_deg)) for weight in self.unbalances]
 
+    @property
     def table(self) -> Table:
-        """Return the table of the weights."""
+        """Table of the weights."""
         name = labels.name_of(self.before)
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         names = [(plane,) for plane, _ in self.by_plane]
         rows = np.array(self._rows()).reshape(-1, 3)
         header = ["plane", "z m", "kg·m", "angle °"]
-        return Table(f"{name}: counterweights", header, names, rows, note=note)
+        return Table.from_rows(
+            f"{name}: counterweights",
+            header,
+            names,
+            rows,
+            note=note,
+            below=self.table_of_order_1(),
+        )
 
     def table_of_order_1(self) -> Table:
         """Return the table of what order 1 does before and after: half axes over ω²."""
         rows, names = [], []
         verdicts = self.verdicts
         for place, quantity in enumerate(("force", "moment")):
-            unit = labels.OVER_SQUARE[quantity]
+            unit = QUANTITIES[quantity].unit_over_square
             for state, ellipses in (("before", self.ellipses_before), ("after", self.ellipses)):
                 ellipse = ellipses[place]
-                names.append((f"{labels.NAMES[quantity]}, {unit}", state))
+                names.append((f"{QUANTITIES[quantity].words}, {unit}", state))
                 rows.append([ellipse.major, abs(ellipse.minor)])
         words = [
             f"{part} {quantity} {getattr(getattr(verdicts, quantity), part)}"
@@ -367,13 +376,7 @@ class Counterweights(Frozen):
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
-        return Table("What stays", header, names, np.array(rows), note=note)
-
-    def __repr__(self) -> str:
-        return f"{self.table().text()}\n{self.table_of_order_1().text()}"
-
-    def _repr_html_(self) -> str:
-        return self.table().html() + self.table_of_order_1().html()
+        return Table.from_rows("What stays", header, names, np.array(rows), note=note)
 
     def plot(
         self,

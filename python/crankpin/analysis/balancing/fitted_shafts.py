@@ -11,7 +11,8 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Listed
-from crankpin._support.tables import Table
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.tables import Shown, Table, stacked
 from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
 from crankpin.analysis.balancing.lanchester import PairHeights, makes_a_pair, pair_heights
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Label
     from crankpin.model.engine import Engine
 
-OVER_SPEED = labels.OVER_SQUARE | {"torque": "kg·m²"}
-"""Quantity → its unit over ω²."""
+SHAKEN = (*PLANE_VECTORS, "torque")
+"""Quantities that shafts change."""
 
 
 PARTS = {
@@ -54,7 +55,7 @@ class PartLeft(NamedTuple):
     """Size with them, kg·m or kg·m²."""
 
 
-class BalanceShafts(Listed[FittedShaft]):
+class BalanceShafts(Listed[FittedShaft], Shown):
     """Balance shafts fitted to an engine, and the engine with them.
 
     A sequence of :class:`~crankpin.types.FittedShaft`, in the order of the ratios given. Made by
@@ -188,9 +189,10 @@ class BalanceShafts(Listed[FittedShaft]):
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
-    def tables(self) -> tuple[Table, Table, Table]:
-        """Return the tables that are shown: unbalances, shafts, and what stays of their orders."""
-        return self._unbalances(), self._shafts(), self._stays()
+    @property
+    def table(self) -> Table:
+        """Tables that are shown: unbalances; below, shafts, and what stays of their orders."""
+        return stacked(self._unbalances(), self._shafts(), self._stays())
 
     def _unbalances(self) -> Table:
         engine = labels.name_of(self.before)
@@ -205,7 +207,9 @@ class BalanceShafts(Listed[FittedShaft]):
             for weight in each.shaft.unbalances
         ]
         head = ["shaft", "ratio", "x m", "y m", "z m", "unbalance kg·m", "phase °"]
-        return Table(f"{labels.cut(engine)}: balance shafts", head, names, _array(rows, 5))
+        return Table.from_rows(
+            f"{labels.cut(engine)}: balance shafts", head, names, _array(rows, 5)
+        )
 
     def _shafts(self) -> Table:
         names: list[Label] = [
@@ -218,22 +222,22 @@ class BalanceShafts(Listed[FittedShaft]):
             for row, each in zip(rows, self.shafts, strict=True):
                 assert each.length is not None  # noqa: S101 - its bearings are known
                 row += [each.length, *np.abs(each.bearing_loads(UNIT_RPM)).tolist()]
-        return Table("What each shaft removes, and its bearing loads, over ω²", head, names,
-            _array(rows, len(head) - 3))  # fmt: skip
+        title = "What each shaft removes, and its bearing loads, over ω²"
+        return Table.from_rows(title, head, names, _array(rows, len(head) - 3))
 
     def _stays(self) -> Table:
         parts = self.parts()
         names: list[Label] = [
             [
                 str(each.order),
-                f"{labels.NAMES[each.quantity]}, {OVER_SPEED[each.quantity]}",
+                f"{QUANTITIES[each.quantity].words}, {QUANTITIES[each.quantity].unit_over_square}",
                 each.part,
             ]
             for each in parts
         ]
         rows = [[each.before, each.after] for each in parts]
         head = ["order", "quantity", "part", "before", "after"]
-        return Table("What stays, over ω²", head, names, _array(rows, 2))
+        return Table.from_rows("What stays, over ω²", head, names, _array(rows, 2))
 
     def parts(self) -> tuple[PartLeft, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after."""
@@ -242,18 +246,12 @@ class BalanceShafts(Listed[FittedShaft]):
             for each in (self.before, self.engine)
         )
         found = []
-        for order, quantity in itertools.product(self.orders, OVER_SPEED):
+        for order, quantity in itertools.product(self.orders, SHAKEN):
             pair = [getattr(each[order], quantity) for each in (before, after)]
             for part, name in PARTS[quantity]:
                 sizes = [float(abs(getattr(each, name))) for each in pair]
                 found.append(PartLeft(order, quantity, part, *sizes))
         return tuple(found)
-
-    def __repr__(self) -> str:
-        return "\n\n".join(each.text() for each in self.tables())
-
-    def _repr_html_(self) -> str:
-        return "".join(each.html() for each in self.tables())
 
 
 def _array(rows: list[list[float]], width: int) -> NDArray[np.float64]:

@@ -182,8 +182,11 @@ class TwoPlaneCorrection(Frozen, Shown):
         }
         return optional.data_frame(columns)
 
+    @property
     def table(self) -> Table:
-        """Return the table of the corrections."""
+        """Table of the corrections."""
         columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
         header = ["plane", "z m", "g·mm", "add at °", "or drill at °"]
-        return Table("Two-plane correction", header, ["1", "2"], np.stack(columns, axis=1))
+        return Table.from_rows(
+            "Two-plane correction", header, [[1], [2]], np.stack(columns, axis=1)
+        )

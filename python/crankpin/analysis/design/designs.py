@@ -12,13 +12,12 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Listed
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design import built
 from crankpin.analysis.design.question import Question
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import named
-from crankpin.analysis.ranking.ranking import SHOWN, SHOWN_IN_NOTEBOOKS
 from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
@@ -90,7 +89,7 @@ class Design:
         return len({own, *((each.throws_deg, each.pin_split_deg) for each in self.images)})
 
 
-class Designs(Listed[Design]):
+class Designs(Listed[Design], Shown):
     """Designs sorted by objectives.
 
     A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
@@ -250,9 +249,10 @@ class Designs(Listed[Design]):
             *([f"with balance shafts at {ratios}"] if ratios else []),
         ]
 
-    def table_of_designs(self, shown: int | None = None) -> Table:
-        """Return the table that is shown: the first designs, all by default."""
-        designs = self.designs[:shown]
+    @property
+    def table(self) -> Table:
+        """Table that is shown: the designs, best first."""
+        designs = self.designs
         vee = self.question.banks == 2
         split = vee and any(any(each.pin_split_deg) for each in self)
         heads = ["place", "throws °", *(["pin split °"] if split else [])]
@@ -271,13 +271,7 @@ class Designs(Listed[Design]):
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"
         starred = any(not each.isolated for each in designs)
-        return Table(title, heads, rows, values, note=note if starred else "")
-
-    def __repr__(self) -> str:
-        return self.table_of_designs(SHOWN).text()
-
-    def _repr_html_(self) -> str:
-        return self.table_of_designs(SHOWN_IN_NOTEBOOKS).html()
+        return Table.from_rows(title, heads, rows, values, note=note if starred else "")
 
 
 def bank_angle_range(designs: Designs) -> tuple[float, float]:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.sweeps.sweep import sweep
@@ -157,7 +158,7 @@ def named(label: str) -> Objective:
     assert found is not None  # noqa: S101 - else refused above
     order = None if found[1] is None else int(found[1])
     quantity, what = found[2] or found[4], found[3] or found[5]
-    name = labels.NAMES[quantity]
+    name = QUANTITIES[quantity].words
     sort = {
         "peak": "largest" if quantity.endswith("torque") else "longest",
         "peak_xy": "larger peak along (about) x and y of",
@@ -173,7 +174,7 @@ def named(label: str) -> Objective:
         values = np.abs(getattr(getattr(source, quantity), what))
         return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
 
-    return Objective(label, words, labels.UNITS[quantity], of_sweep, None, order, quantity, what)
+    return Objective(label, words, QUANTITIES[quantity].unit, of_sweep, None, order, quantity, what)
 
 
 def of_table(swept: Sweep) -> list[Objective]:

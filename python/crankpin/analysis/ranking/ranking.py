@@ -12,7 +12,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Listed
-from crankpin._support.tables import Table
+from crankpin._support.tables import Shown, Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.choices import Choice, angles_of, own_angles
 from crankpin.analysis.ranking.objectives import of_table
@@ -27,14 +27,11 @@ if TYPE_CHECKING:
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine, Hold
 
-SHOWN = 10
-"""Engines shown in text."""
-SHOWN_IN_NOTEBOOKS = 50
 MOST_ANGLES = 6
 """Bank angles shown in a cell."""
 
 
-class Ranking(Listed[Choice]):
+class Ranking(Listed[Choice], Shown):
     """Engines sorted by objectives, each at its best bank angles.
 
     A sequence of :class:`Choice`, the best first. Made by :func:`crankpin.rank`.
@@ -48,7 +45,7 @@ class Ranking(Listed[Choice]):
     ... )
     >>> ranking[0].bank_angles_deg
     (60.0,)
-    >>> ranking.table["[1].moment.backward"].round(1)
+    >>> ranking.trade_off["[1].moment.backward"].round(1)
     array([[  0. , 459.4, 795.7]])
     """
 
@@ -118,7 +115,7 @@ class Ranking(Listed[Choice]):
         return self.values_by[0]
 
     @cached_property
-    def table(self) -> Mapping[str, NDArray[np.float64]]:
+    def trade_off(self) -> Mapping[str, NDArray[np.float64]]:
         """The trade-off: objective → (n_engines, n_angles), in its unit; engines as given.
 
         The objectives of the ranking; then total moment and force, the backward part of the first
@@ -169,7 +166,7 @@ class Ranking(Listed[Choice]):
         ]
         rows = [
             (*point, label, value, units[label])
-            for label, values in self.table.items()
+            for label, values in self.trade_off.items()
             for point, value in zip(points, values.ravel().tolist(), strict=True)
         ]
         columns = ["engine", "bank_angle_deg", "objective", "value", "unit"]
@@ -201,7 +198,7 @@ class Ranking(Listed[Choice]):
                 values[:, 0] if angles is None else values,
                 {"units": _XARRAY_UNITS.get(units[label], units[label])},
             )
-            for label, values in self.table.items()
+            for label, values in self.trade_off.items()
         }
         coords: dict[str, Any] = {
             "engine": list(self.names),
@@ -239,25 +236,19 @@ class Ranking(Listed[Choice]):
             least = least.replace("all orders", "all of the orders given")
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
-    def table_of_choices(self, shown: int | None = None) -> Table:
-        """Return the table that is shown: the first choices, all by default."""
-        choices = self.choices[:shown]
-        rest = len(self) - len(choices)
+    @property
+    def table(self) -> Table:
+        """Table that is shown: the choices, best first."""
+        choices = self.choices
         parts = [
             f"Ranked by {self.description()}",
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
-        title = ", ".join(parts) + (f"; {len(choices)} of {len(self)}" if rest else "")
+        title = ", ".join(parts)
         heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
         rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
-        return Table(title, ["place", "engine", "bank angle °", *heads], rows_of, rows)
-
-    def __repr__(self) -> str:
-        return self.table_of_choices(SHOWN).text()
-
-    def _repr_html_(self) -> str:
-        return self.table_of_choices(SHOWN_IN_NOTEBOOKS).html()
+        return Table.from_rows(title, ["place", "engine", "bank angle °", *heads], rows_of, rows)
 
 
 _XARRAY_UNITS = {"N·m": "N m", "°": "degree"}

@@ -10,8 +10,9 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import progress as progress_bar
+from crankpin._support.quantities import PLANE_VECTORS
 from crankpin.analysis.request import Request, check_request, engine_core
-from crankpin.analysis.source import PLANE_VECTORS, ErrorBound, Source
+from crankpin.analysis.source import ErrorBound, Source
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -65,7 +65,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
         else:
             shape = tuple(sizes[dim] for dim in dims)
             values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
-        variables[name] = (dims, values, {"units": export.unit(quantity)})
+        variables[name] = (dims, values, export.units(quantity))
     return export.dataset(
         whole.source, quantities, variables, whole.coords, whole.attributes, split_complex=False
     )

@@ -14,9 +14,10 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import export
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.source import PLANE_VECTORS, ErrorBound
+from crankpin.analysis.source import ErrorBound
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -163,7 +164,7 @@ class SweepWaveform(Frozen):
         >>> force is buffer
         True
         """
-        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        name = inputs.one_of("quantity", quantity, QUANTITIES)
         self.sweep.request.check(name)
         progress = progress_bar.checked(progress)
         core = self.sweep.source.core
@@ -180,7 +181,7 @@ class SweepWaveform(Frozen):
 
     def dims(self, quantity: str = "moment") -> tuple[str, ...]:
         """Return the names of a quantity's dimensions."""
-        name = inputs.one_of("quantity", quantity, labels.UNITS)
+        name = inputs.one_of("quantity", quantity, QUANTITIES)
         return (*self.coords, "axis") if name in PLANE_VECTORS else tuple(self.coords)
 
     # --- tables and pictures --------------------------------------------------------------------

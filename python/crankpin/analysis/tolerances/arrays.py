@@ -9,9 +9,10 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import progress as progress_bar
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.source import PLANE_VECTORS, ErrorBound, Source
+from crankpin.analysis.source import ErrorBound, Source
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.request import Request
     from crankpin.analysis.tolerances.spreads import Spreads
     from crankpin.model.engine import Engine
-
-QUANTITIES = ("force", "moment", "torque", "crank_torque")
-"""Quantities in the order of the core's peaks."""
 
 
 class ToleranceArrays(Source):
@@ -117,7 +115,7 @@ class ToleranceArrays(Source):
             bound = self.nominal.source.read(quantity, what)
             return np.broadcast_to(bound, (self.samples, *bound.shape))
         if what == "total_peak":
-            return self._peaks[:, QUANTITIES.index(quantity)]
+            return self._peaks[:, tuple(QUANTITIES).index(quantity)]
         phasors = self._planar[quantity][..., :2] if planar else self._torque(quantity)
         if what == "phasors":
             return phasors

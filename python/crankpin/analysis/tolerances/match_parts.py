@@ -321,14 +321,15 @@ class Match(Frozen, Shown):
                 rows.append(((k, cylinder), numbers))
         return rows
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: the parts of each cylinder."""
+        """Table that is shown: the parts of each cylinder."""
         header = ["set", "cylinder", "piston", "kg"]
         header += [] if self.parts.rods is None else ["rod", "small end kg", "big end kg"]
         known = "no assignment is better" if self.exact else f"none is below {self.bound:.4g}"
         title = f"{WORDS[self.objective]}: {self.value:.4g} {self.unit}, {known}"
         rows = self._rows()
         title += f"; as given {self.as_given:.4g}"
-        return Table(
+        return Table.from_rows(
             title, header, [names for names, _ in rows], np.array([row for _, row in rows])
         )

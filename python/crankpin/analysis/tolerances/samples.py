@@ -325,8 +325,9 @@ class Tolerances(AllOrders, Shown):
         """
         return draw(self, ax, kind=kind, by=by, **style)
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown: nominal value, mean, spread and quantiles."""
+        """Table that is shown: nominal value, mean, spread and quantiles."""
         header = ["", "unit", "nominal", "mean", "std"]
         header += [f"{100 * q:g} %" for q in QUANTILES]
         names = [(by, self._objective(by).unit) for by in self.by]
@@ -336,7 +337,7 @@ class Tolerances(AllOrders, Shown):
         ]
         engine = labels.name_of(self.engine)
         title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.source.spreads.text}"
-        return Table(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
+        return Table.from_rows(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)

@@ -73,9 +73,12 @@ class Shares(Frozen, Shown):
         ]
         return optional.data_frame(rows, columns=["by", "tolerance", "share"])
 
+    @property
     def table(self) -> Table:
-        """Return the table that is shown, in percent."""
+        """Table that is shown, in percent."""
         names = [f"{labels.TOLERANCES[name][0]} %" for name in self.tolerances]
         rows = 100.0 * np.column_stack([self.values, self.interaction])
         title = "Share of each tolerance in the variance"
-        return Table(title, ["", *names, "interaction %"], [(by,) for by in self.by], rows, 1)
+        return Table.from_rows(
+            title, ["", *names, "interaction %"], [(by,) for by in self.by], rows, 1
+        )

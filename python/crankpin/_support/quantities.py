@@ -1,0 +1,56 @@
+"""Registry of quantities: what a result can hold of an engine, and how it is named and scaled."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Kind(NamedTuple):
+    """Quantity of an engine: names, symbols, units, and what it scales with."""
+
+    name: str
+    """Attribute of a balance, such as ``"force"``."""
+    words: str
+    """Name in texts."""
+    symbols: tuple[str, ...]
+    """Symbols of the peaks of its components."""
+    components: tuple[str, ...]
+    """Names of its components: two of a vector in the cross-section plane, one about z."""
+    unit: str
+    """Unit, as read by people."""
+    unit_over_square: str
+    """Unit over ω², of what scales with ω²; empty of what is given as it is."""
+    bound: str
+    """Field of :class:`~crankpin.types.ErrorBound` that applies to it."""
+
+    @property
+    def planar(self) -> bool:
+        """True for vectors in the cross-section plane, which have forward and backward parts."""
+        return len(self.components) == 2
+
+    @property
+    def vector_symbol(self) -> str:
+        """Symbol of the longest vector, or of the peak."""
+        return f"|{self.symbols[0][1]}|" if self.planar else self.symbols[0]
+
+    @property
+    def xarray_unit(self) -> str:
+        """Unit as xarray's users write it."""
+        return self.unit.replace("·", " ")
+
+
+QUANTITIES = {
+    each.name: each
+    for each in (
+        Kind("force", "shaking force", ("|F_x|", "|F_y|"), ("along x", "along y"), "N", "kg·m",
+             "force"),
+        Kind("moment", "rocking moment", ("|M_x|", "|M_y|"), ("about x (pitch)", "about y (yaw)"),
+             "N·m", "kg·m²", "moment"),
+        Kind("torque", "roll torque", ("|M_z|",), ("about z (roll)",), "N·m", "kg·m²", "torque"),
+        Kind("crank_torque", "crank torque", ("|T|",), ("on the crank",), "N·m", "kg·m²", "torque"),
+    )
+}  # fmt: skip
+"""Name of a quantity → its entry."""
+
+PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
+"""Names of the vectors in the cross-section plane."""

@@ -1,0 +1,107 @@
+"""Do records follow from their fields, and texts, tables and datasets from the columns?"""
+
+from __future__ import annotations
+
+import copy
+import csv
+import io
+import pickle
+from dataclasses import field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from crankpin._support.record import Listed, Record
+from crankpin._support.tables import Column, Table, stacked
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+class Made(Record):
+    name: str
+    values: NDArray[np.float64]
+    by_name: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    note: str = field(default="", compare=False)
+
+    @cached_property
+    def twice(self) -> NDArray[np.float64]:
+        return 2.0 * self.values
+
+
+class Rows(Listed[int], Record):
+    _items = "rows"
+    rows: tuple[int, ...]
+
+
+def made(**changes: Any) -> Made:  # noqa: ANN401 - of any field
+    given: dict[str, Any] = {"name": "x", "values": np.array([1.0, np.nan])}
+    return Made(**given | {"by_name": {"a": np.zeros(2)}} | changes)
+
+
+def test_records_compare_hash_pickle_and_copy_by_their_fields() -> None:
+    one = made()
+    for other in (made(), made(note="other"), copy.copy(one), copy.deepcopy(one), one.replace()):
+        assert other == one
+        assert hash(other) == hash(one)
+    for other in (made(name="y"), made(values=np.ones(2)), made(by_name={}), 1, None):
+        assert other != one
+    back = pickle.loads(pickle.dumps(made(note="kept")))  # noqa: S301 - its own
+    assert (back, back.note) == (one, "kept")
+    assert repr(Rows((1, 2))) == "Rows(rows=(1, 2))"
+    assert list(Rows((1, 2))) == [1, 2]
+
+
+def test_records_are_frozen_and_their_arrays_read_only() -> None:
+    for one in (made(), pickle.loads(pickle.dumps(made()))):  # noqa: S301 - its own
+        for change in (lambda r: setattr(r, "name", "y"), lambda r: setattr(r, "new", 1)):
+            with pytest.raises(AttributeError):
+                change(one)
+        with pytest.raises(AttributeError):
+            del one.name
+        for array in (one.values, one.by_name["a"]):
+            assert not array.flags.writeable
+        assert one.twice is one.twice
+
+
+TABLE = Table(
+    "A <title>",
+    (
+        Column("order", (1, 2, "all")),
+        Column("name", ("a", "bb", "c")),
+        Column("|F_x|", (1234.5678, 0.0, -0.0), "N"),
+        Column("share", (0.5, None, 1.0), "%", decimals=1),
+    ),
+    note="A note.",
+)
+
+
+def test_a_table_is_text_html_csv_and_data_frame() -> None:
+    assert TABLE.text().splitlines() == [
+        "A <title>",
+        "order  name  |F_x| N  share %",
+        "    1  a      1234.6      0.5",
+        "    2  bb          0        –",
+        "  all  c           0      1.0",
+        "A note.",
+    ]
+    assert TABLE.text(1).splitlines()[-2:] == ["1 of 3 rows", "A note."]
+    assert "&lt;title&gt;" in TABLE.html()
+    head, *rows = csv.reader(io.StringIO(TABLE.csv()))
+    assert head == ["order", "name", "|F_x| N", "share %"]
+    assert float(rows[0][2]) == 1234.5678
+    assert TABLE.to_pandas()["|F_x| N"].tolist() == [1234.5678, 0.0, 0.0]
+    dataset = TABLE.to_xarray()
+    assert dataset["|F_x|"].attrs == {"units": "N"}
+    assert dataset.attrs == {"title": "A <title>"}
+
+
+def test_tables_of_no_rows_are_tables_and_tables_stack() -> None:
+    empty = Table.from_rows("Nothing", ["a", ("b", "N")], [], np.empty((0, 1)))
+    assert empty.text() == "Nothing\na  b N"
+    assert empty.csv() == "a,b N\n"
+    assert len(empty.to_pandas()) == 0
+    both = stacked(TABLE, empty)
+    assert both.text() == f"{TABLE.text()}\n\n{empty.text()}"
+    assert both.html() == TABLE.html() + empty.html()
