@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 import crankpin as cp
 import numpy as np
@@ -154,3 +155,23 @@ def test_several_threads_at_once_agree() -> None:
         thread.join()
     assert len(results) == 8
     assert all(np.array_equal(alone, result) for result in results)
+
+
+def test_peaks_of_ten_thousand_orders_take_a_moment() -> None:
+    """... and leave the interpreter to others: it was held for 16 s."""
+    v6 = cp.Engine.preset("v6-60")
+    balance = v6.balance(5000, orders=range(1, 10_001))
+    peaks: list[float] = []
+    thread = threading.Thread(target=lambda: peaks.append(balance.total.moment.peak))
+    start, longest = time.perf_counter(), 0.0
+    thread.start()
+    while thread.is_alive():
+        last = time.perf_counter()
+        time.sleep(1e-3)
+        longest = max(longest, time.perf_counter() - last)
+    # 0.06 s, and a millisecond, on a machine of its own.
+    assert time.perf_counter() - start < 2
+    assert longest < 0.5
+    # Powers of e^{iθ} as high as the orders, each with a rounding.
+    chosen = v6.balance(5000, rtol=1e-12).total.moment.peak
+    assert peaks[0] == pytest.approx(chosen, rel=5e-12)

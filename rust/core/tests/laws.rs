@@ -268,13 +268,13 @@ proptest! {
             let largest = |of: &dyn Fn([f64; 2]) -> f64| {
                 wave.rows().into_iter().map(|row| of([row[0], row[1]])).fold(0.0, f64::max)
             };
-            let [x, y] = found.peak_xy(vector);
+            let [x, y] = found.peak_xy(vector, &Cancel::new()).unwrap();
             prop_assert!(close(x, largest(&|[x, _]| x.abs())));
             prop_assert!(close(y, largest(&|[_, y]| y.abs())));
-            prop_assert!(close(found.peak(vector), largest(&|[x, y]| x.hypot(y))));
+            prop_assert!(close(found.peak(vector, &Cancel::new()).unwrap(), largest(&|[x, y]| x.hypot(y))));
         }
         let torques = [&wave.torque, &wave.crank_torque];
-        for (peak, torque) in found.torque_peaks().into_iter().zip(torques) {
+        for (peak, torque) in found.torque_peaks(&Cancel::new()).unwrap().into_iter().zip(torques) {
             let torque = torque.iter().flatten();
             prop_assert!(close(peak, torque.map(|t| t.abs()).fold(0.0, f64::max)));
         }

@@ -116,7 +116,7 @@ fn each_point_is_a_balance(
     spectrum: Option<&Spectrum>,
 ) {
     let together = sweep(engines, axes, orders, spectrum);
-    let finder = PeakFinder::new(&whole(orders));
+    let finder = PeakFinder::new(&whole(orders)).unwrap();
     let quantities = if spectrum.is_some() { &QUANTITIES[..2] } else { &QUANTITIES };
     for &quantity in quantities {
         let count = components(quantity);
@@ -174,11 +174,11 @@ fn each_point_is_a_balance(
                 expected.iter().skip(axis).step_by(count).copied().collect()
             };
             for axis in 0..count {
-                let peak = finder.along_axis(&of(axis));
+                let peak = finder.along_axis(&of(axis), &Cancel::new()).unwrap();
                 assert!((sums[point * count + axis] - peak).abs() <= slack, "{context}");
             }
             if count == 2 {
-                let peak = finder.of_vector(&of(0), &of(1));
+                let peak = finder.of_vector(&of(0), &of(1), &Cancel::new()).unwrap();
                 assert!((longest[point] - peak).abs() <= slack, "{context}");
             }
             let only = sweep(&[Arc::clone(engine)], &axes, orders, spectrum);

@@ -147,11 +147,14 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(frozen(py, self.0.peak_xy(vector(quantity)?).to_vec().into()))
+        let vector = vector(quantity)?;
+        let peaks = interrupt::run(py, |cancel| self.0.peak_xy(vector, cancel))?;
+        Ok(frozen(py, peaks.to_vec().into()))
     }
 
-    fn sum_peak_vector(&self, quantity: &str) -> PyResult<f64> {
-        Ok(self.0.peak(vector(quantity)?))
+    fn sum_peak_vector(&self, py: Python<'_>, quantity: &str) -> PyResult<f64> {
+        let vector = vector(quantity)?;
+        interrupt::run(py, |cancel| self.0.peak(vector, cancel))
     }
 
     fn roll_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
@@ -163,7 +166,8 @@ impl Balance {
     }
 
     /// Largest torque of all orders together, on the block or on the crank.
-    fn torque_sum_peak(&self, on_crank: bool) -> f64 {
-        self.0.torque_peaks()[usize::from(on_crank)]
+    fn torque_sum_peak(&self, py: Python<'_>, on_crank: bool) -> PyResult<f64> {
+        let peaks = interrupt::run(py, |cancel| self.0.torque_peaks(cancel))?;
+        Ok(peaks[usize::from(on_crank)])
     }
 }

@@ -103,26 +103,24 @@ impl Balance {
     }
 
     /// Largest value along (about) x and y of the sum of all orders.
-    #[must_use]
-    pub fn peak_xy(&self, vector: Vector) -> [f64; 2] {
-        let finder = PeakFinder::new(&self.orders);
-        self.by_component(vector).map(|phasors| finder.along_axis(&phasors))
+    pub fn peak_xy(&self, vector: Vector, cancel: &Cancel) -> Result<[f64; 2]> {
+        let finder = PeakFinder::new(&self.orders)?;
+        let [x, y] = self.by_component(vector);
+        Ok([finder.along_axis(&x, cancel)?, finder.along_axis(&y, cancel)?])
     }
 
     /// Longest vector of the sum of all orders.
-    #[must_use]
-    pub fn peak(&self, vector: Vector) -> f64 {
+    pub fn peak(&self, vector: Vector, cancel: &Cancel) -> Result<f64> {
         let [x, y] = self.by_component(vector);
-        PeakFinder::new(&self.orders).of_vector(&x, &y)
+        PeakFinder::new(&self.orders)?.of_vector(&x, &y, cancel)
     }
 
     /// Largest roll torque and crank torque of the sum of all orders.
-    #[must_use]
-    pub fn torque_peaks(&self) -> [f64; 2] {
-        let finder = PeakFinder::new(&self.orders);
+    pub fn torque_peaks(&self, cancel: &Cancel) -> Result<[f64; 2]> {
+        let finder = PeakFinder::new(&self.orders)?;
         let roll: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.roll).collect();
         let crank: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.crank).collect();
-        [roll, crank].map(|phasors| finder.along_axis(&phasors))
+        Ok([finder.along_axis(&roll, cancel)?, finder.along_axis(&crank, cancel)?])
     }
 
     fn by_component(&self, vector: Vector) -> [Vec<Complex64>; 2] {

@@ -288,24 +288,24 @@ impl Sweep {
                 },
             ),
             Figure::Sum => {
-                let finder = PeakFinder::new(&self.orders);
+                let finder = PeakFinder::new(&self.orders)?;
                 self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
                     for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
                         cancel.check()?;
                         for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                            *peak = finder.along_axis(&phasors) * factor;
+                            *peak = finder.along_axis(&phasors, cancel)? * factor;
                         }
                     }
                     Ok(())
                 })
             }
             Figure::LengthOfSum => {
-                let finder = PeakFinder::new(&self.orders);
+                let finder = PeakFinder::new(&self.orders)?;
                 self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
                     for (i, peak) in out.iter_mut().enumerate() {
                         cancel.check()?;
                         let [x, y] = block.by_component(i);
-                        *peak = finder.of_vector(&x, &y) * factor;
+                        *peak = finder.of_vector(&x, &y, cancel)? * factor;
                     }
                     Ok(())
                 })

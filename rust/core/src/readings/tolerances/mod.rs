@@ -138,7 +138,7 @@ impl Tolerances {
         let reference = engine.reference(request.reference_z)?;
         let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
         let omega = angular_speed(request.rpm)?;
-        let totals = Totals::new(&nominal);
+        let totals = Totals::new(&nominal, cancel)?;
         Ok(Self { draws, terms, nominal, totals, square: omega * omega })
     }
 
@@ -180,7 +180,7 @@ impl Tolerances {
             torque: memory::zeros(if self.nominal.has_torque { count * orders } else { 0 })?,
             peaks: memory::zeros(count)?,
         };
-        let finder = PeakFinder::new(&self.nominal.orders);
+        let finder = PeakFinder::new(&self.nominal.orders)?;
         let Sampled { force, moment, torque, peaks } = &mut sampled;
         let mut torque = torque.chunks_mut(CHUNK * orders);
         let planar = force.chunks_mut(CHUNK * orders).zip(moment.chunks_mut(CHUNK * orders));
@@ -240,7 +240,7 @@ impl Tolerances {
                     [torques[k], torques[orders + k]] = torque[i * orders + k];
                 }
             }
-            *peaks = self.totals.peaks(finder, &by_component);
+            *peaks = self.totals.peaks(finder, &by_component, cancel)?;
         }
         Ok(())
     }

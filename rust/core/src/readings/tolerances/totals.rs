@@ -12,11 +12,11 @@ use crate::readings::peaks::PeakFinder;
 /// Largest magnitude over the turn of each sum of orders: rows of peak phasors, one of each order.
 pub fn largest_sums(orders: &[Order], phasors: &[Complex64], cancel: &Cancel) -> Result<Vec<f64>> {
     order::check_list(orders)?;
-    let finder = PeakFinder::new(orders);
+    let finder = PeakFinder::new(orders)?;
     let rows: Vec<&[Complex64]> = phasors.chunks_exact(orders.len()).collect();
     let chunks = pool::map(cancel, rows.chunks(CHUNK).collect(), |rows| {
         cancel.check()?;
-        Ok(rows.iter().map(|row| finder.along_axis(row)).collect::<Vec<_>>())
+        rows.iter().map(|row| finder.along_axis(row, cancel)).collect::<Result<Vec<_>>>()
     })?;
     Ok(chunks.concat())
 }
@@ -29,7 +29,7 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    pub fn new(nominal: &Balance) -> Self {
+    pub fn new(nominal: &Balance, cancel: &Cancel) -> Result<Self> {
         let orders = 0..nominal.orders.len();
         let planar = [Vector::Force, Vector::Moment].map(|vector| {
             [0, 1].map(|axis| orders.clone().map(move |k| nominal.xy(vector, k)[axis]))
@@ -40,13 +40,18 @@ impl Totals {
             .chain(orders.clone().map(|k| torque(k).roll))
             .chain(orders.map(|k| torque(k).crank))
             .collect();
-        let [force, moment] = [Vector::Force, Vector::Moment].map(|vector| nominal.peak(vector));
-        let [roll, crank] = nominal.torque_peaks();
-        Self { phasors, peaks: [force, moment, roll, crank] }
+        let [roll, crank] = nominal.torque_peaks(cancel)?;
+        let [force, moment] = [Vector::Force, Vector::Moment].map(|v| nominal.peak(v, cancel));
+        Ok(Self { phasors, peaks: [force?, moment?, roll, crank] })
     }
 
     /// Longest force and moment, largest torques of phasors in the order of the nominal ones.
-    pub fn peaks(&self, finder: &PeakFinder, phasors: &[Complex64]) -> [f64; 4] {
+    pub fn peaks(
+        &self,
+        finder: &PeakFinder,
+        phasors: &[Complex64],
+        cancel: &Cancel,
+    ) -> Result<[f64; 4]> {
         let orders = phasors.len() / 6;
         let of = |component: usize, count: usize| {
             let range = component * orders..(component + count) * orders;
@@ -55,10 +60,10 @@ impl Totals {
         let vector = |k: usize| {
             let (both, same) = of(2 * k, 2);
             let (x, y) = both.split_at(orders);
-            if same { self.peaks[k] } else { finder.of_vector(x, y) }
+            if same { Ok(self.peaks[k]) } else { finder.of_vector(x, y, cancel) }
         };
         let ((roll, same_roll), (crank, same_crank)) = (of(4, 1), of(5, 1));
-        let on_block = if same_roll { self.peaks[2] } else { finder.along_axis(roll) };
+        let on_block = if same_roll { self.peaks[2] } else { finder.along_axis(roll, cancel)? };
         // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
         let opposite = || roll.iter().zip(crank).all(|(roll, crank)| *roll == -crank);
         let on_crank = if same_crank {
@@ -66,8 +71,8 @@ impl Totals {
         } else if opposite() {
             on_block
         } else {
-            finder.along_axis(crank)
+            finder.along_axis(crank, cancel)?
         };
-        [vector(0), vector(1), on_block, on_crank]
+        Ok([vector(0)?, vector(1)?, on_block, on_crank])
     }
 }
