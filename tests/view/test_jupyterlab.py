@@ -118,11 +118,15 @@ def test_widget_and_kernel_move_each_other(browser: Browser, notebook: str) -> N
     # To Python.
     page.get_by_label("crank angle").fill("77.5")
     page.locator("[data-name=rod-ratio]").fill("0.25")
-    # Keys that turn the crank do nothing else: two of "d" would delete the cell.
-    page.locator(".crankpin").focus()
-    for key in ("ArrowRight", "d", "d"):
+    # Keys are the widget's alone: "r" would make the cell raw, two of "d" would delete it.
+    page.get_by_label("turn the crank").focus()
+    for key in ("r", "d", "d"):
+        page.keyboard.press(key)
+    page.locator(".crankpin input[type=checkbox]").first.click()
+    for key in ("ArrowRight", "m", "d", "d"):
         page.keyboard.press(key)
     assert page.locator(".jp-Notebook .jp-CodeCell").count() == len(CELLS)
+    assert page.get_by_role("button", name="reverse").get_attribute("aria-pressed") == "true"
     page.locator(".jp-Notebook .jp-InputArea-editor").nth(2).click()
     page.keyboard.press("Shift+Enter")
     page.get_by_text("78.5 0.25 0.25").wait_for()

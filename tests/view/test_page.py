@@ -278,6 +278,32 @@ def test_keys(open_engine: Open) -> None:
     page.get_by_role("button", name="stop").press("Space")
     page.clock.run_for(500)
     assert angle(page) == 5
+    slider = page.get_by_label("turn the crank")
+    slider.fill("8")
+    slider.press("ArrowRight")
+    assert angle(page) == 9
+
+
+CLICKED = {
+    "play": lambda page: page.get_by_role("button", name="play").click(),
+    "reverse": lambda page: page.get_by_role("button", name="reverse").click(),
+    "slider": lambda page: page.get_by_label("turn the crank").click(),
+    "order": lambda page: page.get_by_role("checkbox").first.click(),
+}
+
+
+@pytest.mark.parametrize("clicked", CLICKED)
+def test_keys_after_a_click(open_engine: Open, clicked: str) -> None:
+    """Space plays and stops, and R reverses, whatever was clicked before."""
+    page = open_engine(V8)
+    freeze(page)
+    CLICKED[clicked](page)
+    before = page.evaluate("({ ...crankpin.state, still: crankpin.state.still.size })")
+    page.keyboard.press("Space")
+    page.keyboard.press("r")
+    after = page.evaluate("({ ...crankpin.state, still: crankpin.state.still.size })")
+    changed = {key for key in before if before[key] != after[key]}
+    assert changed == {"playing", "reverse"}
 
 
 # --- settings -----------------------------------------------------------------------------------
@@ -301,6 +327,45 @@ def test_engine_follows_its_settings(open_engine: Open) -> None:
     page.get_by_label("engine speed").fill("6000")
     page.get_by_label("bank angle", exact=True).fill("90")
     assert values(page)["moment-longest"] == pytest.approx(4 * found["moment-longest"], rel=1e-9)
+
+
+def test_title_names_changed_settings(open_engine: Open) -> None:
+    page = open_engine(cp.Engine.preset("v6-60"))
+    title = page.locator("h1")
+    own = title.text_content()
+    page.get_by_label("bank angle", exact=True).fill("90")
+    assert title.text_content() == page.title() == f"{own} → bank angle 90°"
+    page.locator("[data-name=rod-ratio]").fill("0.25")
+    assert title.text_content() == f"{own} → bank angle 90°, rod ratio 0.25"
+    page.get_by_label("bank angle", exact=True).fill("60")
+    assert title.text_content() == f"{own} → rod ratio 0.25"
+
+
+def test_a_rejected_value_is_answered_by_the_range(open_engine: Open) -> None:
+    page = open_engine(V8)
+    field = page.locator("[data-name=rod-ratio]")
+    said = page.locator(".limits:visible")
+    own = field.input_value()
+    field.fill("1.2")
+    field.press("Enter")
+    assert field.input_value() == own
+    assert said.text_content() == "give 0.05–0.99"
+    field.fill("0.25")
+    field.press("Enter")
+    assert said.count() == 0
+
+
+def test_dials_do_not_enlarge_what_is_negligible(open_engine: Open) -> None:
+    """The longest force of an inline-6 is 2e-4 of what its cylinders make one by one."""
+    page = open_engine(cp.Engine.preset("i6"))
+    lengths = page.eval_on_selector_all(
+        ".phasor:not([hidden]) .trace, .dial .trace.force",
+        "found => found.map(each => each.getBBox().height)",
+    )
+    assert len(lengths) >= 3
+    assert max(lengths) < 40  # of 168 pixels, which stand for 1e-3 at least
+    reach = page.evaluate("84 / crankpin.orbits.dial.scale")
+    assert values(page)["orbit-longest"] == pytest.approx(reach, rel=1e-12)
 
 
 def test_firing_follows_the_library_s(open_engine: Open) -> None:
@@ -413,6 +478,17 @@ def test_a_phone_s_width_needs_no_scrolling(open_engine: Open, engine: cp.Engine
             .map(each => each.outerHTML)""",
     )
     assert wide == []
+
+
+def test_a_tablet_s_width_leaves_the_cross_section_its_size(open_engine: Open) -> None:
+    page = open_engine(V8, viewport={"width": 920, "height": 900})
+    box = page.locator(".scene.cross").bounding_box()
+    assert box is not None
+    assert box["height"] < 450  # half of the screen
+    lines = page.eval_on_selector_all(
+        ".crankpin :is(dt, dd)", "found => found.map(each => each.getClientRects()[0].height)"
+    )
+    assert max(lines) < 1.5 * min(lines)
 
 
 @pytest.mark.parametrize("engine", [V8, everything()])

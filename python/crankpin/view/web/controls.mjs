@@ -33,7 +33,7 @@ export class Transport {
       element.addEventListener("click", act);
       return element;
     };
-    this.play = button("play", () => view.set({ playing: true }));
+    this.play = button("play", () => view.set({ playing: !view.state.playing }));
     this.stop = button("stop", () => view.set({ playing: false }));
     this.reverse = button("reverse", () => view.set({ reverse: !view.state.reverse }));
     this.angle = html("input", {
@@ -151,15 +151,26 @@ export class Settings {
 
 /** A slider and a field for the same number. */
 function pair(label, described, name, least, most, step, unit, act, settle, limit = most) {
-  const range = slider(label, least, most, step, act);
+  const bound = (value) => fixed(html, "span", "bound", value, `${value}`);
+  const limits = html("span", { class: "limits", role: "status", hidden: true },
+    `${STRINGS.give} `, bound(least), "–", bound(limit));
+  const changed = (value) => {
+    limits.hidden = true;
+    act(value);
+  };
+  const range = slider(label, least, most, step, changed);
   const field = html("input", {
     type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": described,
     "data-name": name, "data-value": "",
   });
-  typed(field, act, settle, (value) => value >= least && value <= limit);
+  const left = (refused) => {
+    limits.hidden = !refused;
+    settle();
+  };
+  typed(field, changed, left, (value) => value >= least && value <= limit);
   return {
-    element: html("div", { class: "setting" },
-      html("span", {}, label), range, html("span", { class: "field" }, field, html("i", {}, unit))),
+    element: html("div", { class: "setting" }, html("span", {}, label), range,
+      html("span", { class: "field" }, field, html("i", {}, unit)), limits),
     show(value) {
       if (value === null) return;
       range.value = value;
@@ -191,7 +202,7 @@ function write(field, value) {
   field.value = String(Number(value.toFixed(6)));
 }
 
-/** Act on every number that is typed; mark what is none until the field is left, then `settle`. */
+/** Act on every number that is typed; mark others until the field is left, and tell `settle` of one. */
 function typed(field, act, settle, allowed = () => true) {
   field.addEventListener("input", () => {
     const text = field.value.trim().replace("−", "-").replace(",", ".");
@@ -204,7 +215,8 @@ function typed(field, act, settle, allowed = () => true) {
     }
   });
   field.addEventListener("change", () => {
+    const refused = field.hasAttribute("aria-invalid");
     field.removeAttribute("aria-invalid");
-    settle();
+    settle(refused);
   });
 }

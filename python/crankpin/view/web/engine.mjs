@@ -27,7 +27,7 @@ export function rodRatioLimits({ cylinders }) {
   const reach = cylinders.map(
     ({ crank_radius: r, pin_offset: e }) => 0.999 * (r / (r + Math.abs(e))),
   );
-  return [0.05, Math.min(LARGEST_ROD_RATIO, ...reach)];
+  return [0.05, Math.floor(1000 * Math.min(LARGEST_ROD_RATIO, ...reach)) / 1000];
 }
 
 /**

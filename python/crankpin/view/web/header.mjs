@@ -9,13 +9,19 @@ export class Header {
   constructor(title, fires) {
     this.order = numbered(html, "span", "firing-order");
     this.intervals = numbered(html, "span", "firing-intervals");
+    this.changes = html("span", {});
     this.element = html("header", {},
-      html("h1", {}, fixed(html, "span", "engine-name", title, title)),
+      html("h1", {}, fixed(html, "span", "engine-name", title, title), this.changes),
       fires ? html("p", {}, `${STRINGS.firingOrder} `, this.order, " ", this.intervals) : "");
   }
 
-  /** Order and intervals of firing, which change with the bank angle, from cylinder 1 on. */
-  layout({ cylinders, cycle, firing }) {
+  /** The settings that are not the engine's own, and order and intervals of firing from cylinder 1 on. */
+  layout({ cylinders, cycle, firing, settings }, own) {
+    const changed = [
+      ["bank_angle_deg", STRINGS.bankAngle, STRINGS.degrees], ["rod_ratio", STRINGS.rodRatio, ""],
+    ].filter(([key]) => settings[key] !== own[key]);
+    this.changes.replaceChildren(...changed.flatMap(([key, name, unit], k) => [`${k ? "," : " →"} ${name} `,
+      fixed(html, "span", `changed-${key}`, settings[key], `${short(settings[key], 6)}${unit}`)]));
     if (!firing) return;
     const fires = ({ strokes: [[, begin]] }) => begin;
     // Rounding must not put one that fires with cylinder 1 last.

@@ -6,5 +6,7 @@ import { View } from "./view.mjs";
 export function page(figures) {
   const view = new View(figures, { keysOn: document });
   document.body.append(view.element);
+  const name = document.title;
+  view.listeners.add(() => { document.title = `${name}${view.header.changes.textContent}`; });
   globalThis.crankpin = view;
 }

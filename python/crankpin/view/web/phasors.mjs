@@ -17,8 +17,8 @@ export class Phasors {
     this.cards = [];
   }
 
-  /** Draw the orders given. */
-  layout(orders) {
+  /** Draw the orders given; `whole` is what the cylinders make one by one. */
+  layout(orders, whole) {
     // Cards stay while the orders do: the reader may be looking at one.
     const same = orders.length === this.cards.length
       && orders.every(({ order }, k) => order === this.cards[k].order);
@@ -27,7 +27,7 @@ export class Phasors {
       const none = html("p", {}, STRINGS.noOrders);
       this.element.replaceChildren(...(orders.length ? this.cards.map((c) => c.element) : [none]));
     }
-    orders.forEach((each, k) => this.cards[k].layout(each));
+    orders.forEach((each, k) => this.cards[k].layout(each, whole));
   }
 
   pose(crank) {
@@ -44,8 +44,8 @@ class Card {
       html("div", { class: "pictures" }, ...this.pictures.map((each) => each.element)));
   }
 
-  layout(parts) {
-    for (const each of this.pictures) each.layout(parts[each.quantity]);
+  layout(parts, whole) {
+    for (const each of this.pictures) each.layout(parts[each.quantity], whole[each.quantity]);
   }
 
   pose(crank) {
@@ -67,11 +67,11 @@ class Picture {
       html("span", { class: "of" }, STRINGS[quantity]), this.dial.element, ...this.values);
   }
 
-  layout({ forward, backward }) {
+  layout({ forward, backward }, whole) {
     this.parts = [forward, backward];
     const reach = longest({ forward, backward });
     const scale = scaleFor(reach, STRINGS.units[this.quantity]);
-    this.dial.reach(reach);
+    this.dial.reach(reach, whole);
     const points = Array.from({ length: 73 }, (_, k) => {
       const [cos, sin] = [Math.cos((k * Math.PI) / 36), Math.sin((k * Math.PI) / 36)];
       return add(multiply(forward, [cos, sin]), multiply(backward, [cos, -sin]));

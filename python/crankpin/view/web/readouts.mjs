@@ -14,7 +14,7 @@ export class Readouts {
     this.torque = output("torque");
     this.vectors = Object.fromEntries(VECTORS.map((quantity) =>
       [quantity, AXES.map((axis) => output(`${quantity}-${axis}`))]));
-    this.longest = Object.fromEntries([...VECTORS, "torque"].map((quantity) =>
+    this.longest = Object.fromEntries([...VECTORS, "torque", "orbit"].map((quantity) =>
       [quantity, numbered(html, "span", `${quantity}-longest`)]));
   }
 
@@ -34,6 +34,10 @@ export class Readouts {
       ...this.most(STRINGS.largest, "torque"));
   }
 
+  listOfOrbits() {
+    return html("dl", {}, ...this.most(STRINGS.farthest, "orbit"));
+  }
+
   most(word, quantity) {
     return [
       html("dt", { class: "longest" }, word),
@@ -45,9 +49,14 @@ export class Readouts {
   layout(peaks) {
     this.scales = {};
     for (const [quantity, largest] of Object.entries(peaks)) {
-      this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
-      this.write(this.longest[quantity], quantity, largest);
+      this.choose(quantity, largest);
     }
+  }
+
+  /** Choose unit and digits of one quantity. */
+  choose(quantity, largest) {
+    this.scales[quantity] = scaleFor(largest, STRINGS.units[quantity]);
+    this.write(this.longest[quantity], quantity, largest);
   }
 
   pose({ thetaDeg, torque, ...vectors }) {

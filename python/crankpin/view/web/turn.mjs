@@ -23,25 +23,28 @@ export function turn(engine, orders) {
   return curve;
 }
 
-/** Longest force and moment and largest torque of a turn; zero if they are rounding. */
-export function peaks(engine, orders, { force, moment, torque }) {
-  const { cylinders, reference, settings } = engine;
+/** Bounds of what the cylinders make one by one, at order 1. */
+export function sizes({ cylinders, reference, settings }) {
   const square = angularSpeed(settings.rpm) ** 2;
   const size = (lever) => cylinders.reduce((sum, each) => sum + square * lever(each)
     * (each.reciprocating_mass + each.rotating_mass) * each.crank_radius, 0);
+  return {
+    force: size(() => 1),
+    moment: size(({ z }) => Math.abs(z) + Math.abs(reference)),
+    torque: size((each) => each.crank_radius),
+  };
+}
+
+/** Longest force and moment and largest torque of a turn; zero if they are rounding. */
+export function peaks(engine, orders, { force, moment, torque }) {
+  const whole = sizes(engine);
   const length = ([x, y]) => Math.hypot(x, y);
   const at = (value) => (theta) => value(poseAt(engine, orders, theta));
-  const above = (value, whole) => (value > NOISE * whole ? value : 0);
+  const above = (quantity, value) => (value > NOISE * whole[quantity] ? value : 0);
   return {
-    force: above(peak(force.map(length), at((pose) => length(pose.force))), size(() => 1)),
-    moment: above(
-      peak(moment.map(length), at((pose) => length(pose.moment))),
-      size(({ z }) => Math.abs(z) + Math.abs(reference)),
-    ),
-    torque: above(
-      peak(torque.map(Math.abs), at((pose) => Math.abs(pose.torque))),
-      size((each) => each.crank_radius),
-    ),
+    force: above("force", peak(force.map(length), at((pose) => length(pose.force)))),
+    moment: above("moment", peak(moment.map(length), at((pose) => length(pose.moment)))),
+    torque: above("torque", peak(torque.map(Math.abs), at((pose) => Math.abs(pose.torque)))),
   };
 }
 

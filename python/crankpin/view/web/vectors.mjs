@@ -6,6 +6,9 @@ import { path, svg } from "./dom.mjs";
 const SIZE = 200;
 const RADIUS = 84;
 
+/** Least length that fills a dial, over what the cylinders make one by one: less is drawn shorter. */
+const LEAST = 1e-3;
+
 /** A round picture of vectors about its centre. */
 export class Dial {
   constructor(label, { size = SIZE, radius = RADIUS, axes = true } = {}) {
@@ -30,9 +33,9 @@ export class Dial {
     return element;
   }
 
-  /** Length of the longest vector to be drawn; zero draws none. */
-  reach(longest) {
-    this.scale = longest > 0 ? this.radius / longest : 0;
+  /** Scale to the longest vector to be drawn, or to a thousandth of `whole`; zero draws none. */
+  reach(longest, whole = 0) {
+    this.scale = longest > 0 ? this.radius / Math.max(longest, LEAST * whole) : 0;
   }
 
   at([x, y]) {
@@ -67,8 +70,8 @@ export class Arrow {
     this.element = this.dial.element;
   }
 
-  layout(points, longest) {
-    this.dial.reach(longest);
+  layout(points, longest, whole) {
+    this.dial.reach(longest, whole);
     this.trace.setAttribute("d", this.dial.curve(points));
   }
 

@@ -20,7 +20,7 @@ import { Scene } from "./scene.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
 import { Timeline } from "./timeline.mjs";
-import { peaks, turn } from "./turn.mjs";
+import { peaks, sizes, turn } from "./turn.mjs";
 import { Arrow, Orbits, Twist } from "./vectors.mjs";
 
 /** Orders that are shown at most. */
@@ -54,6 +54,11 @@ export class View {
     this.keysOn = keysOn ?? this.element;
     this.onKey = (event) => this.key(event);
     this.keysOn.addEventListener("keydown", this.onKey);
+    this.element.addEventListener("click", (event) => {
+      // After the mouse pressed a button, keys are the view's again.
+      if (!event.detail || !event.target.closest?.("button, input[type=checkbox]")) return;
+      this.element.focus({ preventScroll: true });
+    });
     this.configure();
     this.pose();
   }
@@ -152,7 +157,7 @@ export class View {
         STRINGS.strokes) : "",
         legend(figures.firing_deg ? ["fires", "tdc"] : ["tdc"], STRINGS.marks),
         this.timelineBox),
-      html("p", { class: "hint" }, STRINGS.block),
+      html("p", { class: "hint" }, `${STRINGS.block} ${STRINGS.ownScales}`),
       html("p", { class: "hint" }, STRINGS.keys),
     );
   }
@@ -162,7 +167,8 @@ export class View {
     return [
       panel(STRINGS.force, this.force.element, readouts.listOf("force")),
       panel(STRINGS.moment, this.moment.element, readouts.listOf("moment")),
-      panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends)),
+      panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends),
+        readouts.listOfOrbits()),
       panel(STRINGS.torque, this.twist.element, readouts.listOfTorque()),
     ];
   }
@@ -189,12 +195,13 @@ export class View {
     this.stretchedLine.hidden = stretch === 1;
     this.transport.layout(this.engine);
     this.settings.layout(this.shown);
-    this.phasors.layout(this.shown);
-    this.force.layout(this.curve.force, this.peaks.force);
-    this.moment.layout(this.curve.moment, this.peaks.moment);
+    const whole = sizes(this.engine);
+    this.phasors.layout(this.shown, whole);
+    this.force.layout(this.curve.force, this.peaks.force, whole.force);
+    this.moment.layout(this.curve.moment, this.peaks.moment, whole.moment);
     this.twist.layout(this.peaks.torque);
     this.layoutRocking();
-    this.header.layout(this.engine);
+    this.header.layout(this.engine, ownSettings(this.figures));
     this.layoutTimeline();
     this.transport.showSettings(state);
   }
@@ -215,6 +222,7 @@ export class View {
     this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
     const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
     this.orbits.layout(traced, reach);
+    this.readouts.choose("orbit", reach);
     this.settings.show(state);
   }
 
@@ -263,9 +271,7 @@ export class View {
   }
 
   key(event) {
-    const { target } = event;
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (target.closest?.("input, select, textarea")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || keeps(event)) return;
     const times = event.shiftKey ? 10 : 1;
     const actions = {
       " ": () => this.set({ playing: !this.state.playing }),
@@ -275,9 +281,17 @@ export class View {
       Home: () => this.set({ angle_deg: 0, playing: false }),
     };
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    // Space on a button presses the button.
-    if (!act || (event.key === " " && target.closest?.("button"))) return;
+    if (!act) return;
     event.preventDefault();
     act();
   }
+}
+
+/** Keys that a control uses itself, by its type; a field and a choice use all. */
+const OWN_KEYS = { button: [" "], checkbox: [" "], range: ["ArrowLeft", "ArrowRight", "Home"] };
+
+/** True if a key is the business of the control it is pressed in. */
+function keeps({ target, key }) {
+  const control = target.closest?.("button, input, select, textarea");
+  return Boolean(control) && (OWN_KEYS[control.type]?.includes(key) ?? true);
 }

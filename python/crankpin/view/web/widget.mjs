@@ -10,8 +10,10 @@ const PACE = 100;
 
 function render({ model, el }) {
   const view = new View(model.get("figures"));
-  // Keys that turn the crank are not the notebook's.
-  view.element.setAttribute("data-lm-suppress-shortcuts", "true");
+  // JupyterLab looks at the focused control before what it stands in: each must say that its keys
+  // are not the notebook's.
+  view.element.addEventListener("focusin",
+    ({ target }) => target.setAttribute("data-lm-suppress-shortcuts", "true"));
   el.append(view.element);
 
   const heard = Object.fromEntries(
