@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "LONGEST_AXIS",
+    "LONGEST_FILE",
     "SCHEMA",
     "Balance",
     "BankAngles",
@@ -46,10 +47,12 @@ __all__ = [
 
 __version__: str
 LONGEST_AXIS: int
+LONGEST_FILE: int
 SCHEMA: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
 _Weight: TypeAlias = tuple[float, str, float, int | None]
+_Kept: TypeAlias = tuple[float | None, float | None, Sequence[float] | None]
 _Shaft: TypeAlias = tuple[str, int, float, float, Sequence[_Weight]]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
 _Complex: TypeAlias = NDArray[np.complex128]
@@ -98,6 +101,8 @@ class Engine:
     def from_toml(text: str) -> Engine: ...
     @staticmethod
     def from_json(text: str) -> Engine: ...
+    @staticmethod
+    def from_state(text: str) -> Engine: ...
     def to_toml(self) -> str: ...
     def to_json(self) -> str: ...
     @property
@@ -124,6 +129,15 @@ class Engine:
     def largest_crank_radius(self) -> float: ...
     @property
     def middle(self) -> float: ...
+    @property
+    def reference_z(self) -> float | None: ...
+    @property
+    def mains(self) -> list[float]: ...
+    @property
+    def details(self) -> list[_Kept]: ...
+    def keeping(
+        self, details: Sequence[_Kept], mains: Sequence[float], reference_z: float | None
+    ) -> Engine: ...
     def with_bank_angle(self, bank_angle: str, held: str) -> Engine: ...
     def with_first_tdc(self, tdc: str) -> Engine: ...
     @property

@@ -209,7 +209,7 @@ def file_path(path: object, endings: tuple[str, ...], hint: str) -> Path:
         file = Path(path)  # type: ignore[arg-type]
     except TypeError:
         raise InputError(f"path = {shorten(path)}: give a path; {hint}") from None
-    if file.suffix.lower() not in endings:
+    if file.suffix.lower() not in endings or "\0" in str(file):
         raise InputError(f"path = {shorten(str(path))}: {hint}")
     return file
 

@@ -22,11 +22,13 @@ def from_json(text: object) -> _core.Engine:
 def load(path: object) -> _core.Engine:
     """Return the engine in a ``.toml`` or ``.json`` file."""
     file = _path(path)
+    with file.open("rb") as opened:
+        found = opened.read(_core.LONGEST_FILE + 1)  # of a longer one no more than its error needs
     try:
-        text = file.read_text(encoding="utf-8")
+        text = found.decode("utf-8")
     except UnicodeDecodeError as error:
-        cure = f"{error}; an engine file is UTF-8"
-        raise InputError(f"path = {inputs.shorten(str(path))}: {cure}") from None
+        hint = f"{error}; an engine file is UTF-8"
+        raise InputError(f"path = {inputs.shorten(str(path))}: {hint}") from None
     return from_toml(text) if file.suffix.lower() == ".toml" else from_json(text)
 
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crankpin_core as core;
 use crankpin_core::Error;
-use crankpin_core::engine::{Hold, Placement, Shaft, Unbalance, file};
+use crankpin_core::engine::{Details, Hold, Placement, Shaft, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use ndarray::Array1;
 use numpy::PyArray1;
@@ -42,6 +42,9 @@ where
 type Weight = (f64, String, f64, Option<usize>);
 /// The same, its angle read.
 type GivenWeight = (f64, Angle, f64, Option<usize>);
+
+/// Bore, piston mass, and the rod's mass, inertia and place of its centre.
+type Kept = (Option<f64>, Option<f64>, Option<[f64; 3]>);
 
 fn weight(unbalance: &Unbalance) -> Weight {
     (unbalance.amount, unbalance.angle.to_string(), unbalance.z, unbalance.pin)
@@ -299,6 +302,11 @@ impl Engine {
         file::from_json(text).or_raise().map(Self::from)
     }
 
+    #[staticmethod]
+    fn from_state(text: &str) -> PyResult<Self> {
+        file::from_state(text).or_raise().map(Self::from)
+    }
+
     fn to_toml(&self) -> PyResult<String> {
         file::to_toml(&self.0).or_raise()
     }
@@ -373,6 +381,35 @@ impl Engine {
     #[getter]
     fn middle(&self) -> f64 {
         self.0.middle()
+    }
+
+    /// Reference plane of moments that was given.
+    #[getter]
+    fn reference_z(&self) -> Option<f64> {
+        self.0.reference_z()
+    }
+
+    #[getter]
+    fn mains(&self) -> Vec<f64> {
+        self.0.mains().to_vec()
+    }
+
+    #[getter]
+    fn details(&self) -> Vec<Kept> {
+        self.0.details().iter().map(|d| (d.bore, d.piston_mass, d.rod)).collect()
+    }
+
+    /// The same engine with what it keeps and does not compute with.
+    fn keeping(
+        &self,
+        details: Vec<Kept>,
+        mains: Vec<f64>,
+        reference_z: Option<f64>,
+    ) -> PyResult<Self> {
+        let details = details.into_iter();
+        let details = details.map(|(bore, piston_mass, rod)| Details { bore, piston_mass, rod });
+        let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
+        engine.and_then(|e| e.with_reference(reference_z)).or_raise().map(Self::from)
     }
 
     fn with_bank_angle(&self, bank_angle: Angle, held: &str) -> PyResult<Self> {
@@ -453,7 +490,7 @@ impl Engine {
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let json = slf.get().to_json()?;
-        Ok((slf.get_type().getattr("from_json")?, PyTuple::new(slf.py(), [json])?))
+        let state = file::to_state(&slf.get().0).or_raise()?;
+        Ok((slf.get_type().getattr("from_state")?, PyTuple::new(slf.py(), [state])?))
     }
 }

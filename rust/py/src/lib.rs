@@ -24,6 +24,7 @@ mod waveform;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
+    module.add("LONGEST_FILE", crankpin_core::engine::file::LONGEST_TEXT)?;
     module.add("SCHEMA", crankpin_core::engine::file::SCHEMA)?;
     module.add("InputError", module.py().get_type::<convert::InputError>())?;
     module.add_class::<engine::Engine>()?;

@@ -3,15 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
-use super::{Engine, Placement, Shaft, Unbalance, first_equal};
+use super::{Details, Engine, Placement, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
 
 /// Version of the schema that this file reads and writes.
 pub const SCHEMA: u32 = 1;
-/// Longest text that is read: a thousand cylinders with parts of their own take a fifth of it.
-const LONGEST_TEXT: usize = 1 << 20;
+/// Longest text that is read, bytes: the most cylinders and unbalances there may be take half of it.
+pub const LONGEST_TEXT: usize = 1 << 24;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,6 +25,12 @@ struct EngineFile {
     firing_order: String,
     #[serde(default = "four", skip_serializing_if = "is_four")]
     strokes: u32,
+    /// Reference plane of moments, where it is not the middle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reference_z: Option<f64>,
+    /// Places of the main bearings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    mains: Vec<f64>,
     /// Running gear of every placement that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
@@ -36,7 +42,7 @@ struct EngineFile {
     shafts: Vec<BalanceShaft>,
 }
 
-#[derive(Serialize, Deserialize, Clone, Copy)]
+#[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Parts {
     crank_radius: f64,
@@ -46,6 +52,21 @@ struct Parts {
     pin_offset: f64,
     #[serde(default, skip_serializing_if = "is_zero")]
     rod_inertia_excess: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bore: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    piston_mass: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rod: Option<RodFigures>,
+}
+
+/// A rod of known inertia; its length is that of the cylinder's.
+#[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct RodFigures {
+    mass: f64,
+    inertia: f64,
+    to_crankpin: f64,
 }
 
 fn four() -> u32 {
@@ -70,7 +91,7 @@ struct Place {
     z: f64,
     #[serde(default)]
     rotating_mass: f64,
-    /// Number of the bank, where two banks have one direction.
+    /// Number of the bank, where directions alone do not tell which is which.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     bank: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -168,13 +189,20 @@ impl Degrees {
 }
 
 impl Parts {
-    fn of(cylinder: &Cylinder) -> Self {
+    fn of(cylinder: &Cylinder, details: &Details) -> Self {
         Self {
             crank_radius: cylinder.crank_radius(),
             rod_length: cylinder.rod_length(),
             reciprocating_mass: cylinder.reciprocating_mass(),
             pin_offset: cylinder.pin_offset(),
             rod_inertia_excess: cylinder.rod_inertia_excess(),
+            bore: details.bore,
+            piston_mass: details.piston_mass,
+            rod: details.rod.map(|[mass, inertia, to_crankpin]| RodFigures {
+                mass,
+                inertia,
+                to_crankpin,
+            }),
         }
     }
 
@@ -182,37 +210,44 @@ impl Parts {
         Cylinder::new(self.crank_radius, self.rod_length, self.reciprocating_mass, self.pin_offset)?
             .with_rod_inertia_excess(self.rod_inertia_excess)
     }
+
+    fn details(&self) -> Details {
+        let rod = self.rod.map(|rod| [rod.mass, rod.inertia, rod.to_crankpin]);
+        Details { bore: self.bore, piston_mass: self.piston_mass, rod }
+    }
 }
 
 impl EngineFile {
-    fn of(engine: &Engine) -> Self {
-        let shared = engine.gears().len() == 1;
-        // Directions tell banks apart but for a vee at 0°.
-        let banks = engine.bank_directions();
-        let numbered = first_equal(banks.iter()).into_iter().ne(0..banks.len());
-        let number = |bank: usize| match engine.banks() {
-            Ok(banks) => usize::from(bank != banks.right) + 1,
-            Err(_) => bank + 1,
-        };
+    fn of(engine: &Engine) -> Result<Self> {
+        let each = engine.placements().iter().zip(engine.details());
+        let parts: Vec<Parts> = each.map(|(p, details)| Parts::of(&p.cylinder, details)).collect();
+        let shared = parts.iter().all(|each| *each == parts[0]);
+        // Directions distinguish banks but for some at 0° and 180°.
+        let guessed = Engine::new("", "", engine.placements().to_vec())?;
+        let numbered = (&guessed.bank_of, guessed.right) != (&engine.bank_of, engine.right);
+        let number =
+            |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
         let place = |(i, p): (usize, &Placement)| Place {
             tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
             rotating_mass: p.rotating_mass,
             bank: numbered.then(|| number(engine.bank_of(i))),
-            cylinder: (!shared).then(|| Parts::of(&p.cylinder)),
+            cylinder: (!shared).then_some(parts[i]),
         };
-        Self {
+        Ok(Self {
             schema: SCHEMA,
             name: engine.name().to_owned(),
             source: engine.source().to_owned(),
             firing_order: engine.firing_order().to_owned(),
             strokes: engine.strokes().number(),
-            cylinder: shared.then(|| Parts::of(&engine.gears()[0])),
+            reference_z: engine.reference_z(),
+            mains: engine.mains().to_vec(),
+            cylinder: shared.then_some(parts[0]),
             placements: engine.placements().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(Weight::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
-        }
+        })
     }
 
     fn engine(self) -> Result<Engine> {
@@ -239,6 +274,10 @@ impl EngineFile {
             })
         });
         let placements: Vec<Placement> = placements.collect::<Result<_>>()?;
+        let details = self.placements.iter().map(|place| {
+            place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
+        });
+        let details = details.collect();
         let numbered = self.placements.iter().any(|p| p.bank.is_some());
         let numbers = self.placements.iter().enumerate().map(|(i, place)| {
             let hint = "give each placement the number of its bank, or none";
@@ -256,6 +295,9 @@ impl EngineFile {
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         engine
             .firing_as(self.firing_order, Strokes::from_number(self.strokes)?)?
+            .with_details(details)?
+            .with_mains(self.mains)?
+            .with_reference(self.reference_z)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
     }
@@ -276,12 +318,22 @@ fn same_directions(placements: &[Placement], numbers: &[usize]) -> Result<()> {
 
 /// Text as TOML.
 pub fn to_toml(engine: &Engine) -> Result<String> {
-    toml::to_string(&EngineFile::of(engine)).map_err(|e| unreadable("TOML", &e))
+    toml::to_string(&EngineFile::of(engine)?).map_err(|e| unreadable("TOML", &e))
 }
 
 /// Text as JSON.
 pub fn to_json(engine: &Engine) -> Result<String> {
-    serde_json::to_string_pretty(&EngineFile::of(engine)).map_err(|e| unreadable("JSON", &e))
+    serde_json::to_string_pretty(&EngineFile::of(engine)?).map_err(|e| unreadable("JSON", &e))
+}
+
+/// The engine as data, of any size, for copies that no person reads.
+pub fn to_state(engine: &Engine) -> Result<String> {
+    serde_json::to_string(&EngineFile::of(engine)?).map_err(|e| unreadable("JSON", &e))
+}
+
+/// The engine that [`to_state`] wrote.
+pub fn from_state(text: &str) -> Result<Engine> {
+    serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
 }
 
 /// Engine from TOML.
@@ -335,6 +387,9 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
             check_tables(value, key)?;
         }
         let Some(list) = value.as_array() else { continue };
+        if key == "mains" {
+            continue; // of numbers
+        }
         if !LISTS.contains(&key.as_str()) {
             let reason = format!("{}: an array is not allowed here", shorten(key));
             return Err(Error::File { format: "JSON", reason });
@@ -353,6 +408,8 @@ fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Hold;
+    use crate::numbers::limits;
     use proptest::prelude::*;
 
     fn engines() -> impl Strategy<Value = Engine> {
@@ -391,6 +448,15 @@ mod tests {
                     .unwrap()
                     .firing_as("1", Strokes::Two)
                     .unwrap();
+                let details = |i: usize| Details {
+                    bore: i.is_multiple_of(2).then_some(0.08),
+                    piston_mass: i.is_multiple_of(3).then_some(0.3),
+                    rod: i.is_multiple_of(5).then_some([0.5, 1e-3, 0.04]),
+                };
+                let details = (0..engine.placements().len()).map(details).collect();
+                let engine = engine.with_details(details).unwrap();
+                let engine = engine.with_mains(vec![-0.1, 0.25]).unwrap();
+                let engine = engine.with_reference(Some(0.125)).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )
@@ -401,6 +467,7 @@ mod tests {
         fn engine_files_read_back_as_equal_engines(engine in engines()) {
             prop_assert_eq!(&from_toml(&to_toml(&engine).unwrap()).unwrap(), &engine);
             prop_assert_eq!(&from_json(&to_json(&engine).unwrap()).unwrap(), &engine);
+            prop_assert_eq!(&from_state(&to_state(&engine).unwrap()).unwrap(), &engine);
         }
 
         #[test]
@@ -428,6 +495,53 @@ mod tests {
             let error = from_toml(&text.replacen("90", "80", 1).replace("bank = 2", "bank = 1"));
             assert!(error.unwrap_err().to_string().contains("bank_deg"));
         }
+    }
+
+    #[test]
+    fn opened_banks_keep_their_index_in_files() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = |bank: f64, z| Placement {
+            cylinder,
+            tdc: Angle::ZERO,
+            bank: Angle::from_degrees(bank).unwrap(),
+            z,
+            rotating_mass: 0.0,
+        };
+        // About a bisector at 40° the right bank of a flat engine is at 310°, not at 130°.
+        for [a, b] in [[10.0, 70.0], [70.0, 10.0], [60.0, 120.0], [200.0, 260.0]] {
+            let vee = Engine::new("", "", vec![place(a, 0.0), place(b, 0.1)]).unwrap();
+            for opened in [0, 180, 90] {
+                let angle = Angle::from_degree_fraction(opened, 1).unwrap();
+                let engine = vee.with_bank_angle(angle, Hold::Pins).unwrap();
+                assert_eq!(from_toml(&to_toml(&engine).unwrap()).unwrap(), engine);
+            }
+        }
+    }
+
+    #[test]
+    fn the_largest_engines_fit_a_file() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let place = Placement {
+            cylinder,
+            tdc: Angle::ZERO,
+            bank: Angle::QUARTER_TURN,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let angle = Angle::from_degree_fraction(123_456_789, 1_000_000).unwrap();
+        let weight = Unbalance { amount: 0.1 / 3.0, angle, z: -0.1 / 7.0, pin: None };
+        let shaft = Shaft {
+            name: String::new(),
+            ratio: -2,
+            axis: [0.1, 0.2],
+            unbalances: vec![weight; limits::MOST_UNBALANCES],
+        };
+        let engine = Engine::new("", "", vec![place]).unwrap();
+        let most = limits::MOST_UNBALANCES_OF_ALL / limits::MOST_UNBALANCES;
+        let engine = engine.with_shafts(vec![shaft.clone(); most]).unwrap();
+        assert!(to_toml(&engine).unwrap().len() <= LONGEST_TEXT / 2);
+        assert_eq!(from_json(&to_json(&engine).unwrap()).unwrap(), engine);
+        assert!(engine.with_shafts(vec![shaft; most + 1]).is_err());
     }
 
     #[test]

@@ -37,6 +37,18 @@ impl Placement {
     }
 }
 
+/// Figures of a cylinder that its forces do not depend on; the engine keeps them for its user.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Details {
+    /// Diameter of the bore, m.
+    pub bore: Option<f64>,
+    /// Mass of piston, pin and rings, kg; with `rod`, the rest of the reciprocating mass is the rod's.
+    pub piston_mass: Option<f64>,
+    /// The rod's mass in kg, moment of inertia about its centre of mass in kg·m², and distance of
+    /// that from the crankpin in m.
+    pub rod: Option<[f64; 3]>,
+}
+
 /// What a change of bank angle leaves as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
@@ -87,6 +99,12 @@ pub struct Engine {
     right: Option<usize>,
     counterweights: Vec<Unbalance>,
     shafts: Vec<Shaft>,
+    /// Of each cylinder.
+    details: Vec<Details>,
+    /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
+    mains: Vec<f64>,
+    /// Reference plane of moments, where it is not the middle, m.
+    reference_z: Option<f64>,
 }
 
 impl Engine {
@@ -98,13 +116,23 @@ impl Engine {
         source: impl Into<String>,
         placements: Vec<Placement>,
     ) -> Result<Self> {
-        let banks = first_equal(placements.iter().map(|p| p.bank.reduced()));
+        let mut banks = first_equal(placements.iter().map(|p| p.bank.reduced()));
+        // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
+        if let Some(first) = placements.first()
+            && placements
+                .iter()
+                .any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
+        {
+            let last = banks.iter().copied().max().unwrap_or(0);
+            banks = banks.into_iter().map(|bank| last - bank).collect();
+        }
         Self::in_banks(name, source, placements, &banks)
     }
 
     /// From placements whose banks are given: cylinders with equal keys form one bank.
     ///
-    /// Of two banks in one direction, as of a vee at 0°, the one with the smaller key is the right.
+    /// Of two banks in one direction or in opposite ones, as of a vee at 0° or 180°, the one with
+    /// the smaller key is the right.
     pub fn in_banks(
         name: impl Into<String>,
         source: impl Into<String>,
@@ -145,6 +173,9 @@ impl Engine {
             bank_of: first_equal(bank_keys.iter()),
             counterweights: Vec::new(),
             shafts: Vec::new(),
+            details: vec![Details::default(); count],
+            mains: Vec::new(),
+            reference_z: None,
         };
         engine.named(name, source)
     }
@@ -242,9 +273,30 @@ impl Engine {
         f64::midpoint(first, last)
     }
 
-    /// The reference plane given, or the default one.
+    /// Reference plane of moments, where it is not the middle, m.
+    #[must_use]
+    pub fn reference_z(&self) -> Option<f64> {
+        self.reference_z
+    }
+
+    /// The reference plane given, or the engine's own.
     pub fn reference(&self, z: Option<f64>) -> Result<f64> {
-        z.map_or_else(|| Ok(self.middle()), |z| limits::finite("reference_z", z))
+        match z.or(self.reference_z) {
+            Some(z) => limits::finite("reference_z", z),
+            None => Ok(self.middle()),
+        }
+    }
+
+    /// Figures of each cylinder that its forces do not depend on.
+    #[must_use]
+    pub fn details(&self) -> &[Details] {
+        &self.details
+    }
+
+    /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
+    #[must_use]
+    pub fn mains(&self) -> &[f64] {
+        &self.mains
     }
 
     /// Largest crank radius of any cylinder, m.
@@ -322,9 +374,56 @@ impl Engine {
     /// The same engine with these balance shafts instead of those it has.
     pub fn with_shafts(&self, shafts: Vec<Shaft>) -> Result<Self> {
         shaft::check_count("shafts", shafts.len())?;
+        let carried: usize = shafts.iter().map(|shaft| shaft.unbalances.len()).sum();
+        if carried > limits::MOST_UNBALANCES_OF_ALL {
+            let hint = format!("give at most {}", limits::MOST_UNBALANCES_OF_ALL);
+            return Err(Error::value("unbalances of all shafts", carried, hint));
+        }
         let checked = shafts.into_iter().enumerate();
         let checked = checked.map(|(i, shaft)| shaft.checked(&format!("shafts[{i}]")));
         Ok(Self { shafts: checked.collect::<Result<_>>()?, ..self.clone() })
+    }
+
+    /// The same engine with these figures of its cylinders.
+    pub fn with_details(&self, details: Vec<Details>) -> Result<Self> {
+        if details.len() != self.placements.len() {
+            return Err(Error::Length {
+                argument: "details".into(),
+                found: details.len(),
+                reference: "the engine".into(),
+                expected: self.placements.len(),
+                item: "cylinder",
+            });
+        }
+        for Details { bore, piston_mass, rod } in &details {
+            bore.map(|bore| limits::length("bore", bore)).transpose()?;
+            piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
+            if let Some([mass, inertia, to_crankpin]) = *rod {
+                limits::not_negative("rod.mass", mass)?;
+                limits::inertia("rod.inertia", inertia)?;
+                limits::not_negative("rod.to_crankpin", to_crankpin)?;
+            }
+        }
+        Ok(Self { details, ..self.clone() })
+    }
+
+    /// The same engine with main bearings at these places; none where they are not known.
+    pub fn with_mains(&self, mains: Vec<f64>) -> Result<Self> {
+        for (i, &z) in mains.iter().enumerate() {
+            limits::finite(&format!("mains[{i}]"), z)?;
+        }
+        let ascending = mains.is_sorted_by(|before, after| before < after);
+        if mains.len() == 1 || !ascending || mains.len() > 2 * limits::MOST_CYLINDERS {
+            let hint = "give two or more places in m, ascending, from the front to the flywheel";
+            return Err(Error::value("mains", format!("{mains:?}"), hint));
+        }
+        Ok(Self { mains, ..self.clone() })
+    }
+
+    /// The same engine with moments about this plane; `None` for the middle.
+    pub fn with_reference(&self, reference_z: Option<f64>) -> Result<Self> {
+        reference_z.map(|z| limits::finite("reference_z", z)).transpose()?;
+        Ok(Self { reference_z, ..self.clone() })
     }
 
     /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
@@ -348,9 +447,7 @@ fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
     }
     let (first, other) = (placements[0].bank, placements[second].bank);
     Some(match (other - first).reduced().degrees() {
-        0.0 => usize::from(keys[second] < keys[0]),
-        // 0° and 180° in either order: the flat engine's right bank points along +x.
-        180.0 => usize::from(other.degrees() < first.degrees()),
+        0.0 | 180.0 => usize::from(keys[second] < keys[0]),
         ahead => usize::from(ahead > 180.0),
     })
 }
@@ -444,6 +541,17 @@ mod tests {
     }
 
     #[test]
+    fn opposite_banks_keep_their_index() {
+        // The bisector of 10° and 70° is at 40°: opened to 180°, the right bank is at 310°.
+        let engine = vee(10.0, 70.0);
+        let flat = engine.with_bank_angle(degrees(180.0), Hold::Pins).unwrap();
+        assert_eq!(flat.banks().unwrap().directions, [degrees(310.0), degrees(130.0)]);
+        let keys: Vec<usize> = [0, 1].map(|i| usize::from(flat.bank_of(i) != 1)).to_vec();
+        let again = Engine::in_banks("", "", flat.placements().to_vec(), &keys).unwrap();
+        assert_eq!(again.with_bank_angle(degrees(60.0), Hold::Pins).unwrap(), engine);
+    }
+
+    #[test]
     fn bank_angle_changes_keep_pins_or_firing() {
         let engine = vee(60.0, 120.0);
         let by_pins = engine.with_bank_angle(degrees(90.0), Hold::Pins).unwrap();
@@ -476,6 +584,23 @@ mod tests {
         for angle in [-1e-9, 180.1, f64::NAN] {
             assert!(bank_angle_in_range(angle).is_err());
         }
+    }
+
+    #[test]
+    fn what_the_engine_keeps_is_checked() {
+        let engine = vee(60.0, 120.0);
+        let about = engine.with_reference(Some(0.3)).unwrap();
+        assert_eq!((engine.reference(None), about.reference(None)), (Ok(0.05), Ok(0.3)));
+        assert_eq!(about.reference(Some(0.2)), Ok(0.2));
+        assert!(engine.with_reference(Some(f64::NAN)).is_err());
+        for mains in [vec![0.1], vec![0.1, 0.1], vec![0.2, 0.1], vec![0.0, f64::INFINITY]] {
+            assert!(engine.with_mains(mains).unwrap_err().to_string().starts_with("mains"));
+        }
+        let bored = Details { bore: Some(0.08), ..Details::default() };
+        assert!(engine.with_details(vec![bored]).is_err());
+        assert_eq!(engine.with_details(vec![bored; 2]).unwrap().details(), [bored; 2]);
+        let negative = Details { rod: Some([-1.0, 0.0, 0.0]), ..bored };
+        assert!(engine.with_details(vec![negative; 2]).is_err());
     }
 
     fn weight(angle: f64, pin: Option<usize>) -> Unbalance {

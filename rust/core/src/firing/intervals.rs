@@ -16,17 +16,14 @@ pub struct Gap {
 }
 
 impl Firing {
-    /// The groups of cylinders whose bores have one direction, by index.
+    /// The cylinders of each bank, by index.
     #[must_use]
     pub fn banks(&self) -> Vec<Vec<usize>> {
-        let mut banks: Vec<(Angle, Vec<usize>)> = Vec::new();
-        for (i, placement) in self.engine().placements().iter().enumerate() {
-            match banks.iter_mut().find(|(bank, _)| *bank == placement.bank) {
-                Some((_, members)) => members.push(i),
-                None => banks.push((placement.bank, vec![i])),
-            }
+        let mut banks = vec![Vec::new(); self.engine().bank_directions().len()];
+        for i in 0..self.engine().placements().len() {
+            banks[self.engine().bank_of(i)].push(i);
         }
-        banks.into_iter().map(|(_, members)| members).collect()
+        banks
     }
 
     /// The groups given by cylinder number, or the banks, by index.

@@ -13,6 +13,8 @@ pub const SMALLEST: f64 = 1e-30;
 pub const MOST_CYLINDERS: usize = 1000;
 /// Most shafts of an engine, and most unbalances of a shaft.
 pub const MOST_UNBALANCES: usize = 1000;
+/// Most unbalances of all shafts together: an engine file has room for them.
+pub const MOST_UNBALANCES_OF_ALL: usize = 50_000;
 /// Longest name and source of an engine, bytes: files and copies go through a text of limited size.
 pub const LONGEST_NAME: usize = 10_000;
 /// Highest order; above it every coefficient of a slider-crank with λ < 0.99 is below 1e-300.

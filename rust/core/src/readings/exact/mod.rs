@@ -41,6 +41,7 @@ impl Levers {
         let ends = [f64::min, f64::max].map(|end| places().reduce(end).unwrap_or_default());
         let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
         // A plane that is a decimal is exact; any other is known from the middle of the engine.
+        let reference = reference.or(engine.reference_z());
         let exact = reference.filter(|&plane| decimal(plane).is_some());
         let shares = match (reference, exact) {
             (_, Some(plane)) => {
