@@ -104,7 +104,7 @@ def test_classical_results() -> None:
     assert vanishing("v12-60", "moment") == all_orders
 
 
-@pytest.mark.filterwarnings("ignore:z .or spacing. = 1e.06 m apart:UserWarning")
+@pytest.mark.filterwarnings("ignore:z .or spacing, bank_stagger. = 1e.06 m apart:UserWarning")
 @pytest.mark.parametrize("spacing", [0.1, 0.13, 0.091, 1e-3 / 3, 1e6])
 def test_equal_steps_in_decimals_are_equal(spacing: float) -> None:
     """0, 0.1, 0.2, 0.3 as they are typed: 0.3 is not three times 0.1 in binary."""
