@@ -272,6 +272,13 @@ class Tolerances:
     ) -> tuple[_Complex, _Complex, _Complex, _Real]: ...
     def deviations(self, name: str, first: int, count: int) -> _Real: ...
 
+def matched(
+    start: Sequence[float],
+    kinds: Sequence[tuple[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]]]],
+    sets: int,
+    starts: Sequence[Sequence[Sequence[int]]],
+    progress: _Progress | None,
+) -> tuple[list[list[int]], float, float, bool]: ...
 def peaks_of_sums(orders: Sequence[int], phasors: _Complex) -> _Real: ...
 
 _Timing: TypeAlias = tuple[str, str, str, str]

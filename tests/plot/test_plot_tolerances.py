@@ -31,6 +31,13 @@ def vertical(ax: Axes, label: str) -> float:
     return float(line.get_xdata()[0])  # type: ignore[index]
 
 
+def test_a_histogram_of_equal_values_has_one_bar(ax: Axes) -> None:
+    # The force of a single cylinder does not depend on where its pin points.
+    single = cp.tolerances(cp.Engine.preset("single"), rpm=3000, pin_deg=0.1, samples=100)
+    single.plot(ax, by="total.force.peak")
+    assert ax.get_ylim()[1] >= 100.0
+
+
 def test_a_histogram_has_all_samples_and_the_nominal_value(ax: Axes) -> None:
     assert T.plot(ax) is ax
     steps = [patch for patch in ax.patches if isinstance(patch, StepPatch)]

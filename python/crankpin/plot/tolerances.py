@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_BINS = 80
+ROUNDING = 1e-9
+"""Relative difference of values that is drawn as none."""
 LEAST_SHARE = 0.5
 """Percent below which a tolerance has no entry in the legend."""
 NOMINAL = "nominal"
@@ -69,8 +71,7 @@ def _words(result: Tolerances, words: str) -> str:
 
 def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: str) -> None:
     """Draw the part of the samples in each of equal intervals; a line at quantiles."""
-    bins = min(MOST_BINS, len(np.histogram_bin_edges(values, "auto")) - 1)
-    counts, edges = np.histogram(values, bins)
+    counts, edges = np.histogram(values, _edges(values))
     parts = 100.0 * counts / len(values)
     ax.stairs(parts, edges, fill=True, color=look["color"], alpha=0.3)
     ax.stairs(parts, edges, gid=SERIES, label=label, **_of_patches(look))
@@ -80,6 +81,17 @@ def _histogram(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], labe
     thin = look | {"linewidth": 0.8, "linestyle": "-"}
     ax.vlines(at, 0.0, heights, colors=thin["color"], linewidth=0.8, label=_quantile_label(ax))
     label_y(ax, "samples, %")
+
+
+def _edges(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the limits of the intervals; a single one if only rounding distinguishes values."""
+    low, high = float(values.min()), float(values.max())
+    if high - low <= ROUNDING * abs(high):
+        margin = 0.01 * abs(high) or 1.0
+        return np.array([low - margin, high + margin])
+    return np.histogram_bin_edges(
+        values, min(MOST_BINS, len(np.histogram_bin_edges(values, "auto")) - 1)
+    )
 
 
 def _of_patches(look: dict[str, Any]) -> dict[str, Any]:

@@ -19,6 +19,7 @@ pub mod engine;
 pub mod firing;
 pub mod gear;
 mod load;
+pub mod matching;
 pub mod numbers;
 pub mod readings;
 pub mod search;

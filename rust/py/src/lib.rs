@@ -13,6 +13,7 @@ mod convert;
 mod engine;
 mod firing;
 mod interrupt;
+mod matching;
 mod search;
 mod slider_crank;
 mod sweep;
@@ -57,6 +58,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(closed_form::closed_form, module)?)?;
     module.add_function(wrap_pyfunction!(search::arrangement, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;
+    module.add_function(wrap_pyfunction!(matching::matched, module)?)?;
     module.add_function(wrap_pyfunction!(tolerances::peaks_of_sums, module)?)?;
     Ok(())
 }

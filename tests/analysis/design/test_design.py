@@ -350,6 +350,11 @@ def test_what_cannot_be_designed(given: dict[str, Any], message: str) -> None:
     assert message in str(caught.value)
 
 
+def test_an_angle_may_be_an_array_without_dimensions() -> None:
+    found = design(6, bank_angle_deg=np.array(60.0), by="total.moment.peak")
+    assert found == design(6, bank_angle_deg=60, by="total.moment.peak")
+
+
 def test_a_function_where_nothing_varies() -> None:
     by = [lambda b: b.total.moment.peak, "unevenness_deg"]
     found = design(6, bank_angle_deg=60, by=by)

@@ -57,6 +57,8 @@ def per_cylinder(t: cp.types.Tolerances, name: str) -> NDArray[np.float64]:
     [
         V6,
         cp.Engine.preset("v8-crossplane").replace(rotating_mass=0.5),
+        # Rotating masses deviate below zero.
+        V6.replace(rotating_mass=0.0),
         V6.replace(cylinder=[c.replace(pin_offset=1e-3) for c in V6.cylinders]),
         V6.replace(cylinder=[c.replace(rod_inertia_excess=-1e-3) for c in V6.cylinders]),
         cp.Engine.preset("single").replace(
@@ -68,7 +70,7 @@ def per_cylinder(t: cp.types.Tolerances, name: str) -> NDArray[np.float64]:
             shafts=[cp.Shaft(-1, [cp.Unbalance(0.004, z=0.1)], x=0.1)],
         ),
     ],
-    ids=["v6", "shared pins", "offset", "rods", "weights"],
+    ids=["v6", "shared pins", "balanced throws", "offset", "rods", "weights"],
 )
 def test_a_sample_is_an_engine(engine: cp.Engine, distribution: str) -> None:
     t = tolerances(engine, distribution=distribution, samples=20)
@@ -407,6 +409,19 @@ def test_errors_of_results() -> None:
         t.quantile(2)
     with pytest.raises(cp.InputError, match=r"give a crankpin\.Engine"):
         cp.tolerances("v6", rpm=1)  # type: ignore[arg-type]
+
+
+def test_quantiles_have_the_shape_of_what_was_asked() -> None:
+    t = tolerances(samples=3)
+    assert t.quantile([]).shape == (0,)
+    assert t.quantile([[]]).shape == (1, 0)
+    assert t.quantile([[0.1, 0.9]]).shape == (1, 2)
+
+
+def test_nothing_varies_where_nothing_spreads() -> None:
+    t = cp.tolerances(cp.Engine.preset("v6-60"), rpm=RPM, samples=7)
+    for name in t.by:
+        assert (t.mean(name), t.std(name)) == (t.nominal_value(name), 0.0)
 
 
 def test_the_how_to_says_the_truth() -> None:

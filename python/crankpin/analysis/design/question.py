@@ -226,7 +226,7 @@ def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[E
 
 
 def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact]:  # noqa: ANN401
-    ends = given if isinstance(given, (tuple, list, np.ndarray)) else (given, given)
+    ends = given if np.ndim(given) else (given, given)
     cure = f"give an angle, or the lowest and the highest, {low} to {high}"
     if len(ends) != 2:
         raise InputError(f"{name} = {inputs.shorten(given)}: {cure}")

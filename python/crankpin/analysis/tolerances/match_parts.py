@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Shown, Table
+from crankpin.analysis.balance import over_square
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.tolerances import matching
-from crankpin.analysis.tolerances.measured_parts import Assignment, MeasuredParts, assignment_of
+from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Orders
     from crankpin._support.progress import Progress
-    from crankpin.analysis.tolerances.matching import Report
     from crankpin.model.engine import Engine
 
 Objective: TypeAlias = Literal["balance", "spread"]
@@ -35,6 +35,137 @@ WORDS = {
 UNITS = {"balance": "kg·m", "spread": "kg"}
 """Objective → unit."""
 MOST_PARTS = 1000
+STARTS = 24
+"""Random starts of the search by exchanges."""
+
+
+class Kind(NamedTuple):
+    """Parts of one kind, such as pistons or rods."""
+
+    parts: NDArray[np.float64]
+    """Deviations of each part: (n_parts, n_figures)."""
+    influences: NDArray[np.float64]
+    """What a unit of each figure adds in each place: (n_places, n_figures, n_dimensions)."""
+
+
+class Assignment(NamedTuple):
+    """Parts of one engine."""
+
+    pistons: tuple[int, ...]
+    """Number, from 1, of the piston in each cylinder."""
+    rods: tuple[int, ...] | None
+    """Number, from 1, of the rod in each cylinder; None where no rods were given."""
+
+
+class MeasuredParts(Frozen):
+    """Measured pistons and rods, and the engine that they are for."""
+
+    _fields: ClassVar[tuple[str, ...]] = ("engine", "pistons", "rods", "orders", "reference_z")
+
+    engine: Engine
+    """The engine with its own masses."""
+    pistons: NDArray[np.float64]
+    """Masses of the pistons, kg: (n_pistons,)."""
+    rods: NDArray[np.float64] | None
+    """Masses of the rods' small and big ends, kg: (n_rods, 2)."""
+    orders: tuple[int, ...]
+    """Orders of what remains."""
+    reference_z: float | None
+    """Plane about which moments are taken, m; None for the engine's own."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        pistons: NDArray[np.float64],
+        rods: NDArray[np.float64] | None,
+        orders: tuple[int, ...],
+        reference_z: float | None,
+    ) -> None:
+        kept = pistons.copy(), None if rods is None else rods.copy()
+        for each in kept:
+            if each is not None:
+                each.setflags(write=False)
+        self._set(
+            engine=engine, pistons=kept[0], rods=kept[1], orders=orders, reference_z=reference_z
+        )
+
+    @cached_property
+    def start(self) -> NDArray[np.float64]:
+        """What remains of the engine with its own masses, over ω², as real numbers."""
+        return self._vector(self.engine)
+
+    @cached_property
+    def kinds(self) -> tuple[Kind, ...]:
+        """Deviations of the parts from their means, and what a unit of each does."""
+        count = len(self.engine)
+        reciprocating = np.stack([self._influence(k, rotating=False) for k in range(count)])
+        found = [Kind((self.pistons - self.pistons.mean())[:, None], reciprocating[:, None])]
+        if self.rods is not None:
+            rotating = np.stack([self._influence(k, rotating=True) for k in range(count)])
+            both = np.stack([reciprocating, rotating], axis=1)
+            found.append(Kind(self.rods - self.rods.mean(axis=0), both))
+        return tuple(found)
+
+    def _influence(self, place: int, *, rotating: bool) -> NDArray[np.float64]:
+        """Return what a kilogram more in one cylinder adds: what remains is linear in masses."""
+        engine = self.engine
+        if rotating:
+            masses = engine.rotating_mass.copy()
+            masses[place] += 1.0
+            return self._vector(engine.replace(rotating_mass=masses)) - self.start
+        cylinders = list(engine.cylinders)
+        mass = cylinders[place].reciprocating_mass
+        cylinders[place] = cylinders[place].replace(reciprocating_mass=mass + 1.0)
+        return self._vector(engine.replace(cylinder=cylinders)) - self.start
+
+    def _vector(self, engine: Engine) -> NDArray[np.float64]:
+        plane = self.engine.reference_z if self.reference_z is None else self.reference_z
+        found = over_square(engine, self.orders, plane)
+        half = 0.5 * (self.engine.z.max() - self.engine.z.min())
+        parts = [found.force.forward, found.force.backward]
+        if half > 0.0:
+            parts += [found.moment.forward / half, found.moment.backward / half]
+        together = np.concatenate(parts)
+        return np.concatenate([together.real, together.imag])
+
+    def chosen(self, assignment: Assignment) -> tuple[NDArray[np.intp], ...]:
+        """Return the places of the parts in the lists of this bin."""
+        lists = [each for each in assignment if each is not None]
+        return tuple(np.array(each, dtype=np.intp) - 1 for each in lists)
+
+    def value(self, objective: str, assignment: Assignment) -> float:
+        """Return the objective of one engine."""
+        chosen = self.chosen(assignment)
+        if objective == "balance":
+            added = [
+                np.einsum("jf,jfd->d", kind.parts[each], kind.influences)
+                for kind, each in zip(self.kinds, chosen, strict=True)
+            ]
+            return float(np.linalg.norm(self.start + sum(added)))
+        sums = self.pistons[chosen[0]]
+        if self.rods is not None:
+            sums = sums + self.rods[chosen[1], 0]
+        return float(np.ptp(sums))
+
+    def engine_of(self, assignment: Assignment, name: str) -> Engine:
+        """Return the engine with these parts."""
+        chosen, engine = self.chosen(assignment), self.engine
+        more = (self.pistons - self.pistons.mean())[chosen[0]]
+        rotating = engine.rotating_mass
+        if self.rods is not None:
+            ends = (self.rods - self.rods.mean(axis=0))[chosen[1]]
+            more, rotating = more + ends[:, 0], rotating + ends[:, 1]
+        cylinders = [
+            cylinder.replace(reciprocating_mass=cylinder.reciprocating_mass + float(mass))
+            for cylinder, mass in zip(engine.cylinders, more, strict=True)
+        ]
+        return deviating(engine, cylinders, rotating, name=name)
+
+
+def assignment_of(*chosen: NDArray[np.intp]) -> Assignment:
+    """Return the numbers of parts whose places in their lists are given."""
+    numbers = [tuple((each + 1).tolist()) for each in chosen]
+    return Assignment(numbers[0], numbers[1] if len(numbers) > 1 else None)
 
 
 def match_parts(
@@ -94,10 +225,12 @@ def match_parts(
 
     Notes
     -----
-    Exact are: ``"balance"`` for one engine's worth of up to 12 pistons, or 8 pistons and rods (all
-    arrangements are compared); ``"spread"`` of pistons alone for any number of parts and engines,
-    and of one engine's worth of pistons and rods. Otherwise the search is a heuristic, and
-    ``bound`` is a value below which no assignment comes.
+    ``"balance"``: all arrangements are compared where there are few enough, as of 12 pistons, or 8
+    pistons and rods, of one engine, or of 20 pistons for five engines with 4 cylinders. Of more,
+    two parts are exchanged, within an engine, between engines or with a spare one, as long as that
+    helps, from many starts; ``bound`` is a value below which no assignment comes then, 0 where the
+    parts might make up for everything. ``"spread"`` is exact for pistons alone, and for pistons and
+    rods of one engine without spare ones.
 
     Examples
     --------
@@ -105,7 +238,7 @@ def match_parts(
     >>> i4 = cp.Engine.preset("i4")
     >>> match = cp.match_parts(i4, [0.402, 0.398, 0.405, 0.401], orders=[1])
     >>> match.exact, match.assignment[0].pistons
-    (True, (1, 3, 2, 4))
+    (True, (4, 2, 3, 1))
     >>> bool(match.value <= match.as_given)
     True
     >>> float(match.engines[0].balance(rpm=6000)[1].force.peak)  # 402 + 401 - 405 - 398 g
@@ -116,14 +249,20 @@ def match_parts(
     word = inputs.one_of("objective", objective, WORDS)
     masses = _masses("pistons", pistons, 1)
     ends = None if rods is None else _masses("rods", rods, 2)
+    for name, parts in (("pistons", masses), ("rods", ends)):
+        if parts is not None and len(parts) < count:
+            raise InputError(
+                f"{name} has {len(parts)} entries: the engine has {count} cylinders; give one for "
+                "each, or more"
+            )
     several = min(len(each) for each in (masses, ends) if each is not None) // count
     wanted = several if sets is None else inputs.whole("sets", sets)
     if not 1 <= wanted <= several:
-        parts = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
-        if sets is None:
-            raise InputError(f"pistons and rods: {parts} given; give {count} or more of each")
-        hint = f"sets × {count} cylinders need as many"
-        raise InputError(f"sets = {wanted}: there are {parts}; {hint}")
+        given = f"{len(masses)} pistons" + ("" if ends is None else f" and {len(ends)} rods")
+        raise InputError(
+            f"sets = {wanted}: {given} suffice for {several} of {count} cylinders; give 1 to "
+            f"{several}"
+        )
     listed = inputs.explicit_orders(orders)
     start = inputs.whole("seed", seed)
     if start < 0:
@@ -137,8 +276,7 @@ def match_parts(
         # Rods might make up for any difference of pistons.
         bound = sum(measured.value(word, each) for each in chosen) if exact else 0.0
     else:
-        with progress_bar.shown(asked, "assignments") as report:
-            chosen, exact, bound = _by_balance(measured, wanted, start, report)
+        chosen, exact, bound = _by_balance(measured, wanted, start, asked)
     return Match(measured, word, tuple(chosen), bound, exact)
 
 
@@ -165,12 +303,12 @@ def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]
     least sum: exchanging any two rods of another order makes the larger sum larger or none smaller.
     """
     count = len(parts.engine)
-    pistons = matching.windows(parts.pistons, count, sets)
+    pistons = windows(parts.pistons, count, sets)
     if parts.rods is None:
         return [assignment_of(each) for each in pistons], True
     small = parts.rods[:, 0]
     # The lightest pistons with the heaviest rods.
-    rods = matching.windows(small, count, sets)[::-1]
+    rods = windows(small, count, sets)[::-1]
     found = [assignment_of(ours, theirs[::-1]) for ours, theirs in zip(pistons, rods, strict=True)]
     everything = len(parts.pistons) == len(small) == count * sets
     if everything:
@@ -178,7 +316,7 @@ def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]
             np.argsort(parts.pistons, kind="stable"),
             np.argsort(-small, kind="stable"),
         )
-        together = matching.windows(parts.pistons[rising] + small[falling], count, sets)
+        together = windows(parts.pistons[rising] + small[falling], count, sets)
         others = [assignment_of(rising[each], falling[each]) for each in together]
         found = min(
             [found, others], key=lambda those: sum(parts.value("spread", each) for each in those)
@@ -187,31 +325,85 @@ def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]
 
 
 def _by_balance(
-    parts: MeasuredParts, sets: int, seed: int, report: Report
+    parts: MeasuredParts, sets: int, seed: int, progress: Progress
 ) -> tuple[list[Assignment], bool, float]:
     """Return assignments that leave little, whether that is proved the least, and a lower bound."""
-    start, kinds = parts.start, parts.kinds
-    lowest = sets * matching.lower_bound(start, kinds)
-    if sets == 1:
-        found = matching.best(start, kinds, seed=seed, report=report)
-        assignment = assignment_of(*found.chosen)
-        value = parts.value("balance", assignment)
-        return [assignment], found.exact, value if found.exact else min(lowest, value)
-    # Alike within a set, then each set in its best order.
-    groups = [matching.windows(parts.pistons, len(parts.engine), sets)]
-    if parts.rods is not None:
-        groups.append(matching.windows(parts.rods.sum(axis=1), len(parts.engine), sets))
-    chosen = []
-    for done, of_set in enumerate(zip(*groups, strict=True), start=1):
-        own = tuple(
-            kind._replace(parts=kind.parts[each]) for kind, each in zip(kinds, of_set, strict=True)
-        )
-        found = matching.best(start, own, seed=seed)
-        pairs = zip(of_set, found.chosen, strict=True)
-        chosen.append(assignment_of(*(each[order] for each, order in pairs)))
-        if report:
-            report(done, sets)
-    return chosen, False, lowest
+    start, kinds = _reduced(parts.start, parts.kinds)
+    random = np.random.default_rng(seed)
+    # Parts of similar mass in one engine, then any.
+    starts = [[np.argsort(kind.parts.sum(axis=1)).tolist() for kind in kinds]]
+    starts += [
+        [random.permutation(len(kind.parts)).tolist() for kind in kinds] for _ in range(STARTS)
+    ]
+    listed = [
+        (kind.parts.T.tolist(), np.swapaxes(kind.influences, 0, 1).tolist()) for kind in kinds
+    ]
+    with progress_bar.shown(progress, "assignments") as report:
+        chosen, _, bound, exact = _core.matched(start.tolist(), listed, sets, starts, report)
+    of_sets = np.array(chosen).reshape(len(kinds), sets, -1)
+    assignments = [assignment_of(*of_sets[:, k]) for k in range(sets)]
+    value = sum(parts.value("balance", each) for each in assignments)
+    return assignments, exact, value if exact else min(bound, value)
+
+
+def _reduced(
+    start: NDArray[np.float64], kinds: tuple[Kind, ...]
+) -> tuple[NDArray[np.float64], tuple[Kind, ...]]:
+    """Return the same lengths in as few dimensions as the influences span, and one for the rest.
+
+    The first dimension is that of the start where this is longer than what parts add: it sorts the
+    sums best.
+    """
+    dimensions = len(start)
+    stacked = np.concatenate([kind.influences.reshape(-1, dimensions) for kind in kinds])
+    _, sizes, axes = np.linalg.svd(stacked, full_matrices=False)
+    axes = axes[sizes > 1e-13 * sizes.max(initial=0.0)]
+    rest = start
+    for _ in range(2):
+        # Twice: what rounding left of the first projection is not orthogonal.
+        rest = rest - axes.T @ (axes @ rest)
+    length = np.linalg.norm(rest)
+    if length > 1e-13 * np.linalg.norm(start):
+        axes = np.vstack([axes, rest / length])
+    along = axes @ start
+    largest = max(float(np.abs(kind.parts).max()) for kind in kinds)
+    if np.linalg.norm(along) > largest * sizes.max(initial=0.0):
+        turned, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
+        axes, along = turned.T @ axes, turned.T @ along
+    return along, tuple(kind._replace(influences=kind.influences @ axes.T) for kind in kinds)
+
+
+def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[np.intp]]:
+    """Return sets of equally many parts whose ranges have the least sum; the rest stays unused.
+
+    Exact. Of sorted parts that are all used, a gap between neighbours with m parts below it, m no
+    multiple of ``size``, is straddled by at least one set, because no sets consist of m parts;
+    sorted sets straddle each of these gaps once and no other. The sum of ranges is the sum of the
+    gaps straddled. An unused part within the range of a set may replace one of its ends without
+    widening it. So the sets are windows of neighbours, and dynamic programming finds the best.
+
+    Where all parts are used, sorted sets have the least largest range too: the first
+    (t − 1)·size + 1 parts lie in at least t sets, which reach the (t·size)-th part; so that one of
+    them has at least the range of the t-th sorted set.
+    """
+    order = np.argsort(masses, kind="stable")
+    ranges = masses[order][size - 1 :] - masses[order][: len(masses) - size + 1]
+    # least[t][m]: least sum of t sets of the first m parts.
+    least = np.full((sets + 1, len(masses) + 1), np.inf)
+    least[0] = 0.0
+    taken = np.zeros(least.shape, dtype=bool)
+    for t in range(1, sets + 1):
+        for m in range(t * size, len(masses) + 1):
+            with_last = least[t - 1, m - size] + ranges[m - size]
+            taken[t, m] = with_last < least[t, m - 1]
+            least[t, m] = min(with_last, least[t, m - 1])
+    found, m = [], len(masses)
+    for t in range(sets, 0, -1):
+        while not taken[t, m]:
+            m -= 1
+        found.append(order[m - size : m])
+        m -= size
+    return found[::-1]
 
 
 class Match(Frozen, Shown):

@@ -18,7 +18,7 @@ from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import Request, check_quantities
 from crankpin.analysis.tolerances.arrays import ToleranceArrays
 from crankpin.analysis.tolerances.shares import Shares
-from crankpin.analysis.tolerances.spreads import FIGURES, Distribution
+from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -164,11 +164,14 @@ class Tolerances(AllOrders, Shown):
 
     def mean(self, by: str | None = None) -> float:
         """Return the mean of :meth:`values`."""
-        return float(self.values(by).mean())
+        values = self.values(by)
+        # Equal values are their mean, to the last digit.
+        return float(values[0] + (values - values[0]).mean())
 
     def std(self, by: str | None = None) -> float:
         """Return the standard deviation of :meth:`values`."""
-        return float(self.values(by).std())
+        values = self.values(by)
+        return float((values - values[0]).std())
 
     def quantile(self, q: ArrayLike = QUANTILES, by: str | None = None) -> Any:  # noqa: ANN401
         """Return quantiles of :meth:`values`, of the shape of ``q``.
@@ -183,7 +186,7 @@ class Tolerances(AllOrders, Shown):
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
             raise InputError(f"q = {inputs.shorten(q)}: give numbers from 0 to 1")
-        return np.quantile(self.values(by), parts)
+        return np.quantile(self.values(by), parts) if parts.size else parts
 
     @cached_property
     def shares(self) -> Shares:
@@ -232,7 +235,7 @@ class Tolerances(AllOrders, Shown):
     def engine_of(self, sample: int) -> Engine:
         """Return the engine of a sample; moments of its own are about its own middle.
 
-        A rotating mass that deviates below zero cannot be represented: it is an InputError.
+        A rotating mass that deviates below zero is an unbalance opposite its crankpin.
 
         Parameters
         ----------
@@ -256,11 +259,12 @@ class Tolerances(AllOrders, Shown):
         ]
         # As text an angle beside a part of a turn is meant.
         turned = [repr(float(angle)) for angle in self.engine.pin_deg + turn]
-        return self.engine.replace(
-            cylinder=cylinders,
+        return deviating(
+            self.engine,
+            cylinders,
+            self.engine.rotating_mass + by_name["rotating_mass"],
             pin_deg=turned if turn.any() else None,
             z=self.engine.z + by_name["z"],
-            rotating_mass=self.engine.rotating_mass + by_name["rotating_mass"],
             name=f"{self.engine.name}, sample {k}".lstrip(", "),
         )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -12,12 +12,14 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
+from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
 Distribution: TypeAlias = Literal["normal", "uniform"]
@@ -101,6 +103,31 @@ class Spreads:
             number = f"{high:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
             parts.append(f"{title} {number} {unit}".replace(" °", "°"))
         return f"{SPREADS[self.distribution]}: {', '.join(parts)}"
+
+
+def deviating(
+    engine: Engine,
+    cylinders: Sequence[Cylinder],
+    rotating: NDArray[np.float64],
+    **changes: Any,  # noqa: ANN401 - of Engine.replace
+) -> Engine:
+    """Return an engine with other cylinders, rotating masses and figures.
+
+    A throw that is balanced may be too light: its rotating mass below zero is an unbalance opposite
+    its pin.
+    """
+    places = changes.get("z", engine.z)
+    opposite = [
+        Unbalance(-mass * cylinders[k].crank_radius, float(places[k]), 180, pin=k + 1)
+        for k, mass in enumerate(rotating.tolist())
+        if mass < 0.0
+    ]
+    return engine.replace(
+        cylinder=cylinders,
+        rotating_mass=np.maximum(rotating, 0.0),
+        counterweights=[*engine.counterweights, *opposite],
+        **changes,
+    )
 
 
 def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:

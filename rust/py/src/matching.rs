@@ -1,0 +1,33 @@
+//! Matching of measured parts.
+
+use crankpin_core::matching::{Kind, Problem};
+use pyo3::prelude::*;
+
+use crate::convert::OrRaise;
+use crate::interrupt;
+
+/// Chosen parts by kind, sum of the remainders, a bound on it, and whether all were compared.
+type Found = (Vec<Vec<usize>>, f64, f64, bool);
+
+/// Deviations and influences of a kind.
+type Parts = (Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>);
+
+/// The best matching of kinds of parts, each with its deviations (figures, parts) and influences
+/// (figures, places, dimensions), from the sequences of parts of each start.
+#[pyfunction]
+pub fn matched(
+    py: Python<'_>,
+    start: Vec<f64>,
+    kinds: Vec<Parts>,
+    sets: usize,
+    starts: Vec<Vec<Vec<usize>>>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Found> {
+    let kinds: crankpin_core::Result<Vec<Kind>> = kinds
+        .into_iter()
+        .map(|(deviations, influences)| Kind::new(deviations, influences))
+        .collect();
+    let problem = Problem::new(start, kinds.or_raise()?, sets);
+    let found = interrupt::watched(py, progress.as_ref(), |cancel| problem.solve(&starts, cancel))?;
+    Ok((found.chosen, found.value, found.bound, found.exact))
+}
