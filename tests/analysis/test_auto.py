@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 RPM = 100.0
 OMEGA = RPM * 2.0 * np.pi / 60.0
+OMEGA_6000 = 6000.0 * 2.0 * np.pi / 60.0
 QUANTITIES = ("force", "moment", "torque")
 
 # Radii and masses are random.
@@ -386,3 +387,41 @@ def test_a_sweep_may_have_no_order() -> None:
     assert s.orders == ()
     assert s.force.xy.shape == (2, 0, 2)
     assert s.total.force.peak.tolist() == [0.0, 0.0]
+
+
+def test_sweeps_keep_orders_that_shafts_balance_at_one_rod_ratio_only() -> None:
+    v8 = cp.Engine.preset("v8-flatplane")
+    own = v8.cylinders[0].rod_ratio
+    # Lanchester shafts: they cancel order 2 of the engine, and do not grow with the rod ratio.
+    left = v8.balance(6000, orders=[2]).force
+
+    def shaft(ratio: int, part: complex) -> cp.Shaft:
+        degrees = float(np.degrees(np.angle(-part)))
+        weight = cp.Unbalance(abs(part) / (2.0 * OMEGA_6000) ** 2, v8.reference_z, degrees)
+        return cp.Shaft(ratio, unbalances=[weight])
+
+    balanced = v8.with_shafts([shaft(2, left.forward[0]), shaft(-2, left.backward[0])])
+    ratios = [0.15, 0.2, own]
+    sweep = cp.sweep(balanced, rpm=6000, rod_ratio=ratios)
+    expected = cp.sweep(balanced, rpm=6000, rod_ratio=ratios, orders=range(1, 40))
+    assert 2 in sweep.orders
+    # The tolerance, 1e-9 of one of eight cylinders, is far below what shows here.
+    np.testing.assert_allclose(sweep.total.force.peak, expected.total.force.peak, rtol=1e-7)
+
+
+@pytest.mark.parametrize("mass", [1e-3, 0.5, 50.0])
+def test_the_tolerance_of_a_spectrum_does_not_depend_on_the_masses_it_replaces(mass: float) -> None:
+    engine = cp.Engine.preset("v6-60").replace(cylinder=cp.Cylinder(0.045, 0.15, mass))
+    spectrum = {1: 1e-3, 2: 1e-4, 4: 1e-6}
+    # Order 4 leaves a moment of 1.5e-7 kg·m²; the scale is 1e-3 kg·m times a lever of 0.1 m.
+    assert engine.balance(5000, spectrum=spectrum, rtol=1.6e-3).orders == (1, 2)
+    assert engine.balance(5000, spectrum=spectrum, rtol=1.4e-3).orders == (1, 2, 4)
+    assert cp.sweep(engine, rpm=5000, spectrum=spectrum, rtol=1.6e-3).orders == (1, 2)
+
+
+@pytest.mark.filterwarnings("ignore:.*was it given in millimetres:UserWarning")
+def test_what_weighs_nothing_has_no_lever() -> None:
+    engine = cp.Engine.preset("i3")
+    weighted = engine.with_counterweights([cp.Unbalance(0.0, z=1e9)])
+    assert weighted.balance(6000).orders == engine.balance(6000).orders
+    assert weighted.balance(6000).total.moment.peak == engine.balance(6000).total.moment.peak

@@ -1,21 +1,33 @@
-//! Every load of an engine, in one list, and their superposition order by order.
+//! Every load of an engine in one list, and the one sum of them.
 //!
 //! A load has an amplitude, a direction in the cross-section, a crank angle at which it points that
-//! way, and a place along the crank. At order n, with β the direction and φ that crank angle:
+//! way, and a place along a shaft. At order n, with β the direction, φ that crank angle and ρ the
+//! speed of the shaft (1 for the crank; below zero against it):
 //!
-//! - a piston of amplitude A = m·r·aₙ has the forward part ½·A·e^{i(β − nφ)} and the backward part
-//!   conj(½·A·e^{−i(β + nφ)}); its torques are amplitudes times e^{−inφ};
-//! - an unbalance U on a shaft of ratio ρ has ρ²·U·e^{i(β − φ)} at order |ρ|, all of it forward if
-//!   ρ > 0, backward if ρ < 0; about the crank axis an axis at a = x + iy makes a roll torque of
-//!   Im(ā·F).
+//! - a piston of amplitude A = m·r·aₙ has the forward part ½·ρ²·A·e^{i(β − nφ)} and the backward part
+//!   conj(½·ρ²·A·e^{−i(β + nφ)}); its torques are amplitudes times e^{−inφ};
+//! - an unbalance U has, at n = |ρ|, ρ²·U·e^{i(β − nφ)}, all of it forward, if ρ > 0, and the backward
+//!   part conj(ρ²·U·e^{−i(β + nφ)}) if ρ < 0;
+//! - the moment is i·(z − z₀) times the force; a force at a = x + iy makes a roll torque of Im(ā·F).
 //!
-//! The moment is i·(z − z₀) times the force. When a bank turns by δ, whatever belongs to it is
-//! multiplied as [`Turn`] says. Balances, waveforms, sweeps and proofs read this list.
+//! [`superpose`] sums these, and nothing else does. A reading of the list is an [`Arithmetic`]: it
+//! says what a unit phasor is, and to what a load's weight times a unit phasor is added.
+//!
+//! | reading | unit phasor | sum |
+//! |---|---|---|
+//! | balances, sweeps ([`Phasors`]) | a complex number | a complex number and Σ\|terms\| |
+//! | tolerances | a complex number | columns: one complex number for each sample, whose weights and levers come from its draws |
+//! | proofs, closed forms | a root of unity, times symbols for angles that are no parts of a turn | a list of such roots with rational weights |
+//!
+//! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
 
 use crate::Complex64;
 use crate::engine::{Engine, Hold, first_equal};
 use crate::gear::slider_crank::Cylinder;
+use crate::gear::spectrum::Spectrum;
+use crate::gear::{Gear, GearKind};
 use crate::numbers::angle::Angle;
+use crate::numbers::order::Order;
 use crate::wrench::Planar;
 
 /// Origin of a load's amplitude.
@@ -23,20 +35,15 @@ use crate::wrench::Planar;
 pub(crate) enum Source {
     /// A piston and its rod.
     Piston {
-        /// Index into [`Loads::motions`].
-        motion: usize,
+        /// Index into [`Loads::gears`].
+        gear: usize,
         /// m·r², kg·m²: weight of the torques of the masses.
         second_moment: f64,
         /// Weight of the torques of the rod's inertia, kg·m².
         rod_inertia: f64,
     },
     /// A mass off the axis of a shaft.
-    Unbalance {
-        /// Speed of the shaft over crank speed.
-        ratio: i32,
-        /// Place of the shaft's axis, x + iy, m.
-        axis: Complex64,
-    },
+    Unbalance,
 }
 
 /// A periodic load on the engine.
@@ -53,190 +60,348 @@ pub(crate) struct Load {
     pub phase: Angle,
     /// Place along the crank, m.
     pub z: f64,
+    /// Speed of its shaft over crank speed, negative where it turns against the crank.
+    pub ratio: i32,
+    /// Place of the shaft's axis, x + iy, m.
+    pub axis: Complex64,
     /// Bank that it belongs to: that of a piston, or of a crankpin's piston.
     pub bank: Option<usize>,
 }
 
-/// Factor of the sums, which depends on the order and on the running gear.
+/// Factor of a sum, which depends on the order and on the gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) enum Channel {
+pub(crate) enum Harmonic {
     /// 1: unbalances.
     #[default]
-    Unit,
-    /// Harmonics of the force or of the torque of a motion's masses.
-    Masses(usize),
-    /// Harmonics of the torque of a motion's rod inertia.
+    One,
+    /// Of the force of a gear.
+    Force(usize),
+    /// Of the torque of a gear's masses.
+    Torque(usize),
+    /// Of the torque of a gear's rod inertia.
     Rod(usize),
 }
 
-/// Sum of the loads of one channel and bank at one order, over ω² and the channel's factor.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PlanarSum {
-    pub channel: Channel,
-    pub bank: Option<usize>,
-    pub force: Planar,
-    pub moment: Planar,
+/// Real factor of a load's unit phasor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Weight {
+    /// m·r or unbalance.
+    Force,
+    /// The same times z − z₀.
+    Moment,
+    /// m·r².
+    Torque,
+    /// Rod inertia.
+    Rod,
+    /// m·r or unbalance times x of its axis.
+    ArmX,
+    /// m·r or unbalance times y of its axis.
+    ArmY,
 }
 
-/// The same of torque; size is Σ|terms|.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct RollSum {
-    pub channel: Channel,
+/// Factor of a load's part: `halves`/2 · i^`quarters`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Times {
+    pub halves: i32,
+    pub quarters: i32,
+}
+
+/// Numbers in which loads are summed.
+pub(crate) trait Arithmetic {
+    /// Unit phasor.
+    type Unit;
+    /// Sum of weights times unit phasors.
+    type Sum: Default;
+
+    /// `e^{i·times·φ}` of a load; with its index in the list.
+    fn phase(&self, load: (usize, &Load), times: i64) -> Self::Unit;
+
+    /// A unit phasor times `e^{iβ}`, or its conjugate.
+    fn toward(&self, load: (usize, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit;
+
+    /// Adds a load's weight times a unit phasor, times half a whole number and a power of i.
+    fn add(
+        &self,
+        sum: &mut Self::Sum,
+        load: (usize, &Load),
+        weight: Weight,
+        unit: &Self::Unit,
+        times: Times,
+    );
+}
+
+/// Sums of the loads of one harmonic and bank at one order, over ω² and the harmonic.
+#[derive(Debug, Clone)]
+pub(crate) struct Term<S> {
+    pub harmonic: Harmonic,
     pub bank: Option<usize>,
-    pub sum: Complex64,
+    /// Forward part, and conjugate of the backward part.
+    pub force: [S; 2],
+    pub moment: [S; 2],
+    pub roll: S,
+}
+
+/// Quantities to sum.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wanted {
+    /// Force and moment.
+    pub planar: bool,
+    /// Roll torque.
+    pub roll: bool,
+    /// Apart for each bank.
+    pub by_bank: bool,
+}
+
+/// Sums of one order, by harmonic and, if wanted, by bank.
+pub(crate) fn superpose<A: Arithmetic>(
+    arithmetic: &A,
+    loads: &Loads,
+    order: Order,
+    wanted: Wanted,
+) -> Vec<Term<A::Sum>> {
+    let mut terms = Vec::new();
+    // Every load so far has whole orders only.
+    let Some(whole) = order.as_whole() else { return terms };
+    for at @ (_, load) in loads.list.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
+        let bank = load.bank.filter(|_| wanted.by_bank);
+        let phase = arithmetic.phase(at, -i64::from(whole));
+        let square = load.ratio * load.ratio;
+        let (harmonic, halves) = match load.source {
+            Source::Piston { gear, .. } => (Harmonic::Force(gear), square),
+            Source::Unbalance => (Harmonic::One, 2 * square),
+        };
+        let arm = wanted.roll && load.axis != Complex64::default();
+        if wanted.planar || arm {
+            let term = term_of(&mut terms, harmonic, bank);
+            for (side, sign) in [(0, 1), (1, -1)] {
+                if !load.has_part(side == 0) {
+                    continue;
+                }
+                let unit = arithmetic.toward(at, &phase, side == 1);
+                let add = |sum: &mut A::Sum, weight, quarters| {
+                    arithmetic.add(sum, at, weight, &unit, Times { halves, quarters });
+                };
+                if wanted.planar {
+                    add(&mut term.force[side], Weight::Force, 0);
+                    add(&mut term.moment[side], Weight::Moment, sign);
+                }
+                if arm {
+                    // Im(ā·F) is Re(∓i·x·P − y·P) of the forward and of the conjugate backward part.
+                    add(&mut term.roll, Weight::ArmX, -sign);
+                    add(&mut term.roll, Weight::ArmY, 2);
+                }
+            }
+        }
+        let Source::Piston { gear, rod_inertia, .. } = load.source else { continue };
+        if wanted.roll {
+            let mut add = |harmonic, weight| {
+                let sum = &mut term_of(&mut terms, harmonic, bank).roll;
+                arithmetic.add(sum, at, weight, &phase, Times { halves: 2 * square, quarters: 0 });
+            };
+            add(Harmonic::Torque(gear), Weight::Torque);
+            if rod_inertia != 0.0 {
+                add(Harmonic::Rod(gear), Weight::Rod);
+            }
+        }
+    }
+    terms
+}
+
+/// The term of this harmonic and bank, added where there is none yet.
+fn term_of<S: Default>(
+    terms: &mut Vec<Term<S>>,
+    harmonic: Harmonic,
+    bank: Option<usize>,
+) -> &mut Term<S> {
+    let known = terms.iter().position(|term| (term.harmonic, term.bank) == (harmonic, bank));
+    let known = known.unwrap_or_else(|| {
+        let [force, moment] = [(); 2].map(|()| [(); 2].map(|()| S::default()));
+        terms.push(Term { harmonic, bank, force, moment, roll: S::default() });
+        terms.len() - 1
+    });
+    &mut terms[known]
+}
+
+/// Arithmetic of balances and sweeps: complex numbers.
+pub(crate) struct Phasors {
+    /// Reference plane z₀ of moments, m.
+    pub reference: f64,
+}
+
+/// A complex sum and Σ|terms|, on which its rounding error depends.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct PhasorSum {
+    pub value: Complex64,
     pub size: f64,
 }
 
-/// Which pistons share a motion, hence their harmonics.
+impl Arithmetic for Phasors {
+    type Unit = Complex64;
+    type Sum = PhasorSum;
+
+    fn phase(&self, (_, load): (usize, &Load), times: i64) -> Complex64 {
+        load.phase.cis(times)
+    }
+
+    fn toward(&self, (_, load): (usize, &Load), unit: &Complex64, conjugate: bool) -> Complex64 {
+        unit * if conjugate { load.unit.conj() } else { load.unit }
+    }
+
+    #[inline]
+    fn add(
+        &self,
+        sum: &mut PhasorSum,
+        (_, load): (usize, &Load),
+        weight: Weight,
+        unit: &Complex64,
+        Times { halves, quarters }: Times,
+    ) {
+        let (weight, size) = match (weight, load.source) {
+            (Weight::Force, _) => (load.weight, load.weight),
+            // Rounding of a lever is relative to what it is the difference of.
+            (Weight::Moment, _) => (
+                load.weight * (load.z - self.reference),
+                load.weight * (load.z.abs() + self.reference.abs()),
+            ),
+            (Weight::ArmX, _) => (load.weight * load.axis.re, load.weight * load.axis.re.abs()),
+            (Weight::ArmY, _) => (load.weight * load.axis.im, load.weight * load.axis.im.abs()),
+            (Weight::Torque, Source::Piston { second_moment, .. }) => {
+                (second_moment, second_moment)
+            }
+            (Weight::Rod, Source::Piston { rod_inertia, .. }) => (rod_inertia, rod_inertia.abs()),
+            (Weight::Torque | Weight::Rod, Source::Unbalance) => (0.0, 0.0),
+        };
+        let half = 0.5 * f64::from(halves);
+        let turned = match quarters.rem_euclid(4) {
+            0 => *unit,
+            1 => Complex64::new(-unit.im, unit.re),
+            2 => -unit,
+            _ => Complex64::new(unit.im, -unit.re),
+        };
+        sum.value += turned * (half * weight);
+        sum.size += half * size;
+    }
+}
+
+impl Term<PhasorSum> {
+    /// Force and moment.
+    pub fn planar(&self) -> [Planar; 2] {
+        [&self.force, &self.moment].map(|[forward, backward_conj]| Planar {
+            forward: forward.value,
+            backward_conj: backward_conj.value,
+            size: forward.size + backward_conj.size,
+        })
+    }
+}
+
+/// Which pistons share a gear, hence their harmonics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Alike {
     /// Those of equal rod ratio and relative pin offset.
     Proportions,
     /// Those of equal crank radius, rod length and pin offset.
     Dimensions,
-    /// All: a spectrum replaces the slider-cranks.
-    All,
 }
 
 /// All loads of an engine about a reference plane.
 pub(crate) struct Loads {
     pub list: Vec<Load>,
-    /// One gear of each motion.
-    pub motions: Vec<Cylinder>,
+    /// One gear of each kind.
+    pub gears: Vec<Gear>,
     /// Reference plane z₀ of moments, m.
     pub reference: f64,
 }
 
 impl Loads {
-    /// Loads of an engine. Where all pistons are alike they have weight 1: a spectrum in kg·m has the
-    /// mass and the radius in it.
-    pub fn new(engine: &Engine, reference: f64, alike: Alike) -> Self {
-        let gears = engine.gears();
-        let motion_of = match alike {
-            Alike::Proportions => first_equal(gears.iter().map(Cylinder::proportions)),
-            Alike::Dimensions => {
+    /// Loads of an engine, whose slider-cranks a spectrum may replace: it is one gear for all, with
+    /// masses and radius in it.
+    pub fn new(engine: &Engine, reference: f64, alike: Alike, spectrum: Option<&Spectrum>) -> Self {
+        let cylinders = engine.gears();
+        let gear_of = match (spectrum, alike) {
+            (Some(_), _) => vec![0; cylinders.len()],
+            (None, Alike::Proportions) => first_equal(cylinders.iter().map(Cylinder::proportions)),
+            (None, Alike::Dimensions) => {
                 let sizes = |c: &Cylinder| (c.crank_radius(), c.rod_length(), c.pin_offset());
-                first_equal(gears.iter().map(sizes))
+                first_equal(cylinders.iter().map(sizes))
             }
-            Alike::All => vec![0; gears.len()],
         };
-        let mut motions: Vec<Cylinder> = Vec::new();
-        for (&motion, &gear) in motion_of.iter().zip(gears) {
-            if motion == motions.len() {
-                motions.push(gear);
+        let mut gears: Vec<Gear> = Vec::new();
+        for (&gear, &cylinder) in gear_of.iter().zip(cylinders) {
+            if gear == gears.len() {
+                let given = |spectrum| Gear { kind: GearKind::Given(spectrum), ratio: 1 };
+                gears.push(spectrum.cloned().map_or_else(|| Gear::of(cylinder), given));
             }
         }
+        let on_main = |source, weight, direction: Angle, z| Load {
+            source,
+            weight,
+            direction,
+            unit: direction.cis(1),
+            phase: Angle::ZERO,
+            z,
+            ratio: 1,
+            axis: Complex64::default(),
+            bank: None,
+        };
         let pistons = engine.placements().iter().enumerate().map(|(i, place)| {
             let cylinder = place.cylinder;
-            Load {
-                source: Source::Piston {
-                    motion: motion_of[engine.gear_of(i)],
-                    second_moment: cylinder.second_moment(),
-                    rod_inertia: cylinder.rod_inertia_excess(),
-                },
-                weight: if alike == Alike::All { 1.0 } else { cylinder.first_order() },
-                direction: place.bank,
-                unit: place.bank.cis(1),
-                phase: place.tdc,
-                z: place.z,
-                bank: Some(engine.bank_of(i)),
-            }
+            let source = Source::Piston {
+                gear: gear_of[engine.gear_of(i)],
+                second_moment: cylinder.second_moment(),
+                rod_inertia: cylinder.rod_inertia_excess(),
+            };
+            let weight = if spectrum.is_some() { 1.0 } else { cylinder.first_order() };
+            let bank = Some(engine.bank_of(i));
+            Load { phase: place.tdc, bank, ..on_main(source, weight, place.bank, place.z) }
         });
         let on_crank = engine.crank_unbalances().map(|unbalance| {
             // A crankpin points along its bore at top dead centre.
             let pin = unbalance.pin.map(|i| (engine.placements()[i], engine.bank_of(i)));
             let direction = unbalance.angle + pin.map_or(Angle::ZERO, |(place, _)| place.bank);
             Load {
-                source: Source::Unbalance { ratio: 1, axis: Complex64::default() },
-                weight: unbalance.amount,
-                direction,
-                unit: direction.cis(1),
                 phase: pin.map_or(Angle::ZERO, |(place, _)| place.tdc),
-                z: unbalance.z,
                 bank: pin.map(|(_, bank)| bank),
+                ..on_main(Source::Unbalance, unbalance.amount, direction, unbalance.z)
             }
         });
         let on_shafts = engine.shafts().iter().flat_map(|shaft| {
             shaft.unbalances.iter().map(|unbalance| Load {
-                source: Source::Unbalance {
-                    ratio: shaft.ratio,
-                    axis: Complex64::new(shaft.axis[0], shaft.axis[1]),
-                },
-                weight: unbalance.amount,
-                direction: unbalance.angle,
-                unit: unbalance.angle.cis(1),
-                phase: Angle::ZERO,
-                z: unbalance.z,
-                bank: None,
+                ratio: shaft.ratio,
+                axis: Complex64::new(shaft.axis[0], shaft.axis[1]),
+                ..on_main(Source::Unbalance, unbalance.amount, unbalance.angle, unbalance.z)
             })
         });
-        Self { list: pistons.chain(on_crank).chain(on_shafts).collect(), motions, reference }
+        Self { list: pistons.chain(on_crank).chain(on_shafts).collect(), gears, reference }
     }
 
-    /// Longest lever of any load about the reference plane, m.
-    pub fn longest_lever(&self) -> f64 {
-        self.list.iter().map(|load| (load.z - self.reference).abs()).fold(0.0, f64::max)
+    /// Complex sums of one order, by harmonic and, if wanted, by bank.
+    pub fn sums(&self, order: Order, wanted: Wanted) -> Vec<Term<PhasorSum>> {
+        superpose(&Phasors { reference: self.reference }, self, order, wanted)
     }
 
-    /// Whole orders at which unbalances act, ascending.
-    pub fn unbalance_orders(&self) -> Vec<u32> {
-        let mut orders: Vec<u32> = self.list.iter().filter_map(Load::unbalance_order).collect();
+    /// Orders at which unbalances act, ascending.
+    pub fn unbalance_orders(&self) -> Vec<Order> {
+        let mut orders: Vec<Order> = self.list.iter().filter_map(Load::unbalance_order).collect();
         orders.sort_unstable();
         orders.dedup();
         orders
     }
 
-    /// Force and moment of one whole order, by channel, and by bank where `by_bank`.
-    pub fn planar(&self, order: u32, by_bank: bool) -> Vec<PlanarSum> {
-        self.sums(order, by_bank, [true, false]).0
+    /// Slider-cranks of the gears; none where a spectrum replaces them.
+    pub fn cylinders(&self) -> Vec<Cylinder> {
+        let cylinder = |gear: &Gear| match gear.kind {
+            GearKind::SliderCrank { cylinder, .. } => Some(cylinder),
+            GearKind::Given(_) => None,
+        };
+        self.gears.iter().filter_map(cylinder).collect()
     }
 
-    /// Torque of one whole order, by channel, and by bank where `by_bank`.
-    pub fn roll(&self, order: u32, by_bank: bool) -> Vec<RollSum> {
-        self.sums(order, by_bank, [false, true]).1
-    }
-
-    /// Force and moment, and torque, as far as each is wanted.
-    pub fn sums(
-        &self,
-        order: u32,
-        by_bank: bool,
-        [planar, roll]: [bool; 2],
-    ) -> (Vec<PlanarSum>, Vec<RollSum>) {
-        let (mut planar_sums, mut roll_sums) = (Vec::new(), Vec::new());
-        for load in &self.list {
-            let Some(phase) = load.phasor(order) else { continue };
-            let bank = load.bank.filter(|_| by_bank);
-            if planar {
-                self.add_planar(&mut planar_sums, load, bank, phase);
-            }
-            if roll {
-                load.add_roll(&mut roll_sums, bank, phase);
-            }
-        }
-        (planar_sums, roll_sums)
-    }
-
-    fn add_planar(
-        &self,
-        sums: &mut Vec<PlanarSum>,
-        load: &Load,
-        bank: Option<usize>,
-        phase: Complex64,
-    ) {
-        let (channel, unit) = load.planar(phase);
-        let known = sums.iter().position(|sum| (sum.channel, sum.bank) == (channel, bank));
-        let known = known.unwrap_or_else(|| {
-            let zero = Planar::default();
-            sums.push(PlanarSum { channel, bank, force: zero, moment: zero });
-            sums.len() - 1
-        });
-        let sum = &mut sums[known];
-        sum.force.add(&unit.scaled(load.weight));
-        let levered = unit.scaled(load.weight * (load.z - self.reference));
-        // Rounding of a lever is relative to what it is the difference of.
-        let size = unit.size * load.weight * (load.z.abs() + self.reference.abs());
-        sum.moment.add(&Planar { size, ..levered.quarter_turned() });
+    /// Whether a rod of this gear has inertia beyond that of its two masses.
+    pub fn has_rod_inertia(&self, of_gear: usize) -> bool {
+        self.list.iter().any(|load| {
+            matches!(load.source, Source::Piston { gear, rod_inertia, .. }
+                if gear == of_gear && rod_inertia != 0.0)
+        })
     }
 }
 
@@ -247,76 +412,26 @@ impl Load {
     }
 
     /// The order of an unbalance.
-    pub fn unbalance_order(&self) -> Option<u32> {
+    pub fn unbalance_order(&self) -> Option<Order> {
+        let order = Order::whole(self.ratio.unsigned_abs()).ok()?;
+        (self.source == Source::Unbalance).then_some(order)
+    }
+
+    /// Whether it has a part at this order.
+    fn acts_at(&self, order: Order) -> bool {
         match self.source {
-            Source::Unbalance { ratio, .. } => Some(ratio.unsigned_abs()),
-            Source::Piston { .. } => None,
+            Source::Piston { .. } => order.halves().is_multiple_of(2 * self.ratio.unsigned_abs()),
+            Source::Unbalance => order.halves() == 2 * self.ratio.unsigned_abs(),
         }
     }
 
-    /// `e^{−inφ}` of a piston at order n, and of an unbalance at its own order.
-    ///
-    /// Where its crankpin stands δ further ahead, φ is less by δ: of a load that follows the pin this is
-    /// multiplied by `e^{inδ}` (n = 1 of an unbalance).
-    pub fn phasor(&self, order: u32) -> Option<Complex64> {
-        match self.source {
-            Source::Piston { .. } => Some(self.phase.cis(-i64::from(order))),
-            Source::Unbalance { ratio, .. } => {
-                (ratio.unsigned_abs() == order).then(|| self.phase.cis(-1))
-            }
-        }
-    }
-
-    /// Force over ω², weight and the channel's factor, given its [`Load::phasor`].
-    pub fn planar(&self, phase: Complex64) -> (Channel, Planar) {
-        match self.source {
-            Source::Piston { motion, .. } => {
-                let half = phase * 0.5;
-                let (forward, backward_conj) = (half * self.unit, half * self.unit.conj());
-                (Channel::Masses(motion), Planar { forward, backward_conj, size: 1.0 })
-            }
-            Source::Unbalance { ratio, .. } => {
-                let size = f64::from(ratio) * f64::from(ratio);
-                let (at_start, zero) = (self.unit * phase * size, Complex64::default());
-                let (forward, backward_conj) =
-                    if ratio > 0 { (at_start, zero) } else { (zero, at_start.conj()) };
-                (Channel::Unit, Planar { forward, backward_conj, size })
-            }
-        }
-    }
-
-    /// Adds the roll torque over ω² and the channel's factor.
-    fn add_roll(&self, sums: &mut Vec<RollSum>, bank: Option<usize>, phase: Complex64) {
-        let mut add = |channel, phasor: Complex64, size: f64| match sums
-            .iter_mut()
-            .find(|sum| (sum.channel, sum.bank) == (channel, bank))
-        {
-            Some(known) => {
-                known.sum += phasor;
-                known.size += size;
-            }
-            None => sums.push(RollSum { channel, bank, sum: phasor, size }),
-        };
-        match self.source {
-            Source::Piston { motion, second_moment, rod_inertia } => {
-                add(Channel::Masses(motion), phase * second_moment, second_moment);
-                if rod_inertia != 0.0 {
-                    add(Channel::Rod(motion), phase * rod_inertia, rod_inertia.abs());
-                }
-            }
-            Source::Unbalance { axis, .. } if axis == Complex64::default() => {}
-            Source::Unbalance { axis, .. } => {
-                // Im(ā·F) of F = P·e^{inθ} is Re(−i·ā·P·e^{inθ}), of F = conj(P·e^{inθ}) it is
-                // Re(i·a·P·e^{inθ}).
-                let (i, (channel, unit)) = (Complex64::i(), self.planar(phase));
-                let phasor = -i * axis.conj() * unit.forward + i * axis * unit.backward_conj;
-                add(channel, phasor * self.weight, unit.size * self.weight * axis.norm());
-            }
-        }
+    /// Whether it has a forward part, or a backward part.
+    pub fn has_part(&self, forward: bool) -> bool {
+        self.source != Source::Unbalance || forward == (self.ratio > 0)
     }
 }
 
-/// Multiples of δ by whose unit phasors a bank's loads of one order are multiplied as it turns by δ.
+/// Multiples of δ in the phase by which the parts of a bank's loads change at one order as it turns by δ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Turn {
     pub forward: i64,
@@ -326,8 +441,9 @@ pub(crate) struct Turn {
 
 impl Turn {
     /// With pins held, a bore takes its top dead centres along; with the firing held it does not.
-    pub fn new(order: u32, hold: Hold) -> Self {
-        let n = i64::from(order);
+    pub fn new(order: Order, hold: Hold) -> Self {
+        // No load has half orders.
+        let n = i64::from(order.as_whole().unwrap_or(0));
         match hold {
             Hold::Pins => Self { forward: 1 - n, backward_conj: -1 - n, roll: -n },
             Hold::Firing => Self { forward: 1, backward_conj: -1, roll: 0 },

@@ -5,8 +5,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{
-    alone, by_orders, changed, in_line, mixed, places, plain, scales, there, turning, weighted,
-    whole, xy,
+    alone, by_orders, changed, in_line, mixed, places, plain, random, scales, there, turning,
+    weighted, whole, xy,
 };
 use crankpin_core::balance::Vector;
 use crankpin_core::peaks::PeakFinder;
@@ -14,8 +14,9 @@ use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Placement,
-    Request, Spectrum, Sweep, harmonics,
+    Request, Shaft, Spectrum, Sweep, Unbalance, harmonics,
 };
+use proptest::prelude::*;
 
 const QUANTITIES: [Quantity; 4] =
     [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
@@ -755,16 +756,16 @@ fn loads(engine: &Engine) -> usize {
 }
 
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
-/// load of the largest engine had its part in them; and no unbalance has a higher order.
+/// load had its part in them; and no unbalance has a higher order.
 fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
-    let count = engines.iter().map(|engine| loads(engine)).max().unwrap();
     let ratios = engines.iter().flat_map(|e| e.shafts()).map(|shaft| shaft.ratio.unsigned_abs());
     let mut last = ratios.max().unwrap_or(1);
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
         for p in there(engine, &alone(axes, place)).placements() {
             let share = p.cylinder.rod_inertia_excess().abs() / scales(engine, REFERENCE)[2];
-            let (proportions, part) = (p.cylinder.proportions(), 0.01 * rtol / count as f64);
+            let part = 0.01 * rtol / loads(engine) as f64;
+            let proportions = p.cylinder.proportions();
             let here = harmonics::highest_order(&proportions, part, torque.then_some(share));
             last = last.max(here.unwrap());
         }
@@ -776,21 +777,45 @@ fn square(rpm: f64) -> f64 {
     (rpm * std::f64::consts::TAU / 60.0).powi(2)
 }
 
-/// Orders are left out from the smallest up while every sum of every engine stays within its
-/// tolerance, and the reported bound is the sum of what is left out. Returns the orders kept.
+/// What is left out stays within the bound at every point, and the bound within the tolerance.
 #[track_caller]
-fn few_orders_are_chosen(
-    engines: &[Arc<Engine>],
-    axes: &Axes,
-    rtol: f64,
-    torque: bool,
-) -> Vec<u32> {
+fn few_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> Sweep {
     let cancel = Cancel::new();
     let (all, reference) = (engines.to_vec(), Some(REFERENCE));
     let chosen = Sweep::within(rtol, all, axes.clone(), reference, None, torque, &cancel).unwrap();
     assert_eq!(chosen.shape(), sweep(engines, axes, &[1], None).shape());
     let known = |quantity| chosen.peaks(quantity, Figure::Sum, &cancel).is_ok();
     assert_eq!(QUANTITIES.map(known), [true, true, torque, torque]);
+    // Twice as many orders as are evaluated.
+    let last = 2 * last(engines, axes, rtol, torque);
+    let fastest = square(axes.rpm.iter().copied().fold(0.0, f64::max));
+    let allowed = engines.iter().map(|engine| scales(engine, REFERENCE).map(|scale| rtol * scale));
+    let allowed = allowed.reduce(|a, b| [0, 1, 2].map(|k| f64::max(a[k], b[k]))).unwrap();
+    for (sum, bound) in chosen.error_bound().into_iter().enumerate() {
+        assert!(bound <= allowed[sum] * fastest * (1.0 + 1e-14), "{sum}: {bound}");
+    }
+    let left_out: Vec<u32> =
+        (1..=last).filter(|&n| !chosen.orders().contains(&whole(&[n])[0])).collect();
+    for place in places(chosen.shape()) {
+        let engine = there(&engines[place[0]], &alone(axes, place));
+        let balance = by_orders(&engine, &REQUEST, &left_out);
+        for (which, quantity) in QUANTITIES.into_iter().enumerate().take(if torque { 4 } else { 2 })
+        {
+            let lengths = OfBalance::new(&balance, quantity).lengths;
+            let lost = lengths.iter().sum::<f64>() / square(3000.0) * fastest;
+            let bound = chosen.error_bound()[which.min(2)];
+            // Roundings of sums of ten loads in twenty orders.
+            assert!(lost <= bound * (1.0 + 1e-12), "{quantity:?} {place:?}: {lost} > {bound}");
+        }
+    }
+    chosen
+}
+
+/// Of a point alone, orders are left out from the smallest up while every sum stays within its
+/// tolerance, and the bound is the sum of what is left out.
+#[track_caller]
+fn fewest_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) {
+    let chosen = few_orders_are_chosen(engines, axes, rtol, torque);
     let last = last(engines, axes, rtol, torque);
     let sums = if torque { 4 } else { 2 };
     let all: Vec<Worst> =
@@ -822,7 +847,6 @@ fn few_orders_are_chosen(
     assert_eq!(chosen.orders(), whole(&kept));
     let omitted: Vec<u32> = left_out.iter().copied().filter(|&n| largest(n) > 0.0).collect();
     assert_eq!(chosen.omitted(), whole(&omitted));
-
     let fastest = axes.rpm.iter().copied().fold(0.0, f64::max);
     for (bound, these) in [(0, 0..1), (1, 1..2), (2, 2..4)] {
         let of_sum = |(worst, sum): (&Worst, usize)| -> f64 {
@@ -836,7 +860,6 @@ fn few_orders_are_chosen(
         // Tails amplify what λ and e/r are rounded by, up to the order-th power.
         assert!((found - expected).abs() <= 1e-11 * expected, "{bound}: {found} {expected}");
     }
-    kept
 }
 
 /// Order 2 of two cylinders of unlike cranks cancels at one rod ratio, if they have this offset; and
@@ -870,11 +893,11 @@ fn few_orders_are_chosen_for_any_sweep() {
     let turned = |hold| Some((vec![40.0, 90.0], hold));
     for rtol in [0.2, 1e-2, 1e-4] {
         for torque in [false, true] {
+            fewest_orders_are_chosen(&[mixed(), plain(), in_line()], &none, rtol, torque);
+            fewest_orders_are_chosen(&[weighted(), plain()], &none, rtol, torque);
             let chosen = |engines: &[Arc<Engine>], axes: &Axes| {
                 few_orders_are_chosen(engines, axes, rtol, torque);
             };
-            chosen(&[mixed(), plain(), in_line()], &none);
-            chosen(&[weighted(), plain()], &none);
             chosen(&[plain()], &Axes { rod_ratio: ratios.clone(), ..none.clone() });
             let both =
                 Axes { bank_angle: turned(Hold::Pins), rod_ratio: ratios.clone(), ..none.clone() };
@@ -892,13 +915,67 @@ fn few_orders_are_chosen_for_any_sweep() {
             let cancelling = Axes { rod_ratio: ratios.clone(), ..none.clone() };
             chosen(&[one], &cancelling);
             chosen(&[Arc::clone(&pair)], &cancelling);
-            chosen(&[pair], &Axes { pin_offset: offset, ..cancelling });
+            chosen(&[pair], &Axes { pin_offset: offset, ..cancelling.clone() });
+            chosen(&[balanced_at(0.4)], &cancelling);
         }
     }
     // The orders of a usual engine, from those that are needed to all that matter.
-    let orders = |rtol| few_orders_are_chosen(&[plain()], &none, rtol, false);
-    assert_eq!(orders(0.2), [1, 2]);
-    assert_eq!(orders(1e-4), [1, 2, 4, 6]);
+    let orders = |rtol| few_orders_are_chosen(&[plain()], &none, rtol, false).orders().to_vec();
+    assert_eq!(orders(0.2), whole(&[1, 2]));
+    assert_eq!(orders(1e-4), whole(&[1, 2, 4, 6]));
+}
+
+/// Two shafts that cancel order 2 of a cylinder at one rod ratio, the largest, and leave most of it at
+/// others.
+fn balanced_at(ratio: f64) -> Arc<Engine> {
+    let proportions = Proportions::new(ratio, 0.0).unwrap();
+    let second = harmonics::coefficients(&proportions, &[2], &Cancel::new()).unwrap()[0].re;
+    let (cylinder, z) = (Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.1);
+    let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
+    let single = Placement { cylinder, tdc, bank, z, rotating_mass: 0.0 };
+    let amount = 0.5 * 0.5 * 0.05 * second / 4.0;
+    let against = Unbalance { amount, angle: -bank, z, pin: None };
+    let shaft =
+        |ratio| Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![against] };
+    let engine = Engine::new("", "", vec![single]).unwrap();
+    Arc::new(engine.with_shafts(vec![shaft(2), shaft(-2)]).unwrap())
+}
+
+#[test]
+fn orders_that_shafts_cancel_at_one_rod_ratio_are_kept() {
+    let axes = Axes { rod_ratio: Some(vec![0.15, 0.2, 0.3]), rpm: vec![3000.0], ..Axes::default() };
+    let sweep = few_orders_are_chosen(&[balanced_at(0.3)], &axes, 1e-6, true);
+    assert!(sweep.orders().contains(&whole(&[2])[0]));
+    // And where no axis varies the rod they stay cancelled.
+    let here = Axes { rod_ratio: Some(vec![0.3]), ..axes.clone() };
+    let engine = there(&balanced_at(0.3), &here);
+    let alone = Axes { rod_ratio: None, ..axes };
+    let sweep =
+        Sweep::within(1e-6, vec![Arc::new(engine)], alone, None, None, false, &Cancel::new());
+    assert!(!sweep.unwrap().orders().contains(&whole(&[2])[0]));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn few_orders_leave_out_less_than_their_bound(
+        engine in random::weighted(random::vees()),
+        ratios in proptest::option::of([0.05..0.5, 0.05..0.5]),
+        offsets in proptest::option::of([-0.004..0.004, -0.004..0.004]),
+        angles in proptest::option::of([0.0..180.0, 0.0..180.0]),
+        firing in any::<bool>(),
+        digits in 1.0..6.0_f64,
+    ) {
+        let hold = if firing { Hold::Firing } else { Hold::Pins };
+        let axes = Axes {
+            bank_angle: angles.map(|angles| (angles.to_vec(), hold)),
+            rod_ratio: ratios.map(Vec::from),
+            pin_offset: offsets.map(Vec::from),
+            rpm: vec![2000.0],
+        };
+        few_orders_are_chosen(&[Arc::new(engine)], &axes, 10_f64.powf(-digits), true);
+    }
 }
 
 #[test]

@@ -1,9 +1,142 @@
 //! One cylinder: its moving parts, their motion, and the harmonics of the forces and torques of
 //! their inertia.
 //!
-//! Imports run downwards: [`slider_crank`] → [`rod`] → [`harmonics`]; [`spectrum`] is independent.
+//! Imports run downwards: [`slider_crank`] → [`rod`] → [`harmonics`], [`spectrum`] → [`Gear`].
 
 pub mod harmonics;
 pub mod rod;
 pub mod slider_crank;
 pub mod spectrum;
+
+use self::harmonics::rod::TorqueHarmonics;
+use self::slider_crank::{Cylinder, Proportions};
+use self::spectrum::Spectrum;
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::order::Order;
+
+/// Source of the amplitudes of a cylinder's loads.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Gear {
+    pub kind: GearKind,
+    /// Speed of its crank over that of the main one, negative where it turns the other way.
+    pub ratio: i32,
+}
+
+/// Kind of a gear.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum GearKind {
+    /// Crank, rod and piston: the force is over m·r·ω², torques over m·r²·ω² or rod inertia and ω².
+    SliderCrank {
+        /// Its figures; the first of those that share the proportions.
+        cylinder: Cylinder,
+        /// Proportions of its motion: its own, or those of a point of a sweep.
+        proportions: Proportions,
+    },
+    /// A force given in kg·m, over ω²; it does not determine a torque.
+    Given(Spectrum),
+}
+
+impl Gear {
+    /// The slider-crank of a cylinder on the main crank.
+    pub fn of(cylinder: Cylinder) -> Self {
+        let proportions = cylinder.proportions();
+        Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio: 1 }
+    }
+
+    /// Harmonics of the force; zero at orders that it does not have.
+    pub fn force(&self, orders: &[Order], cancel: &Cancel) -> Result<Vec<Complex64>> {
+        self.spread(orders, |own| match &self.kind {
+            GearKind::SliderCrank { proportions, .. } => {
+                harmonics::coefficients(proportions, own, cancel)
+            }
+            GearKind::Given(spectrum) => Ok(own.iter().map(|&n| spectrum.amplitude(n)).collect()),
+        })
+    }
+
+    /// Harmonics of the torque of the masses on the block and on the main crank.
+    pub fn torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueHarmonics> {
+        self.torque_by(orders, |own, proportions| {
+            harmonics::torque::torque(proportions, own, cancel)
+        })
+    }
+
+    /// The same of the rod's inertia beyond that of its two masses.
+    pub fn rod_torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueHarmonics> {
+        self.torque_by(orders, |own, proportions| harmonics::rod::torque(proportions, own, cancel))
+    }
+
+    /// Whether it is a slider-crank whose piston has no offset.
+    pub fn is_centred(&self) -> bool {
+        matches!(&self.kind, GearKind::SliderCrank { proportions, .. } if proportions.offset == 0.0)
+    }
+
+    /// Bounds of what orders above a multiple of the speed of the main crank add to the force, to the
+    /// torque of the masses and to that of the rod; infinite where none is known.
+    pub fn tail(&self, highest: u32, torque: bool) -> [f64; 3] {
+        let GearKind::SliderCrank { proportions, .. } = &self.kind else { return [0.0; 3] };
+        let own = highest / self.ratio.unsigned_abs();
+        let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY);
+        let of_torque = |bound: fn(&Proportions, u32) -> Option<f64>| {
+            if torque { known(bound(proportions, own)) } else { 0.0 }
+        };
+        [
+            known(harmonics::tail_bound(proportions, own)),
+            of_torque(harmonics::torque::tail_bound),
+            of_torque(harmonics::rod::tail_bound),
+        ]
+    }
+
+    /// The gear with rod ratio and pin offset (m) replaced.
+    pub fn replaced(&self, rod_ratio: Option<f64>, pin_offset: Option<f64>) -> Result<Self> {
+        let GearKind::SliderCrank { cylinder, .. } = self.kind else { return Ok(self.clone()) };
+        let proportions = cylinder.proportions_with(rod_ratio, pin_offset)?;
+        Ok(Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio: self.ratio })
+    }
+
+    fn torque_by(
+        &self,
+        orders: &[Order],
+        of: impl FnOnce(&[u32], &Proportions) -> Result<TorqueHarmonics>,
+    ) -> Result<TorqueHarmonics> {
+        let mut crank = Vec::new();
+        let mut roll = self.spread(orders, |own| {
+            let GearKind::SliderCrank { proportions, .. } = &self.kind else {
+                crank = vec![Complex64::default(); own.len()];
+                return Ok(crank.clone());
+            };
+            let found = of(own, proportions)?;
+            crank = found.crank;
+            Ok(found.roll)
+        })?;
+        let mut crank = self.spread(orders, |_| Ok(crank))?;
+        if self.ratio != 1 {
+            // Turning the other way mirrors the torque on the block; power is torque times speed.
+            let speed = f64::from(self.ratio);
+            for (roll, crank) in roll.iter_mut().zip(&mut crank) {
+                *roll *= speed.signum();
+                *crank *= speed.abs();
+            }
+        }
+        Ok(TorqueHarmonics { roll, crank })
+    }
+
+    /// Values at its own harmonics among some orders of the main crank, zero at the others.
+    fn spread(
+        &self,
+        orders: &[Order],
+        of: impl FnOnce(&[u32]) -> Result<Vec<Complex64>>,
+    ) -> Result<Vec<Complex64>> {
+        let ratio = self.ratio.unsigned_abs();
+        let own = |order: &Order| order.as_whole().filter(|n| n % ratio == 0).map(|n| n / ratio);
+        let whole: Vec<u32> = orders.iter().filter_map(own).collect();
+        let mut values = of(&whole)?;
+        if whole.len() < orders.len() {
+            let mut found = values.into_iter();
+            let value = |order: &Order| own(order).and_then(|_| found.next());
+            values = orders.iter().map(value).map(Option::unwrap_or_default).collect();
+        }
+        Ok(values)
+    }
+}

@@ -125,6 +125,19 @@ impl Cylinder {
         self.first_order() * self.crank_radius
     }
 
+    /// The proportions that fix the motion, with rod ratio and pin offset (m) replaced.
+    pub fn proportions_with(
+        &self,
+        rod_ratio: Option<f64>,
+        pin_offset: Option<f64>,
+    ) -> Result<Proportions> {
+        let (radius, offset) = (self.crank_radius, pin_offset.unwrap_or(self.pin_offset));
+        match rod_ratio {
+            Some(ratio) => Proportions::new(ratio, offset / radius),
+            None => Self::new(radius, self.rod_length, 0.0, offset).map(|c| c.proportions()),
+        }
+    }
+
     /// The proportions that fix the motion.
     #[must_use]
     pub fn proportions(&self) -> Proportions {

@@ -13,7 +13,7 @@ use crate::numbers::order::Order;
 pub struct Spectrum(BTreeMap<u32, Complex64>);
 
 impl Spectrum {
-    /// From (order, amplitude in kg·m) pairs; orders not named are zero.
+    /// From (multiple of the speed of its crank, amplitude in kg·m) pairs; orders not named are zero.
     pub fn new(terms: impl IntoIterator<Item = (u32, Complex64)>) -> Result<Self> {
         let mut spectrum = BTreeMap::new();
         for (order, amplitude) in terms {
@@ -43,5 +43,11 @@ impl Spectrum {
     #[must_use]
     pub fn orders(&self) -> Vec<u32> {
         self.0.keys().copied().collect()
+    }
+
+    /// Largest amplitude of any order, kg·m.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.0.values().map(|amplitude| amplitude.norm()).fold(0.0, f64::max)
     }
 }

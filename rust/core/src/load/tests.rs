@@ -45,7 +45,22 @@ pub(crate) fn engine() -> Engine {
 }
 
 fn loads(engine: &Engine, alike: Alike) -> Loads {
-    Loads::new(engine, REFERENCE, alike)
+    Loads::new(engine, REFERENCE, alike, None)
+}
+
+fn whole(order: u32) -> Order {
+    Order::whole(order).unwrap()
+}
+
+/// Sums of one order.
+fn sums(loads: &Loads, order: u32, by_bank: bool) -> Vec<Term<PhasorSum>> {
+    loads.sums(whole(order), Wanted { planar: true, roll: true, by_bank })
+}
+
+/// Forward part and conjugate of the backward part of force and moment, and roll torque.
+fn values(term: &Term<PhasorSum>) -> [Complex64; 5] {
+    let ([f, b], [mf, mb]) = (&term.force, &term.moment);
+    [f, b, mf, mb, &term.roll].map(|sum| sum.value)
 }
 
 #[track_caller]
@@ -73,23 +88,24 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
             (0.003, 77.0, 0.1, None),
         ]
     );
-    assert_eq!(loads.unbalance_orders(), [1, 2]);
-    assert_eq!(loads.longest_lever(), 0.3 - REFERENCE);
+    assert_eq!(loads.unbalance_orders(), [whole(1), whole(2)]);
     assert!(loads.has_rod_inertia(0));
 }
 
 #[test]
-fn pistons_alike_share_a_motion() {
-    let count = |alike| loads(&engine(), alike).motions.len();
-    assert_eq!((count(Alike::Dimensions), count(Alike::All)), (2, 1));
+fn pistons_alike_share_a_gear() {
+    assert_eq!(loads(&engine(), Alike::Dimensions).gears.len(), 2);
     // One of half the size has the same proportions.
     let halved = engine().placements()[0];
     let cylinder = Cylinder::new(0.025, 0.075, 0.5, 0.0).unwrap();
     let halved = Engine::new("", "", vec![halved, Placement { cylinder, ..halved }]).unwrap();
-    let count = |alike| loads(&halved, alike).motions.len();
+    let count = |alike| loads(&halved, alike).gears.len();
     assert_eq!((count(Alike::Dimensions), count(Alike::Proportions)), (2, 1));
     // A spectrum has the masses in it.
-    let weights = loads(&engine(), Alike::All).list.into_iter().map(|load| load.weight);
+    let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
+    let given = Loads::new(&engine(), REFERENCE, Alike::Proportions, Some(&spectrum));
+    assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1 }]);
+    let weights = given.list.into_iter().map(|load| load.weight);
     assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);
 }
 
@@ -145,51 +161,58 @@ fn written_out(order: u32) -> [[Complex64; 5]; 3] {
 #[test]
 fn sums_are_those_of_loads_written_out() {
     let loads = loads(&engine(), Alike::Dimensions);
-    let channels = [Channel::Masses(0), Channel::Masses(1), Channel::Unit];
     for order in 1..5 {
-        let (planar, roll) = (loads.planar(order, false), loads.roll(order, false));
-        for (channel, expected) in channels.into_iter().zip(written_out(order)) {
-            let found = planar.iter().find(|sum| sum.channel == channel);
-            let unbalanced = loads.unbalance_orders().contains(&order);
-            assert_eq!(found.is_some(), channel != Channel::Unit || unbalanced);
-            let found = found.map_or_else(Default::default, |sum| {
-                let (f, m) = (sum.force, sum.moment);
-                [f.forward, f.backward_conj, m.forward, m.backward_conj]
-            });
+        let terms = sums(&loads, order, false);
+        let of = |harmonic| {
+            let found = terms.iter().find(|term| term.harmonic == harmonic);
+            found.map_or_else(Default::default, values)
+        };
+        let [first, second, unbalances] = written_out(order);
+        for (gear, expected) in [first, second].into_iter().enumerate() {
+            let mut found = of(Harmonic::Force(gear));
+            found[4] = of(Harmonic::Torque(gear))[4];
             found.into_iter().zip(expected).for_each(|(found, expected)| close(found, expected));
-            let found = roll.iter().find(|sum| sum.channel == channel);
-            close(found.map_or_else(Default::default, |sum| sum.sum), expected[4]);
         }
+        of(Harmonic::One).into_iter().zip(unbalances).for_each(|(a, b)| close(a, b));
         // Both rods of the first gear and one of the other, at −1e-4 kg·m².
         let rods = [
             cis(-10.0 * f64::from(order)) + cis(-255.0 * f64::from(order)),
             cis(-130.0 * f64::from(order)),
         ];
-        for (motion, expected) in rods.into_iter().enumerate() {
-            let found = roll.iter().find(|sum| sum.channel == Channel::Rod(motion)).unwrap();
-            close(found.sum, expected * -1e-4);
+        for (gear, expected) in rods.into_iter().enumerate() {
+            close(of(Harmonic::Rod(gear))[4], expected * -1e-4);
         }
     }
+    assert!(
+        loads
+            .sums(
+                Order::from_halves(3).unwrap(),
+                Wanted { planar: true, roll: true, by_bank: true }
+            )
+            .is_empty()
+    );
 }
 
 #[test]
 fn sizes_are_sums_of_terms() {
     let loads = loads(&engine(), Alike::Dimensions);
-    let of = |order: u32, channel| {
-        let planar = loads.planar(order, false);
-        let sum = planar.iter().find(|sum| sum.channel == channel).unwrap();
-        let roll = loads.roll(order, false);
-        let roll = roll.iter().find(|sum| sum.channel == channel).unwrap().size;
-        [sum.force.size, sum.moment.size, roll]
+    let of = |order: u32, planar, roll| {
+        let terms = sums(&loads, order, false);
+        let found = |harmonic| terms.iter().find(|term| term.harmonic == harmonic).unwrap();
+        let [force, moment] = found(planar).planar();
+        [force.size, moment.size, found(roll).roll.size]
     };
     let near = |found: [f64; 3], expected: [f64; 3]| {
         found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15)
     };
     // Levers count by what they are the difference of.
     let levered = 0.025 * (REFERENCE + 0.2 + REFERENCE);
-    assert!(near(of(3, Channel::Masses(0)), [0.05, levered, 2.0 * 0.5 * 0.0025]));
-    let (force, arm) = (4.0 * 0.003, Complex64::new(-0.08, 0.2).norm());
-    assert!(near(of(2, Channel::Unit), [force, force * (0.1 + REFERENCE), force * arm]));
+    let found = of(3, Harmonic::Force(0), Harmonic::Torque(0));
+    assert!(near(found, [0.05, levered, 2.0 * 0.5 * 0.0025]));
+    // The arms of a force are those of its components.
+    let (force, arms) = (4.0 * 0.003, 0.08 + 0.2);
+    let found = of(2, Harmonic::One, Harmonic::One);
+    assert!(near(found, [force, force * (0.1 + REFERENCE), force * arms]));
 }
 
 /// The sums of each bank, turned as [`Turn`] says, are those of the engine with its banks turned.
@@ -208,31 +231,18 @@ fn banks_turn_their_loads() {
             Some(_) => 0.5 * (to - 70.0),
         };
         for order in 1..4 {
-            let multiples = Turn::new(order, hold);
-            let turned =
-                |sum: Complex64, bank, multiple: i64| sum * cis(turn_of(bank) * multiple as f64);
-            for whole in after.planar(order, false) {
-                let mut sums = [Complex64::default(); 4];
-                let banks = before.planar(order, true);
-                for part in banks.iter().filter(|part| part.channel == whole.channel) {
-                    let (f, m) = (part.force, part.moment);
-                    let multiples = [multiples.forward, multiples.backward_conj];
-                    let parts = [f.forward, f.backward_conj, m.forward, m.backward_conj];
-                    for (k, (sum, part_of)) in sums.iter_mut().zip(parts).enumerate() {
-                        *sum += turned(part_of, part.bank, multiples[k % 2]);
+            let turn = Turn::new(whole(order), hold);
+            let multiples =
+                [turn.forward, turn.backward_conj, turn.forward, turn.backward_conj, turn.roll];
+            let banks = sums(&before, order, true);
+            for expected in sums(&after, order, false) {
+                let mut found = [Complex64::default(); 5];
+                for part in banks.iter().filter(|part| part.harmonic == expected.harmonic) {
+                    for ((sum, value), n) in found.iter_mut().zip(values(part)).zip(multiples) {
+                        *sum += value * cis(turn_of(part.bank) * n as f64);
                     }
                 }
-                let (f, m) = (whole.force, whole.moment);
-                let expected = [f.forward, f.backward_conj, m.forward, m.backward_conj];
-                sums.into_iter().zip(expected).for_each(|(sum, expected)| close(sum, expected));
-            }
-            for whole in after.roll(order, false) {
-                let banks = before.roll(order, true).into_iter();
-                let banks = banks.filter(|part| part.channel == whole.channel);
-                close(
-                    banks.map(|part| turned(part.sum, part.bank, multiples.roll)).sum(),
-                    whole.sum,
-                );
+                found.into_iter().zip(values(&expected)).for_each(|(a, b)| close(a, b));
             }
         }
     }

@@ -145,13 +145,12 @@ pub fn balance(
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
     let torque = torque && spectrum.is_none();
-    let alike = if spectrum.is_some() { Alike::All } else { Alike::Proportions };
-    let loads = Loads::new(engine, reference, alike);
+    let loads = Loads::new(engine, reference, Alike::Proportions, spectrum);
     let square = omega * omega;
     let mut balance = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let wrenches = wrenches(&loads, spectrum, torque, orders, cancel)?;
+            let wrenches = wrenches(&loads, torque, orders, cancel)?;
             Balance {
                 orders: orders.clone(),
                 omitted: Vec::new(),
@@ -162,7 +161,7 @@ pub fn balance(
             }
         }
         Orders::Auto { rtol } => {
-            let chosen = choice::within(*rtol, engine, &loads, spectrum, torque, cancel)?;
+            let chosen = choice::within(*rtol, engine, &loads, torque, cancel)?;
             Balance {
                 orders: chosen.orders,
                 omitted: chosen.omitted,

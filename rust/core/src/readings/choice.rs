@@ -6,9 +6,7 @@
 //! together.
 
 use crate::engine::Engine;
-use crate::gear::harmonics;
-use crate::gear::slider_crank::{Cylinder, Proportions};
-use crate::gear::spectrum::Spectrum;
+use crate::gear::{Gear, GearKind, harmonics};
 use crate::load::{Loads, Source};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -38,28 +36,15 @@ pub(crate) fn within(
     rtol: f64,
     engine: &Engine,
     loads: &Loads,
-    spectrum: Option<&Spectrum>,
     torque: bool,
     cancel: &Cancel,
 ) -> Result<Chosen> {
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
-    let proportions: Vec<Proportions> = loads.motions.iter().map(Cylinder::proportions).collect();
-    let unbalances = loads.unbalance_orders();
-    let candidates = if let Some(spectrum) = spectrum {
-        of_spectrum(spectrum, &unbalances)
-    } else {
-        let motions = proportions.iter().enumerate();
-        let motions = motions.map(|(k, motion)| (*motion, rod_share(loads, k, &scales)));
-        let last = highest(rtol, NEGLIGIBLE, loads.list.len(), motions, torque)?;
-        (1..=last.max(unbalances.last().copied().unwrap_or(1))).collect()
-    };
-    let orders = Order::all_whole(&candidates)?;
-    let all = wrenches(loads, spectrum, torque, &orders, cancel)?;
+    let orders = candidates(rtol, NEGLIGIBLE, &scales, loads, &loads.gears, torque)?;
+    let all = wrenches(loads, torque, &orders, cancel)?;
     let sizes: Vec<[f64; 3]> = all.iter().map(sizes).collect();
-    let last = candidates.last().copied().unwrap_or(1);
-    let mut error_bound =
-        if spectrum.is_some() { [0.0; 3] } else { tail(loads, last, torque, &proportions) };
+    let mut error_bound = tail(loads, orders.last(), torque, &loads.gears);
     let kept = few(&sizes, &scales.map(|scale| rtol * scale), &mut error_bound);
     let mut chosen = Chosen { orders: vec![], wrenches: vec![], omitted: vec![], error_bound };
     for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
@@ -71,14 +56,6 @@ pub(crate) fn within(
         }
     }
     Ok(chosen)
-}
-
-/// The orders of a spectrum, and those of unbalances.
-pub(crate) fn of_spectrum(spectrum: &Spectrum, unbalances: &[u32]) -> Vec<u32> {
-    let mut orders = [&spectrum.orders(), unbalances].concat();
-    orders.sort_unstable();
-    orders.dedup();
-    orders
 }
 
 /// Drops orders from the smallest up while every sum stays within what it may lose.
@@ -104,96 +81,110 @@ pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64
     kept
 }
 
-/// Size of a motion's rod inertia over what a tolerance of torque is relative to.
-pub(crate) fn rod_share(loads: &Loads, of_motion: usize, scales: &[f64; 3]) -> f64 {
+/// Largest rod inertia of a gear over what a tolerance of torque is relative to.
+fn rod_share(loads: &Loads, of_gear: usize, scales: &[f64; 3]) -> f64 {
     let inertia = loads.list.iter().map(|load| match load.source {
-        Source::Piston { motion, rod_inertia, .. } if motion == of_motion => rod_inertia.abs(),
+        Source::Piston { gear, rod_inertia, .. } if gear == of_gear => rod_inertia.abs(),
         _ => 0.0,
     });
     let largest = inertia.fold(0.0, f64::max);
     if largest == 0.0 { 0.0 } else { largest / scales[2] }
 }
 
-/// Highest order to evaluate for `count` loads of these proportions and shares of rod inertia.
+/// Orders to evaluate, ascending.
 ///
-/// Above it the remainder is at most `negligible`, or, if no order achieves that, at most `rtol`/4.
-pub(crate) fn highest(
+/// What higher orders add is at most `negligible` times `scales`, or, if no order achieves that, at
+/// most `rtol`/4 times these. `gears` are those of the loads, at the point of a sweep where their
+/// harmonics decrease most slowly.
+pub(crate) fn candidates(
     rtol: f64,
     negligible: f64,
-    count: usize,
-    motions: impl Iterator<Item = (Proportions, f64)>,
+    scales: &[f64; 3],
+    loads: &Loads,
+    gears: &[Gear],
     torque: bool,
-) -> Result<u32> {
-    let (needed, enough) = (0.25 * rtol / count as f64, negligible / count as f64);
-    let mut highest = 1;
-    for (proportions, rod_share) in motions {
-        let torque = torque.then_some(rod_share);
-        let last = match harmonics::highest_order(&proportions, enough, torque) {
-            Some(order) => order,
-            // A rest that is not negligible still is within the tolerance.
-            None if harmonics::highest_order(&proportions, needed, torque).is_some() => {
-                limits::HIGHEST_ORDER
+) -> Result<Vec<Order>> {
+    let count = loads.list.len() as f64;
+    let (needed, enough) = (0.25 * rtol / count, negligible / count);
+    let mut orders = loads.unbalance_orders();
+    for (k, gear) in gears.iter().enumerate() {
+        let ratio = gear.ratio.unsigned_abs();
+        let own = match &gear.kind {
+            GearKind::Given(spectrum) => spectrum.orders(),
+            GearKind::SliderCrank { proportions, .. } => {
+                let torque = torque.then(|| rod_share(loads, k, scales));
+                let last = match harmonics::highest_order(proportions, enough, torque) {
+                    Some(order) => order,
+                    // A rest that is not negligible still is within the tolerance.
+                    None if harmonics::highest_order(proportions, needed, torque).is_some() => {
+                        limits::HIGHEST_ORDER
+                    }
+                    None => {
+                        let rod_ratio = 1.0 / proportions.rod;
+                        return Err(Error::TooManyOrders { rtol, rod_ratio });
+                    }
+                };
+                (1..=last).collect()
             }
-            None => return Err(Error::TooManyOrders { rtol, rod_ratio: 1.0 / proportions.rod }),
         };
-        highest = highest.max(last);
+        let whole: Vec<u32> =
+            own.into_iter().map(|n| n * ratio).filter(|&n| n <= limits::HIGHEST_ORDER).collect();
+        orders.extend(Order::all_whole(&whole)?);
     }
-    Ok(highest)
+    orders.sort_unstable();
+    orders.dedup();
+    Ok(orders)
 }
 
-/// Bounds over ω² of what orders above `highest` add to force, moment and torque, as if nothing
-/// cancelled, for these proportions of each motion.
-pub(crate) fn tail(
-    loads: &Loads,
-    highest: u32,
-    torque: bool,
-    proportions: &[Proportions],
-) -> [f64; 3] {
-    let known = |bound: Option<f64>| bound.unwrap_or(f64::INFINITY);
+/// Bounds over ω² of what orders above the last one evaluated add to force, moment and torque, as if
+/// nothing cancelled, with these gears in place of those of the loads.
+pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[Gear]) -> [f64; 3] {
+    let last = last.map_or(0, |order| order.halves() / 2);
+    let bounds: Vec<[f64; 3]> = gears.iter().map(|gear| gear.tail(last, torque)).collect();
     let times = |weight: f64, bound: f64| if weight == 0.0 { 0.0 } else { weight * bound };
     let mut sum = [0.0; 3];
-    for (k, motion) in proportions.iter().enumerate() {
-        let force = known(harmonics::tail_bound(motion, highest));
-        let (masses, rod) = if torque {
-            let rod = known(harmonics::rod::tail_bound(motion, highest));
-            (known(harmonics::torque::tail_bound(motion, highest)), rod)
-        } else {
-            (0.0, 0.0)
-        };
-        for load in &loads.list {
-            let Source::Piston { motion, second_moment, rod_inertia, .. } = load.source else {
-                continue;
-            };
-            if motion != k {
-                continue;
-            }
-            sum[0] += times(load.weight, force);
-            sum[1] += times(load.weight * (load.z - loads.reference).abs(), force);
-            sum[2] += times(second_moment, masses) + times(rod_inertia.abs(), rod);
+    for load in &loads.list {
+        let Source::Piston { gear, second_moment, rod_inertia } = load.source else { continue };
+        let [force, masses, rod] = bounds[gear];
+        let square = f64::from(load.ratio * load.ratio);
+        let force = times(load.weight, force) * square;
+        sum[0] += force;
+        sum[1] += times((load.z - loads.reference).abs(), force);
+        if torque {
+            let own = times(second_moment, masses) + times(rod_inertia.abs(), rod);
+            sum[2] += own * square * f64::from(load.ratio.abs()) + times(load.axis.norm(), force);
         }
     }
     sum
 }
 
-/// What a tolerance is relative to, over ω²: the largest m·r of a cylinder or unbalance, times the
-/// longest lever, times its crank radius (of an unbalance, the engine's largest or its shaft's
-/// distance from the crank). Where rod inertia makes more of order 1, what it makes: about J·r/l.
+/// What a tolerance is relative to, over ω²: for force the largest m·r of a cylinder, amplitude of
+/// its spectrum or unbalance; for moment that times the longest lever of a load that has weight; for
+/// torque the largest m·r² or unbalance times crank radius or its shaft's distance from the crank.
+/// Where rod inertia makes more of order 1, what it makes: about J·r/l.
 pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
-    let mut largest = [0.0_f64; 3];
-    for gear in engine.gears() {
-        largest[0] = largest[0].max(gear.first_order());
-        let of_rod = gear.rod_inertia_excess().abs() * gear.rod_ratio();
-        largest[2] = largest[2].max(gear.second_moment()).max(of_rod);
-    }
+    let [mut force, mut lever, mut torque] = [0.0_f64; 3];
     for load in &loads.list {
-        if let Source::Unbalance { ratio, axis } = load.source {
-            let force = load.weight * f64::from(ratio) * f64::from(ratio);
-            largest[0] = largest[0].max(force);
-            largest[2] = largest[2].max(force * engine.largest_crank_radius().max(axis.norm()));
+        let square = f64::from(load.ratio * load.ratio);
+        let (of_load, of_torque) = match load.source {
+            Source::Piston { gear, second_moment, rod_inertia } => match &loads.gears[gear].kind {
+                GearKind::SliderCrank { proportions, .. } => {
+                    (load.weight, second_moment.max(rod_inertia.abs() / proportions.rod))
+                }
+                GearKind::Given(spectrum) => (spectrum.largest(), 0.0),
+            },
+            Source::Unbalance => {
+                let arm = engine.largest_crank_radius().max(load.axis.norm());
+                (load.weight, load.weight * arm)
+            }
+        };
+        force = force.max(square * of_load);
+        torque = torque.max(square * of_torque);
+        if of_load > 0.0 {
+            lever = lever.max((load.z - loads.reference).abs());
         }
     }
-    largest[1] = largest[0] * loads.longest_lever();
-    largest
+    [force, force * lever, torque]
 }
 
 /// Sizes of force, moment and the larger torque.
@@ -208,6 +199,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Placement;
+    use crate::gear::slider_crank::Cylinder;
     use crate::load::Alike;
     use crate::numbers::angle::Angle;
 
@@ -223,7 +215,7 @@ mod tests {
         };
         let share = |inertias: [f64; 2], motion: usize| {
             let engine = Engine::new("", "", inertias.map(place).to_vec()).unwrap();
-            let loads = Loads::new(&engine, 0.0, Alike::Proportions);
+            let loads = Loads::new(&engine, 0.0, Alike::Proportions, None);
             rod_share(&loads, motion, &[1.0, 1.0, 4.0])
         };
         assert_eq!(share([0.0, 0.0], 0), 0.0);

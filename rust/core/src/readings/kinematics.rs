@@ -4,7 +4,8 @@ use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
 use crate::gear::slider_crank::{Crank, Cylinder};
-use crate::load::{Load, Loads, Source};
+use crate::load::{Loads, Source};
+use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
 
@@ -42,20 +43,35 @@ pub(crate) struct Kinematics {
     pub unbalances: Vec<Unbalances>,
 }
 
-/// Pistons of one motion and top dead centre.
+/// Pistons of one gear and top dead centre.
 pub(crate) struct Pistons {
+    gear: usize,
+    /// A slider-crank of the gear.
     pub cylinder: Cylinder,
-    /// `e^{−i·tdc}`.
+    /// Speed of the crank over that of the main one.
+    pub ratio: i32,
+    tdc: Angle,
+    /// `e^{−iρ·tdc}`.
     pub phase: Complex64,
     /// Force and moment, x + iy, for one crank radius of acceleration.
     pub planar: [Complex64; 2],
+    /// Roll torque of that force about the main crank's axis.
+    pub arm: f64,
     /// Σ m·r².
     pub second_moment: f64,
     /// Σ of the rods' inertia beyond their two masses.
     pub rod_inertia: f64,
 }
 
+impl Pistons {
+    /// Factors of the torques on the block and on the main crank.
+    pub fn senses(&self) -> [f64; 2] {
+        [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
+    }
+}
+
 /// Unbalances on shafts of one ratio: all at θ = 0.
+#[derive(Default)]
 pub(crate) struct Unbalances {
     pub ratio: i32,
     /// Force and moment, x + iy.
@@ -66,48 +82,49 @@ pub(crate) struct Unbalances {
 
 impl Kinematics {
     pub fn new(loads: &Loads) -> Self {
-        let (mut pistons, mut found) = (Vec::<Pistons>::new(), Vec::<&Load>::new());
-        let mut unbalances = Vec::<Unbalances>::new();
+        let (mut pistons, mut unbalances) = (Vec::<Pistons>::new(), Vec::<Unbalances>::new());
+        let cylinders = loads.cylinders();
         for load in &loads.list {
+            let ratio = load.ratio;
+            let square = f64::from(ratio * ratio);
+            let force = load.unit() * (load.weight * square);
             // A moment is its levered force turned by a quarter.
             let lever = Complex64::new(0.0, load.z - loads.reference);
             match load.source {
-                Source::Piston { motion, second_moment, rod_inertia } => {
-                    let same = |other: &&Load| {
-                        other.phase == load.phase
-                            && matches!(other.source, Source::Piston { motion: m, .. } if m == motion)
-                    };
-                    let k = found.iter().position(same).unwrap_or_else(|| {
-                        found.push(load);
+                Source::Piston { gear, second_moment, rod_inertia } => {
+                    let same = |p: &Pistons| p.gear == gear && p.tdc == load.phase;
+                    let k = pistons.iter().position(same).unwrap_or_else(|| {
                         pistons.push(Pistons {
-                            cylinder: loads.motions[motion],
-                            phase: load.phase.cis(-1),
+                            gear,
+                            cylinder: cylinders[gear],
+                            ratio,
+                            tdc: load.phase,
+                            phase: load.phase.cis(-i64::from(ratio.abs())),
                             planar: Default::default(),
+                            arm: 0.0,
                             second_moment: 0.0,
                             rod_inertia: 0.0,
                         });
                         pistons.len() - 1
                     });
                     // The force is against the acceleration of the piston away from the crank.
-                    let force = -load.unit() * load.weight;
-                    for (sum, term) in pistons[k].planar.iter_mut().zip([force, lever * force]) {
+                    for (sum, term) in pistons[k].planar.iter_mut().zip([-force, -lever * force]) {
                         *sum += term;
                     }
-                    pistons[k].second_moment += second_moment;
-                    pistons[k].rod_inertia += rod_inertia;
+                    pistons[k].arm -= (load.axis.conj() * force).im;
+                    pistons[k].second_moment += second_moment * square;
+                    pistons[k].rod_inertia += rod_inertia * square;
                 }
-                Source::Unbalance { ratio, axis } => {
+                Source::Unbalance => {
                     let k = unbalances.iter().position(|u| u.ratio == ratio).unwrap_or_else(|| {
-                        let roll = Complex64::default();
-                        unbalances.push(Unbalances { ratio, planar: Default::default(), roll });
+                        unbalances.push(Unbalances { ratio, ..Unbalances::default() });
                         unbalances.len() - 1
                     });
-                    let square = f64::from(ratio) * f64::from(ratio);
-                    let force = load.unit() * load.phase.cis(-1) * (load.weight * square);
+                    let force = force * load.phase.cis(-i64::from(ratio));
                     for (sum, term) in unbalances[k].planar.iter_mut().zip([force, lever * force]) {
                         *sum += term;
                     }
-                    unbalances[k].roll += axis.conj() * force;
+                    unbalances[k].roll += load.axis.conj() * force;
                 }
             }
         }
@@ -129,6 +146,13 @@ impl Units {
         let mut units = Self { cos: Column([1.0; BLOCK]), sin: Column::ZERO };
         angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
         units
+    }
+
+    /// At some multiple of these crank angles; a shaft's speed is an order.
+    #[inline(always)]
+    pub fn at_speed(angles: &CrankAngles, range: std::ops::Range<usize>, ratio: i32) -> Self {
+        let order = Order::whole(ratio.unsigned_abs()).unwrap_or(Order::FIRST);
+        Self::new(angles, range, order)
     }
 
     /// Position of a crank that is `phase` ahead.

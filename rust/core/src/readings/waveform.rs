@@ -45,13 +45,15 @@ pub fn exact(
         return Err(Error::value("spectrum", "given", cure));
     }
     let omega = angular_speed(request.rpm)?;
-    let loads = Loads::new(engine, engine.reference(request.reference_z)?, Alike::Proportions);
+    let reference = engine.reference(request.reference_z)?;
+    let loads = Loads::new(engine, reference, Alike::Proportions, None);
     let kinematics = Kinematics::new(&loads);
     let memory = in_blocks(theta_deg, request.torque, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
             || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
-        )
+        );
+        Ok(())
     })?;
     memory.waveform(None, request.torque)
 }
@@ -89,19 +91,21 @@ impl Rows {
         angles: &CrankAngles,
         torque: bool,
         square: f64,
-    ) -> Result<()> {
-        let units = Units::new(angles, 0..angles.len(), Order::FIRST);
+    ) {
+        let main = Units::new(angles, 0..angles.len(), Order::FIRST);
         for pistons in &kinematics.pistons {
+            let other = (pistons.ratio.abs() != 1)
+                .then(|| Units::at_speed(angles, 0..angles.len(), pistons.ratio));
+            let units = other.as_ref().unwrap_or(&main);
             if torque {
-                self.add::<true>(pistons, square, &units);
+                self.add::<true>(pistons, square, units);
             } else {
-                self.add::<false>(pistons, square, &units);
+                self.add::<false>(pistons, square, units);
             }
         }
         let [force_x, force_y, moment_x, moment_y, roll, _] = &mut self.columns;
         for unbalances in &kinematics.unbalances {
-            let order = Order::whole(unbalances.ratio.unsigned_abs())?;
-            let units = Units::new(angles, 0..angles.len(), order);
+            let units = Units::at_speed(angles, 0..angles.len(), unbalances.ratio);
             let [force, moment] = unbalances.planar.map(|sum| sum * square);
             units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
             units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
@@ -111,15 +115,15 @@ impl Rows {
                 units.add_turning(at_start, unbalances.ratio, [&mut real[..], &mut roll[..]]);
             }
         }
-        Ok(())
     }
 
     #[inline(always)]
     fn add<const TORQUE: bool>(&mut self, pistons: &Pistons, square: f64, units: &Units) {
         let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
-        let (proportions, torque) =
-            (pistons.cylinder.proportions(), pistons.second_moment * square);
+        let (proportions, arm) = (pistons.cylinder.proportions(), pistons.arm * square);
+        let senses = pistons.senses().map(|sense| sense * square);
+        let [on_block, on_crank] = senses.map(|sense| sense * pistons.second_moment);
         for i in 0..BLOCK {
             let motion = proportions.motion_at(&units.crank(pistons.phase, i));
             force_x[i] += force.re * motion.acceleration;
@@ -127,17 +131,17 @@ impl Rows {
             moment_x[i] += moment.re * motion.acceleration;
             moment_y[i] += moment.im * motion.acceleration;
             if TORQUE {
-                let torque = torque * motion.acceleration;
-                roll[i] += torque * (motion.velocity + proportions.offset);
-                crank[i] -= torque * motion.velocity;
+                let along = motion.velocity + proportions.offset;
+                roll[i] += (on_block * along + arm) * motion.acceleration;
+                crank[i] -= on_crank * motion.velocity * motion.acceleration;
             }
         }
         if TORQUE && pistons.rod_inertia != 0.0 {
-            let inertia = pistons.rod_inertia * square;
+            let [on_block, on_crank] = senses.map(|sense| sense * pistons.rod_inertia);
             for i in 0..BLOCK {
                 let swing = Swing::new(&proportions, &units.crank(pistons.phase, i));
-                roll[i] += inertia * swing.roll();
-                crank[i] += inertia * swing.crank();
+                roll[i] += on_block * swing.roll();
+                crank[i] += on_crank * swing.crank();
             }
         }
     }

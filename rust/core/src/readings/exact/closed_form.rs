@@ -140,13 +140,13 @@ pub fn closed_form(
     reference_z: Option<f64>,
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
-    Order::whole(order)?;
-    let mut loads = Loads::new(engine, engine.reference(reference_z)?, Alike::Proportions);
-    if loads.motions.len() > 1 {
+    let of_order = Order::whole(order)?;
+    let mut loads = Loads::new(engine, engine.reference(reference_z)?, Alike::Proportions, None);
+    if loads.gears.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
-    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
-    let offset = loads.motions[0].pin_offset();
+    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == of_order));
+    let offset = loads.cylinders()[0].pin_offset();
     let (unit, weights) = weights(&loads.list)?;
     if loads.list.len() > engine.placements().len() {
         if order > 1 {
@@ -168,8 +168,8 @@ pub fn closed_form(
     for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
         let (motion, square) = match load.source {
             Source::Piston { .. } => (Motion::Along, 1),
-            Source::Unbalance { ratio, .. } if ratio > 0 => (Motion::Forward, ratio * ratio),
-            Source::Unbalance { ratio, .. } => (Motion::Backward, ratio * ratio),
+            Source::Unbalance if load.ratio > 0 => (Motion::Forward, load.ratio * load.ratio),
+            Source::Unbalance => (Motion::Backward, load.ratio * load.ratio),
         };
         let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
         let argument = if motion == Motion::Along { "bank_deg" } else { "angle_deg" };

@@ -35,7 +35,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::harmonics;
 use crate::gear::slider_crank::Cylinder;
-use crate::load::{Load, Source};
+use crate::load::Load;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::{Order, check_list};
@@ -162,8 +162,8 @@ impl Proof {
         use Channel::{Gear, Masses, OddOfGear, OddOfMasses, OddOfRod, One, Rod};
         let (cylinder, [masses, inertia]) = match channel {
             One => return Ok(true),
-            Masses(motion) | OddOfMasses(motion) => (self.loads.motions[motion], [1.0, 0.0]),
-            Rod(motion) | OddOfRod(motion) => (self.loads.motions[motion], [0.0, 1.0]),
+            Masses(motion) | OddOfMasses(motion) => (self.motions[motion], [1.0, 0.0]),
+            Rod(motion) | OddOfRod(motion) => (self.motions[motion], [0.0, 1.0]),
             Gear(gear) | OddOfGear(gear) => {
                 let gear = self.gears[gear];
                 (gear, [gear.second_moment(), gear.rod_inertia_excess()])
@@ -218,7 +218,7 @@ impl Proof {
         if self.directions[0][cylinders..].iter().any(|direction| direction.symbol > 0) {
             found.push("angles of unbalances that are no rational part of a turn".to_owned());
         }
-        if self.loads.motions.len() > 1 {
+        if self.motions.len() > 1 {
             found.push("slider-cranks of different proportions".to_owned());
         }
         let inertia = |gear: &Cylinder| gear.rod_inertia_excess();
@@ -229,12 +229,12 @@ impl Proof {
             found.push("masses times radius that are no rational multiples of each other".into());
         }
         if self.loads.list.len() > cylinders {
-            let above = self.loads.unbalance_orders().iter().any(|&order| order > 1);
+            let above = self.loads.unbalance_orders().iter().any(|&order| order > Order::FIRST);
             if above {
                 found
                     .push("unbalances of orders above 1, no rational multiples of pistons'".into());
             }
-            let beside = |load: &Load| matches!(load.source, Source::Unbalance { axis, .. } if axis != Complex64::default());
+            let beside = |load: &Load| load.axis != Complex64::default();
             if self.loads.list.iter().any(beside) {
                 found.push("roll torques of shafts, no rational multiples of pistons'".to_owned());
             }
@@ -247,7 +247,7 @@ impl Proof {
             found.push("places that are no rational multiples of each other".to_owned());
         }
         let has_offset = |motion: &Cylinder| motion.pin_offset() != 0.0;
-        if found.is_empty() && self.loads.motions.iter().any(has_offset) {
+        if found.is_empty() && self.motions.iter().any(has_offset) {
             found.push(
                 "pin offsets: harmonics with no rational relation to what rotates".to_owned(),
             );

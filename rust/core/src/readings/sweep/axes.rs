@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::harmonics::proportions;
 use crate::engine::{Engine, Hold, bank_angle_in_range};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -66,7 +65,7 @@ impl Axes {
         }
         let (extreme_ratios, extreme_offsets) = (ends(ratios), ends(offsets));
         for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
-            let each = |ratio, offset| proportions(cylinder, ratio, offset).map(drop);
+            let each = |ratio, offset| cylinder.proportions_with(ratio, offset).map(drop);
             let extremes = extreme_ratios.iter().try_for_each(|&ratio| {
                 extreme_offsets.iter().try_for_each(|&offset| each(ratio, offset))
             });
@@ -84,42 +83,6 @@ impl Axes {
         let [least, most] = extreme_offsets;
         let farthest = least.zip(most).map(|(a, b)| if -a > b { a } else { b });
         Ok([extreme_ratios[1], farthest])
-    }
-}
-
-impl Axes {
-    /// The same axes but for speed in parts along the longest, if their points are too many.
-    pub(super) fn parts(
-        &self,
-        most: usize,
-        cancel: &Cancel,
-    ) -> Option<impl Iterator<Item = Result<Self>>> {
-        let angles = self.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len());
-        let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
-        let lengths = [angles, length(&self.rod_ratio), length(&self.pin_offset)];
-        let points = lengths.iter().fold(1, |size: usize, &n| size.saturating_mul(n));
-        let longest = lengths.into_iter().max().unwrap_or(1);
-        if longest < 2 || points <= most {
-            return None;
-        }
-        let divided = lengths.iter().position(|&length| length == longest);
-        let step = (most / (points / longest)).max(1);
-        let part = move |first: usize| {
-            let range = first..longest.min(first + step);
-            let cut = |values: &Vec<f64>, axis: usize| {
-                let all = divided != Some(axis);
-                memory::copied(if all { &values[..] } else { &values[range.clone()] }, cancel)
-            };
-            let angles = self.bank_angle.as_ref();
-            let angles = angles.map(|(angles, hold)| Ok((cut(angles, 0)?, *hold))).transpose()?;
-            Ok(Self {
-                bank_angle: angles,
-                rod_ratio: self.rod_ratio.as_ref().map(|ratios| cut(ratios, 1)).transpose()?,
-                pin_offset: self.pin_offset.as_ref().map(|offsets| cut(offsets, 2)).transpose()?,
-                rpm: Vec::new(),
-            })
-        };
-        Some((0..longest).step_by(step).map(part))
     }
 }
 

@@ -1,29 +1,41 @@
-//! A few orders that serve every point of a sweep within a tolerance.
+//! A few orders that serve every point of a sweep within a tolerance, chosen by bounds.
 //!
-//! Sizes of all orders that may matter are evaluated at every engine, bank angle, rod ratio and
-//! offset, once for all speeds, and each order counts with its worst. Where no cylinder has an offset
-//! the largest rod ratio is the worst of force and moment: `√(1 − λ² sin²θ)` is a power series in λ²
-//! whose terms give each order one sign, so that every |aₙ| grows with λ, and all cylinders share it.
+//! With the two banks at `bisector ∓ γ` a part of one order is `Σ h·(R·e^{−imγ} + L·e^{imγ} + K)`:
+//! a harmonic h of a gear (1 for unbalances) times sums of the right bank, of the left bank and of what
+//! belongs to none. At every bank angle it is at most `Σ |h|·(|R| + |L| + |K|)`, whatever the loads
+//! are; harmonics that no axis varies are multiplied first, so that what they cancel stays cancelled.
+//! Those that rod ratio or pin offset vary count with a bound of |h| over the axis:
+//!
+//! - Force without offset: √(1 − λ² sin²θ) is a power series in λ² whose terms give each order one
+//!   sign, so that every |aₙ| is largest at the largest λ.
+//! - Torque of masses without offset: half the derivative of x′². Odd orders are differences of two
+//!   neighbouring orders of h′, of opposite signs, which grow with λ. With q = p² order 2 is −½(1 + q²),
+//!   order 2j above is ½(1 − q²)q^{j−1} up to factors of n, which grows up to q² = (j − 1)/(j + 1), or
+//!   λ = 0.96 for order 4 and beyond that for others.
+//! - Any other: the bound of the tail that begins with the order, which grows with λ and with the
+//!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
+//!   Orders 1 and 2 of torques are kept where the layout has them.
 
 use std::sync::Arc;
 
-use super::harmonics::proportions;
-use super::{Axes, Figure, Quantity, Sweep};
+use super::harmonics::of;
+use super::layout::{Layout, LayoutSum};
+use super::{Axes, Quantity, Sweep};
+use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::slider_crank::{Cylinder, Proportions};
 use crate::gear::spectrum::Spectrum;
-use crate::load::Loads;
+use crate::gear::{Gear, GearKind};
+use crate::load::{Harmonic, Loads};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
-use crate::numbers::memory;
 use crate::numbers::order::Order;
-use crate::readings::choice::{few, highest, of_spectrum, rod_share, scales, tail};
+use crate::readings::choice::{candidates, few, scales, tail};
 
 /// Orders above the last one evaluated add less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 0.01;
-/// Numbers evaluated at a time.
-const MOST_SIZES: usize = 1 << 22;
+/// Rod ratio up to which every order of the torque of masses without offset grows with it.
+const TORQUE_GROWS: f64 = 0.95;
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -41,25 +53,38 @@ impl Sweep {
         let mut sweep =
             Self::new(engines, axes, vec![Order::FIRST], reference_z, spectrum, cancel)?;
         sweep.torque &= torque;
-        let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
-        let candidates = sweep.candidates(rtol, &loads)?;
-        let last = candidates.last().copied().unwrap_or(1);
+        let torque = sweep.torque;
         let mut quantities = vec![Quantity::Force, Quantity::Moment];
-        if sweep.torque {
+        if torque {
             quantities.extend([Quantity::Torque, Quantity::CrankTorque]);
         }
+        let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
+        let [ratio, offset] = sweep.extremes;
+        let (mut slowest, mut allowed) = (Vec::new(), Vec::new());
+        sweep.orders = Vec::new();
+        for (engine, loads) in sweep.engines.iter().zip(&loads) {
+            cancel.check()?;
+            let gears = loads.gears.iter().map(|gear| gear.replaced(ratio, offset));
+            let gears: Vec<Gear> = gears.collect::<Result<_>>()?;
+            let scales = scales(engine, loads);
+            let negligible = NEGLIGIBLE * rtol;
+            sweep.orders.extend(candidates(rtol, negligible, &scales, loads, &gears, torque)?);
+            slowest.push(gears);
+            allowed.extend(quantities.iter().map(|quantity| rtol * scales[quantity.bound()]));
+        }
+        sweep.orders.sort_unstable();
+        sweep.orders.dedup();
         // A sum for each engine and quantity, in the order of the engines.
-        let mut sizes = vec![Vec::new(); candidates.len()];
-        let (mut lost, mut allowed) = (Vec::new(), Vec::new());
-        for (index, loads) in loads.iter().enumerate() {
-            let scales = scales(&sweep.engines[index], loads).map(|scale| rtol * scale);
-            let rest = sweep.rest(loads, last)?;
+        let mut sizes = vec![Vec::new(); sweep.orders.len()];
+        let mut lost = Vec::new();
+        for (index, (loads, gears)) in loads.iter().zip(&slowest).enumerate() {
+            cancel.check()?;
+            let rest = tail(loads, sweep.orders.last(), torque, gears);
             for &quantity in &quantities {
-                let sum = quantity.bound();
-                let worst = sweep.worst(index, quantity, &candidates, &sweep.axes, cancel)?;
-                sizes.iter_mut().zip(worst).for_each(|(sizes, size)| sizes.push(size));
-                lost.push(rest[sum]);
-                allowed.push(scales[sum]);
+                let layout = Layout::new(&sweep, index, quantity)?;
+                let largest = sweep.largest(&layout, gears, quantity, cancel)?;
+                sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
+                lost.push(rest[quantity.bound()]);
             }
         }
         let kept = few(&sizes, &allowed, &mut lost);
@@ -68,9 +93,9 @@ impl Sweep {
             let worst = &mut sweep.error_bound[quantity.bound()];
             *worst = worst.max(lost * fastest);
         }
-        let orders = Order::all_whole(&candidates)?;
-        sweep.orders = Vec::new();
-        for ((order, kept), sizes) in orders.into_iter().zip(kept).zip(sizes) {
+        for ((order, kept), sizes) in
+            std::mem::take(&mut sweep.orders).into_iter().zip(kept).zip(sizes)
+        {
             if kept {
                 sweep.orders.push(order);
             } else if sizes.iter().any(|&size| size > 0.0) {
@@ -80,101 +105,116 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Orders that may matter anywhere in the sweep.
-    fn candidates(&self, rtol: f64, loads: &[Loads]) -> Result<Vec<u32>> {
-        let unbalances: Vec<u32> = loads.iter().flat_map(Loads::unbalance_orders).collect();
-        if let Some(spectrum) = &self.spectrum {
-            return Ok(of_spectrum(spectrum, &unbalances));
-        }
-        let most = loads.iter().map(|loads| loads.list.len()).max().unwrap_or(1);
-        let mut motions = Vec::new();
-        for (engine, loads) in self.engines.iter().zip(loads) {
-            let scales = scales(engine, loads);
-            for (k, motion) in loads.motions.iter().enumerate() {
-                motions.push((self.slowest(motion)?, rod_share(loads, k, &scales)));
-            }
-        }
-        let negligible = NEGLIGIBLE * rtol;
-        let last = highest(rtol, negligible, most, motions.into_iter(), self.torque)?;
-        Ok((1..=unbalances.into_iter().max().unwrap_or(1).max(last)).collect())
-    }
-
-    /// Proportions of a cylinder whose harmonics fall off most slowly: the tail bounds grow with rod
-    /// ratio and with the magnitude of the offset.
-    fn slowest(&self, cylinder: &Cylinder) -> Result<Proportions> {
-        let [ratio, offset] = self.extremes;
-        proportions(cylinder, ratio, offset)
-    }
-
-    /// Bounds over ω² of what orders above the last add to an engine's force, moment and torque.
-    fn rest(&self, loads: &Loads, last: u32) -> Result<[f64; 3]> {
-        if self.spectrum.is_some() {
-            return Ok([0.0; 3]);
-        }
-        let slowest = loads.motions.iter().map(|motion| self.slowest(motion));
-        let slowest: Vec<Proportions> = slowest.collect::<Result<_>>()?;
-        Ok(tail(loads, last, self.torque, &slowest))
-    }
-
-    /// The largest size over ω² of each order of an engine on these axes.
-    fn worst(
+    /// Bounds over ω² of the size of each order, |forward| + |backward| or |torque|, at any point.
+    fn largest(
         &self,
-        engine: usize,
+        layout: &Layout,
+        slowest: &[Gear],
         quantity: Quantity,
-        candidates: &[u32],
-        axes: &Axes,
         cancel: &Cancel,
     ) -> Result<Vec<f64>> {
-        let planar = matches!(quantity, Quantity::Force | Quantity::Moment);
-        let centred = match &axes.pin_offset {
-            Some(offsets) => offsets.iter().all(|&offset| offset == 0.0),
-            None => self.engines[engine].gears().iter().all(|gear| gear.pin_offset() == 0.0),
-        };
-        let ratios = axes.rod_ratio.as_ref().filter(|ratios| ratios.len() > 1);
-        if let (Some(ratios), true, true) = (ratios, planar, centred) {
-            let largest = ratios.iter().copied().fold(0.0, f64::max);
-            let angles = axes.bank_angle.as_ref();
-            let angles = angles.map(|(angles, hold)| Ok((memory::copied(angles, cancel)?, *hold)));
-            let bank_angle = angles.transpose()?;
-            // Offsets that are all zero are as one.
-            let pin_offset = axes.pin_offset.as_ref().map(|_| vec![0.0]);
-            let largest = Some(vec![largest]);
-            let axes = Axes { bank_angle, rod_ratio: largest, pin_offset, rpm: Vec::new() };
-            return self.worst(engine, quantity, candidates, &axes, cancel);
-        }
-        let mut worst = vec![0.0_f64; candidates.len()];
-        if let Some(parts) = axes.parts(MOST_SIZES / candidates.len(), cancel) {
-            for part in parts {
-                let here = self.worst(engine, quantity, candidates, &part?, cancel)?;
-                worst.iter_mut().zip(here).for_each(|(worst, here)| *worst = worst.max(here));
+        let mut factors: Vec<(Harmonic, Vec<Factor>)> = Vec::new();
+        for sum in layout.by_order.iter().flatten() {
+            if factors.iter().all(|(known, _)| *known != sum.harmonic) {
+                let found = self.factors(layout, slowest, sum.harmonic, quantity, cancel)?;
+                factors.push((sum.harmonic, found));
             }
-            return Ok(worst);
         }
-        let axes = Axes {
-            bank_angle: axes.bank_angle.clone(),
-            rod_ratio: axes.rod_ratio.clone(),
-            pin_offset: axes.pin_offset.clone(),
-            rpm: Vec::new(),
+        let factor = |harmonic: Harmonic, order: usize| {
+            let found = factors.iter().find(|(known, _)| *known == harmonic);
+            found.map_or(Factor::AtMost(0.0), |(_, factors)| factors[order])
         };
-        let part = Self {
-            engines: vec![Arc::clone(&self.engines[engine])],
-            axes,
-            orders: Order::all_whole(candidates)?,
-            references: vec![self.references[engine]],
-            spectrum: self.spectrum.clone(),
-            extremes: self.extremes,
-            squares: vec![1.0],
-            torque: self.torque,
-            omitted: Vec::new(),
-            error_bound: [0.0; 3],
+        let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
+            let (mut size, mut fixed, mut rounding) = (0.0, [Complex64::default(); 6], 0.0);
+            for sum in sums {
+                match factor(sum.harmonic, k) {
+                    Factor::Fixed(amplitude) => {
+                        rounding += sum.bound * amplitude.norm();
+                        let constants = fixed.iter_mut().zip(sum.constants);
+                        constants.for_each(|(total, constant)| *total += constant * amplitude);
+                    }
+                    Factor::AtMost(largest) => {
+                        size += times(span(&sum.constants, sum.bound), largest);
+                    }
+                }
+            }
+            size + span(&fixed, rounding)
         };
-        let figure = if planar { Figure::Length } else { Figure::Amplitude };
-        for (k, size) in part.peaks(quantity, figure, cancel)?.iter().enumerate() {
-            let worst = &mut worst[k % candidates.len()];
-            *worst = worst.max(*size);
-        }
-        Ok(worst)
+        Ok(layout.by_order.iter().enumerate().map(size).collect())
     }
+
+    /// Harmonics by order, or their bounds over the axes.
+    fn factors(
+        &self,
+        layout: &Layout,
+        slowest: &[Gear],
+        harmonic: Harmonic,
+        quantity: Quantity,
+        cancel: &Cancel,
+    ) -> Result<Vec<Factor>> {
+        let orders = &self.orders;
+        let swept = self.axes.rod_ratio.is_some() || self.axes.pin_offset.is_some();
+        let k = match harmonic {
+            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) if swept => k,
+            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => {
+                let values = of(&layout.gears[k], harmonic, quantity, orders, cancel)?;
+                return Ok(values.into_iter().map(Factor::Fixed).collect());
+            }
+            Harmonic::One => {
+                return Ok(vec![Factor::Fixed(Complex64::new(1.0, 0.0)); orders.len()]);
+            }
+        };
+        let gear = &slowest[k];
+        let rod_ratio = match &gear.kind {
+            GearKind::SliderCrank { proportions, .. } => 1.0 / proportions.rod,
+            GearKind::Given(_) => 0.0,
+        };
+        let grows = match harmonic {
+            Harmonic::Torque(_) => rod_ratio <= TORQUE_GROWS,
+            _ => matches!(harmonic, Harmonic::Force(_)),
+        };
+        if gear.is_centred() && grows {
+            let values = of(gear, harmonic, quantity, orders, cancel)?;
+            return Ok(values.into_iter().map(|value| Factor::AtMost(value.norm())).collect());
+        }
+        let bound = |&order: &Order| {
+            let own = order.halves() / 2 / gear.ratio.unsigned_abs();
+            let [force, masses, rod] = gear.tail(order.halves() / 2 - 1, true);
+            Factor::AtMost(match harmonic {
+                Harmonic::Force(_) => force + f64::from(u8::from(own == 1)),
+                _ if own < 3 => f64::INFINITY,
+                Harmonic::Torque(_) => masses * f64::from(gear.ratio.abs()),
+                _ => rod * f64::from(gear.ratio.abs()),
+            })
+        };
+        Ok(orders.iter().map(bound).collect())
+    }
+}
+
+/// Harmonic of an order.
+#[derive(Debug, Clone, Copy)]
+enum Factor {
+    /// The same at every point.
+    Fixed(Complex64),
+    /// Of at most this size at any point.
+    AtMost(f64),
+}
+
+/// Largest size at any bank angle of sums A·cos mγ + B·sin mγ + K, forward and backward; zero where
+/// rounding is all there is.
+fn span(constants: &[Complex64; 6], rounding: f64) -> f64 {
+    let i = Complex64::i();
+    let part = |k: usize| {
+        let (a, b) = (constants[k], i * constants[2 + k]);
+        0.5 * ((a + b).norm() + (a - b).norm()) + constants[4 + k].norm()
+    };
+    let size = part(0) + part(1);
+    if size <= rounding { 0.0 } else { size }
+}
+
+/// Zero times infinity is zero.
+fn times(size: f64, largest: f64) -> f64 {
+    if size == 0.0 { 0.0 } else { size * largest }
 }
 
 impl Quantity {

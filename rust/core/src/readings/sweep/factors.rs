@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::harmonics::Amplitudes;
+use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -64,12 +64,12 @@ impl Constants {
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let amplitudes = Amplitudes::new(sweep, layout, quantity, points, cancel)?;
+        let harmonics = PointHarmonics::new(sweep, layout, quantity, points, cancel)?;
         let mut by_order = Vec::with_capacity(layout.by_order.len());
         for (k, sums) in layout.by_order.iter().enumerate() {
             let mut columns = vec![0.0; CONSTANTS * count];
             for sum in sums {
-                let [re, im] = amplitudes.of(sum.channel, k, count);
+                let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };
                 let (constants, bounds) = columns.split_at_mut((CONSTANTS - 1) * count);
                 for (constant, pair) in sum.constants.iter().zip(constants.chunks_mut(2 * count)) {
                     let (out_re, out_im) = pair.split_at_mut(count);

@@ -1,37 +1,26 @@
-//! What a sweep's rod ratios and pin offsets change: the amplitudes of its pistons.
+//! What a sweep's rod ratios and pin offsets change: the harmonics of its gears.
 
 use std::ops::Range;
 
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::gear::harmonics::{self, table};
-use crate::gear::slider_crank::{Cylinder, Proportions};
-use crate::load::Channel;
+use crate::gear::Gear;
+use crate::gear::harmonics::table;
+use crate::load::Harmonic;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
+use crate::numbers::order::Order;
 
-/// A cylinder's proportions with rod ratio and pin offset replaced.
-pub(super) fn proportions(
-    cylinder: &Cylinder,
-    rod_ratio: Option<f64>,
-    pin_offset: Option<f64>,
-) -> Result<Proportions> {
-    let offset = pin_offset.unwrap_or(cylinder.pin_offset());
-    let radius = cylinder.crank_radius();
-    match rod_ratio {
-        Some(ratio) => Proportions::new(ratio, offset / radius),
-        None => Cylinder::new(radius, cylinder.rod_length(), 0.0, offset).map(|c| c.proportions()),
-    }
-}
+/// Real and imaginary parts at some points, order by order.
+type Columns = Vec<[Vec<f64>; 2]>;
 
-/// Amplitudes of every channel at some points: real and imaginary parts, order by order.
-pub(super) struct Amplitudes {
-    channels: Vec<(Channel, Vec<[Vec<f64>; 2]>)>,
-}
+/// Harmonics at some points of rod ratio and pin offset.
+pub(super) struct PointHarmonics(Vec<(Harmonic, Columns)>);
 
-impl Amplitudes {
-    /// Amplitudes at points of rod ratio and pin offset of the channels that a layout has.
+impl PointHarmonics {
+    /// Those of a layout.
     pub fn new(
         sweep: &Sweep,
         layout: &Layout,
@@ -39,96 +28,93 @@ impl Amplitudes {
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut channels: Vec<(Channel, Vec<[Vec<f64>; 2]>)> = Vec::new();
-        for channel in layout.by_order.iter().flatten().map(|sum| sum.channel) {
-            if channel == Channel::Unit || channels.iter().any(|(known, _)| *known == channel) {
-                continue;
+        let mut found: Vec<(Harmonic, Columns)> = Vec::new();
+        for harmonic in layout.by_order.iter().flatten().map(|sum| sum.harmonic) {
+            if found.iter().all(|(known, _)| *known != harmonic) {
+                let columns = sweep.columns(layout, harmonic, quantity, points.clone(), cancel)?;
+                found.push((harmonic, columns));
             }
-            let columns = sweep.amplitudes(layout, channel, quantity, points.clone(), cancel)?;
-            channels.push((channel, columns));
         }
-        Ok(Self { channels })
+        Ok(Self(found))
     }
 
-    /// Those of a channel and order, at so many points.
-    pub fn of(
-        &self,
-        channel: Channel,
-        order: usize,
-        points: usize,
-    ) -> [std::borrow::Cow<'_, [f64]>; 2] {
-        let found = self.channels.iter().find(|(known, _)| *known == channel);
-        found.map_or_else(
-            || [vec![1.0; points].into(), vec![0.0; points].into()],
-            |(_, columns)| columns[order].each_ref().map(|column| column.as_slice().into()),
-        )
+    /// Real and imaginary parts of a harmonic at an order; none where it is zero everywhere.
+    pub fn of(&self, harmonic: Harmonic, order: usize) -> Option<&[Vec<f64>; 2]> {
+        let (_, columns) = self.0.iter().find(|(known, _)| *known == harmonic)?;
+        columns.get(order)
     }
 }
 
 impl Sweep {
-    fn amplitudes(
+    fn columns(
         &self,
         layout: &Layout,
-        channel: Channel,
+        harmonic: Harmonic,
         quantity: Quantity,
         points: Range<usize>,
         cancel: &Cancel,
-    ) -> Result<Vec<[Vec<f64>; 2]>> {
-        let orders = &self.whole_orders();
-        let mut columns: Vec<[Vec<f64>; 2]> =
-            orders.iter().map(|_| [(); 2].map(|()| vec![0.0; points.len()])).collect();
-        let (Channel::Masses(motion) | Channel::Rod(motion)) = channel else {
+    ) -> Result<Columns> {
+        let mut columns = memory::room(self.orders.len())?;
+        for _ in &self.orders {
+            columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
+        }
+        let (Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k)) = harmonic else {
+            for [re, _] in &mut columns {
+                re.fill(1.0);
+            }
             return Ok(columns);
         };
-        let cylinder = &layout.motions[motion];
-        if let Some(spectrum) = &self.spectrum {
-            for (column, &order) in columns.iter_mut().zip(orders) {
-                let amplitude = spectrum.amplitude(order);
-                column[0].fill(amplitude.re);
-                column[1].fill(amplitude.im);
-            }
-            return Ok(columns);
-        }
-        let centred = cylinder.pin_offset() == 0.0 && self.axes.pin_offset.is_none();
-        if let (Some(ratios), true, true) =
-            (&self.axes.rod_ratio, centred, matches!(quantity, Quantity::Force | Quantity::Moment))
+        let gear = &layout.gears[k];
+        let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
+        if let (Some(ratios), None, Harmonic::Force(_)) = (ratios, offsets, harmonic)
+            && gear.is_centred()
+            && gear.ratio.abs() == 1
         {
-            let table = table::centred_table(&ratios[points], orders, cancel)?;
-            for (column, values) in columns.iter_mut().zip(table.columns()) {
-                column[0].iter_mut().zip(values).for_each(|(out, &value)| *out = value);
+            let orders: Vec<u32> = self.orders.iter().filter_map(|n| n.as_whole()).collect();
+            let table = table::centred_table(&ratios[points], &orders, cancel)?;
+            let whole =
+                self.orders.iter().zip(&mut columns).filter(|(n, _)| n.as_whole().is_some());
+            for ((_, [re, _]), values) in whole.zip(table.columns()) {
+                re.iter_mut().zip(values).for_each(|(out, &value)| *out = value);
             }
             return Ok(columns);
         }
-        let offsets = self.axes.pin_offset.as_deref();
-        let in_a_row = offsets.map_or(1, <[f64]>::len);
+        if ratios.is_none() && offsets.is_none() {
+            let values = of(gear, harmonic, quantity, &self.orders, cancel)?;
+            for ([re, im], value) in columns.iter_mut().zip(values) {
+                re.fill(value.re);
+                im.fill(value.im);
+            }
+            return Ok(columns);
+        }
+        let in_a_row = offsets.as_ref().map_or(1, Vec::len);
         for (row, point) in points.enumerate() {
             cancel.check()?;
-            let ratio = self.axes.rod_ratio.as_ref().map(|ratios| ratios[point / in_a_row]);
-            let offset = offsets.map(|offsets| offsets[point % in_a_row]);
-            let proportions = proportions(cylinder, ratio, offset)?;
-            let values = of_channel(channel, quantity, &proportions, orders, cancel)?;
-            for (column, value) in columns.iter_mut().zip(values) {
-                (column[0][row], column[1][row]) = (value.re, value.im);
+            let ratio = ratios.as_ref().map(|ratios| ratios[point / in_a_row]);
+            let offset = offsets.as_ref().map(|offsets| offsets[point % in_a_row]);
+            let gear = gear.replaced(ratio, offset)?;
+            let values = of(&gear, harmonic, quantity, &self.orders, cancel)?;
+            for ([re, im], value) in columns.iter_mut().zip(values) {
+                (re[row], im[row]) = (value.re, value.im);
             }
         }
         Ok(columns)
     }
 }
 
-/// Harmonics by which the sums of a channel are multiplied.
-fn of_channel(
-    channel: Channel,
+/// Harmonics of a gear for a quantity.
+pub(super) fn of(
+    gear: &Gear,
+    harmonic: Harmonic,
     quantity: Quantity,
-    proportions: &Proportions,
-    orders: &[u32],
+    orders: &[Order],
     cancel: &Cancel,
 ) -> Result<Vec<Complex64>> {
-    let torques = match (channel, quantity) {
-        (_, Quantity::Force | Quantity::Moment) => {
-            return harmonics::coefficients(proportions, orders, cancel);
-        }
-        (Channel::Rod(_), _) => harmonics::rod::torque(proportions, orders, cancel)?,
-        _ => harmonics::torque::torque(proportions, orders, cancel)?,
+    let torques = match harmonic {
+        Harmonic::Torque(_) => gear.torque(orders, cancel)?,
+        Harmonic::Rod(_) => gear.rod_torque(orders, cancel)?,
+        Harmonic::One => return Ok(vec![Complex64::new(1.0, 0.0); orders.len()]),
+        Harmonic::Force(_) => return gear.force(orders, cancel),
     };
     Ok(if quantity == Quantity::Torque { torques.roll } else { torques.crank })
 }

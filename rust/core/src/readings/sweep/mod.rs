@@ -370,11 +370,6 @@ impl Sweep {
     fn bank_angles(&self) -> &[f64] {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
     }
-
-    /// The orders as whole numbers; 1 for half orders, which no load has.
-    fn whole_orders(&self) -> Vec<u32> {
-        self.orders.iter().map(|order| order.as_whole().unwrap_or(1)).collect()
-    }
 }
 
 impl Quantity {

@@ -7,7 +7,6 @@ use super::Quantity;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{Crank, Proportions};
 use crate::numbers::crank_angles::CrankAngles;
-use crate::numbers::order::Order;
 use crate::readings::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
 
 /// An engine at one bank angle.
@@ -27,11 +26,11 @@ impl Placed {
         range: Range<usize>,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
-        let units = Units::new(angles, range.clone(), Order::FIRST);
+        let cranks = |p: &Pistons| Cranks::new(p, &Units::at_speed(angles, range.clone(), p.ratio));
+        let cranks: Vec<Cranks> = self.kinematics.pistons.iter().map(cranks).collect();
         let [mut x, mut y] = [Column::ZERO, Column::ZERO];
         for unbalances in &self.kinematics.unbalances {
-            let Ok(order) = Order::whole(unbalances.ratio.unsigned_abs()) else { continue };
-            let units = Units::new(angles, range.clone(), order);
+            let units = Units::at_speed(angles, range.clone(), unbalances.ratio);
             let at_start = match quantity {
                 Quantity::Force => unbalances.planar[0],
                 Quantity::Moment => unbalances.planar[1],
@@ -41,10 +40,10 @@ impl Placed {
             units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
         }
         match quantity {
-            Quantity::Force => self.planar(0, &units, &[x, y], outs),
-            Quantity::Moment => self.planar(1, &units, &[x, y], outs),
-            Quantity::Torque => self.torque::<true>(&units, &y, outs),
-            Quantity::CrankTorque => self.torque::<false>(&units, &Column::ZERO, outs),
+            Quantity::Force => self.planar(0, &cranks, &[x, y], outs),
+            Quantity::Moment => self.planar(1, &cranks, &[x, y], outs),
+            Quantity::Torque => self.torque::<true>(&cranks, &y, outs),
+            Quantity::CrankTorque => self.torque::<false>(&cranks, &Column::ZERO, outs),
         }
     }
 
@@ -53,15 +52,14 @@ impl Placed {
     fn planar<'o>(
         &self,
         which: usize,
-        units: &Units,
+        cranks: &[Cranks],
         unbalances: &[Column; 2],
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
         for (proportions, squares) in &self.points {
             let [mut x, mut y] = unbalances.clone();
-            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+            for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
                 let along = pistons.planar[which];
                 for i in 0..BLOCK {
                     let acceleration = proportions.motion_at(&cranks.at(i)).acceleration;
@@ -79,27 +77,29 @@ impl Placed {
     #[inline(always)]
     fn torque<'o, const ROLL: bool>(
         &self,
-        units: &Units,
+        cranks: &[Cranks],
         unbalances: &Column,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        let cranks: Vec<Cranks> = pistons.iter().map(|p| Cranks::new(p, units)).collect();
         for (proportions, squares) in &self.points {
             let mut sum = unbalances.clone();
-            for ((pistons, cranks), proportions) in pistons.iter().zip(&cranks).zip(proportions) {
+            for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
+                let [on_block, on_crank] = pistons.senses();
+                let sense = if ROLL { on_block } else { on_crank };
+                let (masses, shift) =
+                    (sense * pistons.second_moment, if ROLL { pistons.arm } else { 0.0 });
                 for (i, sum) in sum.iter_mut().enumerate() {
                     let motion = proportions.motion_at(&cranks.at(i));
-                    let torque = pistons.second_moment * motion.acceleration;
                     let arm =
                         if ROLL { motion.velocity + proportions.offset } else { -motion.velocity };
-                    *sum = torque.mul_add(arm, *sum);
+                    *sum = motion.acceleration.mul_add(masses.mul_add(arm, shift), *sum);
                 }
                 if pistons.rod_inertia != 0.0 {
                     for (i, sum) in sum.iter_mut().enumerate() {
                         let swing = Swing::new(proportions, &cranks.at(i));
                         let torque = if ROLL { swing.roll() } else { swing.crank() };
-                        *sum = pistons.rod_inertia.mul_add(torque, *sum);
+                        *sum = (sense * pistons.rod_inertia).mul_add(torque, *sum);
                     }
                 }
             }

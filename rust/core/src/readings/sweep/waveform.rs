@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::harmonics::proportions;
 use super::placed::Placed;
 use super::tiles::{TILE, Term, Tiles};
 use super::{Figure, Quantity, Sweep};
@@ -131,7 +130,7 @@ impl Sweep {
                         let ratio = list(&self.axes.rod_ratio, point / offsets);
                         let offset = list(&self.axes.pin_offset, point % offsets);
                         let pistons = here.kinematics.pistons.iter();
-                        let cranks = pistons.map(|p| proportions(&p.cylinder, ratio, offset));
+                        let cranks = pistons.map(|p| p.cylinder.proportions_with(ratio, offset));
                         here.points.push((cranks.collect::<Result<_>>()?, Vec::new()));
                     }
                     let Some((_, squares)) = here.points.last_mut() else { continue };
@@ -165,9 +164,9 @@ impl Sweep {
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Loads::new(&turned, reference, Alike::Dimensions)
+                Loads::new(&turned, reference, Alike::Dimensions, None)
             }
-            None => Loads::new(engine, reference, Alike::Dimensions),
+            None => Loads::new(engine, reference, Alike::Dimensions, None),
         };
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }

@@ -9,9 +9,10 @@ use super::amplitudes::{Amplitudes, Parts, Shape};
 use super::draws::{CHUNK, Column, Draws};
 use crate::Complex64;
 use crate::engine::{Engine, Placement};
-use crate::load::{Alike, Load, Loads};
+use crate::load::{Alike, Load, Loads, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 use crate::wrench::Planar;
 
@@ -41,8 +42,12 @@ struct Unit {
 
 impl Unit {
     fn of(load: &Load, order: u32) -> Option<Self> {
-        let phase = load.phasor(order)?;
-        Some(Self { force: load.planar(phase).1, phase })
+        let mut one = *load;
+        one.weight = 1.0;
+        let loads = Loads { list: vec![one], gears: Vec::new(), reference: 0.0 };
+        let wanted = Wanted { planar: true, roll: false, by_bank: false };
+        let [force, _] = loads.sums(Order::whole(order).ok()?, wanted).pop()?.planar();
+        Some(Self { force, phase: load.phase.cis(-i64::from(order)) })
     }
 
     /// Adds a load of these complex weights, and of these weights times levers.
@@ -110,7 +115,7 @@ impl Terms {
         let laden = engine.placements().iter().map(|p| Placement { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
-        let loads = Loads::new(&laden, reference, Alike::Dimensions).list;
+        let loads = Loads::new(&laden, reference, Alike::Dimensions, None).list;
         let count = engine.placements().len();
         let by_order = |load: &Load| orders.iter().map(|&n| Unit::of(load, n)).collect::<Vec<_>>();
         let mut parts = Vec::with_capacity(count);

@@ -42,6 +42,8 @@ impl Quantity {
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
     pub loads: Loads,
+    /// A slider-crank of each gear.
+    pub motions: Vec<Cylinder>,
     /// Directions, equal ones by one symbol; and those a rational part of a turn apart.
     pub directions: [Vec<Direct>; 2],
     pub phases: Vec<Direct>,
@@ -60,21 +62,22 @@ pub(super) struct Proof {
 
 impl Proof {
     pub fn new(engine: &Engine, reference: Option<f64>) -> Result<Self> {
-        let loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions);
+        let loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
         let levers = Levers::new(engine, &loads, reference)?;
         let weights = |of: &dyn Fn(&Load) -> f64| -> Multiples {
             Multiples::of_figures(&loads.list.iter().map(of).collect::<Vec<_>>())
         };
         let piston = |load: &Load, of: fn(f64, f64) -> f64| match load.source {
             Source::Piston { second_moment, rod_inertia, .. } => of(second_moment, rod_inertia),
-            Source::Unbalance { .. } => 0.0,
+            Source::Unbalance => 0.0,
         };
         let arms = loads.list.iter().flat_map(|load| match load.source {
-            Source::Unbalance { axis, .. } => [load.weight * axis.re, load.weight * axis.im],
+            Source::Unbalance => [load.weight * load.axis.re, load.weight * load.axis.im],
             Source::Piston { .. } => [0.0; 2],
         });
         let angles = || loads.list.iter().map(|load| load.direction);
-        let sizes = loads.motions.iter().map(|motion| {
+        let motions = loads.cylinders();
+        let sizes = motions.iter().map(|motion| {
             let proportions = motion.proportions();
             (proportions.rod, proportions.offset.abs())
         });
@@ -97,6 +100,7 @@ impl Proof {
             arms: Multiples::of_figures(&arms.collect::<Vec<_>>()),
             levers,
             mirrored: first_equal(sizes),
+            motions,
             gear_of: gear_of.collect(),
             gears,
             loads,
@@ -107,7 +111,7 @@ impl Proof {
     fn force_channels(&self, motion: usize, order: u32, view: View) -> Vec<(Channel, i128)> {
         use Channel::{Masses, One};
         let (mirrored, odd) = (self.mirrored[motion], order % 2 == 1);
-        let offset = self.loads.motions[motion].pin_offset();
+        let offset = self.motions[motion].pin_offset();
         let sign = offset.signum() as i128;
         match (offset == 0.0, order, view.parts) {
             (true, 1, _) => vec![(One, 1)],
@@ -125,7 +129,7 @@ impl Proof {
         motion: usize,
         view: View,
     ) -> Vec<(Channel, i128, (Weights, usize, Ratio))> {
-        let offset = self.loads.motions[motion].pin_offset();
+        let offset = self.motions[motion].pin_offset();
         let sign = offset.signum() as i128;
         let of = |whole: fn(usize) -> Channel, odd: fn(usize) -> Channel, own, mirrored| {
             // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
@@ -161,15 +165,15 @@ impl Proof {
             let levers = if levered { &self.levers.of[i] } else { &no_lever };
             for &lever in levers {
                 match load.source {
-                    Source::Piston { motion, .. } => {
+                    Source::Piston { gear: motion, .. } => {
                         for (channel, sign) in self.force_channels(motion, order, view) {
                             self.add_piston(&mut terms, i, order, direction, channel, lever, sign)?;
                         }
                     }
-                    Source::Unbalance { ratio, .. } if ratio.unsigned_abs() == order => {
-                        self.add_unbalance(&mut terms, i, ratio, direction, lever)?;
+                    Source::Unbalance if load.ratio.unsigned_abs() == order => {
+                        self.add_unbalance(&mut terms, i, load.ratio, direction, lever)?;
                     }
-                    Source::Unbalance { .. } => {}
+                    Source::Unbalance => {}
                 }
             }
         }
@@ -262,7 +266,7 @@ impl Proof {
     fn add_torque(&self, terms: &mut Vec<Term>, i: usize, order: u32, view: View) -> Result<()> {
         let phase = self.phases[i];
         match self.loads.list[i].source {
-            Source::Piston { motion, .. } => {
+            Source::Piston { gear: motion, .. } => {
                 let turns = multiple(phase.turns, -i128::from(order));
                 for (channel, sign, (list, unit, weight)) in self.torque_channels(i, motion, view) {
                     let symbol = Symbol {
@@ -274,7 +278,8 @@ impl Proof {
                     add(terms, symbol, turns, product(&[weight, Ratio::from(sign)])?);
                 }
             }
-            Source::Unbalance { ratio, .. } if ratio.unsigned_abs() == order => {
+            Source::Unbalance if self.loads.list[i].ratio.unsigned_abs() == order => {
+                let ratio = self.loads.list[i].ratio;
                 // With F the force at θ = 0, x + iy the axis: −i·x·F − y·F if it turns with the crank,
                 // i·x·F̄ − y·F̄ if against it.
                 let forward = ratio > 0;
@@ -292,7 +297,7 @@ impl Proof {
                     add(terms, symbol, turned(turns, turn, 1)?, product(&[weight, square])?);
                 }
             }
-            Source::Unbalance { .. } => {}
+            Source::Unbalance => {}
         }
         Ok(())
     }
