@@ -9,10 +9,13 @@ import hashlib
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 V6, V8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
 RNG = np.random.default_rng(7)

@@ -14,7 +14,7 @@ from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
 from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
-from crankpin.analysis.design.designs import Design, Designs, Image
+from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
 from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
@@ -60,7 +60,6 @@ __all__ = [
     "FittedShaft",
     "ForwardPart",
     "Gap",
-    "Image",
     "Match",
     "OrderBalance",
     "OrderVerdicts",

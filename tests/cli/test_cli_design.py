@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
 from cli.test_cli import CAPTURE, numbers, printed, refused
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 V10 = cp.Engine.preset("v10-72")
 SPLIT = "v6-60 --even-firing --pin-split=-180:180 --counterweights"

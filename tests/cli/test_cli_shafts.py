@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import numpy as np
 import pytest
 from crankpin.cli import main
 from matplotlib import pyplot as plt
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 CAPTURE = pytest.CaptureFixture[str]
 I4 = cp.Engine.preset("i4")

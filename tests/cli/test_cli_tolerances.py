@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
 from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 COMMAND = ["tolerances", "i6", "--rpm", "6000", "--reciprocating-mass", "0.002", "--samples", "200"]
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import pytest
 from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_view_writes_the_library_s_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import crankpin as cp
 import matplotlib as mpl
 import pytest
 from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 CAPTURE = pytest.CaptureFixture[str]
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
 
 from fuzzing.sound import CYLINDER, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
 SLOW = {"plot", "view", "save_html"}  # pictures: fewer calls
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pickle
 import subprocess
 import sys
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import matplotlib as mpl
@@ -20,6 +19,9 @@ from matplotlib.figure import Figure
 
 from plot.pictures import over_bank_angle
 from plot.reading import figure_of, heights, legend_texts, series, title_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 # --- what cannot be drawn -----------------------------------------------------------------------
 

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import ModuleType
 
 import all as charts
 import numpy as np
@@ -17,10 +15,16 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
+from typing import TYPE_CHECKING
+
 import harmonics
 import orders
 import peaks
 import tolerances
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from types import ModuleType
 
 pytestmark = pytest.mark.slow
 

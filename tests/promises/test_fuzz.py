@@ -21,9 +21,7 @@ import inspect
 import itertools
 import sys
 import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import pytest
@@ -41,6 +39,10 @@ from fuzzing.surface import (
 from fuzzing.values import HOSTILE
 from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
 
 
 def close_pictures() -> None:

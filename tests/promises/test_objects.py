@@ -119,7 +119,6 @@ OBJECTS: dict[str, Any] = {
     "Designs": designs(),
     "Designs by a function": designs(by=lambda b: b.total.moment.peak, shafts=[-1, 2]),
     "Design": designs()[0],
-    "Image": designs()[0].images[0],
 }
 every_object = pytest.mark.parametrize("name", OBJECTS)
 
@@ -199,7 +198,6 @@ def test_arrays_are_read_only(name: str) -> None:
         "Choice",
         "Counterweights",
         "Design",
-        "Image",
     )
     assert found or name.startswith(without)
     for attribute, array in found:

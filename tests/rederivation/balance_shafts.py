@@ -7,13 +7,16 @@ the lever rule, and the loads on two bearings follow from equilibrium at each cr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rederivation.rotors import Rotor, wrench
 from rederivation.time_domain import crank_angles
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 Array = NDArray[np.float64]
 

@@ -11,9 +11,11 @@ The cross-plane page's gaps and the IJESC paper's engine are at the end.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 CROSSPLANE = "1-8-4-3-6-5-7-2"
 CROSSPLANE_GAPS = {(1, 3): 270, (3, 5): 180, (5, 7): 90, (7, 1): 180}  # the page's left bank

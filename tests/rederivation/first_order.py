@@ -8,10 +8,12 @@ or for the forward part of a piston is used.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from rederivation import rotors, time_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 RPM = 300.0
 

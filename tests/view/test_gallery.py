@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
@@ -10,6 +9,8 @@ import pytest
 from crankpin.view.gallery import save_gallery
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from chromium import Open
 
 pytestmark = pytest.mark.slow  # a browser

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import crankpin as cp
@@ -16,6 +15,8 @@ from crankpin.view.figures import figures
 from view_engines import everything, radial
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from playwright.sync_api import Page
 
 pytestmark = pytest.mark.slow  # a browser

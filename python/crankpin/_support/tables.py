@@ -6,7 +6,6 @@ import csv
 import html
 import io
 import math
-from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -15,6 +14,8 @@ from crankpin._support import optional
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     import pandas as pd
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -21,6 +20,8 @@ from crankpin.analysis.request import Request, check_quantities, check_request, 
 from crankpin.analysis.source import ErrorBound, Source, shown_orders
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -14,6 +13,8 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.quantities import PlaneVector, Scalar
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from crankpin.analysis.source import ErrorBound, Source

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
@@ -12,6 +11,8 @@ from crankpin.model import checks
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Angle, Angles

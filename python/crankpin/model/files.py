@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def from_toml(text: object) -> _core.Engine:

@@ -6,9 +6,8 @@ import copy
 import csv
 import itertools
 import pickle
-from collections.abc import Sequence
 from fractions import Fraction
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import crankpin as cp
 import numpy as np
@@ -18,6 +17,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from rederivation import ito
 from rederivation import search as numpy_search
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 MOMENT = 0.5 * 0.045 * (2 * np.pi * 3000 / 60) ** 2
 """m·r·ω² at 3000 rpm; with a spacing of 1 m moments are in units of it."""

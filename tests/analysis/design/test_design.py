@@ -58,7 +58,7 @@ def test_v10_with_counterweights_stands_at_90() -> None:
     best = brute.least([0, 72, 144, 216, 288], grid, [1, 2], counterweights=True)
     assert best.bank_angle_deg == 90.0
     assert best.value < 1e-9
-    images = {each.throws_deg for each in found[0].images}
+    images = {each.throws_deg for each in found[0].images.values()}
     assert best.throws_deg in {found[0].throws_deg, *images}
     second = brute.couple(np.array(best.throws_deg), 90.0, 2) * UNIT * A2 * SPACING
     # The grid of crank angles passes the peak by at most half a degree.
@@ -68,7 +68,10 @@ def test_v10_with_counterweights_stands_at_90() -> None:
 def test_the_least_first_order_couple_of_v10s_at_72_by_a_grid() -> None:
     found = design(10, bank_angle_deg=72, by="[1].moment.peak")
     best = brute.least([0, 72, 144, 216, 288], [72.0], [1], counterweights=False)
-    assert best.throws_deg in {found[0].throws_deg, *(i.throws_deg for i in found[0].images)}
+    assert best.throws_deg in {
+        found[0].throws_deg,
+        *(i.throws_deg for i in found[0].images.values()),
+    }
     assert found[0].throws_deg == (0, 144, 216, 288, 72)
     assert found[0].value == pytest.approx(best.value * UNIT * SPACING, rel=2e-4)
 
@@ -108,7 +111,7 @@ def test_an_odd_fire_90_degree_v6_from_its_intervals() -> None:
     preset = cp.Engine.preset("v6-90-odd-fire")
     assert tuple(preset.throws_deg) in {
         found[0].throws_deg,
-        *(image.throws_deg for image in found[0].images),
+        *(image.throws_deg for image in found[0].images.values()),
     }
 
 
@@ -199,7 +202,7 @@ def test_all_even_firing_cranks_are_there(cylinders: int, angle: int, throws: in
         if engine.firing_orders()[0].even:
             expected.add((0.0, *map(float, rest)))
     listed = {each.throws_deg for each in found}
-    listed |= {image.throws_deg for each in found for image in each.images}
+    listed |= {image.throws_deg for each in found for image in each.images.values()}
     assert listed == expected
     assert found.cranks == len(expected) == sum(each.alike for each in found)
 
@@ -217,7 +220,7 @@ def test_splits_of_their_own_are_all_there() -> None:
             splits = tuple(float(180 - (180 - 60 + late) % 360) for late in (one, two))
             expected.add(((0.0, float(second)), splits))
     listed = {(each.throws_deg, each.pin_split_deg) for each in found}
-    listed |= {(i.throws_deg, i.pin_split_deg) for each in found for i in each.images}
+    listed |= {(i.throws_deg, i.pin_split_deg) for each in found for i in each.images.values()}
     assert listed == expected
     assert all(each.engine.firing_orders()[0].even for each in found)
 
@@ -375,8 +378,9 @@ def test_the_result_is_a_table() -> None:
     assert lines[2].split()[:4] == ["1", "0-180-90-270", "90", "2"]
     assert "<table>" in found._repr_html_()
     table = found.to_pandas()
-    assert table.value.tolist() == [value for each in found for value in each.values]
-    assert table.throws_deg[0] == (0, 180, 90, 270)
+    assert table["[2].moment.peak N·m"].tolist() == [each.values[1] for each in found]
+    assert table["throws °"].tolist() == [each.crank.text for each in found]
+    assert "Engine" not in repr(found[0])
     again = pickle.loads(pickle.dumps(found))  # noqa: S301 - our own
     assert again == found
     assert hash(again) == hash(found)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
 
 Exact: TypeAlias = Fraction | int
 """Degrees; whole ones as int, which is some ten times as fast."""
@@ -54,6 +56,16 @@ class Crank:
         if not self.splits:
             return ()
         return tuple(a + b for a, b in zip(self.throws, self.splits, strict=True))
+
+    @property
+    def throws_deg(self) -> tuple[float, ...]:
+        """Throws as numbers."""
+        return tuple(map(float, self.throws))
+
+    @property
+    def pin_split_deg(self) -> tuple[float, ...]:
+        """Splits as numbers."""
+        return tuple(map(float, self.splits))
 
     @property
     def tdc(self) -> tuple[Exact, ...]:

@@ -6,7 +6,6 @@ import dataclasses
 import heapq
 import math
 import operator
-from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +21,8 @@ from crankpin.model.builders import parts
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
 from crankpin.analysis.arrangements.cranks import TURN, Exact
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
 
 MOST_CRANKS = 50_000
 """Cranks that are tried one by one: all orders of nine different throws are 40 320."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
 from crankpin._core import InputError
@@ -17,7 +16,7 @@ from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.ranking.objectives import tie_tolerance
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from crankpin._support.inputs import Angles, Orders
     from crankpin._support.progress import Progress
@@ -142,7 +141,7 @@ def design(
 
     >>> cp.design(**v10, counterweights=True, by="[1].moment.backward,[2].moment.peak")[0]
     ... # doctest: +ELLIPSIS
-    Design(place=1, engine=V10 90°, ...
+    Design(place=1, values=(0.0, ...
     """
     objectives = listed_objectives(by)
     tolerance = tie_tolerance(tie_rtol)

@@ -5,26 +5,27 @@ from __future__ import annotations
 import dataclasses
 import itertools
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Listed
-from crankpin._support.tables import Shown, Table
+from crankpin._support import inputs, labels
+from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design import built
-from crankpin.analysis.design.question import Question
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import named
 from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin.analysis.design.question import Question
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine
 
@@ -32,26 +33,12 @@ NEARBY = "*"
 """Mark of a design that other angles nearby equal."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Image:
-    """A crank that shakes like another one: the same forces and moments in a mirror."""
-
-    change: str
-    """What makes it of the other: ``"mirrored"`` (left and right exchanged), ``"reversed"`` (front
-    and rear), ``"banks exchanged"``, or several of these."""
-    throws_deg: tuple[float, ...]
-    """Crankpins of the only or the right bank from the front one, degrees."""
-    pin_split_deg: tuple[float, ...]
-    """Left pin minus right pin of each throw, degrees; empty without banks."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Design:
+class Design(Record):
     """An engine of :class:`Designs`."""
 
     place: int
     """1 for the best; designs whose values are equal within the tolerance share a place."""
-    engine: Engine
+    engine: Engine = dataclasses.field(repr=False)
     """The engine, with the counterweights and balance shafts it is allowed."""
     values: tuple[float, ...]
     """Value of each objective, in the objective's unit."""
@@ -59,8 +46,10 @@ class Design:
     """True if no other angles nearby are as good; False for one of a continuum of designs."""
     crank: Crank
     """Its angles as exact degrees."""
-    images: tuple[Image, ...]
-    """Mirror images and the like, which shake alike; those equal to the crank itself included."""
+    images: Mapping[str, Crank] = dataclasses.field(repr=False)
+    """Cranks that shake alike, those equal to the crank itself included: by the change that makes
+    them of it: ``"mirrored"`` (left and right exchanged), ``"reversed"`` (front and rear), ``"banks
+    exchanged"``, or several of these."""
 
     @property
     def value(self) -> float:
@@ -75,29 +64,25 @@ class Design:
     @property
     def throws_deg(self) -> tuple[float, ...]:
         """Crankpins of the only or the right bank from the front one, degrees in [0, 360)."""
-        return tuple(map(float, self.crank.throws))
+        return self.crank.throws_deg
 
     @property
     def pin_split_deg(self) -> tuple[float, ...]:
         """Left pin minus right pin of each throw, degrees; empty without banks."""
-        return tuple(map(float, self.crank.splits))
+        return self.crank.pin_split_deg
 
     @property
     def alike(self) -> int:
         """Number of different cranks that shake alike, this one included."""
-        own = (self.throws_deg, self.pin_split_deg)
-        return len({own, *((each.throws_deg, each.pin_split_deg) for each in self.images)})
+        return len({self.crank, *self.images.values()})
 
 
-class Designs(Listed[Design], Shown):
+class Designs(Listed[Design], Tabled):
     """Designs sorted by objectives.
 
     A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
     """
 
-    _fields: ClassVar[tuple[str, ...]] = (
-        "question", "objectives", "rpm", "orders", "designs", "optima", "cranks"
-    )  # fmt: skip
     _items = "designs"
 
     question: Question
@@ -114,28 +99,6 @@ class Designs(Listed[Design], Shown):
     """Number of designs found; ``designs`` are the best of them."""
     cranks: int
     """Number of cranks that were compared, those that shake alike included; free angles apart."""
-
-    def __init__(
-        self,
-        question: Question,
-        objectives: tuple[Objective, ...],
-        rpm: float,
-        orders: tuple[int, ...] | None,
-        designs: tuple[Design, ...],
-        optima: int,
-        cranks: int,
-    ) -> None:
-        if not isinstance(question, Question):
-            raise InputError(f"Designs({inputs.shorten(question)}): use crankpin.design")
-        self._set(
-            question=question,
-            objectives=objectives,
-            rpm=rpm,
-            orders=orders,
-            designs=designs,
-            optima=optima,
-            cranks=cranks,
-        )
 
     @property
     def by(self) -> tuple[str, ...]:
@@ -193,31 +156,6 @@ class Designs(Listed[Design], Shown):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the designs as a tidy table, one row a design and objective (needs pandas).
-
-        Columns are place, engine, throws_deg, pin_split_deg, bank_angle_deg, isolated, objective,
-        value and unit.
-        """
-        rows = [
-            (
-                each.place,
-                each.engine.name,
-                each.throws_deg,
-                each.pin_split_deg,
-                np.nan if each.bank_angle_deg is None else each.bank_angle_deg,
-                each.isolated,
-                objective.label,
-                value,
-                objective.unit,
-            )
-            for each in self
-            for objective, value in zip(self.objectives, each.values, strict=True)
-        ]
-        columns = ["place", "engine", "throws_deg", "pin_split_deg", "bank_angle_deg", "isolated"]
-        columns += ["objective", "value", "unit"]
-        return optional.data_frame(rows, columns=columns)
-
     def plot(self, ax: Axes | None = None, *, count: int = 4, **style: Any) -> Axes:  # noqa: ANN401
         """Draw the first objective of the best designs over bank angle; return the axes.
 
@@ -255,9 +193,10 @@ class Designs(Listed[Design], Shown):
         designs = self.designs
         vee = self.question.banks == 2
         split = vee and any(any(each.pin_split_deg) for each in self)
-        heads = ["place", "throws °", *(["pin split °"] if split else [])]
-        heads += ["bank angle °"] if vee else []
-        heads += ["alike", *(f"{each.label} {each.unit}".strip() for each in self.objectives)]
+        heads: list[str | tuple[str, str]] = ["place", ("throws", "°")]
+        heads += [("pin split", "°")] if split else []
+        heads += [("bank angle", "°")] if vee else []
+        heads += ["alike", *((each.label, each.unit) for each in self.objectives)]
         rows = []
         for each in designs:
             mark = "" if each.isolated else NEARBY

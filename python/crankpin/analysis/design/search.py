@@ -11,7 +11,7 @@ from crankpin._core import InputError
 from crankpin._support import progress as progress_bar
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import built, optima
-from crankpin.analysis.design.designs import Design, Image
+from crankpin.analysis.design.designs import Design
 from crankpin.analysis.design.families import families
 from crankpin.analysis.design.merit import Merit, rows_of, term
 from crankpin.analysis.design.phasors import Phasors
@@ -99,10 +99,7 @@ class Search:
         for group in groups(rows, np.arange(len(found)), tolerances):
             place = len(designs) + 1
             for k in group[: count - len(designs)]:
-                images = tuple(
-                    Image(change, tuple(map(float, image.throws)), tuple(map(float, image.splits)))
-                    for change, image in symmetries.images(cranks[k])
-                )
+                images = dict(symmetries.images(cranks[k]))
                 values, isolated = tuple(rows[k].tolist()), found[k].isolated
                 engine = swept.engines[k]
                 if order := self._question.firing_order(cranks[k]):

@@ -10,7 +10,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.sweeps.sweep import sweep
@@ -143,7 +143,8 @@ COMMON = (
 """Names of objectives; any order may take the place of 1 and 2."""
 _PATH = re.compile(
     r"(?:total|\[([1-9][0-9]{0,8})\])"
-    r"\.(?:(force|moment)\.(peak|peak_xy|forward|backward)|(torque|crank_torque)\.(peak))"
+    rf"\.(?:({'|'.join(PLANE_VECTORS)})\.(peak|peak_xy|forward|backward)"
+    rf"|({'|'.join(set(QUANTITIES) - set(PLANE_VECTORS))})\.(peak))"
 )
 
 
@@ -160,7 +161,7 @@ def named(label: str) -> Objective:
     quantity, what = found[2] or found[4], found[3] or found[5]
     name = QUANTITIES[quantity].words
     sort = {
-        "peak": "largest" if quantity.endswith("torque") else "longest",
+        "peak": "longest" if QUANTITIES[quantity].planar else "largest",
         "peak_xy": "larger peak along (about) x and y of",
         "forward": "forward part of",
         "backward": "backward part of",

@@ -2,36 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Listed
-from crankpin._support.tables import Shown, Table
+from crankpin._support import inputs, labels
+from crankpin._support.record import Listed, Tabled
+from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.choices import Choice, angles_of, own_angles
 from crankpin.analysis.ranking.objectives import of_table
-from crankpin.analysis.sweeps.sweep import Sweep
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.model.engine import Engine, Hold
 
 MOST_ANGLES = 6
 """Bank angles shown in a cell."""
 
 
-class Ranking(Listed[Choice], Shown):
+class Ranking(Listed[Choice], Tabled):
     """Engines sorted by objectives, each at its best bank angles.
 
     A sequence of :class:`Choice`, the best first. Made by :func:`crankpin.rank`.
@@ -49,7 +48,6 @@ class Ranking(Listed[Choice], Shown):
     array([[  0. , 459.4, 795.7]])
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("sweep", "objectives", "values_by", "choices")
     _items = "choices"
 
     sweep: Sweep
@@ -60,19 +58,6 @@ class Ranking(Listed[Choice], Shown):
     """Values of each objective: (n_engines, n_angles), in its unit."""
     choices: tuple[Choice, ...]
     """The engines, the best first."""
-
-    def __init__(
-        self,
-        sweep: Sweep,
-        objectives: tuple[Objective, ...],
-        values_by: tuple[NDArray[np.float64], ...],
-        choices: tuple[Choice, ...],
-    ) -> None:
-        if not isinstance(sweep, Sweep):
-            raise InputError(f"Ranking({inputs.shorten(sweep)}): use crankpin.rank")
-        for each in values_by:
-            each.setflags(write=False)
-        self._set(sweep=sweep, objectives=objectives, values_by=values_by, choices=choices)
 
     @property
     def by(self) -> tuple[str, ...]:
@@ -143,76 +128,6 @@ class Ranking(Listed[Choice], Shown):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the trade-off as a tidy table, one row an engine, angle and objective (pandas).
-
-        Columns are engine, bank_angle_deg, objective, value and unit.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> v6 = cp.Engine.preset("v6-60")
-        >>> ranking = cp.rank(
-        ...     v6, rpm=5000, by="total.moment.peak", bank_angle_deg=[60, 90], hold="pins"
-        ... )
-        >>> ranking.to_pandas().columns.tolist()
-        ['engine', 'bank_angle_deg', 'objective', 'value', 'unit']
-        """
-        angles, units = self.bank_angles_deg, self._units()
-        points = [
-            (name, float(angle))
-            for name, own in zip(self.names, self.own_angles_deg, strict=True)
-            for angle in ([own] if angles is None else angles)
-        ]
-        rows = [
-            (*point, label, value, units[label])
-            for label, values in self.trade_off.items()
-            for point, value in zip(points, values.ravel().tolist(), strict=True)
-        ]
-        columns = ["engine", "bank_angle_deg", "objective", "value", "unit"]
-        return optional.data_frame(rows, columns=columns)
-
-    def _units(self) -> dict[str, str]:
-        units = {each.label: each.unit for each in of_table(self.sweep)}
-        return units | {each.label: each.unit for each in self.objectives}
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the trade-off with named dimensions and units (needs xarray).
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> v6 = cp.Engine.preset("v6-60")
-        >>> ranking = cp.rank(
-        ...     v6, rpm=5000, by="total.moment.peak", bank_angle_deg=[60, 90], hold="pins"
-        ... )
-        >>> ranking.to_xarray()["total.moment.peak"].dims
-        ('engine', 'bank_angle_deg')
-        """
-        angles = self.bank_angles_deg
-        dims = ("engine",) if angles is None else ("engine", "bank_angle_deg")
-        units = self._units()
-        variables: dict[str, Any] = {
-            label: (
-                dims,
-                values[:, 0] if angles is None else values,
-                {"units": _XARRAY_UNITS.get(units[label], units[label])},
-            )
-            for label, values in self.trade_off.items()
-        }
-        coords: dict[str, Any] = {
-            "engine": list(self.names),
-            "bank_angle_deg": (
-                dims[-1],
-                self.own_angles_deg if angles is None else angles,
-                {"units": "degree"},
-            ),
-        }
-        attributes: dict[str, Any] = {"rpm": self.sweep.fixed["rpm"]}
-        attributes |= {"hold": self.hold} if self.hold else {}
-        dataset: xr.Dataset = optional.xarray().Dataset(variables, coords, attributes)
-        return dataset
-
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
         """Draw the first objective over bank angle, the best angles ringed; return the axes.
 
@@ -245,13 +160,12 @@ class Ranking(Listed[Choice], Shown):
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)
-        heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
+        heads = [(each.label, each.unit) for each in self.objectives]
         rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
-        return Table.from_rows(title, ["place", "engine", "bank angle °", *heads], rows_of, rows)
-
-
-_XARRAY_UNITS = {"N·m": "N m", "°": "degree"}
+        return Table.from_rows(
+            title, ["place", "engine", ("bank angle", "°"), *heads], rows_of, rows
+        )
 
 
 def _several(angles: tuple[float, ...]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -21,6 +20,8 @@ from crankpin.analysis.tolerances.shares import Shares
 from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     import pandas as pd
     import xarray as xr
     from numpy.typing import ArrayLike, NDArray

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
@@ -19,6 +18,8 @@ from crankpin.analysis.tolerances.spreads import Distribution, Spreads
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Orders
