@@ -407,7 +407,7 @@ CASES = [
         "6 roundings of 1.1e-16 of the whole, of which 1e-9 is left, and as much from the angles",
         "zero below 1e-8 of m·r·ω²",
         lambda: imbalance(plain_with_threshold),
-        lambda: imbalance(lambda engine: complex(engine.balance(RPM, orders=[1]).force[0, 1])),
+        lambda: imbalance(lambda engine: complex(engine.balance(RPM, orders=[1]).force.xy[0, 1])),
     ),
     Case(
         "bank angles",

@@ -11,16 +11,21 @@ from crankpin.analysis.balancing.fitted_shafts import BalanceShafts, PartLeft
 from crankpin.analysis.balancing.lanchester import PairHeights
 from crankpin.analysis.balancing.planes import Turning
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
-from crankpin.analysis.by_order import OrderBalance, Total, TotalQuantity, TotalVector
+from crankpin.analysis.by_order import (
+    Ellipse,
+    ErrorBound,
+    OrderBalance,
+    PlaneVector,
+    Quantity,
+    Scalar,
+)
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
-from crankpin.analysis.quantities import Ellipse, PlaneVector, Quantity, Scalar
 from crankpin.analysis.ranking.choices import Choice
 from crankpin.analysis.ranking.ranking import Ranking
-from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
@@ -80,9 +85,6 @@ __all__ = [
     "SweepWaveform",
     "Throws",
     "Tolerances",
-    "Total",
-    "TotalQuantity",
-    "TotalVector",
     "Turning",
     "TwoPlaneCorrection",
     "ValveTiming",

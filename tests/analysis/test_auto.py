@@ -65,7 +65,7 @@ def left_out(engine: cp.Engine, kept: tuple[int, ...]) -> dict[str, float]:
     """What all orders but these add to force, moment and either torque at the worst crank angle."""
     rest = tuple(n for n in range(1, max(top(engine), *kept, 1) + 1) if n not in kept)
     b = engine.balance(RPM, orders=rest)
-    torques = (peak(t / 2, t.conj() / 2, rest) for t in (b.torque, b.crank_torque))
+    torques = (peak(t / 2, np.conj(t) / 2, rest) for t in (b.torque, b.crank_torque))
     return {
         "force": peak(b.force.forward, b.force.backward, rest),
         "moment": peak(b.moment.forward, b.moment.backward, rest),
@@ -359,7 +359,7 @@ def test_sweeps_reach_the_tolerance_everywhere(
         true = {
             "force": peak(b.force.forward, b.force.backward, rest),
             "moment": peak(b.moment.forward, b.moment.backward, rest),
-            "torque": peak(b.torque / 2, b.torque.conj() / 2, rest),
+            "torque": peak(b.torque / 2, np.conj(b.torque) / 2, rest),
         }
         for quantity in wanted:
             bound, scale = getattr(s.error_bound, quantity), scales(engine)[quantity]

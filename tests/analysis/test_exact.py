@@ -39,12 +39,12 @@ ROUNDING = 1e-13
 def zeros(b: cp.types.Balance) -> dict[str, np.ndarray]:
     """Which of a balance's sums are given as zero, by the names of the proofs."""
     return {
-        "force_x": b.force[:, 0] == 0,
-        "force_y": b.force[:, 1] == 0,
+        "force_x": b.force.xy[:, 0] == 0,
+        "force_y": b.force.xy[:, 1] == 0,
         "force_forward": b.force.forward == 0,
         "force_backward": b.force.backward == 0,
-        "moment_x": b.moment[:, 0] == 0,
-        "moment_y": b.moment[:, 1] == 0,
+        "moment_x": b.moment.xy[:, 0] == 0,
+        "moment_y": b.moment.xy[:, 1] == 0,
         "moment_forward": b.moment.forward == 0,
         "moment_backward": b.moment.backward == 0,
         "torque": b.torque == 0,
@@ -400,7 +400,7 @@ def test_closed_forms_are_the_numbers(name: str) -> None:
         for quantity in ("force", "moment"):
             form = engine.closed_form(order, quantity)  # type: ignore[arg-type]
             values = form.evaluate(RPM)
-            xy, size = getattr(b, quantity), scale
+            xy, size = getattr(b, quantity).xy, scale
             if quantity == "moment":
                 size *= max(np.ptp(engine.z), 1e-30)
             for axis, expected in (
@@ -435,7 +435,7 @@ def test_an_offset_has_a_closed_form_of_its_own_unit() -> None:
     for order in (1, 2, 3):
         values, b = i3.closed_form(order).evaluate(RPM), i3.balance(RPM, orders=order)[order]
         size = abs(b.moment).max() + 1e-12
-        for axis, expected in (("x", b.moment[0]), ("backward", b.moment.backward)):
+        for axis, expected in (("x", b.moment.xy[0]), ("backward", b.moment.backward)):
             assert abs(values[axis] - expected) <= ROUNDING * size
 
 

@@ -90,7 +90,7 @@ def test_relabelling_changes_nothing(engine: cp.Engine, data: st.DataObject) -> 
 @given(engine=engines(), by=st.floats(-1, 1))
 def test_moving_the_plane_adds_force_times_distance(engine: cp.Engine, by: float) -> None:
     here, there = of(engine), of(engine, reference_z=by)
-    shift = np.stack([here.force[:, 1], -here.force[:, 0]], axis=1) * by
+    shift = np.stack([here.force.xy[:, 1], -here.force.xy[:, 0]], axis=1) * by
     same(there.moment, here.moment + shift, 2 * size(engine))
 
 

@@ -7,6 +7,9 @@ from __future__ import annotations
 import copy
 import io
 import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -14,12 +17,15 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from conftest import OFFSET
+from crankpin.analysis import export
 from matplotlib import pyplot as plt
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 V6 = cp.Engine.preset("v6-60")
+SWEPT: dict[str, Any] = {"rpm": [5000], "bank_angle_deg": [60, 75], "hold": "pins"}
 PLANAR = ("xy", "x", "y", "forward", "backward", "peak", "peak_xy", "zero_bound")
 SCALAR = ("phasor", "peak", "zero_bound")
 NAMES = ("force", "moment", "torque", "crank_torque")
@@ -109,10 +115,112 @@ def test_absent_torque_is_no_attribute() -> None:
         _ = s.crank_torque
 
 
-def test_an_order_that_is_not_there_is_named() -> None:
-    b = V6.balance(5000, orders=[1, 2])
-    with pytest.raises(cp.InputError, match=r"order = 3: is not among .*orders 1, 2"):
-        _ = b[3]
+def test_an_order_is_a_key() -> None:
+    """As an index it was another order: b.moment.peak[2] of (1, 2, 3) beside b[2].moment.peak."""
+    b = V6.balance(5000)
+    s = cp.sweep(V6, rpm=[5000], bank_angle_deg=[60, 75], hold="pins")
+    for result in (b, s, b.moment, s.torque):
+        assert list(result) == list(result.orders)
+        assert len(result) == len(result.orders)
+        assert (2 in result, 10**6 in result, "2" in result) == (True, False, False)
+    for n in (1, 2, 3, 5, 10, 11):
+        for name in ("force", "moment", "torque", "crank_torque"):
+            one = getattr(b, name)[n]
+            assert one.peak == getattr(b[n], name).peak
+            assert one.peak == getattr(V6.balance(5000, orders=[n]), name).peak[0]
+            expected = getattr(cp.sweep(V6, **SWEPT, orders=[n]), name).peak[..., 0]
+            np.testing.assert_array_equal(getattr(s, name)[n].peak, expected)
+    assert b["all"] == b.total
+    assert b.moment["all"].peak == b.total.moment.peak
+
+
+def test_an_order_says_why_it_is_zero_or_not_in_the_total() -> None:
+    i4 = cp.Engine.preset("i4")
+    b = i4.balance(6000, rtol=1e-3)
+    assert b.force[2].status == "summed"
+    assert b.force[1].peak == 0.0
+    assert b.force[1].status == b.moment[2].status == b.torque[1].status == "zero, proved"
+    assert b.omitted
+    assert b.force[b.omitted[0]].peak > 0.0
+    assert b.force[b.omitted[0]].status == "omitted"
+    # A mass that is no rational multiple of the others, as large as two of them need.
+    one = OFFSET.replace(pin_offset=0.0, reciprocating_mass=1.0)
+    parts = [one, one, one.replace(reciprocating_mass=2.0 * np.cos(np.deg2rad(50.3)))]
+    odd = cp.Engine.from_lists(
+        parts, tdc_deg=[50.3, -50.3, 180], bank_deg=[90] * 3, z=[0, 0.1, 0.2]
+    ).balance(6000)
+    assert odd.force[1].status == "zero within rounding"
+    for wrong in (lambda: b.force.status, lambda: b.total.force.status):
+        with pytest.raises(cp.InputError, match="give an order"):
+            wrong()
+
+
+@pytest.mark.parametrize("order", [0, -1, 1.5, True, None, "2", slice(None), (0, 1), ...])
+def test_a_key_that_is_no_order_is_named(order: Any) -> None:
+    b = V6.balance(5000)
+    for result in (b, b.moment, cp.sweep(V6, rpm=5000)):
+        with pytest.raises(cp.InputError, match=r"^order = .*: the key is an order, a whole mult"):
+            result[order]
+
+
+def test_a_point_of_a_sweep_is_a_balance_to_the_last_bit() -> None:
+    engines = {"a": V6, "b": V6.replace(cylinder=OFFSET.replace(pin_offset=0.001))}
+    axes: dict[str, Any] = {
+        "bank_angle_deg": [60, 75.3],
+        "rod_ratio": [0.2, 0.2848101],
+        "rpm": [1000, 5000],
+    }
+    s = cp.sweep(engines, **axes, hold="firing", rtol=1e-5)
+    b = s.sel(engine="b", bank_angle_deg=75.3, rod_ratio=0.2848101, rpm=5000)
+    assert isinstance(b, cp.types.Balance)
+    assert (b.orders, b.omitted, b.error_bound) == (s.orders, s.omitted, s.error_bound)
+    at = (1, 1, 1, 1)
+    for name in ("force", "moment", "torque", "crank_torque"):
+        one, all_points = getattr(b, name), getattr(s, name)
+        np.testing.assert_array_equal(one, np.asarray(all_points)[at])
+        np.testing.assert_array_equal(one.peak, all_points.peak[at])
+        np.testing.assert_array_equal(one[11].peak, all_points[11].peak[at])
+        assert getattr(b.total, name).peak == getattr(s.total, name).peak[at]
+    alone = b.engine.balance(5000, orders=b.orders)
+    np.testing.assert_allclose(b.moment.peak, alone.moment.peak, rtol=1e-12, atol=1e-9)
+    back = pickle.loads(pickle.dumps(b))
+    assert back == b
+    np.testing.assert_array_equal(back.moment, b.moment)
+
+
+def test_a_part_of_a_sweep_is_a_sweep() -> None:
+    s = cp.sweep({"a": V6, "b": V6}, **SWEPT, orders=[1, 2])
+    part = s.sel(engine="b", bank_angle_deg=75)
+    assert isinstance(part, cp.types.Sweep)
+    assert part.dims == ("rpm",)
+    np.testing.assert_array_equal(part.moment, np.asarray(s.moment)[1, 1])
+    assert s.sel() == s
+    for wrong, words in (
+        ({"rpm": 4999}, "rpm = 4999: is not among"),
+        ({"rod_ratio": 0.3}, "dimension = 'rod_ratio'"),
+        ({"engine": "c"}, "engine = 'c'"),
+    ):
+        with pytest.raises(cp.InputError, match=words):
+            s.sel(**wrong)
+
+
+def test_results_are_read_by_threads_at_once() -> None:
+    """A dict that other threads filled was iterated: "dictionary changed size"."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for _ in range(30):
+            b = V6.balance(5000)
+            reads = [
+                partial(b.read, quantity, what)
+                for _, quantity, what, _ in export.variables(["force", "moment", "torque"])
+            ]
+            with ThreadPoolExecutor(8) as pool:
+                found = list(pool.map(lambda read: read(), reads * 4))
+            for k, array in enumerate(found):
+                assert array is found[k % len(reads)]
+    finally:
+        sys.setswitchinterval(interval)
 
 
 @pytest.mark.parametrize(

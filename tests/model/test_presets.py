@@ -361,7 +361,7 @@ def test_cross_plane_couple_turns_as_the_page_has_it() -> None:
     balance = engine.balance(RPM, orders=1)
     # Its levers count towards the front: Σ z F is the other way round; M_x = −Σ z F_y.
     horizontal, vertical = -crossplane.couple(1) * unit(engine, 1)
-    np.testing.assert_allclose(balance.moment[0], [-vertical, horizontal], rtol=ROUNDING)
+    np.testing.assert_allclose(balance.moment.xy[0], [-vertical, horizontal], rtol=ROUNDING)
     assert balance.moment.backward[0] == 0.0
 
 

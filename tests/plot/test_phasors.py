@@ -93,7 +93,7 @@ def test_a_torque_has_one_row() -> None:
     balance = I4.balance(3000, orders=[2, 4])
     axes = balance.plot(kind="phasors", quantity="torque")
     assert axes.shape == (1, 2)
-    assert arrows(axes[0, 0])[1][0][1] == pytest.approx(balance.torque[0])
+    assert arrows(axes[0, 0])[1][0][1] == pytest.approx(balance.torque.phasor[0])
     assert axes[0, 0].get_xlabel() == "real part, N·m"
 
 

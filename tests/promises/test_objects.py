@@ -127,7 +127,7 @@ def figures(value: Any) -> dict[str, Any]:
     """Public figures of an object, by name; without those that a spectrum leaves unknown."""
     found = {}
     for name in dir(value):
-        if name in ("_", "core") or name.startswith("_"):
+        if name in ("_", "core", "result") or name.startswith("_"):
             continue
         if callable(getattr(type(value), name, None)):
             continue
@@ -141,7 +141,9 @@ def figures(value: Any) -> dict[str, Any]:
 def assert_same(one: Any, other: Any) -> None:
     """Equal to the last bit, arrays and all."""
     assert type(one) is type(other)
-    if isinstance(one, (np.ndarray, cp.types.Quantity)):
+    if isinstance(one, cp.types.Quantity) and one.order == "all":
+        assert_same(figures(one), figures(other))
+    elif isinstance(one, (np.ndarray, cp.types.Quantity)):
         np.testing.assert_array_equal(one, other)
     elif isinstance(one, (tuple, list)):
         assert len(one) == len(other)
@@ -511,8 +513,8 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking")
-    tables += ("Counterweights", "BobWeight", "TwoPlane")
+    tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking", "Waveform")
+    tables += ("Counterweights", "BobWeight", "TwoPlane", "Sweep of", "Sweep")
     if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
@@ -521,7 +523,7 @@ def test_a_balance_is_shown_as_a_table() -> None:
     lines = repr(balance()).splitlines()
     assert "V6" in lines[0]
     assert "5000 rpm" in lines[0]
-    assert [line.split()[0] for line in lines[1:]] == ["order", "1", "2", "6"]
+    assert [line.split()[0] for line in lines[1:]] == ["order", "1", "2", "6", "all"]
     assert all(len(line) <= 100 for line in lines)
     assert len({len(line) for line in lines[1:]}) == 1
     known = repr(balance(spectrum=SPECTRUM))
@@ -535,8 +537,8 @@ def test_a_balance_is_shown_as_html_in_notebooks() -> None:
     parser.close()
     assert not parser.open
     assert parser.count["table"] == 1
-    assert parser.count["tr"] == 4
-    assert parser.count.get("th", 0) + parser.count["td"] == 4 * 6
+    assert parser.count["tr"] == 5
+    assert parser.count.get("th", 0) + parser.count["td"] == 5 * 6
     html = V6.replace(name="<b>&").balance(1000)._repr_html_()
     assert "<b>" not in html
     assert "&lt;b&gt;&amp;" in html
@@ -595,7 +597,7 @@ def test_balance_to_xarray() -> None:
     assert dataset.attrs["rpm"] == 5000
     assert dataset.attrs["engine"] == "V6"
     assert dataset.attrs["reference_z"] == balance().reference_z == pytest.approx(0.13)
-    assert dataset["force"].sel(order=6, axis="y").item() == balance().force[2, 1]
+    assert dataset["force"].sel(order=6, axis="y").item() == balance().force.xy[2, 1]
     assert_units(dataset)
     assert "torque" not in balance(spectrum=SPECTRUM).to_xarray()
 
@@ -616,7 +618,7 @@ def test_sweep_to_xarray() -> None:
     assert dataset["torque_total_peak"].dims == swept
     assert list(dataset["engine"].values) == ["even", "again"]
     at = {"engine": "again", "bank_angle_deg": 90.0, "rpm": 3000.0, "order": 2, "axis": "y"}
-    assert dataset["moment"].sel(at).item() == sweep().moment[1, 2, 0, 1, 1]
+    assert dataset["moment"].sel(at).item() == sweep().moment.xy[1, 2, 0, 1, 1]
     assert dataset.attrs["hold"] == "pins"
     assert_units(dataset)
     other = cp.sweep(V6, rpm=5000, rod_ratio=[0.2, 0.3], pin_offset=[0.0, 0.001])
@@ -713,9 +715,17 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
     bare = [name for name, text in documented().items() if not text]
     fields = {
         field
-        for kind in (cp.Cylinder, cp.types.OrderBalance, cp.Rod, cp.Shaft, cp.Unbalance)
+        for kind in (
+            cp.Cylinder,
+            cp.types.Balance,
+            cp.types.OrderBalance,
+            cp.Rod,
+            cp.Shaft,
+            cp.Unbalance,
+        )
         for field in kind.__annotations__
     }
+    fields |= {"within", "progress", "order"}
     assert {name for name in bare if name.rpartition(".")[2] not in fields} == set()
     for name in ("Cylinder", "Engine", "Engine.vee", "Engine.balance", "sweep", "Sweep", "Balance"):
         assert name in EXAMPLES

@@ -275,7 +275,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (cp.Engine.preset, "name", None, "None"),
     (cp.Engine.load, "path", "engine.yaml", "engine.yaml"),
     (I4.save, "path", "engine", "engine"),
-    (balance().__getitem__, "order", 3, "3"),
+    (balance().__getitem__, "order", 0, "0"),
     (balance().__getitem__, "order", None, "None"),
     (swept().plot, "quantity", "power", "power"),
 ]

@@ -89,7 +89,7 @@ def test_first_order_couple_instant_by_instant() -> None:
 def test_fourth_order_force_is_vertical_where_the_page_draws_a_circle() -> None:
     (a4,) = cp.slider_crank_harmonics(CYLINDER.rod_ratio, 4)
     fourth = BALANCE[4]
-    x, y = fourth.force
+    x, y = fourth.force.xy
     assert x == 0j
     assert y == pytest.approx(4.0 * 2**0.5 * ONE * a4, rel=ROUNDING)
     assert fourth.force.ellipse.minor == pytest.approx(0.0, abs=ROUNDING * abs(y))

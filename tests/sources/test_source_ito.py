@@ -156,7 +156,7 @@ def test_a_sweep_that_holds_the_firing_finds_the_angle(row: Row) -> None:
     angles = np.array([angle - 1.0, angle, angle + 1.0])
     start = v14(row, np.sign(angle_deg(row)) * 77.0)
     s = cp.sweep(start, rpm=RPM, bank_angle_deg=angles, hold="firing", orders=[1])
-    pitch, yaw = s.moment[:, 0, 0], s.moment[:, 0, 1]
+    pitch, yaw = s.moment.xy[:, 0, 0], s.moment.xy[:, 0, 1]
     backward = np.abs(pitch - 1j * yaw) / 2.0 / M_0
     assert backward[1] < ROUNDING
     assert backward[0] > 1e-3 < backward[2]

@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.tables import Shown, Table
-from crankpin.analysis import export
-from crankpin.analysis.by_order import AllOrders
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.by_order import ALL, ByOrder, ErrorBound, shown_orders
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
-from crankpin.analysis.source import ErrorBound, Source, shown_orders
+from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
-    import pandas as pd
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
@@ -32,6 +27,8 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
+TURNING = ("forward", "backward")
+"""Parts of a vector in the cross-section plane."""
 UNIT_RPM = 30.0 / math.pi
 """Crank speed at which ω is 1 rad/s."""
 
@@ -62,76 +59,9 @@ def over_square(
     return balance(engine, UNIT_RPM, orders=orders, reference_z=reference_z, torque=torque)
 
 
-def at_orders(whole: Balance, orders: Sequence[int]) -> Balance:
-    """Return the same balance at the orders given."""
-    request = dataclasses.replace(whole.request, orders=tuple(orders))
-    return Balance(whole.engine, whole.rpm, request)
-
-
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
     """Return the largest mean piston speed of any cylinder, m/s."""
     return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
-
-
-class BalanceArrays(Source):
-    """Arrays of a balance."""
-
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "rpm", "request")
-
-    def __init__(self, engine: Engine, rpm: float, request: Request) -> None:
-        check_request(request, "Engine.balance")
-        core = _core.balance(
-            engine_core(engine),
-            rpm,
-            request.listed_orders,
-            request.rtol,
-            request.reference_z,
-            request.listed_spectrum,
-            request.torque,
-        )
-        self._set(
-            engine=engine,
-            rpm=rpm,
-            request=request,
-            orders=tuple(core.orders),
-            omitted=tuple(core.omitted),
-            _core=core,
-        )
-
-    omitted: tuple[int, ...]
-    _core: _core.Balance
-
-    @cached_property
-    def error_bound(self) -> ErrorBound:
-        """Bounds on what the omitted orders add."""
-        return error_bound(self._core, torque_known="torque" in self.request.quantities)
-
-    def _turning(self, quantity: str) -> NDArray[np.complex128]:
-        core = self._core
-        return np.stack([core.forward(quantity), core.backward(quantity)], axis=-1)
-
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
-        core, planar = self._core, quantity in PLANE_VECTORS
-        read: dict[str, Callable[[], Any]] = {
-            "zero_bound": lambda: core.zero_bound(quantity if planar else "torque"),
-            "peak_xy": lambda: np.abs(self.read(quantity, "phasors")),
-        }
-        if planar:
-            read |= {
-                "phasors": lambda: core.xy(quantity),
-                "peak": lambda: np.abs(self._turning(quantity)).sum(axis=-1),
-                "total_peak": lambda: np.array(core.sum_peak_vector(quantity)),
-                "total_peak_xy": lambda: core.sum_peak_xy(quantity),
-            }
-        else:
-            on_crank = quantity == "crank_torque"
-            read |= {
-                "phasors": core.crank_torque if on_crank else core.roll_torque,
-                "peak": read["peak_xy"],
-                "total_peak": lambda: np.array(core.torque_sum_peak(on_crank)),
-            }
-        found: NDArray[Any] = read[what]()
-        return found
 
 
 def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
@@ -140,32 +70,30 @@ def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
     return ErrorBound(force, moment, core.error_bound("torque") if torque_known else None)
 
 
-class Balance(AllOrders, Shown):
+class Balance(ByOrder, Tabled):
     """Force, moment and torque of an engine at one speed, order by order.
 
     ``force`` and ``moment`` are :class:`~crankpin.types.PlaneVector`, ``torque`` and
-    ``crank_torque`` :class:`~crankpin.types.Scalar`: arrays of complex peak phasors, orders first.
-    ``balance[2]`` is one order, ``balance.total`` all orders together. Sums that vanish are exactly
-    zero: a phasor below its ``zero_bound``, the largest rounding error of such a sum, is reported
-    as zero.
+    ``crank_torque`` :class:`~crankpin.types.Scalar`: complex peak phasors. An order is a key:
+    ``balance[2].force`` and ``balance.force[2]`` are order 2, also if it is not among ``orders``;
+    ``balance.total`` is all orders together. Sums that vanish are exactly zero: a phasor below its
+    ``zero_bound``, the largest rounding error of such a sum, is reported as zero.
 
-    Made by :meth:`Engine.balance`.
+    Made by :meth:`Engine.balance` and :meth:`Sweep.sel`.
 
     Examples
     --------
     >>> import crankpin as cp
-    >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000, orders=[1, 2, 4])
-    >>> b.orders
-    (1, 2, 4)
-    >>> float(abs(b.force[:2]).max())
-    0.0
+    >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000)
+    >>> list(b)
+    [1, 3, 4, 5, 7, 8, 12, 16]
+    >>> b.force[2].peak, b.force[2].status, 2 in b
+    (np.float64(0.0), 'zero, proved', False)
     >>> b[1].moment.ellipse.minor == b[1].moment.ellipse.major  # a circle
     True
-    >>> round(b.total.moment.peak) == round(b[1].moment.peak)  # of the orders given
+    >>> round(b.total.moment.peak) == round(b[1].moment.peak)
     True
     """
-
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "rpm", "request")
 
     engine: Engine
     """The engine."""
@@ -173,23 +101,32 @@ class Balance(AllOrders, Shown):
     """Crank speed, rpm."""
     request: Request
     """The options of the balance, checked."""
+    within: tuple[ByOrder, tuple[int, ...]] | None = None
+    """Sweep, and place in it, whose arrays it reads; None where it was computed for itself."""
 
-    def __init__(self, engine: Engine, rpm: float, request: Request) -> None:
-        source = BalanceArrays(engine, rpm, request)
-        self._set(engine=engine, rpm=rpm, request=request, source=source)
+    def __post_init__(self) -> None:
+        check_request(self.request, "Engine.balance")
+        source: Any = self.within[0] if self.within is not None else self._compute_core()
+        self.__dict__.update(
+            _orders=tuple(source.orders), _omitted=tuple(source.omitted), _source=source
+        )
 
-    source: BalanceArrays
+    def _compute_core(self) -> _core.Balance:
+        request = self.request
+        return _core.balance(
+            engine_core(self.engine),
+            self.rpm,
+            request.listed_orders,
+            request.rtol,
+            request.reference_z,
+            request.listed_spectrum,
+            request.torque,
+        )
 
     @property
-    def reference_z(self) -> float:
-        """Plane about which moments are taken, m."""
-        plane = self.request.reference_z
-        return self.engine.reference_z if plane is None else plane
-
-    @property
-    def spectrum(self) -> Spectrum | None:
-        """Spectrum used in place of the slider-crank's harmonics, kg·m, or None."""
-        return self.request.spectrum
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed, ascending where they were chosen."""
+        return self.__dict__["_orders"]  # type: ignore[no-any-return]
 
     @property
     def omitted(self) -> tuple[int, ...]:
@@ -198,41 +135,95 @@ class Balance(AllOrders, Shown):
         All orders above add less than 1e-17 of the quantity that ``rtol`` is relative to;
         ``error_bound`` includes them.
         """
-        return self.source.omitted
+        return self.__dict__["_omitted"]  # type: ignore[no-any-return]
+
+    @property
+    def error_bound(self) -> ErrorBound:
+        """Upper bounds on what the orders in ``omitted`` and above add at any crank angle.
+
+        Zero where orders were given. Rounding is not included: sums that vanish to within the
+        quantities' ``zero_bound`` are zero.
+        """
+        if self.within is not None:
+            return self.within[0].error_bound
+        return error_bound(
+            self.__dict__["_source"], torque_known="torque" in self.request.quantities
+        )
+
+    @property
+    def reference_z(self) -> float:
+        """Plane about which moments are taken, m."""
+        plane = self.request.reference_z
+        return self.engine.reference_z if plane is None else plane
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: name of the engine, speed, and the plane of moments."""
+        return {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
+
+    def about(self, z: float) -> Self:
+        """Return the same balance with moments about another plane.
+
+        Parameters
+        ----------
+        z
+            Position along the crank, m.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> b = cp.Engine.preset("i4").balance(rpm=6000)
+        >>> round(b[2].moment.peak, 6), round(b.about(z=0.0)[2].moment.peak, 1)
+        (np.float64(0.0), np.float64(1251.4))
+        """
+        return self.replace(request=self.request.about(z), within=None)
+
+    def at_orders(self, orders: tuple[int, ...]) -> Self:
+        """Return the same balance at the orders given."""
+        within = self.within
+        if within is not None:
+            within = (within[0].at_orders(orders), within[1])
+        return self.replace(request=self.request.at_orders(orders), within=within)
+
+    def proved_zero(self, quantity: str, order: int) -> bool:
+        """Return whether a quantity of one order is proved to vanish."""
+        if self.request.pairs is not None or quantity == "crank_torque":
+            return False
+        core = engine_core(self.engine)
+        vanishes = _core.vanishing(core, [order], self.request.reference_z)[0][0]
+        at = {"force": slice(0, 2), "moment": slice(4, 6), "torque": slice(8, 9)}
+        return bool(vanishes[at[quantity]].all())
+
+    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+        if self.within is not None:
+            whole, at = self.within
+            part: NDArray[Any] = whole.read(quantity, what)[at]
+            return part
+        core: _core.Balance = self.__dict__["_source"]
+        planar, on_crank = QUANTITIES[quantity].planar, quantity == "crank_torque"
+        readers: dict[str, Callable[[], Any]] = {
+            "zero_bound": lambda: core.zero_bound(quantity if planar else "torque"),
+            "peak_xy": lambda: np.abs(self.read(quantity, "phasors")),
+        }
+        if planar:
+            readers |= {
+                "phasors": lambda: core.xy(quantity),
+                "forward": lambda: core.forward(quantity),
+                "backward": lambda: core.backward(quantity),
+                "peak": lambda: sum(np.abs(self.read(quantity, each)) for each in TURNING),
+                "total_peak": lambda: core.sum_peak_vector(quantity),
+                "total_peak_xy": lambda: core.sum_peak_xy(quantity),
+            }
+        else:
+            readers |= {
+                "phasors": core.crank_torque if on_crank else core.roll_torque,
+                "peak": readers["peak_xy"],
+                "total_peak": lambda: core.torque_sum_peak(on_crank),
+            }
+        found: NDArray[Any] = readers[what]()
+        return found
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row an order, quantity and component (needs pandas).
-
-        Columns are order, quantity, component, real and imag (the peak phasor), peak and unit.
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        """
-        return export.to_pandas(self.source, self._named(quantities), {})
-
-    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
-        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        split_complex
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im". netCDF
-            needs it: ``balance.to_xarray(split_complex=True).to_netcdf(path)``.
-        """
-        attributes = {
-            "engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z,
-        }  # fmt: skip
-        names = self._named(quantities)
-        return export.to_xarray(self.source, names, {}, attributes, split_complex=split_complex)
-
-    def _named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
-        return check_quantities(quantities, self.request.quantities)
 
     def plot(
         self,
@@ -286,18 +277,24 @@ class Balance(AllOrders, Shown):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: peaks by order, negligible orders left out."""
+        """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
-        shown, left_out = shown_orders(self.source, *names)
-        header = ["order"]
-        columns = []
+        shown, left_out = shown_orders(self, *names)
+        columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
         for name in names:
-            header += [f"{symbol} {QUANTITIES[name].unit}" for symbol in QUANTITIES[name].symbols]
-            peaks = self.source.read(name, "peak_xy" if name in PLANE_VECTORS else "peak")
-            columns.append(peaks.reshape(len(self.orders), -1))
-        rows = np.hstack(columns)[list(shown)].reshape(-1, len(header) - 1)
+            kind = QUANTITIES[name]
+            peaks = self.read(name, "peak_xy" if kind.planar else "peak")
+            total = self.read(name, "total_peak_xy" if kind.planar else "total_peak")
+            rows = np.concatenate(
+                [
+                    peaks.reshape(len(self.orders), len(kind.symbols))[list(shown)],
+                    total.reshape(1, -1),
+                ]
+            )
+            columns += [
+                Column(symbol, tuple(values), kind.unit)
+                for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
+            ]
         given = " of the orders given" if self.request.orders is not None else ""
-        engine = labels.name_of(self.engine)
-        title = f"{engine} at {self.rpm:g} rpm: peaks{given}"
-        names = [f"{self.orders[place]}" for place in shown]
-        return Table.from_rows(title, header, names, rows, note=labels.not_shown(left_out))
+        title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: peaks{given}"
+        return Table(title, tuple(columns), labels.not_shown(left_out))

@@ -11,7 +11,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.frozen import Frozen
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Shown, Table
-from crankpin.analysis.balance import Balance, at_orders, balance
+from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 
@@ -73,8 +73,8 @@ def compare(
     }  # fmt: skip
     first = balance(before, rpm, orders=orders, **options)
     second = balance(after, rpm, orders=orders, **options)
-    both = sorted({*first.orders, *second.orders})
-    return Comparison(at_orders(first, both), at_orders(second, both))
+    both = tuple(sorted({*first.orders, *second.orders}))
+    return Comparison(first.at_orders(both), second.at_orders(both))
 
 
 class Comparison(Frozen, Shown):

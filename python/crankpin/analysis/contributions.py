@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -37,12 +36,12 @@ def contributions(whole: Balance, quantity: str) -> list[Contribution]:
     Each is the balance of an engine that has this part alone, at the same place, about the same
     reference plane. A cylinder's rotating mass counts with it.
     """
-    given = dataclasses.replace(whole.request, orders=whole.orders, reference_z=whole.reference_z)
+    given = whole.request.replace(orders=whole.orders, reference_z=whole.reference_z)
     found = []
     for part, group, alone in _parts(whole.engine):
         # A spectrum is that of a cylinder.
         pairs = given.pairs if part.isdigit() else None
-        result = Balance(alone, whole.rpm, dataclasses.replace(given, pairs=pairs))
+        result = Balance(alone, whole.rpm, given.replace(pairs=pairs))
         found.append(Contribution(part, group, phasors(result, quantity)))
     return found
 

@@ -1,4 +1,4 @@
-"""Balances and sweeps as xarray datasets and tidy pandas tables."""
+"""Results as xarray datasets and tidy pandas tables."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.analysis.source import arrays_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -17,92 +16,57 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from crankpin.analysis.source import Source
-    from crankpin.analysis.sweeps.waveform import SweepWaveform
-    from crankpin.analysis.waveform import Waveform
+    from crankpin.analysis.by_order import ByOrder
+    from crankpin.analysis.waveform import OverAngle
+
+TRAILING: dict[str, tuple[str, ...]] = {
+    "phasors": ("order", "axis"),
+    "forward": ("order",),
+    "backward": ("order",),
+    "zero_bound": ("order",),
+    "peak": ("order",),
+    "peak_xy": ("order", "axis"),
+    "total_peak": (),
+    "total_peak_xy": ("axis",),
+}
+"""Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
+NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
 
 
 def variables(quantities: Sequence[str]) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     """Yield name, quantity, array and trailing dimensions of each variable of a dataset."""
     for quantity in quantities:
-        for what, dims in arrays_of(quantity).items():
-            name = quantity if what == "phasors" else f"{quantity}_{what}"
-            yield name, quantity, what, dims
+        planar = QUANTITIES[quantity].planar
+        for what, dims in TRAILING.items():
+            if planar or what not in NOT_OF_SCALARS:
+                name = quantity if what == "phasors" else f"{quantity}_{what}"
+                yield name, quantity, what, tuple(d for d in dims if planar or d != "axis")
 
 
 def to_xarray(
-    source: Source,
+    result: ByOrder,
     quantities: Sequence[str],
-    coords: Mapping[str, Any],
-    attributes: Mapping[str, Any],
-    *,
-    split_complex: bool,
-) -> xr.Dataset:
-    """Return all arrays of some quantities with named dimensions and units."""
-    arrays = {
-        name: (
-            (*source.dims, *dims),
-            source.read(quantity, what),
-            {"units": QUANTITIES[quantity].xarray_unit},
-        )
-        for name, quantity, what, dims in variables(quantities)
-    }
-    return dataset(source, quantities, arrays, coords, attributes, split_complex=split_complex)
-
-
-def dataset(
-    source: Source,
-    quantities: Sequence[str],
-    arrays: Mapping[str, Any],
-    coords: Mapping[str, Any],
-    attributes: Mapping[str, Any],
-    *,
-    split_complex: bool,
-) -> xr.Dataset:
-    """Return a dataset of arrays with the coordinates and attributes of a balance or sweep."""
-    orders = np.array(source.orders, dtype=np.int64)
-    labelled = _labelled(coords, quantities)
-    labelled["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
-    bounds = source.error_bound._asdict()
-    limits = {
-        f"{quantity}_error_bound": bounds["torque" if quantity == "crank_torque" else quantity]
-        for quantity in quantities
-    }
-    return made(arrays, labelled, {**attributes, **limits}, split_complex=split_complex)
-
-
-def waveforms_to_xarray(
-    result: Waveform | SweepWaveform,
-    quantities: Sequence[str],
-    coords: Mapping[str, Any],
-    attributes: Mapping[str, Any],
-) -> xr.Dataset:
-    """Return values over coordinates, with named dimensions and units."""
-    arrays = {}
-    for name in quantities:
-        dims = (*coords, "axis") if name in PLANE_VECTORS else tuple(coords)
-        arrays[name] = (dims, getattr(result, name), units(name))
-    return made(arrays, _labelled(coords, quantities), attributes)
-
-
-def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str, Any]:
-    """Return coordinates with units, and the axes of forces and moments."""
-    axes = {"axis": ("axis", ["x", "y"])} if set(PLANE_VECTORS) & set(quantities) else {}
-    return labels.coordinates(coords) | axes
-
-
-def made(
-    arrays: Mapping[str, Any],
-    coords: Mapping[str, Any],
-    attributes: Mapping[str, Any],
+    arrays: Mapping[str, Any] | None = None,
     *,
     split_complex: bool = False,
 ) -> xr.Dataset:
-    """Return a dataset, complex arrays split into a dimension ``part`` if asked."""
+    """Return the arrays of some quantities, or those given, with named dimensions and units."""
+    if arrays is None:
+        arrays = {
+            name: ((*result.dims, *dims), result.read(quantity, what), units(quantity))
+            for name, quantity, what, dims in variables(quantities)
+        }
+    orders = np.array(result.orders, dtype=np.int64)
+    coords = _labelled(result.coords, quantities)
+    coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
+    bounds = {
+        f"{name}_error_bound": getattr(result.error_bound, QUANTITIES[name].bound)
+        for name in quantities
+    }
     if inputs.flag("split_complex", split_complex):
         arrays = {name: _split(variable) for name, variable in arrays.items()}
-        coords = {**coords, "part": ("part", ["re", "im"])}
-    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, attributes)
+        coords["part"] = ("part", ["re", "im"])
+    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, {**result.attributes, **bounds})
     return found
 
 
@@ -113,62 +77,75 @@ def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noq
     return ((*dims, "part"), np.stack([values.real, values.imag], axis=-1), attributes)
 
 
+def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str, Any]:
+    """Return coordinates with units, and the axes of forces and moments."""
+    axes = {"axis": ("axis", ["x", "y"])} if set(PLANE_VECTORS) & set(quantities) else {}
+    return labels.coordinates(coords) | axes
+
+
 def units(quantity: str) -> dict[str, str]:
     """Return the attributes of a quantity's variables."""
     return {"units": QUANTITIES[quantity].xarray_unit}
 
 
-def to_pandas(source: Source, quantities: Sequence[str], coords: Mapping[str, Any]) -> pd.DataFrame:
+def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
     """Return phasors and peaks as a tidy table: a row a point, order, quantity and component."""
-    pandas = optional.pandas()
-    parts = []
-    points = {name: list(values) for name, values in coords.items()}
+    columns = []
     for quantity in quantities:
-        phasors = np.asarray(source.read(quantity, "phasors"))
+        phasors = result.read(quantity, "phasors")
         by_component: dict[str, NDArray[np.complex128]] = {"z": phasors}
         if quantity in PLANE_VECTORS:
             by_component = {
                 "x": phasors[..., 0],
                 "y": phasors[..., 1],
-                "forward": source.read(quantity, "forward"),
-                "backward": source.read(quantity, "backward"),
+                "forward": result.read(quantity, "forward"),
+                "backward": result.read(quantity, "backward"),
             }
         for component, values in by_component.items():
-            index = pandas.MultiIndex.from_product(
-                [*points.values(), source.orders], names=[*points, "order"]
-            )
             flat = values.ravel()
-            columns = {
-                "quantity": quantity,
-                "component": component,
-                "real": flat.real,
-                "imag": flat.imag,
-                "peak": np.abs(flat),
-                "unit": QUANTITIES[quantity].unit,
-            }
-            parts.append(pandas.DataFrame(columns, index=index).reset_index())
-    table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
-    return table
+            figures = {"real": flat.real, "imag": flat.imag, "peak": np.abs(flat)}
+            columns.append((quantity, component, figures))
+    return _tidy({**result.coords, "order": result.orders}, columns)
 
 
-def waveforms_to_pandas(
-    result: Waveform | SweepWaveform, quantities: Sequence[str], coords: Mapping[str, Any]
-) -> pd.DataFrame:
+def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.DataFrame:
     """Return values as a tidy table: a row a point, quantity and component."""
-    pandas = optional.pandas()
-    points = {name: list(values) for name, values in coords.items()}
-    index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
-    parts = []
+    columns = []
     for name in quantities:
         values = getattr(result, name)
         planar = name in PLANE_VECTORS
         for k, component in enumerate("xy" if planar else "z"):
-            columns = {
-                "quantity": name,
+            figures = {"value": (values[..., k] if planar else values).ravel()}
+            columns.append((name, component, figures))
+    return _tidy(result.coords, columns)
+
+
+def _tidy(
+    coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]]
+) -> pd.DataFrame:
+    """Return figures of each quantity and component, below each other."""
+    pandas = optional.pandas()
+    points = {name: list(values) for name, values in coords.items()}
+    index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
+    parts = [
+        pandas.DataFrame(
+            {
+                "quantity": quantity,
                 "component": component,
-                "value": (values[..., k] if planar else values).ravel(),
-                "unit": QUANTITIES[name].unit,
-            }
-            parts.append(pandas.DataFrame(columns, index=index).reset_index())
+                **figures,
+                "unit": QUANTITIES[quantity].unit,
+            },
+            index=index,
+        ).reset_index()
+        for quantity, component, figures in columns
+    ]
     table: pd.DataFrame = pandas.concat(parts, ignore_index=True)
     return table
+
+
+def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:
+    """Return values over coordinates, with named dimensions and units."""
+    arrays = {name: (result.dims(name), getattr(result, name), units(name)) for name in quantities}
+    coords = _labelled(result.coords, quantities)
+    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, result.attributes)
+    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -10,13 +9,13 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
+from crankpin._support.record import Record
 
 if TYPE_CHECKING:
     from crankpin._support.inputs import Orders, Spectrum
 
 
-@dataclasses.dataclass(frozen=True)
-class Request:
+class Request(Record):
     """Orders, tolerance, reference plane, spectrum and whether torque is computed; checked."""
 
     orders: tuple[int, ...] | None
@@ -56,6 +55,14 @@ class Request:
             inputs.flag("torque", torque),
         )
 
+    def about(self, z: object) -> Request:
+        """Return the same request with moments about another plane."""
+        return self.replace(reference_z=inputs.number("z", z))
+
+    def at_orders(self, orders: tuple[int, ...]) -> Request:
+        """Return the same request of the orders given."""
+        return self.replace(orders=orders)
+
     @property
     def spectrum(self) -> Spectrum | None:
         """Spectrum as a read-only mapping, or None."""
@@ -90,10 +97,11 @@ class Request:
         raise AbsentError(f"{name} is not available: it was not requested; give torque=True")
 
 
-def check_request(request: object, maker: str) -> None:
-    """Raise an InputError that names the function that makes such results."""
+def check_request(request: object, maker: str) -> Request:
+    """Return a request, or raise an InputError that names the function that makes such results."""
     if not isinstance(request, Request):
         raise InputError(f"request = {inputs.shorten(request)}: use {maker}")
+    return request
 
 
 def engine_core(engine: object, name: str = "engine") -> _core.Engine:

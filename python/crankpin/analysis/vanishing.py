@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Frozen, Listed
 from crankpin._support.tables import Table
-from crankpin.analysis.by_order import place_of
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -249,7 +249,10 @@ class VanishingOrders(Frozen):
         InputError
             If the order is not among ``orders``.
         """
-        k = place_of(order, self.orders)
+        if order not in self.orders:
+            known = labels.orders_text(self.orders)
+            raise InputError(f"order = {inputs.shorten(order)}: decided were {known}")
+        k = self.orders.index(order)
         words = [self._word(k, column) for column in range(len(self.sums))]
         return OrderVerdicts(
             self.orders[k], VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.frozen import Frozen
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import error_bound, mean_piston_speed
+from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
-from crankpin.analysis.source import ErrorBound
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -61,7 +64,92 @@ def waveform(
     return found
 
 
-class Waveform(Frozen):
+class OverAngle:
+    """Mixin of waveforms: force, moment and torques over crank angle, in tables."""
+
+    request: Request
+    """The options of the result, checked."""
+    theta_deg: NDArray[np.float64]
+    """Crank angles, degrees: (n_theta,)."""
+
+    @property
+    def force(self) -> NDArray[np.float64]:
+        """Shaking force along x and y, N: (…, n_theta, 2)."""
+        return self.read("force")
+
+    @property
+    def moment(self) -> NDArray[np.float64]:
+        """Rocking moment about x (pitch) and y (yaw), N·m: (…, n_theta, 2)."""
+        return self.read("moment")
+
+    @property
+    def torque(self) -> NDArray[np.float64]:
+        """Roll torque of the inertia forces on the block about +z, N·m: (…, n_theta).
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self.read("torque")
+
+    @property
+    def crank_torque(self) -> NDArray[np.float64]:
+        """Torque of the inertia forces on the crank about +z, N·m: (…, n_theta).
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self.read("crank_torque")
+
+    def read(self, quantity: str) -> NDArray[np.float64]:
+        """Return the values of a quantity, read-only, computed when they are first read."""
+        raise NotImplementedError
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: those of a sweep, then ``theta_deg``."""
+        return {"theta_deg": self.theta_deg}
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the result."""
+        raise NotImplementedError
+
+    def dims(self, quantity: str = "moment") -> tuple[str, ...]:
+        """Return the names of a quantity's dimensions."""
+        name = inputs.one_of("quantity", quantity, QUANTITIES)
+        return (*self.coords, "axis") if QUANTITIES[name].planar else tuple(self.coords)
+
+    def to_pandas(self, *quantities: str) -> pd.DataFrame:
+        """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
+
+        Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+        """
+        names = check_quantities(quantities, self.request.quantities)
+        return export.waveforms_to_pandas(self, names)
+
+    def to_xarray(self, *quantities: str) -> xr.Dataset:
+        """Return arrays with named dimensions and units (needs xarray).
+
+        Parameters
+        ----------
+        *quantities
+            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2, 4])
+        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
+        ('rpm', 'theta_deg', 'axis')
+        """
+        names = check_quantities(quantities, self.request.quantities)
+        return export.waveforms_to_xarray(self, names)
+
+
+class Waveform(OverAngle, Tabled):
     """Force, moment and torque of an engine at given crank angles.
 
     Made by :meth:`Engine.waveform`.
@@ -76,8 +164,6 @@ class Waveform(Frozen):
     True
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "rpm", "theta_deg", "summed", "request")
-
     engine: Engine
     """The engine."""
     rpm: float
@@ -88,104 +174,61 @@ class Waveform(Frozen):
     """True if a sum of orders was requested, False for exact kinematics."""
     request: Request
     """The options of the waveform, checked."""
-    force: NDArray[np.float64]
-    """Shaking force along x and y, N: (n_theta, 2)."""
-    moment: NDArray[np.float64]
-    """Rocking moment about x (pitch) and y (yaw), N·m: (n_theta, 2)."""
-    orders: tuple[int, ...] | None
-    """Orders that were summed; None for exact kinematics."""
-    omitted: tuple[int, ...]
-    """With ``orders="auto"``: orders that were left out; see :attr:`Balance.omitted`."""
-    error_bound: ErrorBound
-    """With ``orders="auto"``: upper bounds on what the omitted orders add, N and N·m."""
 
-    def __init__(
-        self,
-        engine: Engine,
-        rpm: float,
-        theta_deg: NDArray[np.float64],
-        summed: bool,
-        request: Request,
-    ) -> None:
-        check_request(request, "Engine.waveform")
-        force, moment, torque, crank_torque, balance = _core.waveform(
-            engine_core(engine),
-            rpm,
-            theta_deg,
-            summed,
-            request.listed_orders if summed else None,
+    def __post_init__(self) -> None:
+        check_request(self.request, "Engine.waveform")
+        request = self.request
+        theta = inputs.copied(self.theta_deg)
+        *arrays, balance = _core.waveform(
+            engine_core(self.engine),
+            self.rpm,
+            theta,
+            self.summed,
+            request.listed_orders if self.summed else None,
             request.rtol,
             request.reference_z,
             request.listed_spectrum,
             request.torque,
         )
-        theta = inputs.copied(theta_deg)
-        theta.setflags(write=False)
-        known = torque is not None
-        exact = ErrorBound(0.0, 0.0, 0.0 if known else None)
-        self._set(
-            engine=engine,
-            rpm=rpm,
-            theta_deg=theta,
-            summed=summed,
-            request=request,
-            force=force,
-            moment=moment,
-            _torque=torque,
-            _crank_torque=crank_torque,
-            orders=None if balance is None else tuple(balance.orders),
-            omitted=() if balance is None else tuple(balance.omitted),
-            error_bound=exact if balance is None else error_bound(balance, torque_known=known),
+        self.__dict__.update(
+            theta_deg=theta, _values=dict(zip(QUANTITIES, arrays, strict=True)), _balance=balance
         )
-
-    _torque: NDArray[np.float64]
-    _crank_torque: NDArray[np.float64]
+        super().__post_init__()
 
     @property
-    def torque(self) -> NDArray[np.float64]:
-        """Roll torque of the inertia forces on the block about +z, N·m: (n_theta,).
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        self.request.check("torque")
-        return self._torque
+    def _summed(self) -> _core.Balance | None:
+        """Balance whose orders were summed, if any."""
+        return self.__dict__["_balance"]  # type: ignore[no-any-return]
 
     @property
-    def crank_torque(self) -> NDArray[np.float64]:
-        """Torque of the inertia forces on the crank about +z, N·m: (n_theta,).
+    def orders(self) -> tuple[int, ...] | None:
+        """Orders that were summed; None for exact kinematics."""
+        return None if self._summed is None else tuple(self._summed.orders)
 
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        self.request.check("crank_torque")
-        return self._crank_torque
+    @property
+    def omitted(self) -> tuple[int, ...]:
+        """With ``orders="auto"``: orders that were left out; see :attr:`Balance.omitted`."""
+        return () if self._summed is None else tuple(self._summed.omitted)
+
+    @property
+    def error_bound(self) -> ErrorBound:
+        """With ``orders="auto"``: upper bounds on what the omitted orders add, N and N·m."""
+        known = "torque" in self.request.quantities
+        if self._summed is None:
+            return ErrorBound(0.0, 0.0, 0.0 if known else None)
+        return error_bound(self._summed, torque_known=known)
+
+    def read(self, quantity: str) -> NDArray[np.float64]:
+        """Return the values of a quantity, read-only."""
+        self.request.check(quantity)
+        return self.__dict__["_values"][quantity]  # type: ignore[no-any-return]
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: name of the engine, and speed."""
+        return {"engine": self.engine.name, "rpm": self.rpm}
 
     # --- tables and pictures --------------------------------------------------------------------
-
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a crank angle, quantity and component (needs pandas).
-
-        Columns are theta_deg, quantity, component, value and unit.
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        """
-        names = check_quantities(quantities, self.request.quantities)
-        return export.waveforms_to_pandas(self, names, {"theta_deg": self.theta_deg})
-
-    def to_xarray(self, *quantities: str) -> xr.Dataset:
-        """Return arrays with named dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        """
-        names = check_quantities(quantities, self.request.quantities)
-        attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        coords = {"theta_deg": self.theta_deg}
-        return export.waveforms_to_xarray(self, names, coords, attributes)
 
     def plot(
         self,
@@ -224,7 +267,24 @@ class Waveform(Frozen):
         """
         return draw(self, ax, kind=kind, quantity=quantity, **options)  # type: ignore[no-any-return]
 
-    def __repr__(self) -> str:
+    @property
+    def table(self) -> Table:
+        """Table that is shown: least and largest value of each component, and where."""
+        names, found = [], []
+        for name in self.request.quantities:
+            kind = QUANTITIES[name]
+            values = self.read(name).reshape(-1, len(kind.components))
+            for component, column in zip(kind.components, values.T, strict=True):
+                names.append((kind.words, component, kind.unit))
+                if column.size:
+                    low, high = column.argmin(), column.argmax()
+                    theta = self.theta_deg
+                    found.append((column[low], theta[low], column[high], theta[high]))
+                else:
+                    found.append((np.nan,) * 4)
+        heads = ["quantity", "component", "unit", "least", "at °", "largest", "at °"]
+        rows = np.array(found).reshape(-1, 4)
         how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
-        count = len(self.theta_deg)
-        return f"<Waveform of {self.engine!r} at {self.rpm:g} rpm, {count} angles, {how}>"
+        where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
+        title = f"{where}, {len(self.theta_deg)} crank angles, {how}"
+        return Table.from_rows(title, heads, names, rows)

@@ -975,7 +975,7 @@ class Engine(Frozen):
         >>> b = cp.Engine.preset("i4").balance(rpm=6000, orders=[1, 2, 4])
         >>> b.force.shape, b.torque.shape
         ((3, 2), (3,))
-        >>> b.force[0]  # an inline-4 has no force of order 1
+        >>> b.force.xy[0]  # an inline-4 has no force of order 1
         array([0.+0.j, 0.+0.j])
         """
         from crankpin.analysis.balance import balance

@@ -85,7 +85,7 @@ def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[int]:
     low = [order for order in sweep.orders if order <= SUMMARY]
     if low:
         return low
-    places, _ = largest(sweep.source, names[0])
+    places, _ = largest(sweep, names[0])
     return [sweep.orders[place] for place in places] or [sweep.orders[0]]
 
 

@@ -38,7 +38,7 @@ def ellipses(
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw a panel for each of the largest orders, or all of them on given axes."""
     name = plane_vector(quantity)
-    places, note = largest(result.source, name)
+    places, note = largest(result, name)
     shown = [result.orders[place] for place in places]
     where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm"
     if ax is not None:

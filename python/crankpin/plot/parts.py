@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
-    from crankpin.analysis.quantities import PlaneVector
+    from crankpin.analysis.by_order import PlaneVector
     from crankpin.analysis.sweeps.sweep import Sweep
 
 WIDE = 1.6
@@ -61,7 +61,7 @@ def parts(
         raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
     others = [values_of(sweep, dim, words) for dim in sweep.coords if dim != along]
     names = [", ".join(texts) for texts in itertools.product(*others)]
-    places, note = largest(sweep.source, name, MOST - 1)
+    places, note = largest(sweep, name, MOST - 1)
     # Where all are zero, one panel says so.
     chosen = [sweep.orders[place] for place in places] or [*(sweep.orders or (1,))[:1]]
     if orders is not None:

@@ -15,7 +15,6 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
-from crankpin.analysis.balance import at_orders
 from crankpin.plot import ticks
 from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
 from crankpin.plot.legend import figure_legend
@@ -62,7 +61,7 @@ def phasors(
     shown = inputs.explicit_orders(
         orders if orders is not None else result.request.orders or ORDERS
     )
-    whole = at_orders(result, shown)
+    whole = result.at_orders(tuple(shown))
     arms = adding.contributions(whole, kind)
     sums = adding.phasors(whole, kind)
     rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)

@@ -69,7 +69,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     rows = [Row(f"all orders{given}", values if planar else values[..., np.newaxis])]
     if single:
         return Rows(rows, columns, "")
-    places, note = largest(sweep.source, quantity, MOST - 1)
+    places, note = largest(sweep, quantity, MOST - 1)
     rows += [one(sweep.orders[place]) for place in places]
     return Rows(rows, columns, note)
 

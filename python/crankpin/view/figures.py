@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from crankpin._support.inputs import Spectrum
-    from crankpin.analysis.quantities import PlaneVector
+    from crankpin.analysis.by_order import PlaneVector
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 

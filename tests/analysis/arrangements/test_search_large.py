@@ -137,7 +137,7 @@ def test_an_arrangement_hands_back_its_engine() -> None:
             forward = abs(balance.moment.forward[0]) / scale
             # the angle is rounded once, sums of at most 7 terms of at most 3
             assert forward == pytest.approx(search[k].counterweight, abs=1e-13)
-            second = abs(balance.moment[1]) / (scale * cylinder.harmonics([2])[0].real)
+            second = abs(balance.moment.xy[1]) / (scale * cylinder.harmonics([2])[0].real)
             assert second == pytest.approx(search[k].second_order, abs=1e-12)
 
 

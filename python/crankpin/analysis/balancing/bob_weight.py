@@ -14,8 +14,8 @@ from crankpin._support.frozen import Frozen, read_only
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Shown, Table
 from crankpin.analysis.balancing.planes import Turning, turning
+from crankpin.analysis.by_order import Ellipse
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.quantities import Ellipse
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins

@@ -11,8 +11,7 @@ from crankpin.model.engine import Engine
 from crankpin.model.shafts import Unbalance, degrees
 
 if TYPE_CHECKING:
-    from crankpin.analysis.by_order import OrderBalance
-    from crankpin.analysis.quantities import Ellipse
+    from crankpin.analysis.by_order import Ellipse, OrderBalance
     from crankpin.model.crankpins import Bay
 
 

@@ -66,9 +66,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
             shape = tuple(sizes[dim] for dim in dims)
             values = dask.zeros(shape, dtype=kind, chunks=tuple(by_name[dim] for dim in dims))
         variables[name] = (dims, values, export.units(quantity))
-    return export.dataset(
-        whole.source, quantities, variables, whole.coords, whole.attributes, split_complex=False
-    )
+    return export.to_xarray(whole, quantities, variables)
 
 
 def _block(
@@ -83,7 +81,7 @@ def _block(
     if "engine" in given:
         given["engines"] = list(given.pop("engine"))
     with suppressed("mean piston speed"):
-        return sweep(**fixed, **given).source.read(quantity, what)
+        return sweep(**fixed, **given).read(quantity, what)
 
 
 def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array

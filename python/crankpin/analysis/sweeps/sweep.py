@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import field
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
-from crankpin.analysis import export
-from crankpin.analysis.by_order import AllOrders
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import Balance
+from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_quantities
-from crankpin.analysis.sweeps.arrays import SweepArrays
+from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
@@ -32,6 +37,11 @@ if TYPE_CHECKING:
     from crankpin._support.progress import Progress
     from crankpin.analysis.sweeps.dask import Chunks
     from crankpin.model.engine import Hold
+
+AXES = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm")
+"""Dimensions after "engine", in the order of results."""
+MOST_SHOWN = 1000
+"""Points of a sweep whose values are shown: more would take long to compute at a prompt."""
 
 Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 
@@ -120,8 +130,8 @@ def sweep(
     axes: dict[str, NDArray[np.float64] | float] = {}
     for name, values in swept.items():
         array = inputs.array(name, values)
-        axes[name] = inputs.vector(name, array) if array.ndim else float(array)
-    held = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
+        axes[name] = inputs.copied(inputs.vector(name, array)) if array.ndim else float(array)
+    held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
     request = Request.checked(
         orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum, torque=torque
     )
@@ -130,7 +140,7 @@ def sweep(
     return whole
 
 
-class Sweep(AllOrders):
+class Sweep(ByOrder, Tabled):
     """Force, moment and torque of engines over swept arguments: labelled arrays.
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
@@ -152,55 +162,43 @@ class Sweep(AllOrders):
     ('engine', 'rod_ratio', 'rpm')
     """
 
-    _fields = SweepArrays._fields
+    engines: tuple[Engine, ...]
+    """The engines."""
+    names: tuple[str, ...] | None
+    """Names of the engines as given; None for a single engine, which is no dimension."""
+    axes: Mapping[str, NDArray[np.float64] | float]
+    """Values of each argument: an array where it is swept, else a number."""
+    hold: Hold | None
+    """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
+    request: Request
+    """The options of the sweep, checked."""
+    progress: Progress = field(default=False, compare=False, repr=False)
+    """The progress bar, as given."""
 
-    source: SweepArrays
-
-    def __init__(
-        self,
-        engines: tuple[Engine, ...],
-        names: tuple[str, ...] | None,
-        axes: Mapping[str, Any],
-        hold: str | None,
-        request: Request,
-        progress: Progress = False,
-    ) -> None:
-        self._set(source=SweepArrays(engines, names, axes, hold, request, progress))
-
-    @property
-    def engines(self) -> tuple[Engine, ...]:
-        """The engines."""
-        return self.source.engines
-
-    @property
-    def names(self) -> tuple[str, ...] | None:
-        """Names of the engines as given; None for a single engine, which is no dimension."""
-        return self.source.names
-
-    @property
-    def axes(self) -> Mapping[str, NDArray[np.float64] | float]:
-        """Values of each argument: an array where it is swept, else a number."""
-        return self.source.axes
-
-    @property
-    def hold(self) -> Hold | None:
-        """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
-        return self.source.hold
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        request = check_request(self.request, "crankpin.sweep")
+        axes = {name: np.atleast_1d(values) for name, values in self.axes.items()}
+        core = _core.Sweep(
+            [engine_core(engine) for engine in self.engines],
+            axes.get("bank_angle_deg"),
+            self.hold,
+            axes.get("rod_ratio"),
+            axes.get("pin_offset"),
+            axes["rpm"],
+            request.listed_orders,
+            request.rtol,
+            request.reference_z,
+            request.listed_spectrum,
+            request.torque,
+            [self.names is not None, *(name in self.dims for name in AXES)],
+        )
+        self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
 
     @property
-    def request(self) -> Request:
-        """The options of the sweep, checked."""
-        return self.source.request
-
-    @property
-    def spectrum(self) -> Spectrum | None:
-        """Spectrum used in place of the slider-crank's harmonics, kg·m, or None."""
-        return self.request.spectrum
-
-    @property
-    def mean_piston_speed(self) -> float:
-        """Largest mean piston speed of any engine at any point, m/s."""
-        return self.source.core.mean_piston_speed
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed, ascending where they were chosen."""
+        return self.__dict__["_orders"]  # type: ignore[no-any-return]
 
     @property
     def omitted(self) -> tuple[int, ...]:
@@ -209,7 +207,33 @@ class Sweep(AllOrders):
         Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
         includes them.
         """
-        return self.source.omitted
+        return self.__dict__["_omitted"]  # type: ignore[no-any-return]
+
+    @cached_property
+    def error_bound(self) -> ErrorBound:
+        """Upper bounds on what the orders in ``omitted`` and above add, at any point and angle.
+
+        Zero where orders were given. Rounding is not included: sums that vanish to within the
+        quantities' ``zero_bound`` are zero.
+        """
+        force, moment, torque = self.core.error_bound
+        return ErrorBound(force, moment, torque if "torque" in self.request.quantities else None)
+
+    @property
+    def core(self) -> _core.Sweep:
+        """Compiled counterpart."""
+        return self.__dict__["_core"]  # type: ignore[no-any-return]
+
+    @property
+    def mean_piston_speed(self) -> float:
+        """Largest mean piston speed of any engine at any point, m/s."""
+        return self.core.mean_piston_speed
+
+    @cached_property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the swept dimensions."""
+        swept = (name for name in AXES if isinstance(self.axes.get(name), np.ndarray))
+        return (*(["engine"] if self.names is not None else []), *swept)
 
     @cached_property
     def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
@@ -217,23 +241,104 @@ class Sweep(AllOrders):
 
         Engines with the same name, or none, are numbered.
         """
-        coords: dict[str, NDArray[np.float64] | list[str]] = {}
+        coords: dict[str, Any] = {}
         if self.names is not None:
             coords["engine"] = _distinct(self.names)
-        coords |= {name: self.source.core.axis(name) for name in self._swept()}
+        coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
         return MappingProxyType(coords)
 
     @cached_property
     def fixed(self) -> Mapping[str, float]:
         """Argument that was given as a single value → the value."""
-        swept = self._swept()
-        core = self.source.core
+        given = {name: self.axes[name] for name in AXES if name in self.axes}
         return MappingProxyType(
-            {name: float(core.axis(name)[0]) for name in self.source.given if name not in swept}
+            {name: float(value) for name, value in given.items() if name not in self.dims}
         )
 
-    def _swept(self) -> list[str]:
-        return [name for name in self.source.dims if name != "engine"]
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
+        return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
+
+    def at_orders(self, orders: tuple[int, ...]) -> Self:
+        """Return the same sweep at the orders given."""
+        return self.replace(request=self.request.at_orders(orders))
+
+    def about(self, z: float) -> Self:
+        """Return the same sweep with moments about another plane.
+
+        Parameters
+        ----------
+        z
+            Position along the crank, m.
+        """
+        return self.replace(request=self.request.about(z))
+
+    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+        if what in ("forward", "backward"):
+            return self.read(quantity, "turning")[..., int(what == "backward")]
+        with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
+            if what == "turning":
+                return self.core.turning(quantity, report)
+            if what == "phasors":
+                return self.core.phasors(quantity, report)
+            figures = {
+                "peak": "length" if quantity in PLANE_VECTORS else "amplitude",
+                "peak_xy": "amplitude",
+                "total_peak": "length of sum" if quantity in PLANE_VECTORS else "sum",
+                "total_peak_xy": "sum",
+                "zero_bound": "zero bound",
+            }
+            return self.core.peaks(quantity, figures[what], report)
+
+    # --- points ---------------------------------------------------------------------------------
+
+    def sel(self, **selection: Any) -> Balance | Sweep:  # noqa: ANN401 - a name or numbers
+        """Return the balance at a point of the sweep, or the sweep of what is left to choose.
+
+        The values of a balance are those of the sweep, to the last bit.
+
+        Parameters
+        ----------
+        **selection
+            A swept value for each swept dimension, or for some: ``engine`` (a name),
+            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``.
+
+        Raises
+        ------
+        InputError
+            If a dimension is not swept, or a value is not among the swept ones.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60")
+        >>> s = cp.sweep(v6, rpm=5000, bank_angle_deg=[60, 90], hold="pins")
+        >>> b = s.sel(bank_angle_deg=90)
+        >>> b.engine.bank_angle_deg, bool(b[1].moment.peak == s[1].moment.peak[1])
+        (90.0, True)
+        """
+        places = self._places(selection)
+        if len(places) < len(self.dims):
+            axes = dict(self.axes)
+            engines, names = self.engines, self.names
+            for name, place in places.items():
+                if name == "engine":
+                    engines, names = (engines[place],), None
+                else:
+                    axes[name] = float(self.coords[name][place])
+            return self.replace(engines=engines, names=names, axes=axes)
+        at = {name: self.coords[name][place] for name, place in places.items()}
+        rpm = float({**self.fixed, **at}["rpm"])
+        within = (self, tuple(places[name] for name in self.dims))
+        return Balance(self.engine_at(**at), rpm, self.request, within)
+
+    def _places(self, selection: Mapping[str, Any]) -> dict[str, int]:
+        """Return the place of each selected value in its dimension."""
+        return {
+            name: _place(name, value, self.coords[inputs.one_of("dimension", name, self.dims)])
+            for name, value in selection.items()
+        }
 
     def engine_at(self, **selection: Any) -> Engine:  # noqa: ANN401 - a name or numbers
         """Return the engine of a point of the sweep.
@@ -321,31 +426,7 @@ class Sweep(AllOrders):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
-        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        split_complex
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im". netCDF
-            needs it: ``sweep.to_xarray(split_complex=True).to_netcdf(path)``.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[1, 2])
-        >>> s.to_xarray("force").force.dims
-        ('rpm', 'order', 'axis')
-        """
-        return export.to_xarray(
-            self.source,
-            self.named(quantities),
-            self.coords,
-            self.attributes,
-            split_complex=split_complex,
-        )
+    # --- tables and pictures --------------------------------------------------------------------
 
     def to_dask(self, chunks: Chunks, *quantities: str) -> xr.Dataset:
         """Return the arrays of :meth:`to_xarray`, computed by dask (needs dask and xarray).
@@ -368,42 +449,13 @@ class Sweep(AllOrders):
         >>> s.to_dask(1000).force_peak.chunks
         ((1000, 1000, 1000, 1000, 1000, 1000), (1,))
         """
-        if self.source.progress is not False:
+        if self.progress is not False:
             raise InputError(
                 "progress cannot be combined with to_dask; use dask.diagnostics.ProgressBar"
             )
         from crankpin.analysis.sweeps.dask import dataset  # noqa: PLC0415 - it makes sweeps
 
         return dataset(self, chunks, self.named(quantities))
-
-    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the quantities named, all that there are if none is named."""
-        return check_quantities(quantities, self.request.quantities)
-
-    @property
-    def attributes(self) -> Mapping[str, Any]:
-        """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
-        return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
-
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, order, quantity and component (needs pandas).
-
-        Columns are the swept dimensions, order, quantity, component, real and imag (the peak
-        phasor), peak and unit.
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[3000, 6000], orders=[2])
-        >>> s.to_pandas("torque").columns.tolist()
-        ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
-        """
-        return export.to_pandas(self.source, self.named(quantities), self.coords)
 
     def plot(
         self,
@@ -472,10 +524,39 @@ class Sweep(AllOrders):
         chosen = {} if orders is None else {"orders": orders}
         return draw(self, ax, **given, **chosen, **options)
 
+    @property
+    def table(self) -> Table:
+        """Table that is shown: peaks of all orders together at each point."""
+        points = list(itertools.product(*self.coords.values()))
+        columns = [
+            Column(name, tuple(each[k] for each in points), "", digits=10)
+            for k, name in enumerate(self.coords)
+        ]
+        for name in self.request.quantities:
+            if name != "crank_torque":
+                kind = QUANTITIES[name]
+                peaks = self.read(name, "total_peak").ravel().tolist()
+                columns.append(Column(kind.vector_symbol, tuple(peaks), kind.unit))
+        return Table(self._title, tuple(columns))
+
+    @property
+    def _title(self) -> str:
+        given = " of the orders given" if self.request.orders is not None else ""
+        fixed = [labels.value_text(name, value) for name, value in self.fixed.items()]
+        held = [labels.HELD[self.hold]] if self.hold else []
+        engine = f"{engine_titles(self)[0]}: " if self.names is None else ""
+        text = ", ".join([f"{engine}peaks{given or ' of all orders together'}", *fixed, *held])
+        return f"{text[0].upper()}{text[1:]}"
+
     def __repr__(self) -> str:
+        if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
+            return repr(self.table)
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        held = f", hold={self.hold!r}" if self.hold else ""
-        return f"<Sweep over ({swept}), orders {list(self.orders)}{held}>"
+        return f"<Sweep over ({swept})> {self._title}"
+
+    def _repr_html_(self) -> str | None:
+        points = math.prod(len(values) for values in self.coords.values())
+        return self.table._repr_html_() if points <= MOST_SHOWN else None
 
 
 def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - names or numbers

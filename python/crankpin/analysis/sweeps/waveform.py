@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,26 +13,23 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
-from crankpin._support.frozen import Frozen
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.analysis import export
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import Record, read_only
+from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.source import ErrorBound
+from crankpin.analysis.waveform import OverAngle
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import pandas as pd
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     from crankpin._support.progress import Progress
+    from crankpin.analysis.request import Request
     from crankpin.analysis.sweeps.sweep import Sweep
 
 
-class SweepWaveform(Frozen):
+class SweepWaveform(OverAngle, Record):
     """Force, moment and torque over crank angle at every point of a sweep.
 
     Each is computed when it is first read, and kept. Dimensions are those of the sweep without
@@ -53,75 +51,48 @@ class SweepWaveform(Frozen):
     True
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("sweep", "theta_deg", "exact")
-
     sweep: Sweep
     """The sweep."""
     theta_deg: NDArray[np.float64]
     """Crank angles, degrees: (n_theta,)."""
     exact: bool
     """True for exact kinematics, False for the sum of orders."""
-    orders: tuple[int, ...] | None
-    """Orders that are summed; None for exact kinematics."""
-    omitted: tuple[int, ...]
-    """As :attr:`Sweep.omitted`; empty for exact kinematics."""
-    error_bound: ErrorBound
-    """As :attr:`Sweep.error_bound`, N and N·m; zero for exact kinematics."""
 
-    _angles: _core.CrankAngles
+    def __post_init__(self) -> None:
+        if not hasattr(self.sweep, "core"):
+            raise InputError(f"SweepWaveform({inputs.shorten(self.sweep)}): use Sweep.waveform")
+        theta = inputs.copied(self.theta_deg)
+        self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta), _kept={})
+        super().__post_init__()
 
-    def __init__(
-        self,
-        sweep: Sweep,
-        theta_deg: NDArray[np.float64],
-        exact: bool,
-    ) -> None:
-        if not hasattr(sweep, "error_bound"):
-            raise InputError(f"SweepWaveform({inputs.shorten(sweep)}): use Sweep.waveform")
-        theta = np.array(theta_deg)
-        theta.setflags(write=False)
-        bound = sweep.error_bound
+    @property
+    def request(self) -> Request:  # type: ignore[override] # read-only here
+        """The options of the sweep, checked."""
+        return self.sweep.request
+
+    @property
+    def orders(self) -> tuple[int, ...] | None:
+        """Orders that are summed; None for exact kinematics."""
+        return None if self.exact else self.sweep.orders
+
+    @property
+    def omitted(self) -> tuple[int, ...]:
+        """As :attr:`Sweep.omitted`; empty for exact kinematics."""
+        return () if self.exact else self.sweep.omitted
+
+    @property
+    def error_bound(self) -> ErrorBound:
+        """As :attr:`Sweep.error_bound`, N and N·m; zero for exact kinematics."""
+        bound = self.sweep.error_bound
         none = ErrorBound(0.0, 0.0, None if bound.torque is None else 0.0)
-        self._set(
-            sweep=sweep,
-            theta_deg=theta,
-            exact=exact,
-            _angles=_core.CrankAngles(theta),
-            orders=None if exact else sweep.orders,
-            omitted=() if exact else sweep.omitted,
-            error_bound=none if exact else bound,
-        )
+        return none if self.exact else bound
 
-    @cached_property
-    def force(self) -> NDArray[np.float64]:
-        """Shaking force along x and y, N: (…, n_theta, 2)."""
-        return self._frozen("force")
-
-    @cached_property
-    def moment(self) -> NDArray[np.float64]:
-        """Rocking moment about x (pitch) and y (yaw), N·m: (…, n_theta, 2)."""
-        return self._frozen("moment")
-
-    @cached_property
-    def torque(self) -> NDArray[np.float64]:
-        """Roll torque of the inertia forces on the block about +z, N·m: (…, n_theta).
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._frozen("torque")
-
-    @cached_property
-    def crank_torque(self) -> NDArray[np.float64]:
-        """Torque of the inertia forces on the crank about +z, N·m: (…, n_theta).
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._frozen("crank_torque")
-
-    def _frozen(self, quantity: str) -> NDArray[np.float64]:
-        values = self.values(quantity)
-        values.setflags(write=False)
-        return values
+    def read(self, quantity: str) -> NDArray[np.float64]:
+        """Return the values of a quantity, read-only, computed when they are first read."""
+        kept: dict[str, NDArray[np.float64]] = self.__dict__["_kept"]
+        if quantity not in kept:
+            return kept.setdefault(quantity, read_only(self.values(quantity)))
+        return kept[quantity]
 
     def values(
         self,
@@ -168,54 +139,24 @@ class SweepWaveform(Frozen):
         name = inputs.one_of("quantity", quantity, QUANTITIES)
         self.sweep.request.check(name)
         progress = progress_bar.checked(progress)
-        core = self.sweep.source.core
+        core = self.sweep.core
         shape = tuple(core.waveform_shape(name, len(self.theta_deg)))
         values = np.empty(shape) if out is None else inputs.output("out", out, shape)
         with progress_bar.shown(progress, "waveforms") as report:
-            core.waveform(name, self._angles, self.exact, values.reshape(-1), report)
+            core.waveform(name, self.__dict__["_angles"], self.exact, values.reshape(-1), report)
         return values
 
     @cached_property
-    def coords(self) -> Mapping[str, NDArray[np.float64] | list[str]]:
+    def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: those of the sweep, then ``theta_deg``."""
         return MappingProxyType({**self.sweep.coords, "theta_deg": self.theta_deg})
 
-    def dims(self, quantity: str = "moment") -> tuple[str, ...]:
-        """Return the names of a quantity's dimensions."""
-        name = inputs.one_of("quantity", quantity, QUANTITIES)
-        return (*self.coords, "axis") if name in PLANE_VECTORS else tuple(self.coords)
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: those of the sweep."""
+        return self.sweep.attributes
 
-    # --- tables and pictures --------------------------------------------------------------------
-
-    def to_xarray(self, *quantities: str) -> xr.Dataset:
-        """Return arrays with named dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-
-        Examples
-        --------
-        >>> import crankpin as cp
-        >>> s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2, 4])
-        >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
-        ('rpm', 'theta_deg', 'axis')
-        """
-        names = self.sweep.named(quantities)
-        return export.waveforms_to_xarray(self, names, self.coords, self.sweep.attributes)
-
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
-
-        Columns are the swept dimensions, theta_deg, quantity, component, value and unit.
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        """
-        return export.waveforms_to_pandas(self, self.sweep.named(quantities), self.coords)
+    # --- pictures -------------------------------------------------------------------------------
 
     def plot(
         self,

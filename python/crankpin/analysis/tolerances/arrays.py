@@ -9,10 +9,11 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import progress as progress_bar
+from crankpin._support.frozen import Frozen
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
+from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.source import ErrorBound, Source
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ToleranceArrays(Source):
+class ToleranceArrays(ByOrder, Frozen):
     """Arrays of samples: dimension ``sample``, then orders."""
 
     _fields: ClassVar[tuple[str, ...]] = (
@@ -63,8 +64,7 @@ class ToleranceArrays(Source):
             seed=seed,
             request=request,
             bound=bound,
-            orders=orders,
-            dims=("sample",),
+            _orders=orders,
             core=core,
             _planar={"force": force, "moment": moment},
             _torques=torque,
@@ -83,6 +83,18 @@ class ToleranceArrays(Source):
     _planar: dict[str, NDArray[np.complex128]]
     _torques: NDArray[np.complex128]
     _peaks: NDArray[np.float64]
+
+    _orders: tuple[int, ...]
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed."""
+        return self._orders
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Dimension of the samples."""
+        return ("sample",)
 
     @property
     def error_bound(self) -> ErrorBound:
@@ -106,26 +118,23 @@ class ToleranceArrays(Source):
             self.bound,
         )
 
-    def _turning(self, quantity: str) -> NDArray[np.complex128]:
-        return self._planar[quantity][..., 2:]
-
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         planar = quantity in PLANE_VECTORS
+        if what in ("forward", "backward"):
+            return self._planar[quantity][..., 2 + int(what == "backward")]
         if what == "zero_bound":
-            bound = self.nominal.source.read(quantity, what)
+            bound = self.nominal.read(quantity, what)
             return np.broadcast_to(bound, (self.samples, *bound.shape))
         if what == "total_peak":
             return self._peaks[:, tuple(QUANTITIES).index(quantity)]
         phasors = self._planar[quantity][..., :2] if planar else self._torque(quantity)
-        if what == "phasors":
-            return phasors
         if what == "total_peak_xy":
             orders = list(self.orders)
             along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
             return np.stack([_core.peaks_of_sums(orders, each) for each in along], axis=-1)
         if what == "peak" and planar:
-            return np.asarray(np.abs(self._turning(quantity)).sum(axis=-1))
-        return np.asarray(np.abs(phasors))
+            return np.asarray(np.abs(self._planar[quantity][..., 2:]).sum(axis=-1))
+        return phasors if what == "phasors" else np.asarray(np.abs(phasors))
 
     def _torque(self, quantity: str) -> NDArray[np.complex128]:
         return self._torques[..., int(quantity == "crank_torque")]

@@ -9,12 +9,11 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.frozen import Frozen
 from crankpin._support.tables import Shown, Table
-from crankpin.analysis import export
-from crankpin.analysis.by_order import AllOrders
+from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
-from crankpin.analysis.request import Request, check_quantities
 from crankpin.analysis.tolerances.arrays import ToleranceArrays
 from crankpin.analysis.tolerances.shares import Shares
 from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
@@ -22,12 +21,11 @@ from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviatin
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    import pandas as pd
-    import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.ranking.objectives import Objective
+    from crankpin.analysis.request import Request
     from crankpin.model.engine import Engine
 
 QUANTILES = (0.05, 0.5, 0.95)
@@ -67,7 +65,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(AllOrders, Shown):
+class Tolerances(ByOrder, Frozen, Shown):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
@@ -100,6 +98,48 @@ class Tolerances(AllOrders, Shown):
         if not isinstance(source, ToleranceArrays):
             raise InputError(f"Tolerances({inputs.shorten(source)}): use crankpin.tolerances")
         self._set(source=source, by=by)
+
+    @property
+    def request(self) -> Request:  # type: ignore[override] # read-only here
+        """The options of the samples, checked."""
+        return self.source.request
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Multiples of crank speed."""
+        return self.source.orders
+
+    @property
+    def error_bound(self) -> ErrorBound:
+        """Upper bounds on what omitted orders add to the nominal engine."""
+        return self.source.bound
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions of arrays before the orders: ``sample``."""
+        return self.source.dims
+
+    @property
+    def coords(self) -> Mapping[str, Any]:
+        """Dimension → its values: the number of each sample."""
+        return {"sample": np.arange(self.samples)}
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of a dataset: engine, speed, seed and spreads."""
+        return {
+            "engine": self.engine.name, "rpm": self.rpm, "seed": self.seed,
+            "spreads": self.source.spreads.text,
+        }  # fmt: skip
+
+    def read(self, quantity: str, what: str) -> NDArray[Any]:
+        """Return one of the arrays of a quantity, read-only."""
+        return self.source.read(quantity, what)
+
+    def at_orders(self, orders: tuple[int, ...]) -> Tolerances:
+        """Raise an InputError: samples have the orders that were given."""
+        known = labels.orders_text(self.orders)
+        raise InputError(f"orders = {list(orders)}: is not among those of the samples ({known})")
 
     @property
     def engine(self) -> Engine:
@@ -271,41 +311,6 @@ class Tolerances(AllOrders, Shown):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self, *quantities: str) -> pd.DataFrame:
-        """Return a tidy table, one row a sample, order, quantity and component (needs pandas).
-
-        Columns are sample, order, quantity, component, real and imag (the peak phasor), peak and
-        unit.
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        """
-        return export.to_pandas(self.source, self._named(quantities), self._coords)
-
-    def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
-        """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
-
-        Parameters
-        ----------
-        *quantities
-            ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
-        split_complex
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im".
-        """
-        attributes = {
-            "engine": self.engine.name, "rpm": self.rpm, "seed": self.seed,
-            "spreads": self.source.spreads.text,
-        }  # fmt: skip
-        return export.to_xarray(
-            self.source,
-            self._named(quantities),
-            self._coords,
-            attributes,
-            split_complex=split_complex,
-        )
-
     def plot(
         self,
         ax: Any = None,  # noqa: ANN401 - matplotlib's axes
@@ -347,13 +352,6 @@ class Tolerances(AllOrders, Shown):
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)
         return _checked(name, self.source.request)
-
-    def _named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
-        return check_quantities(quantities, self.source.request.quantities)
-
-    @property
-    def _coords(self) -> dict[str, Any]:
-        return {"sample": np.arange(self.samples)}
 
 
 def _read(objective: Objective, result: Any) -> NDArray[np.float64]:  # noqa: ANN401 - see below

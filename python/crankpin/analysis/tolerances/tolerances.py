@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
@@ -10,8 +9,8 @@ from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance, mean_piston_speed
+from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.request import Request, engine_core
-from crankpin.analysis.source import ErrorBound
 from crankpin.analysis.tolerances.arrays import ToleranceArrays
 from crankpin.analysis.tolerances.samples import Tolerances, names_of
 from crankpin.analysis.tolerances.spreads import Distribution, Spreads
@@ -148,7 +147,7 @@ def tolerances(
     )  # fmt: skip
     speed = inputs.number("rpm", rpm)
     kept, bound = _orders(engine, speed, request)
-    request = dataclasses.replace(request, orders=kept)
+    request = request.at_orders(kept)
     shown = names_of(by, request)
     report = progress_bar.checked(progress)
     arrays = ToleranceArrays(engine, speed, spreads, count, start, request, bound, report)
