@@ -86,6 +86,6 @@ def test_what_is_zero_throughout_is_said_and_what_is_missing_leaves_no_figure() 
     assert panels.shape == (1, 1)
     assert [text.get_text() for text in panels[0, 0].texts] == ["zero throughout"]
     plt.close("all")
-    with pytest.raises(cp.InputError, match="order = 0"):
+    with pytest.raises(cp.InputError, match="orders = 0"):
         s.plot(kind="parts", orders=[0])
     assert plt.get_fignums() == []
