@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -84,6 +85,34 @@ def test_six_decimals_are_one_angle_in_every_form(millionths: int) -> None:
 @given(st.floats(-1e12, 1e12))
 def test_text_of_a_float_reads_back(degrees: float) -> None:
     assert text(text(degrees)) == text(degrees)
+
+
+SINGLES = [
+    np.array([0, 49.54], dtype=np.float32),
+    np.array([0, 49.54], dtype=np.float16),
+    array.array("f", [0, 49.54]),
+    memoryview(np.array([0, 49.54], dtype=np.float32)),
+    [np.float32(0), np.float32(49.54)],
+]
+
+
+@pytest.mark.parametrize("values", SINGLES, ids=lambda values: type(values).__name__)
+def test_a_single_is_its_own_shortest_decimal(values: Any) -> None:  # noqa: ANN401
+    """In single precision 49.54 is 49.54000091…, in half precision 49.53125."""
+    meant = "49.53" if getattr(values, "dtype", None) == np.float16 else "49.54"
+    assert inputs.angles("tdc_deg", values) == ["0", meant]
+    assert inputs.array("z", values).tolist() == [0.0, float(meant)]
+    assert inputs.number("z", values[1]) == float(meant) or isinstance(values[1], float)
+
+
+def test_singles_of_other_libraries_are_decimals_too() -> None:
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    numbers = np.array([0, 49.54], dtype=np.float32)
+    for values in (pandas.Series(numbers), xarray.DataArray(numbers)):
+        assert inputs.angles("tdc_deg", values) == ["0", "49.54"]
+        assert inputs.array("z", values).tolist() == [0.0, 49.54]
+    cylinder = cp.Cylinder(np.float32(0.04), np.float32(0.14), np.array(0.5, dtype=np.float32))
+    assert cylinder == cp.Cylinder(0.04, 0.14, 0.5)
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array as array_module
 import itertools
 import math
 import operator
@@ -35,8 +36,11 @@ FASTEST_PISTON = 60.0
 MOST_NUMBERS = _core.LONGEST_AXIS
 """Maximum length of an array: a gibibyte."""
 
-PIECE = 2**18
+PIECE = 2**16
 """Numbers converted or copied between two looks at Ctrl-C."""
+
+SINGLES = (np.float16, np.float32)
+"""Types whose shortest decimal is not that of the double of the same value."""
 
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
@@ -116,13 +120,15 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
 
 
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:
-    copy = np.empty(values.shape)
+    """Return a copy in doubles; a single stands for the shortest decimal of its own precision."""
+    single = values.dtype in SINGLES
     if values.size <= PIECE:
-        copy[...] = values
-        return copy
+        return np.array(values.astype(str) if single else values, dtype=np.float64)
+    copy = np.empty(values.shape)
     rows = max(1, PIECE * len(values) // values.size)
     for k in range(0, len(values), rows):
-        copy[k : k + rows] = values[k : k + rows]
+        piece = values[k : k + rows]
+        copy[k : k + rows] = piece.astype(str) if single else piece
     return copy
 
 
@@ -162,6 +168,8 @@ def _real(value: Any) -> float:  # noqa: ANN401 - anything that float() takes
     kind = getattr(getattr(value, "dtype", None), "kind", "f")
     if kind not in "fiuO" or getattr(value, "ndim", 0) != 0 or value is np.ma.masked:
         raise TypeError("it is an array, complex, masked or a truth value")
+    if getattr(value, "dtype", None) in SINGLES:
+        return float(str(np.asarray(value)[()]))
     return float(value)
 
 
@@ -281,14 +289,15 @@ def angle(name: str, value: object) -> str:
             value = f"{value.numerator}/{value.denominator}"
     elif isinstance(value, np.ndarray) and not value.ndim:
         return angle(name, value[()])
-    elif isinstance(value, (Decimal, np.float16, np.float32, np.longdouble)):
-        # The shortest decimal of a NumPy float is that of its own precision.
+    elif isinstance(value, (Decimal, np.longdouble)):
         value = str(value)
     return _core.exact_angle(name, value if isinstance(value, str) else number(name, value))
 
 
 def angles(name: str, values: object) -> list[str]:
     """Return a list of angles."""
+    if isinstance(values, (memoryview, array_module.array)) or hasattr(values, "__array__"):
+        values = np.asarray(values)  # whose items keep their precision
     listed = items(name, values, "give a list of degrees")
     return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
 
