@@ -87,7 +87,19 @@ def test_rows_of_a_vr6_cancel_row_by_row() -> None:
     # Offset bores have odd orders too: orders 3 and 9 are left like 6 and 12.
     assert v.force.vanishing == (1, 2, 4, 5, 7, 8, 10, 11)
     assert v[6].force.y == "undecided"  # two rows are left: they might cancel
-    assert "rational part of a turn" in v.obstacles[0]
+    assert "simple part of a turn" in v.obstacles[0]
+
+
+def test_proportions_are_compared_as_typed() -> None:
+    """2/7 is 2/7, though 0.14/0.04 and 0.21/0.06 are two doubles."""
+    twin = cp.Engine.from_lists(
+        [cp.Cylinder(0.04, 0.14, 0.6), cp.Cylinder(0.06, 0.21, 0.4)],
+        tdc_deg=[0, 90],
+        bank_deg=[90, 90],
+        z=[0, 0],
+    )
+    assert twin.vanishing_orders([2]).force.vanishing == (2,)
+    assert twin.closed_form(2, "force").peak == 0
 
 
 def test_classical_results() -> None:
@@ -451,7 +463,7 @@ def test_latex_shows_the_sum_and_what_it_comes_to() -> None:
 def refusals() -> Sequence[tuple[dict[str, Any], str]]:
     return [
         ({"bank_deg": [90, 49.541234567]}, "bank_deg = 49.541234567"),
-        ({"tdc_deg": [0, 51.4123]}, "denominator of the angles = 3600000"),
+        ({"tdc_deg": [0, 51.4123]}, "tdc_deg = 51.4123: a closed form needs parts of a turn"),
         ({"cylinder": [CYLINDER, CYLINDER.replace(rod_length=0.2)]}, "proportions"),
         ({"cylinder": [CYLINDER, CYLINDER.replace(reciprocating_mass=math.pi)]}, "m·r"),
         ({"cylinder": CYLINDER.replace(reciprocating_mass=0.0)}, "reciprocating_mass"),

@@ -87,6 +87,16 @@ def test_text_of_a_float_reads_back(degrees: float) -> None:
     assert text(text(degrees)) == text(degrees)
 
 
+def test_an_angle_taken_for_a_fraction_has_no_hint(recwarn: pytest.WarningsRecorder) -> None:
+    for angle in (70.2439024390244, "70.2439024390244"):
+        lists = [
+            cp.Engine.from_lists(CYLINDER, tdc_deg=[0, each], bank_deg=[90, 90], z=[0, 0])
+            for each in (angle, "2880/41")
+        ]
+        assert lists[0] == lists[1]
+    assert not recwarn.list
+
+
 SINGLES = [
     np.array([0, 49.54], dtype=np.float32),
     np.array([0, 49.54], dtype=np.float16),

@@ -5,8 +5,8 @@
 //! and its phasor is good to the last bit at every order. Any other angle is a double of degrees,
 //! where reduction by whole turns is exact too.
 //!
-//! Typed angles are exact: fractions and decimal text as written ([`Angle`]'s `FromStr`), a double as
-//! the decimal or fraction it stands for ([`Angle::from_degrees`]). Sums, differences and halves of
+//! Typed angles are exact: fractions as written ([`Angle`]'s `FromStr`), decimals and doubles as
+//! [`crate::numbers::decimal`] reads them ([`Angle::from_degrees`]). Sums, differences and halves of
 //! exact angles are exact as long as their denominator fits, so that one angle reached in two ways
 //! is one value.
 
@@ -16,16 +16,13 @@ use std::cmp::Ordering;
 use std::ops::{Add, Neg, Sub};
 
 use crate::Complex64;
+use crate::numbers::decimal::{self, WITHIN_ULP, ulp};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::{self, nearest};
 
-/// A double stands for its shortest decimal where that is k/N of a turn up to this N: always for
-/// six decimals of a degree (N ≤ 3.6e8), never for the 15 that a double of 360/7 shows.
-const MOST_DECIMAL_PARTS: i64 = 1_000_000_000;
-/// A double also stands for k/N of a turn up to this N ...
-const MOST_PARTS: i128 = 1000;
-/// ... or for a decimal of six places, if within this many units in the last place of it.
-const WITHIN_ULP: f64 = 4.0;
+/// A double that is no decimal stands for k/N of a turn up to this N, where it is within
+/// [`WITHIN_ULP`] of it.
+const MOST_PARTS: f64 = 1000.0;
 /// Fractions with a larger denominator become doubles. Halves of halves of six-decimal angles need
 /// 1.44e9; with this limit the product of a denominator and the largest order stays far below 2^127.
 const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000;
@@ -64,13 +61,12 @@ impl Angle {
         Self(Turns(turns as i64, 1))
     }
 
-    /// From degrees. A double stands for its shortest decimal where that is k/N of a turn with
-    /// N ≤ 10⁹; else for a decimal of six places, or k/N with N ≤ 1000, within 4 units in its last
-    /// place; else for itself.
+    /// From degrees. A double stands for the decimal of at most 12 significant digits within 4 units
+    /// in its last place; else for k/N of a turn with N ≤ 1000, as near; else for itself.
     pub fn from_degrees(degrees: f64) -> Result<Self> {
         if !degrees.is_finite() || degrees.abs() > LARGEST_ANGLE {
-            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-            return Err(Error::figure("angle", degrees, cure));
+            let hint = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
+            return Err(Error::figure("angle", degrees, hint));
         }
         Ok(Self::of_double(degrees))
     }
@@ -99,12 +95,9 @@ impl Angle {
 
     /// What a finite double of degrees stands for.
     fn of_double(degrees: f64) -> Self {
-        let within = WITHIN_ULP * ulp(degrees);
-        text::shortest_decimal(degrees)
+        decimal::meant(degrees)
             .and_then(|(numerator, denominator)| turns_of_degrees(numerator, denominator))
-            .filter(|angle| angle.turns().is_some_and(|(_, parts)| parts <= MOST_DECIMAL_PARTS))
-            .or_else(|| six_decimals(degrees, within))
-            .or_else(|| recognise(degrees, within))
+            .or_else(|| recognise(degrees, WITHIN_ULP * ulp(degrees)))
             .unwrap_or(Self(Degrees(degrees)))
     }
 
@@ -167,7 +160,7 @@ impl Angle {
     /// being it, and the distance in degrees: 51.428571° is 4.3e-7° from 360/7°.
     #[must_use]
     pub fn near_miss(self) -> Option<(Self, f64)> {
-        if self.turns().is_some_and(|(_, parts)| i128::from(parts) <= MOST_PARTS) {
+        if self.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS) {
             return None;
         }
         let simple = recognise(self.degrees(), NEAR_MISS)?;
@@ -256,26 +249,15 @@ fn turns_of_degrees(numerator: i128, denominator: i128) -> Option<Angle> {
     turns(numerator.checked_mul(sign)?, denominator.checked_mul(360 * sign)?)
 }
 
-/// The nearest decimal of six places, if within a tolerance in degrees.
-fn six_decimals(degrees: f64, within: f64) -> Option<Angle> {
-    let candidate = turns_of_degrees((degrees * 1e6).round() as i128, 1_000_000)?;
-    ((candidate.degrees() - degrees).abs() <= within).then_some(candidate)
-}
-
 /// Continued fraction of the angle in turns, up to [`MOST_PARTS`], within a tolerance in degrees.
 fn recognise(degrees: f64, within: f64) -> Option<Angle> {
     for (p, q) in rational::convergents(degrees / 360.0, MOST_PARTS) {
-        let candidate = turns(p, q)?;
+        let candidate = turns(p as i128, q as i128)?;
         if (candidate.degrees() - degrees).abs() <= within {
             return Some(candidate);
         }
     }
     None
-}
-
-fn ulp(x: f64) -> f64 {
-    let x = x.abs();
-    f64::from_bits(x.to_bits() + 1) - x
 }
 
 impl Add for Angle {

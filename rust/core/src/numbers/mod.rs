@@ -3,6 +3,7 @@
 pub mod angle;
 pub mod cancel;
 pub mod crank_angles;
+pub mod decimal;
 pub mod double;
 pub mod error;
 pub mod limits;

@@ -2,18 +2,19 @@
 //!
 //! Places and masses come as doubles: 0, 0.1, 0.2, 0.3 stand for equal steps although 0.3 is not
 //! three times 0.1 in binary. Taken at their last bit they would leave 1e-17 of a sum that
-//! vanishes; so a figure is taken for p/q of another, q ≤ 10 000, where it is within a few units
-//! in the last place of it. One that is no such multiple is a unit of its own.
+//! vanishes; so decimals are exact ([`crate::numbers::decimal`]), and another figure is taken for
+//! p/q of one, q ≤ 10 000, where it is within a few units in the last place of it. One that is no
+//! such multiple is a unit of its own.
+
+use crate::numbers::cancel::Cancel;
+use crate::numbers::decimal::{WITHIN_ULP, meant};
+use crate::numbers::error::Result;
 
 /// Largest denominator: millimetres of an engine of ten metres.
-const MOST_PARTS: i128 = 10_000;
-/// Most digits before or behind the point of a decimal that is taken exactly.
-const MOST_DIGITS: i32 = 18;
+const MOST_PARTS: f64 = 10_000.0;
 /// Ratios that are known less well than this are not looked for: with tolerance t, a figure at
 /// random is taken for a ratio with a chance of t times the square of [`MOST_PARTS`].
 const COARSEST: f64 = 1e-12;
-/// A figure is taken to be right within so many units in the last place.
-pub const WITHIN_ULP: f64 = 4.0;
 
 /// A rational number in lowest terms, denominator > 0. Its checked arithmetic gives None where it
 /// overflows.
@@ -48,28 +49,6 @@ pub fn common_measure(a: Ratio, b: Ratio) -> Option<Ratio> {
     Some(Ratio::new(common_divisor(left, right), common))
 }
 
-/// The decimal that a double was typed as: its shortest one of up to 15 digits, or one of up to 12
-/// within a few units in the last place (3·0.1 is 0.3).
-pub(crate) fn decimal(x: f64) -> Option<Ratio> {
-    let parse = |text: String, most: usize| -> Option<Ratio> {
-        let (mantissa, exponent) = text.split_once('e')?;
-        let (whole, rest) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        let rest = rest.trim_end_matches('0');
-        let digits = format!("{whole}{rest}");
-        let scale = exponent.parse::<i32>().ok()? - i32::try_from(rest.len()).ok()?;
-        if digits.trim_start_matches('-').len() > most || scale.abs() > MOST_DIGITS {
-            return None;
-        }
-        let (power, number) = (10_i128.pow(scale.unsigned_abs()), digits.parse::<i128>().ok()?);
-        Some(if scale < 0 { Ratio::new(number, power) } else { Ratio::from(number * power) })
-    };
-    parse(format!("{x:e}"), 15).or_else(|| {
-        let near = parse(format!("{x:.11e}"), 12)?;
-        let off = (nearest(*near.numer(), *near.denom()) - x).abs();
-        (off <= WITHIN_ULP * f64::EPSILON * x.abs()).then_some(near)
-    })
-}
-
 /// Greatest common divisor, > 0; 1 where both are 0.
 #[must_use]
 pub fn common_divisor(a: i128, b: i128) -> i128 {
@@ -100,25 +79,20 @@ pub(crate) fn recognise(x: f64, tolerance: f64) -> Option<Ratio> {
     if tolerance > COARSEST || x.abs() > 1.0 / COARSEST || x == 0.0 {
         return None;
     }
-    for (p, q) in convergents(x, MOST_PARTS) {
-        let candidate = Ratio::new(p, q);
-        if (nearest(p, q) - x).abs() <= tolerance {
-            return Some(candidate);
-        }
-    }
-    None
+    convergents(x, MOST_PARTS)
+        .find(|&(p, q)| (p / q - x).abs() <= tolerance)
+        .map(|(p, q)| Ratio::new(p as i128, q as i128))
 }
 
-/// The convergents p/q of the continued fraction of x, with denominators of `most` at most.
-pub(crate) fn convergents(x: f64, most: i128) -> impl Iterator<Item = (i128, i128)> {
-    let (mut p0, mut q0, mut p1, mut q1) = (0_i128, 1_i128, 1_i128, 0_i128);
+/// The convergents p/q of the continued fraction of x, with denominators of `most` at most; whole
+/// numbers, exact below 2⁵³.
+pub(crate) fn convergents(x: f64, most: f64) -> impl Iterator<Item = (f64, f64)> {
+    let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
     let mut rest = Some(x);
     std::iter::from_fn(move || {
         let x = rest?;
         let whole = x.floor();
-        // A whole part beyond 128 bits comes second, behind 0, if at all: the casts saturate and no
-        // product overflows.
-        (p0, q0, p1, q1) = (p1, q1, whole as i128 * p1 + p0, whole as i128 * q1 + q0);
+        (p0, q0, p1, q1) = (p1, q1, whole * p1 + p0, whole * q1 + q0);
         rest = (x != whole).then(|| 1.0 / (x - whole));
         (q1 <= most).then_some((p1, q1))
     })
@@ -127,7 +101,7 @@ pub(crate) fn convergents(x: f64, most: i128) -> impl Iterator<Item = (i128, i12
 /// Figures, each a rational multiple of one of few units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Multiples {
-    /// Figures of which none is a rational multiple of another.
+    /// Figures of which none is a rational multiple of another; 1 is that of decimals.
     pub units: Vec<f64>,
     /// For each figure the index of its unit and how many of it; figures of zero are 0 times the
     /// first unit.
@@ -135,86 +109,63 @@ pub struct Multiples {
 }
 
 impl Multiples {
-    /// Of figures that are right within the errors given, one for each.
-    #[must_use]
-    pub fn new(figures: &[f64], errors: &[f64]) -> Self {
-        Self::among(Vec::new(), figures, errors)
+    /// Of figures that are decimals, or right within [`WITHIN_ULP`] of their own last place.
+    ///
+    /// Where some are no decimals, all are first tried as multiples of each other: a double is
+    /// sometimes a decimal by chance.
+    pub fn new(figures: &[f64], cancel: &Cancel) -> Result<Self> {
+        let decimals: Vec<Option<Ratio>> = figures.iter().map(|&x| decimal(x)).collect();
+        if let Some(of) = decimals.iter().map(|ratio| ratio.map(|r| (0, r))).collect() {
+            return Ok(Self { units: vec![1.0], of });
+        }
+        let together = Self::among(Vec::new(), figures, &vec![None; figures.len()], cancel)?;
+        if together.units.len() <= 1 {
+            return Ok(together);
+        }
+        Self::among(vec![1.0], figures, &decimals, cancel)
     }
 
-    /// Of lengths: decimals are exact multiples of 1 m, the first unit; others are right within
-    /// [`WITHIN_ULP`] of their own last place.
-    #[must_use]
-    pub fn of_lengths(lengths: &[f64]) -> Self {
-        let exact: Vec<Option<Ratio>> = lengths.iter().map(|&length| decimal(length)).collect();
-        let others = lengths.iter().zip(&exact).filter(|(_, exact)| exact.is_none());
-        let others: Vec<f64> = others.map(|(&length, _)| length).collect();
-        let errors: Vec<f64> = others.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
-        let Self { units, of } = Self::among(vec![(1.0, 0.0)], &others, &errors);
-        let mut of = of.into_iter();
-        let each = exact.into_iter().map(|exact| {
-            exact.map(|ratio| (0, ratio)).or_else(|| of.next()).unwrap_or((0, Ratio::ZERO))
-        });
-        Self { units, of: each.collect() }
-    }
-
-    fn among(mut units: Vec<(f64, f64)>, figures: &[f64], errors: &[f64]) -> Self {
-        let mut of = vec![(0, Ratio::ZERO); figures.len()];
+    /// Each figure that is not known as a multiple of the first unit.
+    fn among(
+        mut units: Vec<f64>,
+        figures: &[f64],
+        known: &[Option<Ratio>],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let mut of: Vec<(usize, Ratio)> =
+            known.iter().map(|ratio| (0, ratio.unwrap_or(Ratio::ZERO))).collect();
+        let error = |figure: f64| WITHIN_ULP * f64::EPSILON * figure.abs();
         // From the largest down, so that ratios and their errors are small.
-        let mut falling: Vec<usize> = (0..figures.len()).collect();
+        let mut falling: Vec<usize> =
+            (0..figures.len()).filter(|&i| known[i].is_none() && figures[i] != 0.0).collect();
         falling.sort_by(|&a, &b| figures[b].abs().total_cmp(&figures[a].abs()));
         for i in falling {
-            let (figure, error) = (figures[i], errors[i]);
-            if figure.abs() <= error {
-                continue;
-            }
-            let known = units.iter().enumerate().find_map(|(k, &(unit, of_unit))| {
+            cancel.check()?;
+            let figure = figures[i];
+            let multiple = units.iter().enumerate().find_map(|(k, &unit)| {
                 let ratio = figure / unit;
                 if ratio.abs() == 1.0 {
                     return Some((k, Ratio::from_integer(ratio as i128)));
                 }
-                recognise(ratio, (error + ratio.abs() * of_unit) / unit.abs()).map(|r| (k, r))
+                recognise(ratio, 2.0 * error(ratio)).map(|r| (k, r))
             });
-            of[i] = known.unwrap_or_else(|| {
-                units.push((figure, error));
+            of[i] = multiple.unwrap_or_else(|| {
+                units.push(figure);
                 (units.len() - 1, Ratio::ONE)
             });
         }
-        Self { units: units.into_iter().map(|(unit, _)| unit).collect(), of }
+        Ok(Self { units, of })
     }
+}
 
-    /// Of figures that are right within [`WITHIN_ULP`] of their own last place.
-    #[must_use]
-    pub fn of_figures(figures: &[f64]) -> Self {
-        let errors: Vec<f64> =
-            figures.iter().map(|x| x.abs() * WITHIN_ULP * f64::EPSILON).collect();
-        Self::new(figures, &errors)
-    }
+/// The decimal that a figure stands for.
+pub(crate) fn decimal(x: f64) -> Option<Ratio> {
+    meant(x).map(Ratio::from)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn decimals_are_exact_and_sums_of_them_too() {
-        let is = |x: f64, numerator, denominator| {
-            assert_eq!(decimal(x), Some(Ratio::new(numerator, denominator)), "{x}");
-        };
-        is(0.31, 31, 100);
-        is(-1e14, -100_000_000_000_000, 1);
-        is(3.0 * 0.1, 3, 10);
-        is(0.1 + 0.2, 3, 10);
-        is(0.0, 0, 1);
-        is(123_456.789_012_345, 123_456_789_012_345, 1_000_000_000);
-        for none in [1.0 / 3.0, 2.0_f64.sqrt(), 1e30, 1e-30] {
-            assert_eq!(decimal(none), None, "{none}");
-        }
-        let lengths = Multiples::of_lengths(&[0.1, 1.0 / 3.0, 2.0_f64.sqrt(), 1e14]);
-        assert_eq!(lengths.units, [1.0, 2.0_f64.sqrt()]);
-        let expected = [(0, Ratio::new(1, 10)), (0, Ratio::new(1, 3)), (1, Ratio::from(1))];
-        assert_eq!(lengths.of[..3], expected);
-        assert_eq!(lengths.of[3], (0, Ratio::from(100_000_000_000_000)));
-    }
     use num_traits::{CheckedDiv, CheckedMul, CheckedSub};
     use proptest::prelude::*;
 
@@ -241,6 +192,10 @@ mod tests {
         }
     }
 
+    fn multiples(figures: &[f64]) -> Multiples {
+        Multiples::new(figures, &Cancel::new()).unwrap()
+    }
+
     fn ratio(numerator: i128, denominator: i128) -> Ratio {
         Ratio::new(numerator, denominator)
     }
@@ -264,30 +219,39 @@ mod tests {
     #[test]
     fn decimals_are_taken_as_they_are_meant() {
         assert_ne!(0.3, 3.0 * 0.1);
-        let steps = Multiples::of_figures(&[0.1, 0.2, 0.3, -0.3, 0.0]);
-        assert_eq!(steps.units, [0.3]);
+        let steps = multiples(&[0.1, 0.2, 3.0 * 0.1, -0.3, 0.0]);
+        assert_eq!(steps.units, [1.0]);
         let found: Vec<Ratio> = steps.of.iter().map(|&(_, r)| r).collect();
-        assert_eq!(found, [ratio(1, 3), ratio(2, 3), ratio(1, 1), ratio(-1, 1), Ratio::ZERO]);
+        let tenths = |k| ratio(k, 10);
+        assert_eq!(found, [tenths(1), tenths(2), tenths(3), tenths(-3), Ratio::ZERO]);
+        // No simple fraction of each other: 48 013 of 51 000 parts.
+        assert_eq!(multiples(&[0.480_13, 0.51]).units, [1.0]);
     }
 
     #[test]
     fn what_is_no_ratio_is_a_unit_of_its_own() {
         let root = 2.0_f64.sqrt();
-        let figures = Multiples::of_figures(&[1.0, root, 2.0 * root, 0.25]);
-        assert_eq!(figures.units, [2.0 * root, 1.0]);
-        assert_eq!(
-            figures.of,
-            [(1, ratio(1, 1)), (0, ratio(1, 2)), (0, ratio(1, 1)), (1, ratio(1, 4))]
-        );
-        // Known to few digits, any ratio would do; only equality says something.
-        let rough = Multiples::new(&[1.0, 0.5, 1.0], &[1e-9; 3]);
-        assert_eq!(rough.units.len(), 2);
+        let figures = multiples(&[1.0, root, 2.0 * root, 0.25, 1.0 / 3.0]);
+        assert_eq!(figures.units, [1.0, 2.0 * root]);
+        let expected = [
+            (0, ratio(1, 1)),
+            (1, ratio(1, 2)),
+            (1, ratio(1, 1)),
+            (0, ratio(1, 4)),
+            (0, ratio(1, 3)),
+        ];
+        assert_eq!(figures.of, expected);
+        // A double among thirds that is a decimal by chance stays their multiple.
+        let unit = 0.123_456_789_012;
+        let thirds = multiples(&[unit, unit / 3.0, unit / 7.0]);
+        assert_eq!(thirds.units, [unit]);
+        assert_eq!(thirds.of[1], (0, ratio(1, 3)));
     }
 
     #[test]
     fn extreme_figures_are_units_or_ratios() {
         for figures in [[1e30, 1e-30], [5e-324, 1e30], [0.0, -0.0], [1e-300, 3e-300]] {
-            let found = Multiples::of_figures(&figures);
+            let found = multiples(&figures);
             for (&figure, &(unit, ratio)) in figures.iter().zip(&found.of) {
                 let back = found
                     .units
@@ -313,7 +277,7 @@ mod tests {
         #[test]
         fn fractions_are_recognised(p in -999_i32..999, q in 1_i32..999, unit in 0.01..10.0) {
             let figure = f64::from(p) * unit / f64::from(q);
-            let found = Multiples::of_figures(&[unit, figure]);
+            let found = multiples(&[unit, figure]);
             prop_assert!(found.units.len() == 1);
             if p != 0 {
                 let quotient = found.of[1].1.checked_div(&found.of[0].1).unwrap();

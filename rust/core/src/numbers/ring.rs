@@ -20,8 +20,8 @@ pub const LARGEST_PERIOD: i128 = 100_000_000_000;
 pub const LARGEST_REDUCED: i128 = 40_000;
 
 fn overflow() -> Error {
-    let cure = "exact sums need weights whose integer multiples stay below 2^127";
-    Error::value("weights", "too many digits", cure)
+    let hint = "exact sums need weights whose integer multiples stay below 2^127";
+    Error::value("weights", "too many digits", hint)
 }
 
 fn checked<T>(value: Option<T>) -> Result<T> {
@@ -130,8 +130,8 @@ fn checked_period(n: i128) -> Result<usize> {
     if (1..=LARGEST_REDUCED).contains(&n) {
         return Ok(n as usize);
     }
-    let cure = format!("angles must be parts of a turn of common denominator {LARGEST_REDUCED}");
-    Err(Error::value("common denominator of the angles", n, cure + " at most"))
+    let hint = format!("angles must be parts of a turn of common denominator {LARGEST_REDUCED}");
+    Err(Error::value("common denominator of the angles", n, hint + " at most"))
 }
 
 /// Coefficients of `Φ_n` from the constant up.

@@ -33,27 +33,28 @@ fn typed_decimals_floats_and_fractions_are_one_angle() {
         assert_eq!(typed(six), float(six.parse().unwrap()), "{six}");
         assert!(typed(six).turns().is_some());
     }
-    // Text has more decimals than a double stands for.
     assert_eq!(typed("49.1234567"), typed("491234567/10000000"));
-    assert_eq!(float(49.123_456_7), Angle(Degrees(49.123_456_7)));
+    assert_eq!(float(49.123_456_7), typed("49.1234567"));
     // The digits of a double, not those of a decimal.
     assert_eq!(typed("51.42857142857143"), turns(1, 7));
+    assert_eq!(typed("70.2439024390244"), turns(8, 41));
+    assert_eq!(float(70.243_902_439_024_4), turns(8, 41));
     assert_eq!(typed("720051.4285714285"), float(720_000.0 + 360.0 / 7.0));
     assert_eq!(typed("0.30000000000000004"), turns(1, 1200));
 }
 
 #[test]
-fn a_float_stands_for_six_decimals_within_four_units_in_the_last_place() {
+fn a_float_stands_for_a_decimal_within_four_units_in_the_last_place() {
     assert_ne!(0.1 + 0.2, 0.3);
     assert_eq!(float(0.1 + 0.2), typed("0.3"));
     assert_eq!(float(3.0 * 17.123_456), typed("51.370368"));
     let beyond = (0..5).fold(0.3_f64, |x, _| x.next_up());
     assert_eq!(float(beyond), Angle(Degrees(beyond)));
-    // Seven decimals, 3.6e9 parts of a turn.
-    assert!(float(0.123_456_7).turns().is_none());
-    // 7.2e8 parts.
-    assert_eq!(float(0.123_456_5 * 10.0), typed("1.234565"));
-    assert_eq!(float(0.123_456_5).turns(), Some((246_913, 720_000_000)));
+    assert_eq!(float(0.123_456_7).turns(), Some((1_234_567, 3_600_000_000)));
+    // Twelve digits are typed, thirteen are those of a double.
+    assert!(float(49.541_234_567_8).turns().is_some());
+    assert_eq!(typed("49.5412345678"), float(49.541_234_567_8));
+    assert_eq!(typed("49.54123456789"), Angle(Degrees(49.541_234_567_89)));
 }
 
 #[test]
@@ -191,7 +192,7 @@ fn angles_are_in_order_only_with_their_like_or_where_they_differ() {
     assert_eq!(odd(49.541_234_567_89).partial_cmp(&odd(49.541_234_567_89)), Some(Ordering::Equal));
     assert_eq!(part.partial_cmp(&odd(89.9)), Some(Ordering::Greater));
     // Too near a double to be told from it, and yet a fraction.
-    let (double, fraction) = (float(49.123_456_7), typed("49.1234567"));
+    let (double, fraction) = (float(49.541_234_567_89), typed("4954123456789/100000000000"));
     assert_eq!(double.degrees(), fraction.degrees());
     assert_eq!(double.partial_cmp(&fraction), None);
 }
@@ -221,7 +222,7 @@ proptest! {
         let double = float(shortest.parse().unwrap());
         prop_assert_eq!(double.to_string().parse::<Angle>(), Ok(double));
         prop_assert_eq!(double.degrees(), shortest.parse::<f64>().unwrap());
-        prop_assert!(places > 6 || double == exact);
+        prop_assert_eq!(double, exact);
     }
 
     #[test]

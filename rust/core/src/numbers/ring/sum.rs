@@ -35,8 +35,8 @@ impl RootSum {
         let period = terms.iter().try_fold(period.max(1), |period, &(_, denominator, _)| {
             common_multiple(period, denominator).filter(|&n| n <= LARGEST_PERIOD).ok_or_else(|| {
                 let value = format!("with denominators {period} and {denominator}");
-                let cure = format!("give parts of a turn of common denominator {LARGEST_PERIOD}");
-                Error::value("angles", value, cure + " at most")
+                let hint = format!("give parts of a turn of common denominator {LARGEST_PERIOD}");
+                Error::value("angles", value, hint + " at most")
             })
         })?;
         let exponents = terms.iter().map(|&(numerator, denominator, weight)| {

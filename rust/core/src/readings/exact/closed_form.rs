@@ -9,13 +9,13 @@ use num_traits::{CheckedDiv, CheckedMul};
 
 use super::{Levers, too_long, whole};
 use crate::engine::Engine;
-use crate::load::{Alike, Load, Loads, Source};
+use crate::load::{Load, Loads, Source};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio, common_measure, nearest};
-use crate::numbers::ring::RootSum;
+use crate::numbers::ring::{LARGEST_REDUCED, RootSum};
 
 /// Coefficients of 1, 2cos(2π/N), 2cos(4π/N) …, to be divided by the form's denominator.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,19 +74,27 @@ pub struct ClosedForm {
     pub phasors: [Phasor; 4],
 }
 
-fn refused(argument: &str, value: impl std::fmt::Display, cure: &str) -> Error {
-    Error::value(argument, value, format!("a closed form needs {cure}"))
+fn refused(argument: &str, value: impl std::fmt::Display, hint: &str) -> Error {
+    Error::value(argument, value, format!("a closed form needs {hint}"))
 }
 
 fn part_of_turn(argument: &str, angle: Angle) -> Result<(i64, i64)> {
-    angle.turns().ok_or_else(|| {
-        refused(argument, angle.degrees(), "rational parts of a turn, such as 60 or \"360/7\"")
+    angle.turns().filter(|&(_, parts)| i128::from(parts) <= LARGEST_REDUCED).ok_or_else(|| {
+        let hint = format!(
+            "parts of a turn of denominator {LARGEST_REDUCED} at most, such as 60 or \"360/7\""
+        );
+        refused(argument, angle.degrees(), &hint)
     })
 }
 
 /// Levers in units of the spacing, and the spacing.
-fn levers(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<(Vec<Ratio>, f64)> {
-    let Levers { units, of } = Levers::new(engine, loads, reference)?;
+fn levers(
+    engine: &Engine,
+    loads: &Loads,
+    reference: Option<f64>,
+    cancel: &Cancel,
+) -> Result<(Vec<Ratio>, f64)> {
+    let Levers { units, of } = Levers::new(engine, loads, reference, cancel)?;
     let unit = of.iter().flatten().find(|(_, ratio)| *ratio != Ratio::ZERO).map_or(0, |u| u.0);
     let single = |lever: &Vec<(usize, Ratio)>| {
         let others = lever.iter().any(|&(other, ratio)| other != unit && ratio != Ratio::ZERO);
@@ -115,17 +123,17 @@ fn levers(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<(Vec
 }
 
 /// Weights of the loads of an order, in units of the first cylinder that has mass.
-fn weights(loads: &[Load]) -> Result<(usize, Vec<Ratio>)> {
+fn weights(loads: &[Load], cancel: &Cancel) -> Result<(usize, Vec<Ratio>)> {
     let figures: Vec<f64> = loads.iter().map(|load| load.weight).collect();
     let is_piston = |load: &Load| matches!(load.source, Source::Piston { .. });
     let Some(unit) = loads.iter().position(|load| is_piston(load) && load.weight > 0.0) else {
         return Err(refused("reciprocating_mass", 0, "a cylinder that has some"));
     };
-    let multiples = Multiples::of_figures(&figures);
+    let multiples = Multiples::new(&figures, cancel)?;
     if multiples.units.len() > 1 {
         let value = format!("m·r = {figures:?}");
-        let cure = "masses times radius that are rational multiples of each other";
-        return Err(refused("cylinders and unbalances", value, cure));
+        let hint = "masses times radius that are rational multiples of each other";
+        return Err(refused("cylinders and unbalances", value, hint));
     }
     let one = multiples.of[unit].1;
     let ratio = |&(_, ratio): &(usize, Ratio)| ratio.checked_div(&one).ok_or_else(too_long);
@@ -141,26 +149,26 @@ pub fn closed_form(
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
     let of_order = Order::whole(order)?;
-    let mut loads = Loads::new(engine, engine.reference(reference_z)?, Alike::Proportions, None);
+    let mut loads = super::loads(engine, reference_z)?;
     if loads.gears.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
     loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == of_order));
     let offset = loads.cylinders()[0].pin_offset();
-    let (unit, weights) = weights(&loads.list)?;
+    let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.placements().len() {
         if order > 1 {
-            let cure =
+            let hint =
                 "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
-            return Err(refused("shafts", format!("of order {order}"), cure));
+            return Err(refused("shafts", format!("of order {order}"), hint));
         }
         if offset != 0.0 {
-            let cure = "no rotating mass at order 1, whose phase is another, or no offset";
-            return Err(refused("pin_offset", offset, cure));
+            let hint = "no rotating mass at order 1, whose phase is another, or no offset";
+            return Err(refused("pin_offset", offset, hint));
         }
     }
     let (levers, spacing) = if moment {
-        levers(engine, &loads, reference_z)?
+        levers(engine, &loads, reference_z, cancel)?
     } else {
         (vec![Ratio::ONE; loads.list.len()], 0.0)
     };
@@ -208,9 +216,10 @@ pub fn closed_form(
 /// Twice forward and twice the conjugate of backward force, times levers, over a denominator.
 fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
     let product = |part: &Part| part.weight.checked_mul(&part.lever).ok_or_else(too_long);
-    let (weights, denominator) = whole(&parts.iter().map(product).collect::<Result<Vec<_>>>()?)?;
+    let (weights, measure) = whole(&parts.iter().map(product).collect::<Result<Vec<_>>>()?)?;
     let (mut forward, mut backward) = (Vec::new(), Vec::new());
-    for (part, weight) in parts.iter().zip(weights) {
+    for (part, count) in parts.iter().zip(weights) {
+        let weight = count.checked_mul(*measure.numer()).ok_or_else(too_long)?;
         let (toward, at) = (part.direction, part.phase);
         let common = i128::from(toward.1).checked_mul(at.1.into()).ok_or_else(too_long)?;
         // Without whole turns, so that no product overflows.
@@ -233,7 +242,7 @@ fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
     let one = RootSum::new(&forward, 4)?.period();
     let backward = RootSum::new(&backward, one)?;
     let forward = RootSum::new(&forward, backward.period())?;
-    Ok((denominator, [forward, backward]))
+    Ok((*measure.denom(), [forward, backward]))
 }
 
 fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {

@@ -5,30 +5,74 @@
 pub mod closed_form;
 pub mod vanishing;
 
-use num_traits::{CheckedAdd, CheckedMul};
+use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
-use crate::engine::Engine;
-use crate::load::Loads;
+use crate::engine::{Engine, first_equal};
+use crate::gear::slider_crank::Cylinder;
+use crate::load::{Alike, Loads, Source};
+use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
-use crate::numbers::rational::{Multiples, Ratio, common_multiple, decimal};
+use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
 
 fn too_long() -> Error {
     Error::value("weights", "too many digits", "exact sums need simple ratios of masses and places")
 }
 
-/// Weights as whole numbers, over their least common denominator.
-fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, i128)> {
-    let common = weights
-        .iter()
-        .try_fold(1, |common, weight| common_multiple(common, *weight.denom()))
-        .ok_or_else(too_long)?;
-    let whole = weights.iter().map(|w| i128::checked_mul(*w.numer(), common / w.denom()));
-    Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, common))
+/// Weights as whole numbers without a common divisor, and the measure of which they are multiples.
+fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, Ratio)> {
+    let measure = weights.iter().try_fold(Ratio::ZERO, |m, &w| common_measure(m, w));
+    let measure = measure.ok_or_else(too_long)?;
+    if measure == Ratio::ZERO {
+        return Ok((vec![0; weights.len()], Ratio::ONE));
+    }
+    let whole = weights.iter().map(|w| w.checked_div(&measure).map(|count| count.to_integer()));
+    Ok((whole.collect::<Option<_>>().ok_or_else(too_long)?, measure))
+}
+
+/// Exact l/r and e/r where the lengths are decimals, else their doubles.
+#[derive(PartialEq)]
+enum Proportions {
+    Exact([Ratio; 2]),
+    Nearest([f64; 2]),
+}
+
+impl Proportions {
+    fn of(gear: &Cylinder) -> Self {
+        let over_radius =
+            |length: f64| decimal(length)?.checked_div(&decimal(gear.crank_radius())?);
+        match (over_radius(gear.rod_length()), over_radius(gear.pin_offset())) {
+            (Some(rod), Some(offset)) => Self::Exact([rod, offset]),
+            _ => Self::Nearest([gear.proportions().rod, gear.proportions().offset]),
+        }
+    }
+
+    /// The same with the offset on the side to which the crankpin swings.
+    fn mirrored(self) -> Self {
+        match self {
+            Self::Exact([rod, offset]) => Self::Exact([rod, offset.abs()]),
+            Self::Nearest([rod, offset]) => Self::Nearest([rod, offset.abs()]),
+        }
+    }
+}
+
+/// All loads; pistons share a gear where their proportions are equal as typed, though quotients of
+/// doubles may differ.
+fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
+    let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
+    let same = first_equal(loads.cylinders().iter().map(Proportions::of));
+    for load in &mut loads.list {
+        if let Source::Piston { gear, .. } = &mut load.source {
+            *gear = same[*gear];
+        }
+    }
+    let mut index = 0..;
+    loads.gears.retain(|_| index.next().is_some_and(|i| !same[..i].contains(&same[i])));
+    Ok(loads)
 }
 
 /// Levers of all loads, each a sum of rational multiples of few units of length.
 struct Levers {
-    /// Lengths of which none is a rational multiple of another; the first is 1 m.
+    /// Lengths of which none is a rational multiple of another.
     units: Vec<f64>,
     /// For each load, unit and multiple.
     of: Vec<Vec<(usize, Ratio)>>,
@@ -36,7 +80,12 @@ struct Levers {
 
 impl Levers {
     /// Levers about a reference plane, by default midway between the first and the last cylinder.
-    fn new(engine: &Engine, loads: &Loads, reference: Option<f64>) -> Result<Self> {
+    fn new(
+        engine: &Engine,
+        loads: &Loads,
+        reference: Option<f64>,
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let places = || engine.placements().iter().map(|place| place.z);
         let ends = [f64::min, f64::max].map(|end| places().reduce(end).unwrap_or_default());
         let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
@@ -56,7 +105,7 @@ impl Levers {
                 rest.map_or(vec![half; 2], |_| vec![half, half, Ratio::from(-1)])
             }
         };
-        let Multiples { units, of } = Multiples::of_lengths(&lengths);
+        let Multiples { units, of } = Multiples::new(&lengths, cancel)?;
         let (places, planes) = of.split_at(loads.list.len());
         let lever = |&place: &(usize, Ratio)| {
             let mut lever = vec![place];

@@ -6,8 +6,7 @@
 //! zero.
 //!
 //! A quantity with no rational relation to the others is treated as an independent symbol: an angle
-//! that is no rational part of a turn (others a rational part of a turn away from it share its
-//! symbol), a mass or a place that is no simple part of another, the harmonic of a slider-crank of
+//! that is no simple part of a turn (others a simple part of a turn away from it share its symbol), a mass or a place that is no simple part of another, the harmonic of a slider-crank of
 //! other proportions. The sum is then one over these symbols, each times a sum of roots of unity. It
 //! vanishes if each of those does, whatever the symbols are. It remains if just one of them does not
 //! and its symbol is known not to be zero. Otherwise nothing is proved.
@@ -20,8 +19,9 @@
 //!   has, of x′² = sin²θ − 2 sin θ h′ + h′², for odd n the difference of two neighbouring orders of
 //!   h′, of opposite signs, for even n > 2 a term of a geometric series, and for n = 2 such a term
 //!   and −½, both negative;
-//! - others where their value is beyond any error of its evaluation: 10⁻⁹ of n² p₂^{n−2}, which
-//!   bounds the terms that they are made of (p₂ as in [`crate::gear::harmonics`]).
+//! - others where their value is beyond any error of its evaluation: 10⁻⁹ of the harmonics of masses
+//!   and rod that it is the sum of, and 10⁻¹² of n² p₂^{n−2}, which bounds the terms that these are
+//!   made of (p₂ as in [`crate::gear::harmonics`]).
 
 mod symbols;
 mod terms;
@@ -194,7 +194,7 @@ impl Proof {
         let root = 1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt());
         let n = f64::from(order);
         let made_of = n * n * root.powf(n - 2.0) * (masses + inertia.abs());
-        Ok(value > 1e-9 * made_of.max(terms[0].norm() + terms[1].norm()))
+        Ok(value > 1e-12 * made_of && value > 1e-9 * (terms[0].norm() + terms[1].norm()))
     }
 
     /// Why a sum may be undecided.
@@ -212,11 +212,11 @@ impl Proof {
         };
         for (name, directions) in [("tdc_deg", &self.phases), ("bank_deg", &self.directions[0])] {
             if let Some(numbers) = listed(directions) {
-                found.push(format!("{name} is no rational part of a turn in cylinders {numbers}"));
+                found.push(format!("{name} is no simple part of a turn in cylinders {numbers}"));
             }
         }
         if self.directions[0][cylinders..].iter().any(|direction| direction.symbol > 0) {
-            found.push("angles of unbalances that are no rational part of a turn".to_owned());
+            found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
         if self.motions.len() > 1 {
             found.push("slider-cranks of different proportions".to_owned());
@@ -269,7 +269,7 @@ pub fn vanishing(
 ) -> Result<Vanishing> {
     let listed = Order::all_whole(orders)?;
     check_list(&listed)?;
-    let proof = Proof::new(engine, reference_z)?;
+    let proof = Proof::new(engine, reference_z, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
     for &order in orders {

@@ -1,7 +1,10 @@
 //! What has no rational relation to the rest of a sum: symbols that multiply roots of unity.
 
 use crate::numbers::angle::Angle;
-use crate::numbers::rational::{Ratio, WITHIN_ULP, recognise};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::decimal::WITHIN_ULP;
+use crate::numbers::error::Result;
+use crate::numbers::rational::{Ratio, recognise};
 
 /// Factor of a sum of roots of unity, by which the harmonic of a motion is meant; of odd parts in the
 /// pin offset apart.
@@ -68,38 +71,55 @@ pub(super) struct Term {
     pub weight: Ratio,
 }
 
-/// Angle as a rational part of a turn and, if it is none, an index from 1 instead.
+/// Angle as a rational part of a turn and, if it is no simple one, an index from 1 of what is beside.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Direct {
     pub turns: (i128, i128),
     pub symbol: usize,
 }
 
-/// Rational parts of a turn as they are; others by one index where they are equal or, if
-/// `in_steps`, a rational part of a turn apart.
-pub(super) fn directions(angles: impl Iterator<Item = Angle>, in_steps: bool) -> Vec<Direct> {
-    let mut others: Vec<f64> = Vec::new();
+/// Angles of more parts of a turn are symbols: those of six decimals have 3.6e8 at most.
+const MOST_PARTS: i64 = 1_000_000_000;
+
+/// Simple parts of a turn as they are; others by one index where they are equal or, if `in_steps`, a
+/// simple part of a turn apart.
+pub(super) fn directions(
+    angles: impl Iterator<Item = Angle>,
+    in_steps: bool,
+    cancel: &Cancel,
+) -> Result<Vec<Direct>> {
+    let mut others: Vec<Angle> = Vec::new();
     let direct = |angle: Angle| {
-        if let Some((numerator, denominator)) = angle.turns() {
-            return Direct { turns: (numerator.into(), denominator.into()), symbol: 0 };
+        if let Some(turns) = simple(angle) {
+            return Ok(Direct { turns, symbol: 0 });
         }
-        let degrees = angle.degrees();
-        let step_from = |other: f64| {
-            if other == degrees {
-                return Some((0, 1));
-            }
-            // Both are right within a few units in the last place of a turn.
-            let step = recognise((degrees - other) / 360.0, WITHIN_ULP * f64::EPSILON)?;
-            in_steps.then_some(step.into_raw())
-        };
-        let known = others.iter().enumerate().find_map(|(k, &o)| Some((k, step_from(o)?)));
+        cancel.check()?;
+        let known = others.iter().enumerate().find_map(|(k, &other)| {
+            let step = if other == angle { Some((0, 1)) } else { step(angle, other) };
+            Some((k, step.filter(|&(turns, _)| in_steps || turns == 0)?))
+        });
         let (index, turns) = known.unwrap_or_else(|| {
-            others.push(degrees);
+            others.push(angle);
             (others.len() - 1, (0, 1))
         });
-        Direct { turns, symbol: index + 1 }
+        Ok(Direct { turns, symbol: index + 1 })
     };
     angles.map(direct).collect()
+}
+
+fn simple(angle: Angle) -> Option<(i128, i128)> {
+    let (numerator, denominator) = angle.turns().filter(|&(_, parts)| parts <= MOST_PARTS)?;
+    Some((numerator.into(), denominator.into()))
+}
+
+/// The simple part of a turn from one angle to another, if it is one.
+fn step(to: Angle, from: Angle) -> Option<(i128, i128)> {
+    if to.turns().is_some() && from.turns().is_some() {
+        return simple(to - from);
+    }
+    // Both are right within a few units in the last place of a turn.
+    let apart = (to.degrees() - from.degrees()) / 360.0;
+    Some(recognise(apart, WITHIN_ULP * f64::EPSILON)?.into_raw())
 }
 
 /// How the harmonics of cylinders of different proportions are distinguished.

@@ -3,12 +3,13 @@
 
 use num_traits::CheckedMul;
 
-use super::super::{Levers, too_long};
+use super::super::{Levers, Proportions, too_long};
 use super::Quantity;
 use super::symbols::{Channel, Direct, Entry, Symbol, Term, View, Weights, directions};
 use crate::engine::{Engine, first_equal};
 use crate::gear::slider_crank::Cylinder;
-use crate::load::{Alike, Load, Loads, Source};
+use crate::load::{Load, Loads, Source};
+use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::rational::{Multiples, Ratio, common_multiple};
 
@@ -61,11 +62,11 @@ pub(super) struct Proof {
 }
 
 impl Proof {
-    pub fn new(engine: &Engine, reference: Option<f64>) -> Result<Self> {
-        let loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
-        let levers = Levers::new(engine, &loads, reference)?;
-        let weights = |of: &dyn Fn(&Load) -> f64| -> Multiples {
-            Multiples::of_figures(&loads.list.iter().map(of).collect::<Vec<_>>())
+    pub fn new(engine: &Engine, reference: Option<f64>, cancel: &Cancel) -> Result<Self> {
+        let loads = super::super::loads(engine, reference)?;
+        let levers = Levers::new(engine, &loads, reference, cancel)?;
+        let weights = |of: &dyn Fn(&Load) -> f64| {
+            Multiples::new(&loads.list.iter().map(of).collect::<Vec<_>>(), cancel)
         };
         let piston = |load: &Load, of: fn(f64, f64) -> f64| match load.source {
             Source::Piston { second_moment, rod_inertia, .. } => of(second_moment, rod_inertia),
@@ -77,10 +78,7 @@ impl Proof {
         });
         let angles = || loads.list.iter().map(|load| load.direction);
         let motions = loads.cylinders();
-        let sizes = motions.iter().map(|motion| {
-            let proportions = motion.proportions();
-            (proportions.rod, proportions.offset.abs())
-        });
+        let sizes = motions.iter().map(|motion| Proportions::of(motion).mirrored());
         let gears = engine.gears().to_vec();
         let of_gear = first_equal(gears.iter().map(|gear| {
             let inertia = gear.rod_inertia_excess();
@@ -92,12 +90,12 @@ impl Proof {
             (gear, of_gear[gear])
         });
         Ok(Self {
-            directions: [directions(angles(), false), directions(angles(), true)],
-            phases: directions(loads.list.iter().map(|load| load.phase), true),
-            planar: weights(&|load| load.weight),
-            masses: weights(&|load| piston(load, |second_moment, _| second_moment)),
-            rods: weights(&|load| piston(load, |_, rod_inertia| rod_inertia)),
-            arms: Multiples::of_figures(&arms.collect::<Vec<_>>()),
+            directions: [directions(angles(), false, cancel)?, directions(angles(), true, cancel)?],
+            phases: directions(loads.list.iter().map(|load| load.phase), true, cancel)?,
+            planar: weights(&|load| load.weight)?,
+            masses: weights(&|load| piston(load, |second_moment, _| second_moment))?,
+            rods: weights(&|load| piston(load, |_, rod_inertia| rod_inertia))?,
+            arms: Multiples::new(&arms.collect::<Vec<_>>(), cancel)?,
             levers,
             mirrored: first_equal(sizes),
             motions,

@@ -115,11 +115,11 @@ fn what_is_in_the_way_is_named() {
     assert_eq!(obstacles(&engine(&[place, further]), 2).len(), 1);
     assert_eq!(
         obstacles(&engine(&[place, tdc]), 2),
-        ["tdc_deg is no rational part of a turn in cylinders 2"]
+        ["tdc_deg is no simple part of a turn in cylinders 2"]
     );
     assert_eq!(
         obstacles(&engine(&[place, bank, bank]), 2),
-        ["bank_deg is no rational part of a turn in cylinders 2, 3"]
+        ["bank_deg is no simple part of a turn in cylinders 2, 3"]
     );
     assert_eq!(obstacles(&engine(&[place, rod]), 2), ["slider-cranks of different proportions"]);
     assert_eq!(
@@ -131,6 +131,36 @@ fn what_is_in_the_way_is_named() {
         obstacles(&engine(&spread), 2),
         ["places that are no rational multiples of each other"]
     );
+}
+
+/// 2/7 is 2/7 as typed: 0.06/0.21 and 0.04/0.14 are other doubles.
+#[test]
+fn proportions_are_equal_as_typed() {
+    assert_ne!(0.14 / 0.04, 0.21 / 0.06);
+    let place = |(radius, rod, mass, offset), tdc| Placement {
+        cylinder: Cylinder::new(radius, rod, mass, offset).unwrap(),
+        tdc: Angle::from_degrees(tdc).unwrap(),
+        bank: Angle::QUARTER_TURN,
+        z: 0.0,
+        rotating_mass: 0.0,
+    };
+    let sizes = |e: f64| [(0.04, 0.14, 0.6, 2.0 * e), (0.06, 0.21, 0.4, 3.0 * e)];
+    for [small, large] in [sizes(0.0), sizes(0.001)] {
+        let twin = Engine::new("", "", vec![place(small, 0.0), place(large, 90.0)]).unwrap();
+        assert_eq!(verdicts(&twin, 2)[..8], [V; 8]);
+        assert_eq!(verdicts(&twin, 2)[8], R);
+        let form =
+            |moment| super::super::closed_form::closed_form(&twin, 2, moment, None, &Cancel::new());
+        assert!(form(false).unwrap().phasors[1].square.iter().all(|&c| c == 0));
+    }
+    // Masses of five digits, no simple fraction of each other: 480.13 of 510 with 510 of 480.13.
+    let mut places = engine(&[(0.0, 90.0, 0.0, 0.480_13, 0.0), (90.0, 90.0, 0.0, 0.51, 0.0)]);
+    assert_eq!(verdicts(&places, 2)[1], R);
+    let mut swapped = places.placements().to_vec();
+    swapped[0].cylinder = Cylinder::new(0.051, 0.153, 0.480_13, 0.0).unwrap();
+    swapped[1].cylinder = Cylinder::new(0.048_013, 0.144_039, 0.51, 0.0).unwrap();
+    places = Engine::new("", "", swapped).unwrap();
+    assert_eq!(verdicts(&places, 2)[1], V);
 }
 
 /// Cylinders of few kinds, so that sums vanish now and then; m·r² of some is 1, the unit of rods.
@@ -323,6 +353,10 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
     assert!((cancelling / -2.558e-4 - 1.0).abs() < 1e-3, "{cancelling}");
     for inertia in [-2.558e-4, 2.558e-4, cancelling * (1.0 + 1e-5), cancelling * (1.0 - 1e-5)] {
         assert_eq!(of(inertia), (R, false, false), "{inertia}");
+    }
+    // More than 1e-9 of what the masses and the rod make each.
+    for off in [3e-9, -3e-9, 1e-8, 1e-7] {
+        assert_eq!(of(cancelling * (1.0 + off)).0, R, "{off}");
     }
     for off in [0.0, 1e-16, -1e-15, 1e-14, -1e-13, 1e-12, 1e-11] {
         let (verdict, _, obstacles) = of(cancelling * (1.0 + off));
