@@ -52,7 +52,7 @@ SCHEMA: int
 
 _Parts: TypeAlias = tuple[float, float, float, float, float]
 _Weight: TypeAlias = tuple[float, str, float, int | None]
-_Kept: TypeAlias = tuple[float | None, float | None, Sequence[float] | None]
+_Kept: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None]
 _Shaft: TypeAlias = tuple[str, int, float, float, Sequence[_Weight]]
 _Pairs: TypeAlias = Sequence[tuple[int, complex]]
 _Complex: TypeAlias = NDArray[np.complex128]

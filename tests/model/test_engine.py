@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import crankpin as cp
 import numpy as np
 import pytest
+from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.model import presets as presets_module
 
 if TYPE_CHECKING:
@@ -225,22 +226,72 @@ def test_rotating_mass_means_the_same_to_every_builder_and_to_replace(mass: Any)
 
 
 def test_an_engine_is_shown_as_a_table() -> None:
-    title, throws, firing, head, *rows = repr(cp.Engine.preset("v6-90")).splitlines()
+    title, parts, throws, firing, head, *rows = repr(cp.Engine.preset("v6-90")).splitlines()
     assert title == "V6 90°, split pins: 6 cylinders, bank angle 90°"
+    assert parts == "stroke 0.086 m, rod 0.145 m, reciprocating mass 0.45 kg"
     assert throws == "throws 0-240-120°, pins split by -30°"
     assert firing == "4-stroke 1-6-5-4-3-2, even, 120°"
     assert head.split()[:2] == ["cylinder", "bank"]
     assert [row.split()[:3] for row in rows[:2]] == [["1", "left", "135"], ["2", "right", "45"]]
     assert len(rows) == 6
     html = I4.replace(name="<b>")._repr_html_()
-    assert "&lt;b&gt;: 4 cylinders, bores at 90°; throws 0-180-180-0°; 4-stroke 1-3-4-2" in html
+    assert "&lt;b&gt;: 4 cylinders, bores at 90°; stroke 0.086 m, rod" in html
+    assert "; throws 0-180-180-0°; 4-stroke 1-3-4-2" in html
+    stepped = I4.replace(cylinder=[CYLINDER.replace(rod_length=0.14 + k / 100) for k in range(4)])
+    assert "rod 0.14 to 0.17 m" in repr(stepped)
 
 
 def test_a_table_of_many_cylinders_is_cut() -> None:
     engine = cp.Engine.inline(CYLINDER, throws_deg=range(1000), spacing=0.1, name="a\n" * 90)
-    assert repr(engine).endswith("\nand 976 more cylinders")
+    assert repr(engine).endswith("\n30 of 1000 rows")
     assert len(repr(engine)) < 2000
-    assert repr(engine).count("\n") == 27
+    assert repr(engine).count("\n") == 34
+
+
+# --- names ---------------------------------------------------------------------------------------
+
+
+def test_names_follow_the_engine_s_own_figures() -> None:
+    v6 = cp.Engine.preset("v6-60")
+    assert v6.name == "V6 60°, split pins"
+    assert v6.with_bank_angle(90, hold="pins").name == "V6 90°, split pins"
+    assert v6.with_bank_angle(120, hold="firing").name == "V6 120°, shared pins"
+    assert v6.with_bank_angle("72.5", hold="pins").name == "V6 72.5°, split pins"
+    for twin in (
+        cp.Engine.from_toml(v6.to_toml()),
+        pickle.loads(pickle.dumps(v6)),  # noqa: S301 - its own
+        v6.replace(z=v6.z),
+    ):
+        assert twin.with_bank_angle(90, hold="pins").name == "V6 90°, split pins"
+    named = vee(name="my {bank_angle}° engine")
+    assert (named.name, named.replace(bank_deg=[90] * 6).name) == ("my 90° engine", "my –° engine")
+    assert v6.replace(name=v6.name) == v6
+    literal = v6.replace(name=v6.name).with_bank_angle(90, hold="pins")
+    assert literal.name == v6.name  # what its user typed
+    assert cp.Engine.preset("w16").name == "W16 90°"
+
+
+def test_titles_name_the_hardware_that_is_fitted() -> None:
+    v6 = cp.Engine.preset("v6-60")
+    weight = cp.Unbalance(0.01, 0)
+    fitted = v6.with_shafts([cp.Shaft(-1, [weight])])
+    assert (fitted.name, fitted.title) == (v6.name, "V6 60°, split pins with 1 balance shaft")
+    both = fitted.with_counterweights([weight, weight])
+    assert both.title == "V6 60°, split pins with 2 counterweights and 1 balance shaft"
+    assert I4.replace(name="").title == "4 cylinders"
+    ranking = cp.rank([v6, fitted], rpm=6000, by="total.moment.peak")
+    assert {choice.name for choice in ranking} == {v6.title, fitted.title}
+    twins = cp.sweep([v6, v6], rpm=6000)
+    assert list(twins.coords["engine"]) == ["V6 60°, split pins (1)", "V6 60°, split pins (2)"]
+
+
+def test_a_swept_bank_angle_is_in_no_title() -> None:
+    v6, v8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
+    swept = cp.sweep([v6, v8], rpm=6000, bank_angle_deg=[60, 90], hold="pins")
+    assert engine_titles(swept) == ["V6, split pins", "V8, cross-plane"]
+    plain = v6.replace(name="V6 60° of a drawing")
+    swept = cp.sweep([plain, v8], rpm=6000, bank_angle_deg=[60, 90], hold="pins")
+    assert engine_titles(swept) == ["V6 60° of a drawing", "V8, cross-plane"]
 
 
 # --- mistakes -----------------------------------------------------------------------------------

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import os
 import pickle
 import threading
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
+import numpy as np
 import pytest
 from conftest import CYLINDER, I4
+from crankpin.analysis.balancing import correction_planes
+from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -96,3 +100,80 @@ def test_paths_that_are_none_are_rejected_by_name(path: object) -> None:
         cp.Engine.load(path)  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match="path = "):
         I4.save(path)  # type: ignore[arg-type]
+
+
+def test_moments_are_about_the_engine_s_own_plane() -> None:
+    cylinder = cp.Cylinder(0.045, 0.15, 0.5)
+    twin = cp.Engine.inline(cylinder, throws_deg=[0, 0], spacing=0.1)
+    about = twin.replace(reference_z=0.3)
+    assert (twin.reference_z, about.reference_z) == (0.05, 0.3)
+    assert twin.balance(3000).moment.peak.tolist() == [0.0] * len(twin.balance(3000).orders)
+    force, moment = (getattr(about.balance(3000)[1], name).peak for name in ("force", "moment"))
+    np.testing.assert_allclose(moment, 0.25 * force, rtol=1e-12)  # ε times a handful of products
+    for each in copies(about):
+        assert each == about
+        assert each.reference_z == 0.3
+    assert about.replace(reference_z=None) == twin
+
+
+def test_figures_that_forces_do_not_depend_on_are_kept() -> None:
+    rod = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+    cylinder = cp.Cylinder.from_rod(rod, crank_radius=0.045, piston_mass=0.4, bore=0.088)
+    engine = cp.Engine.inline(
+        cylinder, throws_deg=[0, 180], spacing=0.1, rotating_mass=rod.rotating_mass
+    ).replace(mains=[-0.05, 0.15])
+    for each in [engine, *copies(engine), engine.with_first_tdc(30), engine.with_shafts([])]:
+        (found, _) = each.cylinders
+        assert (found.bore, found.piston_mass, found.rod) == (0.088, 0.4, rod)
+        assert found == cylinder
+        assert each.mains.tolist() == [-0.05, 0.15]
+    np.testing.assert_allclose(engine.replace(mains=None).mains, [-0.05, 0.05, 0.15], rtol=1e-15)
+
+
+def test_what_was_made_of_a_rod_stays_consistent() -> None:
+    rod = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+    cylinder = cp.Cylinder.from_rod(rod, crank_radius=0.045, piston_mass=0.4, bore=0.088)
+    lighter = cylinder.replace(piston_mass=0.3)
+    assert (lighter.rod, lighter.reciprocating_mass) == (rod, 0.3 + rod.reciprocating_mass)
+    longer = cylinder.replace(rod=dataclasses.replace(rod, length=0.2))
+    assert (longer.rod_length, longer.piston_mass, longer.bore) == (0.2, 0.4, 0.088)
+    for name in ("rod_length", "reciprocating_mass", "rod_inertia_excess"):
+        given = cylinder.replace(**{name: 0.3})
+        assert (given.rod, given.piston_mass, given.bore) == (None, None, 0.088)
+    with pytest.raises(cp.InputError, match=r"rod = .*contradicts .*from_rod"):
+        cp.Cylinder(0.045, 0.16, 0.6, rod=rod, piston_mass=0.4)
+    with pytest.raises(cp.InputError, match="give piston_mass too"):
+        cp.Cylinder(0.045, 0.16, 0.6).replace(rod=rod)
+    text = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.1).to_toml()
+    with pytest.raises(cp.InputError, match=r"rod = .*contradicts"):
+        cp.Engine.from_toml(text.replace("reciprocating_mass = 0.6", "reciprocating_mass = 0.7"))
+
+
+@pytest.mark.parametrize(
+    ("mains", "message"),
+    [
+        ([0.0, 0.2], "the throw at 0 m; give places in front of, between and behind"),
+        ([-0.05, 0.25], "the throw at 0.3 m"),
+        ([-0.1, 0.1, 0.4], "the throw at 0.1 m"),
+        ([0.1], "give two or more places"),
+        ([0.4, -0.1], "give two or more places in m, ascending"),
+        ("none", "give numbers"),
+    ],
+)
+def test_mains_have_throws_between_them(mains: Any, message: str) -> None:  # noqa: ANN401
+    with pytest.raises(cp.InputError, match=f"mains = .*{message}"):
+        I4.replace(mains=mains)
+
+
+def test_bays_are_between_the_main_bearings() -> None:
+    """An old inline-4 with three main bearings has two throws in each bay."""
+    three = I4.replace(mains=[-0.05, 0.15, 0.35])
+    front, rear = bays(three)
+    assert (front.cylinders, front.throws, front.bearings) == ((1, 2), (0.0, 0.1), (-0.05, 0.15))
+    np.testing.assert_allclose(front.webs, [-0.025, 0.05, 0.125], rtol=1e-15)
+    assert (rear.cylinders, rear.bearings) == ((3, 4), (0.15, 0.35))
+    assert len(bays(I4)) == 4
+    webs = correction_planes.named(three, "webs")
+    assert list(webs)[:3] == ["bay 1 web 1", "bay 1 web 2", "bay 1 web 3"]
+    spaced = I4.replace(mains=[-0.05, 0.05, 0.06, 0.15, 0.35])  # two side by side
+    assert [bay.cylinders for bay in bays(spaced)] == [(1,), (2,), (3, 4)]

@@ -65,8 +65,13 @@ def value_text(dimension: str, value: float) -> str:
 
 
 def name_of(engine: Engine) -> str:
-    """Return the name of an engine, or its number of cylinders."""
-    return engine.name or f"{len(engine)} cylinders"
+    """Return the title of an engine in one line, without control characters."""
+    return printable(engine.title)
+
+
+def printable(text: str) -> str:
+    """Return a text in one line, control characters as spaces: a terminal would obey them."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 def orders_text(orders: tuple[int, ...]) -> str:

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import sys
 import warnings
 from contextvars import ContextVar
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-_PACKAGE = os.fspath(Path(__file__).parents[1]) + os.sep
 
 # Not the context manager of ``warnings``: that replaces the filters of all threads.
 _suppressed: ContextVar[tuple[str, ...]] = ContextVar("suppressed", default=())
@@ -37,6 +33,11 @@ def warn(message: str) -> None:
     if message.startswith(_suppressed.get()):
         return
     level, frame = 1, sys._getframe()
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+    # By module, since constructors that dataclasses make have no file.
+    while frame.f_back is not None and _ours(frame.f_globals.get("__name__", "")):
         level, frame = level + 1, frame.f_back
     warnings.warn(message, UserWarning, stacklevel=level)
+
+
+def _ours(module: str) -> bool:
+    return module.partition(".")[0] == "crankpin"

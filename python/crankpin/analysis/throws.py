@@ -10,6 +10,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.frozen import Frozen
+from crankpin.model.builders import vee_layout
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -115,19 +116,9 @@ def throws(
     listed = None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg)
     number = inputs.strokes(strokes)
     # What an inline engine ignores is checked all the same.
-    side = inputs.text("odd_bank", odd_bank, 'give "right" or "left"')
-    scheme = inputs.text("numbering", numbering, 'give "alternating" or "by-bank"')
+    angle = 0.0 if bank_angle_deg is None else bank_angle_deg
+    across = vee_layout(angle, 0.0, 0.0, numbering, odd_bank)
     if bank_angle_deg is None:
         return Throws(_core.inline_throws(text, listed, number), np.empty(0))
-    layout = {
-        "throws": [],
-        "spacing": 0.0,
-        "rotating_mass": [],
-        "first_tdc": "0",
-        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
-        "pin_split": "0",
-        "bank_stagger": 0.0,
-        "numbering": scheme,
-        "odd_bank": side,
-    }
-    return Throws(*_core.vee_throws(text, listed, number, layout))
+    layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}
+    return Throws(*_core.vee_throws(text, listed, number, layout | across))

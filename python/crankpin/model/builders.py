@@ -1,152 +1,403 @@
-"""Engines of the compiled core from what people know of an engine: lists, throws, firing orders."""
+"""Engines from what people know of them: lists, throws, firing orders, names of presets."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.model import checks
-from crankpin.model.cylinder import Cylinder
+from crankpin.model import shafts as rotating
+from crankpin.model.data import EngineData, allowed, core_of_lists, parts
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import ArrayLike
 
     from crankpin._support.inputs import Angle, Angles
+    from crankpin.model.cylinder import Cylinder
+    from crankpin.model.shafts import Shaft, Unbalance
 
 Numbering: TypeAlias = Literal["alternating", "by-bank"]
 Side: TypeAlias = Literal["right", "left"]
 FiringRule: TypeAlias = Literal["even", "ijesc"]
-Parts: TypeAlias = tuple[float, float, float, float, float]
 
 
-def from_lists(
-    cylinder: Cylinder | Sequence[Cylinder],
-    tdc_deg: Angles | None,
-    pin_deg: Angles | None,
-    bank_deg: Angles,
-    z: ArrayLike,
-    rotating_mass: ArrayLike,
-    bank: list[int] | None = None,
-) -> _core.Engine:
-    """Return the engine of :meth:`Engine.from_lists`; cylinders of equal ``bank`` form one."""
-    banks = inputs.angles("bank_deg", bank_deg)
-    core = _core.Engine.from_lists(
-        _each(cylinder, len(banks)),
-        None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
-        None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
-        banks,
-        bank,
-        inputs.vector("z", z).tolist(),
-        inputs.per_item("rotating_mass", rotating_mass, len(banks)),
-        "",
-        "",
-    )
-    checks.units(core)
-    checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
-    return core
+class Builders(EngineData):
+    """Constructors of engines."""
+
+    @classmethod
+    def from_lists(
+        cls,
+        cylinder: Cylinder | Sequence[Cylinder],
+        *,
+        bank_deg: Angles,
+        z: ArrayLike,
+        tdc_deg: Angles | None = None,
+        pin_deg: Angles | None = None,
+        rotating_mass: ArrayLike = 0.0,
+        counterweights: Iterable[Unbalance] = (),
+        shafts: Iterable[Shaft] = (),
+        mains: ArrayLike | None = None,
+        reference_z: float | None = None,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return the engine that these lists describe, one entry for each cylinder.
+
+        For any layout on one crank: W, VR, radial.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of all cylinders, or one for each.
+        bank_deg
+            Directions of the bores from +x; 90 is upright.
+        z
+            Places along the crank, from the front to the flywheel, m.
+        tdc_deg
+            Crank angles at which each crankpin points along its bore.
+        pin_deg
+            Directions of the crankpins from +x at θ = 0, in place of ``tdc_deg``.
+        rotating_mass
+            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+        counterweights, shafts
+            What rotates besides: see :class:`crankpin.Unbalance` and :class:`crankpin.Shaft`.
+        mains
+            Places of the main bearings along the crank, m, ascending; by default one between
+            neighbouring throws and one at either end, as in :attr:`mains`.
+        reference_z
+            Plane about which moments are taken, m; by default midway between the first and the
+            last cylinder. Moments depend on it where a force remains.
+        firing_order
+            Firing order of the engine, such as ``"1-3-2"``, if it is known: :meth:`firing` uses it,
+            and files keep it.
+        strokes
+            4 or 2: strokes of a cycle.
+        name, source
+            Name of the engine, and the source of its layout. In a name ``{bank_angle}`` stands for
+            the bank angle and ``{pins}`` for "shared pins" or "split pins".
+
+        Raises
+        ------
+        InputError
+            If lists differ in length, both or neither of ``tdc_deg`` and ``pin_deg`` are given, a
+            figure is out of range, or the crank does not allow the firing order.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(1.0, 2.0, 7.0)
+        >>> i3 = cp.Engine.from_lists(
+        ...     cylinder, tdc_deg=[0, 120, 240], bank_deg=[90, 90, 90], z=[-0.1, 0, 0.1]
+        ... )
+        >>> abs(i3.balance(rpm=10, orders=[1]).moment).round(3)
+        array([[1.33, 0.  ]])
+        """
+        core = core_of_lists(
+            cylinder, tdc_deg, pin_deg, bank_deg, z, rotating_mass,
+            mains=mains, reference_z=reference_z,
+        )  # fmt: skip
+        core = rotating.with_counterweights(core, counterweights)
+        core = rotating.with_shafts(core, shafts)
+        return cls(core, name, source, firing_order, strokes)
+
+    @classmethod
+    def inline(
+        cls,
+        cylinder: Cylinder,
+        *,
+        throws_deg: Angles,
+        spacing: float,
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return an upright engine of one bank.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        throws_deg
+            Crankpin angles in the direction of rotation, relative to each other, front to flywheel.
+            A throw 120° ahead is at top dead centre 120° *earlier*.
+        spacing
+            Distance between neighbouring cylinders, m.
+        rotating_mass
+            As in :meth:`from_lists`.
+        first_tdc_deg
+            Crank angle at which cylinder 1 is at top dead centre.
+        firing_order, strokes, name, source
+            As in :meth:`from_lists`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.6)
+        >>> i4 = cp.Engine.inline(cylinder, throws_deg=[0, 180, 180, 0], spacing=0.09)
+        >>> abs(i4.balance(rpm=6000, orders=[1, 2]).force).round(0)
+        array([[    0.,     0.],
+               [    0., 12359.]])
+        """
+        layout = _along_crank(throws_deg, spacing, rotating_mass, first_tdc_deg)
+        core = _kept(_core.Engine.inline(parts(cylinder), layout), cylinder)
+        checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
+        return cls(core, name, source, firing_order, strokes)
+
+    @classmethod
+    def vee(
+        cls,
+        cylinder: Cylinder,
+        *,
+        bank_angle_deg: Angle,
+        throws_deg: Angles,
+        spacing: float,
+        pin_split_deg: Angle = 0.0,
+        bank_stagger: float = 0.0,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return an upright vee: two cylinders to a throw, one in each bank.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        bank_angle_deg
+            Angle between the banks, 0 to 180.
+        throws_deg
+            Angles of the right bank's crankpins in the direction of rotation, relative to each
+            other, front to flywheel.
+        spacing
+            Distance between neighbouring throws, m.
+        pin_split_deg
+            Left pin minus right pin, in the direction of rotation; 0 for shared pins. Even firing
+            needs bank angle − firing interval: −60 for a 60° V6, −30 for a 90° V6.
+        bank_stagger
+            How far the left bank stands behind the right, towards the flywheel, m.
+        numbering
+            ``"alternating"`` along the crank from bank to bank, or ``"by-bank"``.
+        odd_bank
+            The bank with cylinder 1, seen from the flywheel.
+        rotating_mass
+            Rotating mass at the crank radius, each cylinder's share of its crankpin, kg: a number
+            for all cylinders, or one for each. Of a pin that two cylinders share it is half.
+        first_tdc_deg
+            Crank angle at which cylinder 1 is at top dead centre.
+        firing_order, strokes, name, source
+            As in :meth:`from_lists`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.045, 0.15, 0.5)
+        >>> v8 = cp.Engine.vee(
+        ...     cylinder, bank_angle_deg=90, throws_deg=[0, 90, 270, 180], spacing=0.1
+        ... )
+        >>> abs(v8.balance(rpm=6000, orders=[1]).moment.backward)  # all of it turns with the crank
+        array([0.])
+        """
+        layout = _along_crank(throws_deg, spacing, rotating_mass, first_tdc_deg)
+        layout |= vee_layout(bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank)
+        core = _kept(_core.Engine.vee(parts(cylinder), layout), cylinder)
+        checks.angles(
+            bank_angle_deg=bank_angle_deg, throws_deg=throws_deg, pin_split_deg=pin_split_deg,
+            first_tdc_deg=first_tdc_deg,
+        )  # fmt: skip
+        checks.pin_split(core, layout["pin_split"])
+        return cls(core, name, source, firing_order, strokes)
+
+    @classmethod
+    def flat(
+        cls,
+        cylinder: Cylinder,
+        *,
+        throws_deg: Angles,
+        spacing: float,
+        bank_stagger: float = 0.0,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return a flat engine whose opposed cylinders share a crankpin: a 180° vee.
+
+        Parameters are those of :meth:`vee`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> flat4 = cp.Engine.flat(cp.Cylinder(1, 2, 9), throws_deg=[0, 180], spacing=0.2)
+        >>> flat4.tdc_deg
+        array([  0., 180., 180.,   0.])
+        """
+        return cls.vee(
+            cylinder, bank_angle_deg=180, throws_deg=throws_deg, spacing=spacing,
+            bank_stagger=bank_stagger, numbering=numbering, odd_bank=odd_bank,
+            rotating_mass=rotating_mass, first_tdc_deg=first_tdc_deg, firing_order=firing_order,
+            strokes=strokes, name=name, source=source,
+        )  # fmt: skip
+
+    @classmethod
+    def boxer(
+        cls,
+        cylinder: Cylinder,
+        *,
+        throws_deg: Angles,
+        spacing: float,
+        bank_stagger: float = 0.0,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return a boxer: opposed pistons move in mirror image, on pins half a turn apart.
+
+        Parameters are those of :meth:`vee`; ``bank_stagger`` is the distance that a crank web puts
+        between opposed cylinders, m.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> boxer = cp.Engine.boxer(cp.Cylinder(1, 2, 9), throws_deg=[0, 180], spacing=0.2)
+        >>> boxer.tdc_deg
+        array([  0.,   0., 180., 180.])
+        """
+        return cls.vee(
+            cylinder, bank_angle_deg=180, pin_split_deg=180, throws_deg=throws_deg, spacing=spacing,
+            bank_stagger=bank_stagger, numbering=numbering, odd_bank=odd_bank,
+            rotating_mass=rotating_mass, first_tdc_deg=first_tdc_deg, firing_order=firing_order,
+            strokes=strokes, name=name, source=source,
+        )  # fmt: skip
+
+    @classmethod
+    def from_firing_order(
+        cls,
+        cylinder: Cylinder,
+        firing_order: str | Iterable[int],
+        *,
+        spacing: float,
+        bank_angle_deg: Angle | None = None,
+        rule: FiringRule = "even",
+        intervals_deg: Angles | None = None,
+        strokes: int = 4,
+        numbering: Numbering = "alternating",
+        odd_bank: Side = "right",
+        bank_stagger: float = 0.0,
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return an engine that fires in this order, and remembers it.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        firing_order
+            Cylinder numbers, as ``"1-8-4-3-6-5-7-2"`` or a list. Where ``rule="ijesc"`` gives a
+            crank that cannot fire in this order, the engine's firing order is left empty.
+        spacing
+            Distance between neighbouring throws, m.
+        bank_angle_deg
+            Angle between the banks of a vee; None for an inline engine.
+        rule
+            ``"even"``: all firing intervals are equal; top dead centres follow from the order, pins
+            are split where the bank angle asks for it. ``"ijesc"``: the rule of the IJESC paper of
+            2017, by which the cylinders of each bank, in the order in which they fire, lag by equal
+            parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
+        intervals_deg
+            With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
+            the last to the first, in place of equal ones.
+        strokes
+            4 or 2: intervals add up to 720 or 360.
+        numbering, odd_bank
+            As in :meth:`vee`; the IJESC paper has odd cylinders right, the cross-plane page left.
+        bank_stagger, rotating_mass, first_tdc_deg, name, source
+            As in :meth:`vee`.
+
+        Examples
+        --------
+        The cross-plane crank follows from its firing order:
+
+        >>> import crankpin as cp
+        >>> v8 = cp.Engine.from_firing_order(
+        ...     cp.Cylinder(0.045, 0.15, 0.5),
+        ...     "1-8-4-3-6-5-7-2",
+        ...     bank_angle_deg=90,
+        ...     odd_bank="left",
+        ...     spacing=0.1,
+        ... )
+        >>> (v8.pin_deg - v8.pin_deg[0])[::2] % 360
+        array([  0.,  90., 270., 180.])
+
+        See :func:`crankpin.throws` for the crank alone.
+        """
+        order = inputs.firing_order("firing_order", firing_order)
+        fired = (
+            inputs.text("rule", rule, 'give "even" or "ijesc"'),
+            None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg),
+            inputs.strokes(strokes),
+        )
+        along = _along_crank((), spacing, rotating_mass, first_tdc_deg)
+        # What an inline engine ignores is checked all the same.
+        angle = 0.0 if bank_angle_deg is None else bank_angle_deg
+        across = vee_layout(angle, 0.0, bank_stagger, numbering, odd_bank)
+        moving = parts(cylinder)
+        if bank_angle_deg is None:
+            core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
+        else:
+            core = _core.Engine.vee_from_firing_order(moving, order, *fired, along | across)
+        core = _kept(core, cylinder)
+        checks.angles(
+            bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
+        )
+        return cls(core, name, source, allowed(core, order, strokes), strokes)
 
 
-def inline(
-    cylinder: Cylinder,
-    throws_deg: Angles,
-    spacing: float,
-    rotating_mass: ArrayLike,
-    first_tdc_deg: Angle,
-) -> _core.Engine:
-    """Return the engine of :meth:`Engine.inline`."""
-    layout = _inline_layout(spacing, rotating_mass, first_tdc_deg, throws_deg)
-    core = _core.Engine.inline(parts(cylinder), layout)
-    checks.units(core)
-    checks.angles(throws_deg=throws_deg, first_tdc_deg=first_tdc_deg)
-    return core
-
-
-def vee(
-    cylinder: Cylinder,
+def vee_layout(
     bank_angle_deg: Angle,
-    throws_deg: Angles,
-    spacing: float,
     pin_split_deg: Angle,
     bank_stagger: float,
     numbering: Numbering,
     odd_bank: Side,
-    rotating_mass: ArrayLike,
-    first_tdc_deg: Angle,
-) -> _core.Engine:
-    """Return the engine of :meth:`Engine.vee`, :meth:`Engine.flat` or :meth:`Engine.boxer`."""
-    layout = _inline_layout(spacing, rotating_mass, first_tdc_deg, throws_deg) | _vee_layout(
-        bank_angle_deg, pin_split_deg, bank_stagger, numbering, odd_bank
-    )
-    core = _core.Engine.vee(parts(cylinder), layout)
-    checks.units(core)
-    checks.angles(
-        bank_angle_deg=bank_angle_deg,
-        throws_deg=throws_deg,
-        pin_split_deg=pin_split_deg,
-        first_tdc_deg=first_tdc_deg,
-    )
-    checks.pin_split(core, layout["pin_split"])
-    return core
-
-
-def from_firing_order(
-    cylinder: Cylinder,
-    firing_order: str,
-    spacing: float,
-    bank_angle_deg: Angle | None,
-    rule: FiringRule,
-    intervals_deg: Angles | None,
-    strokes: int,
-    numbering: Numbering,
-    odd_bank: Side,
-    bank_stagger: float,
-    rotating_mass: ArrayLike,
-    first_tdc_deg: Angle,
-) -> _core.Engine:
-    """Return the engine of :meth:`Engine.from_firing_order`."""
-    order = (
-        firing_order,
-        inputs.text("rule", rule, 'give "even" or "ijesc"'),
-        None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg),
-        inputs.strokes(strokes),
-    )
-    layout = _inline_layout(spacing, rotating_mass, first_tdc_deg)
-    # What an inline engine ignores is checked all the same.
-    banks = _vee_layout(
-        0.0 if bank_angle_deg is None else bank_angle_deg, 0.0, bank_stagger, numbering, odd_bank
-    )
-    if bank_angle_deg is None:
-        core = _core.Engine.inline_from_firing_order(parts(cylinder), *order, layout)
-    else:
-        core = _core.Engine.vee_from_firing_order(parts(cylinder), *order, layout | banks)
-    checks.units(core)
-    checks.angles(
-        bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
-    )
-    return core
-
-
-def parts(cylinder: Cylinder) -> Parts:
-    """Return the figures of a cylinder, as the core takes them."""
-    if not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
-    return cylinder._parts
-
-
-def _each(cylinder: Cylinder | Sequence[Cylinder], count: int) -> list[Parts]:
-    if isinstance(cylinder, Cylinder):
-        return [parts(cylinder)] * count
-    cure = "give a crankpin.Cylinder, or one for each cylinder"
-    return [parts(each) for each in inputs.items("cylinder", cylinder, cure)]
-
-
-def _inline_layout(
-    spacing: float, rotating_mass: ArrayLike, first_tdc_deg: Angle, throws_deg: Angles = ()
 ) -> dict[str, Any]:
+    """Return where the cylinders of a vee are, as the core takes it."""
+    return {
+        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
+        "pin_split": inputs.angle("pin_split_deg", pin_split_deg),
+        "bank_stagger": inputs.number("bank_stagger", bank_stagger),
+        "numbering": inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
+        "odd_bank": inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
+    }
+
+
+def _along_crank(
+    throws_deg: Angles, spacing: float, rotating_mass: ArrayLike, first_tdc_deg: Angle
+) -> dict[str, Any]:
+    """Return what stands along a crank, as the core takes it."""
     return {
         "throws": inputs.angles("throws_deg", throws_deg),
         "spacing": inputs.number("spacing", spacing),
@@ -155,17 +406,7 @@ def _inline_layout(
     }
 
 
-def _vee_layout(
-    bank_angle_deg: Angle,
-    pin_split_deg: Angle,
-    bank_stagger: float,
-    numbering: Numbering,
-    odd_bank: Side,
-) -> dict[str, Any]:
-    return {
-        "bank_angle": inputs.angle("bank_angle_deg", bank_angle_deg),
-        "pin_split": inputs.angle("pin_split_deg", pin_split_deg),
-        "bank_stagger": inputs.number("bank_stagger", bank_stagger),
-        "numbering": inputs.text("numbering", numbering, 'give "alternating" or "by-bank"'),
-        "odd_bank": inputs.text("odd_bank", odd_bank, 'give "right" or "left"'),
-    }
+def _kept(core: _core.Engine, cylinder: Cylinder) -> _core.Engine:
+    """Return an engine that keeps what its cylinders were made of, its units checked."""
+    checks.units(core)
+    return core.keeping([cylinder._details] * len(core.z), [], None)

@@ -5,9 +5,13 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from crankpin._core import InputError
+from crankpin._support import inputs
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from crankpin import _core
     from crankpin.model.engine import Engine
 
 SAME_ANGLE = 1e-9
@@ -28,25 +32,29 @@ class Crankpin(NamedTuple):
 
 
 class Bay(NamedTuple):
-    """A place of the crankshaft between two main bearings, with one crankpin or split pins.
+    """Part of the crankshaft between two main bearings, with one throw or several.
 
-    Engines do not have main bearings and webs: bearings are taken midway between neighbouring
-    throws, those at the ends as far outside as the other one of the bay is inside. With throws at
-    one place only they are a crank radius away. Webs are midway between throw and bearing.
+    Bearings are the engine's :attr:`~crankpin.Engine.mains`. Webs are midway between a throw and
+    the bearing or throw beside it.
     """
 
     cylinders: tuple[int, ...]
     """Numbers of the cylinders."""
-    z: float
-    """Place of the throw along the crank, midway between its crankpins, m."""
+    throws: tuple[float, ...]
+    """Places of the throws along the crank, each midway between its crankpins, m."""
     bearings: tuple[float, float]
     """Places of the main bearings in front and behind, m."""
 
     @property
-    def webs(self) -> tuple[float, float]:
-        """Places of the two webs, m."""
+    def z(self) -> float:
+        """Place midway between the first throw and the last, m."""
+        return _middle(self.throws)
+
+    @property
+    def webs(self) -> tuple[float, ...]:
+        """Places of the webs, m."""
         front, rear = self.bearings
-        return (self.z + front) / 2.0, (self.z + rear) / 2.0
+        return tuple((one + other) / 2.0 for one, other in pairwise([front, *self.throws, rear]))
 
     def holds(self, z: float) -> bool:
         """Return whether a place is between the bearings; one at a bearing is behind it."""
@@ -55,13 +63,17 @@ class Bay(NamedTuple):
 
 
 def throws(engine: Engine) -> list[list[Crankpin]]:
+    """Return the crankpins of an engine from front to flywheel, those of one throw a list."""
+    return _throws(engine.core)
+
+
+def _throws(core: _core.Engine) -> list[list[Crankpin]]:
     """Return the crankpins from front to flywheel, those of one throw a list.
 
     Cylinders of different banks whose places are less than a crank radius apart are on one throw.
     Those of them whose pins are at one place share a crankpin; a throw has several where pins are
     split, and in a boxer.
     """
-    core = engine.core
     banks, places, pins = core.bank, core.z.tolist(), core.pin_deg.tolist()
     radii = [parts[0] for parts in core.cylinders]
 
@@ -76,7 +88,7 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
         z = _middle(places[k] for k in shared)
         return Crankpin(tuple(sorted(k + 1 for k in shared)), pins[shared[0]], z)
 
-    front_to_back = sorted(range(len(engine)), key=places.__getitem__)
+    front_to_back = sorted(range(len(places)), key=places.__getitem__)
     return [
         [pin(shared) for shared in _grouped(throw, on_one_pin)]
         for throw in _grouped(front_to_back, on_one_throw)
@@ -90,24 +102,47 @@ def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
 
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
-    """Return the bays from front to flywheel: throws, with those at one place in one bay."""
-    radius = engine.core.largest_crank_radius
+    """Return the bays with throws from front to flywheel; those at one place are one throw."""
+    core = engine.core
+    at = _places_of_throws(core)
+    found = []
+    for front, rear in pairwise(core.mains or default_mains(core)):
+        between = {z: numbers for z, numbers in at.items() if front < z < rear}
+        if between:
+            cylinders = tuple(sorted(number for each in between.values() for number in each))
+            found.append(Bay(cylinders, tuple(between), (front, rear)))
+    return tuple(found)
+
+
+def default_mains(core: _core.Engine) -> list[float]:
+    """Return the places of main bearings where none are given; see :attr:`Engine.mains`."""
+    middles = list(_places_of_throws(core))
+    between = [(one + other) / 2.0 for one, other in pairwise(middles)]
+    if not between:
+        radius = core.largest_crank_radius
+        return [middles[0] - radius, middles[0] + radius]
+    return [2.0 * middles[0] - between[0], *between, 2.0 * middles[-1] - between[-1]]
+
+
+def check_mains(core: _core.Engine) -> None:
+    """Reject main bearings that leave a throw outside, or one at a bearing."""
+    if not core.mains:
+        return
+    for z in _places_of_throws(core):
+        if not core.mains[0] < z < core.mains[-1] or z in core.mains:
+            hint = "give places in front of, between and behind the throws"
+            raise InputError(f"mains = {inputs.shorten(core.mains)}: the throw at {z:g} m; {hint}")
+
+
+def _places_of_throws(core: _core.Engine) -> dict[float, list[int]]:
+    """Return places along the crank, ascending, and the numbers of the cylinders at each."""
+    radius = core.largest_crank_radius
     at: dict[float, list[int]] = {}
-    for throw in sorted(throws(engine), key=lambda throw: _middle(pin.z for pin in throw)):
+    for throw in sorted(_throws(core), key=lambda throw: _middle(pin.z for pin in throw)):
         z = _middle(pin.z for pin in throw)
         place = next((each for each in at if z - each <= SAME_PLACE * radius), z)
         at.setdefault(place, []).extend(number for pin in throw for number in pin.cylinders)
-    middles = list(at)
-    between = [(one + other) / 2.0 for one, other in pairwise(middles)]
-    if between:
-        first, last = 2.0 * middles[0] - between[0], 2.0 * middles[-1] - between[-1]
-    else:
-        first, last = middles[0] - radius, middles[0] + radius
-    bearings = pairwise([first, *between, last])
-    return tuple(
-        Bay(tuple(sorted(numbers)), z, sides)
-        for (z, numbers), sides in zip(at.items(), bearings, strict=True)
-    )
+    return at
 
 
 def _grouped(cylinders: Iterable[int], alike: Callable[[int, int], bool]) -> list[list[int]]:

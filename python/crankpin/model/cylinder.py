@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders
+
+
+LARGEST_LENGTH = 1e30
+"""Largest length that the core takes, m."""
+
+_Parts: TypeAlias = tuple[float, float, float, float, float]
+_Details: TypeAlias = tuple[float | None, float | None, tuple[float, float, float] | None]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -41,6 +48,10 @@ class Cylinder:
         J = I - m·a·b, kg m²: the moment of inertia of the rod about its centre of mass less that
         of its two masses there, a and b their distances from it. Mostly negative, as a rod's mass
         is not all at its ends. Torques depend on it, forces and moments do not.
+    bore
+        Diameter of the bore, m, if it is known. Inertia forces do not depend on it.
+    piston_mass, rod
+        What the reciprocating mass was made of by :meth:`from_rod`; None where it is not known.
 
     Raises
     ------
@@ -62,6 +73,9 @@ class Cylinder:
     reciprocating_mass: float
     pin_offset: float = 0.0
     rod_inertia_excess: float = 0.0
+    bore: float | None = None
+    piston_mass: float | None = None
+    rod: Rod | None = None
 
     @classmethod
     def from_bore_stroke(
@@ -79,8 +93,7 @@ class Cylinder:
         Parameters
         ----------
         bore
-            Diameter of the cylinder, m. Inertia forces do not depend on it: it is checked and not
-            kept.
+            Diameter of the cylinder, m.
         stroke
             Twice the crank radius, m.
         rod_length, reciprocating_mass, pin_offset, rod_inertia_excess
@@ -92,8 +105,8 @@ class Cylinder:
         >>> cylinder = cp.Cylinder.from_bore_stroke(
         ...     bore=0.086, stroke=0.086, rod_length=0.145, reciprocating_mass=0.66
         ... )
-        >>> cylinder.crank_radius
-        0.043
+        >>> cylinder.crank_radius, cylinder.bore
+        (0.043, 0.086)
         """
         figures = (
             inputs.number("bore", bore),
@@ -103,12 +116,19 @@ class Cylinder:
             inputs.number("pin_offset", pin_offset),
         )
         radius = _core.crank_radius_of_stroke(figures)
-        checks.bore(*figures[:2])
-        return cls(radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess)
+        return cls(
+            radius, rod_length, reciprocating_mass, pin_offset, rod_inertia_excess, figures[0]
+        )
 
     @classmethod
     def from_rod(
-        cls, rod: Rod, crank_radius: float, piston_mass: float, pin_offset: float = 0.0
+        cls,
+        rod: Rod,
+        crank_radius: float,
+        piston_mass: float,
+        pin_offset: float = 0.0,
+        *,
+        bore: float | None = None,
     ) -> Cylinder:
         """Return a cylinder with a rod of known mass and inertia.
 
@@ -123,7 +143,7 @@ class Cylinder:
             Crank radius r, m.
         piston_mass
             Mass of piston, pin and rings, without any of the rod, kg.
-        pin_offset
+        pin_offset, bore
             As in :class:`Cylinder`.
 
         Examples
@@ -139,17 +159,60 @@ class Cylinder:
         mass = inputs.number("piston_mass", piston_mass)
         if not mass >= 0.0:
             raise _core.InputError(f"piston_mass = {mass!r}: give a number that is zero or more")
-        reciprocating = mass + rod.reciprocating_mass
-        return cls(crank_radius, rod.length, reciprocating, pin_offset, rod.inertia_excess)
+        return cls(
+            crank_radius=crank_radius,
+            rod_length=rod.length,
+            reciprocating_mass=mass + rod.reciprocating_mass,
+            pin_offset=pin_offset,
+            rod_inertia_excess=rod.inertia_excess,
+            bore=bore,
+            piston_mass=mass,
+            rod=rod,
+        )
 
     def __post_init__(self) -> None:
-        for field in dataclasses.fields(self):
-            value = inputs.number(field.name, getattr(self, field.name))
-            object.__setattr__(self, field.name, value)
+        for field in dataclasses.fields(self)[:-1]:
+            given = getattr(self, field.name)
+            if given is not None or field.default is not None:
+                object.__setattr__(self, field.name, inputs.number(field.name, given))
         _core.check_cylinder(self._parts)
+        if self.bore is not None:
+            if not 0.0 < self.bore <= LARGEST_LENGTH:
+                raise _core.InputError(f"bore = {self.bore!r}: give metres above zero")
+            checks.bore(self.bore, self.stroke)
+        if self.rod is not None and not self._of_its_rod:
+            hint = "make cylinders of a rod by Cylinder.from_rod, or leave it out"
+            raise _core.InputError(f"rod = {self.rod}: contradicts the cylinder's figures; {hint}")
 
     @property
-    def _parts(self) -> tuple[float, float, float, float, float]:
+    def _of_its_rod(self) -> bool:
+        """True if length, masses and inertia are those of piston and rod."""
+        if not isinstance(self.rod, Rod) or self.piston_mass is None:
+            return False
+        derived = self.rod.length, self.rod.inertia_excess
+        return derived == (self.rod_length, self.rod_inertia_excess) and (
+            self.reciprocating_mass == self.piston_mass + self.rod.reciprocating_mass
+        )
+
+    @classmethod
+    def _of(cls, parts: _Parts, details: _Details) -> Cylinder:
+        """Return the cylinder of what the core has."""
+        bore, piston_mass, figures = details
+        rod = None
+        if figures is not None:
+            mass, inertia, to_crankpin = figures
+            rod = Rod(mass, inertia, parts[1], to_crankpin)
+        return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod)
+
+    @property
+    def _details(self) -> _Details:
+        """What the core keeps and does not compute with."""
+        rod = self.rod
+        figures = None if rod is None else (rod.mass, rod.inertia, rod.to_crankpin)
+        return self.bore, self.piston_mass, figures
+
+    @property
+    def _parts(self) -> _Parts:
         return (
             self.crank_radius,
             self.rod_length,
@@ -168,8 +231,21 @@ class Cylinder:
         """Twice the crank radius, m (a pin offset lengthens the piston's travel a little)."""
         return 2.0 * self.crank_radius
 
-    def replace(self, **changes: float) -> Cylinder:
-        """Return a copy with some parts changed."""
+    def replace(self, **changes: Any) -> Cylinder:  # noqa: ANN401 - numbers, or a Rod
+        """Return a copy with some parts changed.
+
+        Rod length, reciprocating mass and rod inertia follow from a piston and a rod that are
+        changed; changed themselves, they take the place of both.
+        """
+        if {"rod_length", "reciprocating_mass", "rod_inertia_excess"} & changes.keys():
+            changes = {"piston_mass": None, "rod": None} | changes
+        elif {"piston_mass", "rod"} & changes.keys() and changes.get("rod", self.rod) is not None:
+            kept = {name: getattr(self, name) for name in ("crank_radius", "pin_offset", "bore")}
+            whole = {"rod": self.rod, "piston_mass": self.piston_mass} | kept | changes
+            if whole["piston_mass"] is None:
+                hint = "give piston_mass too: it is not known what the rod's part was"
+                raise _core.InputError(f"rod = {inputs.shorten(whole['rod'])}: {hint}")
+            return Cylinder.from_rod(**whole)
         try:
             return dataclasses.replace(self, **changes)
         except TypeError as error:

@@ -166,8 +166,7 @@ def _unknown(name: object) -> str:
     typed = name[:80].lower().replace("straight", "inline")
     near = family(typed)
     if near == [typed] and typed not in Presets():
-        entries = _data()["engines"].items()
-        titles = {entry["title"].lower(): each for each, entry in entries}
+        titles = {engine.name.lower(): each for each, engine in Presets().items()}
         words = {each: each for each in Presets()} | titles
         near = [words[each] for each in difflib.get_close_matches(typed, words, n=1, cutoff=0.7)]
     meant = f"did you mean {' or '.join(map(repr, near))}? " if near else ""

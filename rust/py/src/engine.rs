@@ -44,7 +44,7 @@ type Weight = (f64, String, f64, Option<usize>);
 type GivenWeight = (f64, Angle, f64, Option<usize>);
 
 /// Bore, piston mass, and the rod's mass, inertia and place of its centre.
-type Kept = (Option<f64>, Option<f64>, Option<[f64; 3]>);
+type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
 
 fn weight(unbalance: &Unbalance) -> Weight {
     (unbalance.amount, unbalance.angle.to_string(), unbalance.z, unbalance.pin)
@@ -396,7 +396,11 @@ impl Engine {
 
     #[getter]
     fn details(&self) -> Vec<Kept> {
-        self.0.details().iter().map(|d| (d.bore, d.piston_mass, d.rod)).collect()
+        self.0
+            .details()
+            .iter()
+            .map(|d| (d.bore, d.piston_mass, d.rod.map(<(f64, f64, f64)>::from)))
+            .collect()
     }
 
     /// The same engine with what it keeps and does not compute with.
@@ -407,7 +411,11 @@ impl Engine {
         reference_z: Option<f64>,
     ) -> PyResult<Self> {
         let details = details.into_iter();
-        let details = details.map(|(bore, piston_mass, rod)| Details { bore, piston_mass, rod });
+        let details = details.map(|(bore, piston_mass, rod)| Details {
+            bore,
+            piston_mass,
+            rod: rod.map(<[f64; 3]>::from),
+        });
         let engine = self.0.with_details(details.collect()).and_then(|e| e.with_mains(mains));
         engine.and_then(|e| e.with_reference(reference_z)).or_raise().map(Self::from)
     }

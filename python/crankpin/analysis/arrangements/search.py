@@ -17,7 +17,7 @@ from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
 from crankpin.analysis.arrangements.shared_pins import SharedPinAngles, SharedPins
 from crankpin.analysis.drawing import draw
-from crankpin.model.builders import parts
+from crankpin.model.data import parts
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:

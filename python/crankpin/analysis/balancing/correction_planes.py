@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from crankpin._core import InputError
@@ -26,9 +27,9 @@ def named(engine: Engine, given: Planes) -> dict[str, float]:
             front, rear = float(engine.z.min()), float(engine.z.max())
             return {"front": front, "rear": rear} if front < rear else {"crankpin": front}
         return {
-            f"throw {number} {side}": z
+            f"throw {number} {side}" if len(bay.webs) == 2 else f"bay {number} web {k}": z
             for number, bay in enumerate(bays(engine), start=1)
-            for side, z in zip(("front", "rear"), bay.webs, strict=True)
+            for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
         }
     if isinstance(given, Mapping):
         places = {inputs.text("planes", name): _place(name, z) for name, z in given.items()}

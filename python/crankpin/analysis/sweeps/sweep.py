@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
@@ -587,7 +586,7 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
         if not isinstance(engine, Engine):
             raise InputError(f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects")
     if names is None:
-        names = [engine.name for engine in engines]
+        names = [labels.name_of(engine) if engine.name else "" for engine in engines]
     return list(engines), tuple(names)
 
 
@@ -595,7 +594,7 @@ def _distinct(names: Sequence[str]) -> list[str]:
     """Return names, numbered where they do not distinguish the engines."""
     if "" not in names and len(set(names)) == len(names):
         return list(names)
-    return [f"{k + 1} {name}".strip() for k, name in enumerate(names)]
+    return [f"{name} ({k})" if name else f"{k}" for k, name in enumerate(names, start=1)]
 
 
 def engine_titles(sweep: Sweep) -> list[str]:
@@ -605,15 +604,9 @@ def engine_titles(sweep: Sweep) -> list[str]:
     that the engine had before, such as in "V6 60°".
     """
     given = sweep.coords.get("engine")
-    names = [labels.name_of(engine) for engine in sweep.engines]
-    if given is not None:
-        names = [str(name) for name in given]
-    own = [engine.name for engine in sweep.engines]
-    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != own:
+    titles = [labels.name_of(engine) for engine in sweep.engines]
+    names = titles if given is None else [str(name) for name in given]
+    if "bank_angle_deg" not in {*sweep.coords, *sweep.fixed} or names != titles:
         return names
-    pairs = zip(names, sweep.engines, strict=True)
-    without = [
-        re.sub(rf"(^|\s+){engine.bank_angle_deg:g}°", "", name).strip() for name, engine in pairs
-    ]
-    distinct = all(without) and len(set(without)) == len(names)
-    return without if distinct else names
+    without = [labels.printable(engine._title(with_bank_angle=False)) for engine in sweep.engines]
+    return without if len(set(without)) == len(names) else names

@@ -1,0 +1,577 @@
+"""The data of an engine: lists, names, hardware; changed copies; files; and a table of it all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Literal, NoReturn, Self, TypeAlias
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.absent import AbsentError
+from crankpin._support.frozen import read_only
+from crankpin.model import checks, crankpins
+from crankpin.model import shafts as rotating
+from crankpin.model.cylinder import Cylinder
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Angle, Angles
+    from crankpin.model.shafts import Shaft, Unbalance
+
+Hold: TypeAlias = Literal["pins", "firing"]
+_CoreEngine: TypeAlias = _core.Engine
+
+BANK_ANGLE, PINS = "{bank_angle}", "{pins}"
+"""Placeholders of names: the bank angle in degrees, and "shared pins" or "split pins"."""
+KEPT: Final = "kept"
+"""Default of arguments of ``replace`` for which None means something."""
+
+
+class EngineData:
+    """What an engine is made of; :class:`Engine` adds builders and analyses."""
+
+    _core: _CoreEngine
+
+    def __init__(
+        self,
+        core: _CoreEngine,
+        name: str = "",
+        source: str = "",
+        firing_order: str | Iterable[int] = "",
+        strokes: int = 4,
+    ) -> None:
+        if not isinstance(core, _core.Engine):
+            raise InputError(
+                f"Engine({inputs.shorten(core)}): use Engine.from_lists, .inline, .vee, .flat, "
+                ".boxer, .from_firing_order, .preset or .load"
+            )
+        title, origin = inputs.text("name", name), inputs.text("source", source)
+        count = inputs.strokes(strokes)
+        order = inputs.firing_order("firing_order", firing_order)
+        if order:
+            core = core.firing_as(_core.Firing.named(core, order, count).text, count)
+        elif count != 4:
+            core = core.firing_as("", count)
+        object.__setattr__(self, "_core", core.named(title, origin) if title or origin else core)
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"Engine is frozen: {name} cannot be set; use replace(…)")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"Engine is frozen: {name} cannot be deleted")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, EngineData):
+            return NotImplemented
+        if self._core.name != other._core.name and self.name == other.name:
+            return self._core == other._core.named(self._core.name, other.source)
+        return self._core == other._core
+
+    def __hash__(self) -> int:
+        return hash(self._core)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (self._core,))
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
+
+    def __len__(self) -> int:
+        return len(self._core.z)
+
+    # --- lists ----------------------------------------------------------------------------------
+
+    @property
+    def core(self) -> _CoreEngine:
+        """Compiled counterpart of the engine; private to crankpin."""
+        return self._core
+
+    @property
+    def name(self) -> str:
+        """Name of the engine; may be empty.
+
+        In a name that is given, ``{bank_angle}`` stands for the bank angle, degrees, and ``{pins}``
+        for "shared pins" or "split pins", so that changed copies are named by their own figures.
+        """
+        return self._named(self._core.name)
+
+    @property
+    def title(self) -> str:
+        """Name of the engine, or its number of cylinders, with the hardware fitted to it."""
+        return self._title()
+
+    def _title(self, *, with_bank_angle: bool = True) -> str:
+        """Return the title; without the bank angle where that varies."""
+        count = len(self)
+        name = self._core.name or f"{count} cylinder{'s' * (count > 1)}"
+        if not with_bank_angle:
+            name = name.replace(f" {BANK_ANGLE}°", "")
+        counts = {
+            "counterweight": len(self._core.counterweights),
+            "balance shaft": len(self._core.shafts),
+        }
+        fitted = [f"{n} {what}{'s' * (n > 1)}" for what, n in counts.items() if n]
+        return self._named(name) + (f" with {' and '.join(fitted)}" if fitted else "")
+
+    def _named(self, pattern: str) -> str:
+        """Return a name with its placeholders filled in."""
+        if BANK_ANGLE in pattern:
+            angle = f"{self.bank_angle_deg:.2f}" if len(self.banks) == 2 else "–"
+            short = angle.rstrip("0").rstrip(".") if "." in angle else angle
+            pattern = pattern.replace(BANK_ANGLE, short)
+        if PINS in pattern:
+            split = np.any(getattr(self, "pin_split_deg", False))
+            pattern = pattern.replace(PINS, "split pins" if split else "shared pins")
+        return pattern
+
+    @property
+    def source(self) -> str:
+        """Source of the layout; may be empty."""
+        return self._core.source
+
+    @property
+    def firing_order(self) -> str:
+        """Firing order, such as ``"1-3-4-2"``; empty if it is not known."""
+        return self._core.firing_order
+
+    @property
+    def strokes(self) -> int:
+        """Strokes of a cycle: 4 or 2."""
+        return self._core.strokes
+
+    @property
+    def cylinders(self) -> tuple[Cylinder, ...]:
+        """Moving parts of each cylinder."""
+        each = zip(self._core.cylinders, self._core.details, strict=True)
+        known = {key: Cylinder._of(*key) for key in set(each)}
+        each = zip(self._core.cylinders, self._core.details, strict=True)
+        return tuple(known[key] for key in each)
+
+    @property
+    def tdc_deg(self) -> NDArray[np.float64]:
+        """Crank angles at which crankpins point along their bores, degrees in [0, 360).
+
+        Of shape (n_cylinders,).
+        """
+        return self._core.tdc_deg
+
+    @property
+    def bank_deg(self) -> NDArray[np.float64]:
+        """Directions of the bores from +x, degrees in [0, 360): (n_cylinders,)."""
+        return self._core.bank_deg
+
+    @property
+    def pin_deg(self) -> NDArray[np.float64]:
+        """Directions of the crankpins from +x at θ = 0, degrees in [0, 360): (n_cylinders,)."""
+        return self._core.pin_deg
+
+    @property
+    def z(self) -> NDArray[np.float64]:
+        """Places along the crank, from the front to the flywheel, m: (n_cylinders,)."""
+        return self._core.z
+
+    @property
+    def rotating_mass(self) -> NDArray[np.float64]:
+        """Rotating mass at the crank radius, each cylinder's share of its pin, kg.
+
+        Of shape (n_cylinders,).
+        """
+        return self._core.rotating_mass
+
+    @property
+    def counterweights(self) -> tuple[Unbalance, ...]:
+        """Unbalances on the crankshaft besides ``rotating_mass``: amounts in kg·m, z in m."""
+        return rotating.counterweights(self._core)
+
+    @property
+    def shafts(self) -> tuple[Shaft, ...]:
+        """Balance shafts: axes and z in m, unbalances in kg·m."""
+        return rotating.shafts(self._core)
+
+    @property
+    def mains(self) -> NDArray[np.float64]:
+        """Places of the main bearings along the crank, m, ascending: (n_mains,).
+
+        Those given; by default one midway between neighbouring throws, and one at either end as far
+        outside the last throw as the bearing on its other side. An engine with throws at one place
+        only has one a crank radius in front of them and one behind.
+        """
+        return read_only(np.array(self._core.mains or crankpins.default_mains(self._core)))
+
+    @property
+    def reference_z(self) -> float:
+        """Plane about which moments are taken, m; by default midway between the end cylinders."""
+        given = self._core.reference_z
+        return self._core.middle if given is None else given
+
+    # --- banks and throws -----------------------------------------------------------------------
+
+    @property
+    def banks(self) -> dict[str, tuple[int, ...]]:
+        """Numbers of the cylinders of each bank, by its name.
+
+        Two banks are ``"right"`` and ``"left"``, as seen from the flywheel; others ``"bank 1"``,
+        ``"bank 2"``, …. A bank is an index: a vee at 0° has two.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("v8-crossplane").banks
+        {'right': (2, 4, 6, 8), 'left': (1, 3, 5, 7)}
+        """
+        members: dict[int, list[int]] = {}
+        for number, bank in enumerate(self._core.bank, start=1):
+            members.setdefault(bank, []).append(number)
+        ordered = sorted(members)
+        names = ["right", "left"] if len(ordered) == 2 else [f"bank {k + 1}" for k in ordered]
+        return {name: tuple(members[bank]) for name, bank in zip(names, ordered, strict=True)}
+
+    @property
+    def bank_angle_deg(self) -> float:
+        """Angle between the two banks, degrees; undefined for any other number of banks."""
+        if len(self.banks) != 2:
+            raise self._undefined("bank_angle_deg", "exactly two are needed")
+        return self._core.bank_angle_deg
+
+    @property
+    def throws_deg(self) -> NDArray[np.float64]:
+        """Crankpins in the direction of rotation from the front one, degrees in [0, 360).
+
+        Those of the right bank if there are two; undefined for more. Of shape (n_throws,).
+        """
+        found = self.banks
+        if len(found) > 2:
+            raise self._undefined("throws_deg", "one or two are needed; see pin_deg")
+        pins = self.pin_deg[self._along(next(iter(found.values())))]
+        return read_only(_reduced(pins - pins[0]))
+
+    @property
+    def pin_split_deg(self) -> NDArray[np.float64]:
+        """Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,).
+
+        Undefined unless there are two banks of as many cylinders.
+        """
+        found = self.banks
+        if len(found) != 2:
+            raise self._undefined("pin_split_deg", "exactly two are needed")
+        right, left = (self._along(numbers) for numbers in found.values())
+        if len(right) != len(left):
+            sizes = f"{len(right)} cylinders in the right bank and {len(left)} in the left"
+            raise AbsentError(
+                f"pin_split_deg is undefined for this engine: it has {sizes}; as many are needed"
+            )
+        split = _reduced(self.pin_deg[left] - self.pin_deg[right])
+        return read_only(np.where(split > 180.0, split - 360.0, split))
+
+    def _along(self, numbers: tuple[int, ...]) -> NDArray[np.intp]:
+        """Return the places in the lists of these cylinders, front to flywheel."""
+        places = np.array(numbers) - 1
+        return np.asarray(places[np.argsort(self.z[places], kind="stable")])
+
+    def _undefined(self, name: str, needed: str) -> AbsentError:
+        directions = list(dict.fromkeys(self.bank_deg.tolist()))
+        listed = ", ".join(f"{each:.6g}°" for each in directions[:4])
+        listed += ", …" if len(directions) > 4 else ""
+        count = "one bank" if len(self.banks) == 1 else f"{len(self.banks)} banks"
+        reason = f"it has {count} ({listed}); {needed}"
+        return AbsentError(f"{name} is undefined for this engine: {reason}")
+
+    # --- changed copies -------------------------------------------------------------------------
+
+    def replace(
+        self,
+        *,
+        cylinder: Cylinder | Sequence[Cylinder] | None = None,
+        tdc_deg: Angles | None = None,
+        pin_deg: Angles | None = None,
+        bank_deg: Angles | None = None,
+        z: ArrayLike | None = None,
+        rotating_mass: ArrayLike | None = None,
+        counterweights: Iterable[Unbalance] | None = None,
+        shafts: Iterable[Shaft] | None = None,
+        mains: ArrayLike | Literal["kept"] | None = KEPT,
+        reference_z: float | Literal["kept"] | None = KEPT,
+        firing_order: str | Iterable[int] | None = None,
+        strokes: int | None = None,
+        name: str | None = None,
+        source: str | None = None,
+    ) -> Self:
+        """Return a copy with some lists changed; see :meth:`from_lists`.
+
+        A firing order that the changed crank does not allow is dropped, unless it is given.
+
+        Parameters
+        ----------
+        mains, reference_z
+            None for the defaults of :attr:`mains` and :attr:`reference_z`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> i4 = cp.Engine.preset("i4")
+        >>> longer = i4.replace(cylinder=[c.replace(rod_length=0.2) for c in i4.cylinders])
+        >>> longer == i4
+        False
+        """
+        exact_tdc, exact_bank = self._core.exact_angles
+        bearings: Any = self._core.mains if _is_kept(mains) else mains
+        plane: Any = self._core.reference_z if _is_kept(reference_z) else reference_z
+        core = core_of_lists(
+            self.cylinders if cylinder is None else cylinder,
+            exact_tdc if tdc_deg is None and pin_deg is None else tdc_deg,
+            pin_deg,
+            exact_bank if bank_deg is None else bank_deg,
+            self.z if z is None else z,
+            self.rotating_mass if rotating_mass is None else rotating_mass,
+            mains=bearings,
+            reference_z=plane,
+            bank=self._core.bank if bank_deg is None else None,
+        )
+        weights = self.counterweights if counterweights is None else counterweights
+        core = rotating.with_counterweights(core, weights)
+        core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
+        count = self.strokes if strokes is None else inputs.strokes(strokes)
+        return type(self)(
+            core,
+            self._core.name if name is None else name,
+            self.source if source is None else source,
+            allowed(core, self.firing_order, count) if firing_order is None else firing_order,
+            count,
+        )
+
+    def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
+        """Return the same engine with these counterweights in place of those it has.
+
+        All analyses count them: balances, waveforms, sweeps and proofs.
+
+        Parameters
+        ----------
+        counterweights
+            Unbalances on the crankshaft, each at an angle of its own or at a crankpin.
+
+        Examples
+        --------
+        The couple of the cross-plane V8 turns with the crank: weights at both ends remove it.
+
+        >>> import numpy as np
+        >>> import crankpin as cp
+        >>> v8 = cp.Engine.preset("v8-crossplane")
+        >>> couple = v8.balance(rpm=60)[1].moment.forward / (2 * np.pi) ** 2
+        >>> distance = v8.z.max() - v8.z.min()
+        >>> angle = np.degrees(np.angle(couple)) + 90
+        >>> ends = [
+        ...     cp.Unbalance(abs(couple) / distance, z, side + angle)
+        ...     for z, side in [(v8.z.min(), 180), (v8.z.max(), 0)]
+        ... ]
+        >>> bool(v8.with_counterweights(ends).balance(rpm=60, orders=[1])[1].moment.peak < 1e-9)
+        True
+        """
+        return type(self)(rotating.with_counterweights(self._core, counterweights))
+
+    def with_shafts(self, shafts: Iterable[Shaft]) -> Self:
+        """Return the same engine with these balance shafts in place of those it has.
+
+        Parameters
+        ----------
+        shafts
+            Balance shafts; see :class:`crankpin.Shaft`.
+        """
+        return type(self)(rotating.with_shafts(self._core, shafts))
+
+    def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
+        """Return the same engine with its two banks at another angle about the same bisector.
+
+        A firing order that the changed crank does not allow is dropped.
+
+        Parameters
+        ----------
+        bank_angle_deg
+            Angle between the banks, 0 to 180.
+        hold
+            ``"pins"``: crankpins are held, firing intervals change (the IJESC paper).
+            ``"firing"``: all top dead centres are held, pins are split as needed (Ito and Hattori).
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> v6 = cp.Engine.preset("v6-60").with_bank_angle(90, hold="pins")
+        >>> v6.bank_angle_deg, v6.name
+        (90.0, 'V6 90°, split pins')
+        """
+        held = inputs.text("hold", hold, 'give "pins" or "firing"')
+        if len(self.banks) != 2:
+            self.bank_angle_deg  # noqa: B018 - raises
+        core = self._core.with_bank_angle(inputs.angle("bank_angle_deg", bank_angle_deg), held)
+        order = allowed(core, self.firing_order, self.strokes)
+        return type(self)(core if order else core.firing_as("", self.strokes))
+
+    def with_first_tdc(self, tdc_deg: Angle) -> Self:
+        """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle.
+
+        Parameters
+        ----------
+        tdc_deg
+            Crank angle, degrees.
+        """
+        return type(self)(self._core.with_first_tdc(inputs.angle("tdc_deg", tdc_deg)))
+
+    # --- files ----------------------------------------------------------------------------------
+
+    @classmethod
+    def from_toml(cls, text: str) -> Self:
+        """Return the engine that a TOML text describes; see :meth:`to_toml`."""
+        return cls._read(_core.Engine.from_toml(_file_text(text)))
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Return the engine that a JSON text describes; see :meth:`to_json`."""
+        return cls._read(_core.Engine.from_json(_file_text(text)))
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Return the engine in a ``.toml`` or ``.json`` file.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise, or the text does not describe an engine.
+        OSError
+            If the file cannot be read.
+        """
+        file = _file_path(path)
+        with file.open("rb") as opened:
+            found = opened.read(
+                _core.LONGEST_FILE + 1
+            )  # no more than the error of a longer one needs
+        try:
+            text = found.decode("utf-8")
+        except UnicodeDecodeError as error:
+            hint = f"{error}; an engine file is UTF-8"
+            raise InputError(f"path = {inputs.shorten(str(path))}: {hint}") from None
+        return cls.from_toml(text) if file.suffix.lower() == ".toml" else cls.from_json(text)
+
+    @classmethod
+    def _read(cls, core: _CoreEngine) -> Self:
+        """Return the engine of a file, its parts and firing order checked."""
+        if core.firing_order:
+            order = _core.Firing.named(core, core.firing_order, core.strokes)
+            core = core.firing_as(order.text, core.strokes)
+        read = cls(core)
+        _ = read.cylinders  # rods that contradict their cylinders raise
+        checks.units(core)
+        return read
+
+    def to_toml(self) -> str:
+        """Return the engine as TOML with a schema version; it reads back as an equal engine.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> single = cp.Engine.inline(cp.Cylinder(0.05, 0.15, 0.5), throws_deg=[0], spacing=0.1)
+        >>> print(single.to_toml())
+        schema = 1
+        <BLANKLINE>
+        [cylinder]
+        crank_radius = 0.05
+        rod_length = 0.15
+        reciprocating_mass = 0.5
+        pin_offset = 0.0
+        <BLANKLINE>
+        [[placements]]
+        tdc_deg = 0.0
+        bank_deg = 90.0
+        z = 0.0
+        rotating_mass = 0.0
+        <BLANKLINE>
+        """
+        return self._core.to_toml()
+
+    def to_json(self) -> str:
+        """Return the engine as JSON with a schema version; it reads back as an equal engine."""
+        return self._core.to_json()
+
+    def save(self, path: str | Path) -> None:
+        """Write the engine to a ``.toml`` or ``.json`` file."""
+        file = _file_path(path)
+        text = self.to_toml() if file.suffix.lower() == ".toml" else self.to_json()
+        file.write_text(text, encoding="utf-8")
+
+
+def core_of_lists(
+    cylinder: Cylinder | Sequence[Cylinder],
+    tdc_deg: Angles | None,
+    pin_deg: Angles | None,
+    bank_deg: Angles,
+    z: ArrayLike,
+    rotating_mass: ArrayLike,
+    *,
+    mains: ArrayLike | None,
+    reference_z: float | None,
+    bank: list[int] | None = None,
+) -> _CoreEngine:
+    """Return the engine of :meth:`Engine.from_lists`; cylinders of equal ``bank`` form one."""
+    banks = inputs.angles("bank_deg", bank_deg)
+    if isinstance(cylinder, Cylinder):
+        each = [cylinder] * len(banks)
+    else:
+        each = inputs.items(
+            "cylinder", cylinder, "give a crankpin.Cylinder, or one for each cylinder"
+        )
+    core = _core.Engine.from_lists(
+        [parts(one) for one in each],
+        None if tdc_deg is None else inputs.angles("tdc_deg", tdc_deg),
+        None if pin_deg is None else inputs.angles("pin_deg", pin_deg),
+        banks,
+        bank,
+        inputs.vector("z", z).tolist(),
+        inputs.per_item("rotating_mass", rotating_mass, len(banks)),
+        "",
+        "",
+    )
+    bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
+    plane = inputs.optional_number("reference_z", reference_z)
+    core = core.keeping([one._details for one in each], bearings, plane)
+    crankpins.check_mains(core)
+    checks.units(core)
+    checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
+    if plane is not None:
+        checks.place(core, "reference_z", plane)
+    return core
+
+
+def parts(cylinder: object) -> tuple[float, float, float, float, float]:
+    """Return the figures of a cylinder, as the core takes them."""
+    if not isinstance(cylinder, Cylinder):
+        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+    return cylinder._parts
+
+
+def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
+    """Return a firing order, or an empty text if the crank does not allow it."""
+    possible = firing_order and _core.Firing.all_named(core, firing_order, strokes)
+    return firing_order if possible else ""
+
+
+def _is_kept(value: object) -> bool:
+    return isinstance(value, str) and value == KEPT
+
+
+def _reduced(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return angles in [0, 360), rounded to what a sum of angles is known to."""
+    return np.asarray((degrees % 360.0).round(10) % 360.0)
+
+
+def _file_text(text: object) -> str:
+    return inputs.text("text", text, "give the text of an engine file")
+
+
+def _file_path(path: object) -> Path:
+    return inputs.file_path(path, (".toml", ".json"), "an engine file ends in .toml or .json")
