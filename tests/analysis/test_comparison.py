@@ -52,7 +52,7 @@ def test_options_are_those_of_a_balance() -> None:
 def test_the_table_has_what_matters_before_and_after() -> None:
     text = repr(cp.compare(I4, FITTED, rpm=5000, orders=[1, 2, 4]))
     title, header, *lines = text.splitlines()
-    assert title == "Inline-4 at 5000 rpm: peaks"
+    assert title == "Inline-4 → Inline-4 with 2 balance shafts at 5000 rpm: peaks"
     assert header.split() == ["quantity", "order", "before", "after", "change", "%"]
     assert [line.split()[:4] for line in lines] == [
         ["shaking", "force,", "N", "2"],

@@ -229,7 +229,12 @@ def test_ticks_fit_the_width(width: float, fewest: int) -> None:
 
 @pytest.mark.parametrize(
     ("name", "title"),
-    [("V6 60°", "V6"), ("60° V6", "V6"), ("V6 60°, split -60°", "V6, split -60°"), ("60°", "60°")],
+    [
+        ("V6 {bank_angle}°", "V6"),
+        ("{bank_angle}° V6", "V6"),
+        ("V6 {bank_angle}°, {pins}", "V6, split pins"),
+        ("V6 60°", "V6 60°"),  # what its user typed
+    ],
 )
 def test_titles_leave_out_the_bank_angle_alone(name: str, title: str) -> None:
     engine = cp.Engine.preset("v6-60").replace(name=name)
@@ -240,4 +245,4 @@ def test_titles_leave_out_the_bank_angle_alone(name: str, title: str) -> None:
 def test_a_scale_of_colours_leaves_the_title_of_given_axes() -> None:
     _, ax = plt.subplots()
     over_two(orders=[1]).plot(ax, kind="curves")
-    assert title_of(ax).split("\n")[0] == "V6, shared pins"
+    assert title_of(ax).split("\n")[0] == "V6 60°, shared pins"

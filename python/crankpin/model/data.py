@@ -113,7 +113,7 @@ class EngineData:
         count = len(self)
         name = self._core.name or f"{count} cylinder{'s' * (count > 1)}"
         if not with_bank_angle:
-            name = name.replace(f" {BANK_ANGLE}°", "")
+            name = name.replace(f" {BANK_ANGLE}°", "").replace(f"{BANK_ANGLE}° ", "")
         counts = {
             "counterweight": len(self._core.counterweights),
             "balance shaft": len(self._core.shafts),
