@@ -101,7 +101,7 @@ def test_titles_and_legend_name_both() -> None:
     figure = SHAFTS.plot().flat[0].get_figure(root=True)
     assert figure.get_suptitle().startswith("Inline-4 → Inline-4 with 2 balance shafts\n")
     (legend,) = figure.legends
-    assert [text.get_text() for text in legend.get_texts()][0] == "Inline-4"
+    assert legend.get_texts()[0].get_text() == "Inline-4"
 
 
 def test_axes_given_get_the_bars() -> None:
