@@ -22,7 +22,7 @@
 //! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
 
 use crate::Complex64;
-use crate::engine::{Engine, Hold, first_equal};
+use crate::engine::{Crank, Engine, Hold, first_equal};
 use crate::gear::slider_crank::Cylinder;
 use crate::gear::spectrum::Spectrum;
 use crate::gear::{Gear, GearKind};
@@ -317,7 +317,7 @@ impl Loads {
     /// masses and radius in it.
     pub fn new(engine: &Engine, reference: f64, alike: Alike, spectrum: Option<&Spectrum>) -> Self {
         let cylinders = engine.gears();
-        let gear_of = match (spectrum, alike) {
+        let alike_to = match (spectrum, alike) {
             (Some(_), _) => vec![0; cylinders.len()],
             (None, Alike::Proportions) => first_equal(cylinders.iter().map(Cylinder::proportions)),
             (None, Alike::Dimensions) => {
@@ -325,13 +325,24 @@ impl Loads {
                 first_equal(cylinders.iter().map(sizes))
             }
         };
+        let crank = |i: usize| &engine.cranks()[engine.crank_of(i)];
+        let count = engine.placements().len();
+        let gear_of =
+            first_equal((0..count).map(|i| (alike_to[engine.gear_of(i)], crank(i).ratio)));
         let mut gears: Vec<Gear> = Vec::new();
-        for (&gear, &cylinder) in gear_of.iter().zip(cylinders) {
+        for (i, &gear) in gear_of.iter().enumerate() {
             if gear == gears.len() {
-                let given = |spectrum| Gear { kind: GearKind::Given(spectrum), ratio: 1 };
-                gears.push(spectrum.cloned().map_or_else(|| Gear::of(cylinder), given));
+                let (cylinder, ratio) = (cylinders[engine.gear_of(i)], crank(i).ratio);
+                let given = |spectrum| Gear { kind: GearKind::Given(spectrum), ratio };
+                gears.push(spectrum.cloned().map_or_else(|| Gear::of(cylinder, ratio), given));
             }
         }
+        // A load on the crank of a cylinder.
+        let on_crank_of = |i: usize, load: Load| {
+            let Crank { axis: [x, y], ratio } = *crank(i);
+            let (phase, bank) = (engine.placements()[i].tdc, Some(engine.bank_of(i)));
+            Load { phase, bank, ratio, axis: Complex64::new(x, y), ..load }
+        };
         let on_main = |source, weight, direction: Angle, z| Load {
             source,
             weight,
@@ -346,23 +357,20 @@ impl Loads {
         let pistons = engine.placements().iter().enumerate().map(|(i, place)| {
             let cylinder = place.cylinder;
             let source = Source::Piston {
-                gear: gear_of[engine.gear_of(i)],
+                gear: gear_of[i],
                 second_moment: cylinder.second_moment(),
                 rod_inertia: cylinder.rod_inertia_excess(),
             };
             let weight = if spectrum.is_some() { 1.0 } else { cylinder.first_order() };
-            let bank = Some(engine.bank_of(i));
-            Load { phase: place.tdc, bank, ..on_main(source, weight, place.bank, place.z) }
+            on_crank_of(i, on_main(source, weight, place.bank, place.z))
         });
         let on_crank = engine.crank_unbalances().map(|unbalance| {
+            let load = |angle| on_main(Source::Unbalance, unbalance.amount, angle, unbalance.z);
+            let Some(i) = unbalance.pin else { return load(unbalance.angle) };
             // A crankpin points along its bore at top dead centre.
-            let pin = unbalance.pin.map(|i| (engine.placements()[i], engine.bank_of(i)));
-            let direction = unbalance.angle + pin.map_or(Angle::ZERO, |(place, _)| place.bank);
-            Load {
-                phase: pin.map_or(Angle::ZERO, |(place, _)| place.tdc),
-                bank: pin.map(|(_, bank)| bank),
-                ..on_main(Source::Unbalance, unbalance.amount, direction, unbalance.z)
-            }
+            let (angle, bore) = (unbalance.angle, engine.placements()[i].bank);
+            let ahead = if crank(i).ratio > 0 { bore + angle } else { bore - angle };
+            on_crank_of(i, load(ahead))
         });
         let on_shafts = engine.shafts().iter().flat_map(|shaft| {
             shaft.unbalances.iter().map(|unbalance| Load {

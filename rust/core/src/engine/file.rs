@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
-use super::{Details, Engine, Placement, Shaft, Unbalance};
+use super::{Crank, Details, Engine, Placement, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
@@ -40,6 +40,17 @@ struct EngineFile {
     counterweights: Vec<Weight>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     shafts: Vec<BalanceShaft>,
+    /// Cranks besides the main one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    cranks: Vec<OtherCrank>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OtherCrank {
+    x: f64,
+    y: f64,
+    ratio: i32,
 }
 
 #[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
@@ -79,6 +90,11 @@ fn is_four(strokes: &u32) -> bool {
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_main(crank: &usize) -> bool {
+    *crank == 0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
@@ -94,6 +110,9 @@ struct Place {
     /// Number of the bank, where directions alone do not tell which is which.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     bank: Option<usize>,
+    /// Number of the crank: 0 is the main one, from 1 those of the list.
+    #[serde(default, skip_serializing_if = "is_main")]
+    crank: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<Parts>,
 }
@@ -233,6 +252,7 @@ impl EngineFile {
             z: p.z,
             rotating_mass: p.rotating_mass,
             bank: numbered.then(|| number(engine.bank_of(i))),
+            crank: engine.crank_of(i),
             cylinder: (!shared).then_some(parts[i]),
         };
         Ok(Self {
@@ -247,6 +267,10 @@ impl EngineFile {
             placements: engine.placements().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(Weight::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
+            cranks: engine.cranks()[1..]
+                .iter()
+                .map(|&Crank { axis: [x, y], ratio }| OtherCrank { x, y, ratio })
+                .collect(),
         })
     }
 
@@ -291,6 +315,9 @@ impl EngineFile {
             }
             None => Engine::new(self.name, self.source, placements)?,
         };
+        let others = self.cranks.iter().map(|c| Crank { axis: [c.x, c.y], ratio: c.ratio });
+        let cranks = std::iter::once(Crank::MAIN).chain(others).collect();
+        let crank_of = self.placements.iter().map(|place| place.crank).collect();
         let shafts = self.shafts.iter().enumerate();
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         engine
@@ -298,6 +325,7 @@ impl EngineFile {
             .with_details(details)?
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
+            .with_cranks(cranks, crank_of)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
     }
@@ -377,7 +405,7 @@ fn sized(format: &'static str, text: &str) -> Result<()> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 4] = ["placements", "counterweights", "shafts", "unbalances"];
+    const LISTS: [&str; 5] = ["cranks", "placements", "counterweights", "shafts", "unbalances"];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");
         return Err(Error::File { format: "JSON", reason });
@@ -457,6 +485,9 @@ mod tests {
                 let engine = engine.with_details(details).unwrap();
                 let engine = engine.with_mains(vec![-0.1, 0.25]).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
+                let other = Crank { axis: [0.25, -0.125], ratio: -1 };
+                let crank_of = (0..engine.placements().len()).map(|i| i % 2).collect();
+                let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
         )

@@ -8,7 +8,7 @@ pub mod layout;
 mod shaft;
 
 use self::layout::Strokes;
-pub use self::shaft::{Shaft, Unbalance};
+pub use self::shaft::{Crank, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -97,6 +97,10 @@ pub struct Engine {
     bank_of: Vec<usize>,
     /// The right one of two banks.
     right: Option<usize>,
+    /// The main crank, then others.
+    cranks: Vec<Crank>,
+    /// Index of each cylinder's crank.
+    crank_of: Vec<usize>,
     counterweights: Vec<Unbalance>,
     shafts: Vec<Shaft>,
     /// Of each cylinder.
@@ -144,15 +148,7 @@ impl Engine {
             let cure = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
             return Err(Error::value("number of cylinders", count, cure));
         }
-        if bank_keys.len() != count {
-            return Err(Error::Length {
-                argument: "bank".into(),
-                found: bank_keys.len(),
-                reference: "the engine".into(),
-                expected: count,
-                item: "cylinder",
-            });
-        }
+        check_each_cylinder("bank", bank_keys.len(), count)?;
         let mut gears = Vec::new();
         let mut gear_of = Vec::with_capacity(count);
         for (i, placement) in placements.iter_mut().enumerate() {
@@ -171,6 +167,8 @@ impl Engine {
             gears,
             gear_of,
             bank_of: first_equal(bank_keys.iter()),
+            cranks: vec![Crank::MAIN],
+            crank_of: vec![0; count],
             counterweights: Vec::new(),
             shafts: Vec::new(),
             details: vec![Details::default(); count],
@@ -240,6 +238,27 @@ impl Engine {
         self.bank_of[cylinder]
     }
 
+    /// The main crank, then others.
+    #[must_use]
+    pub fn cranks(&self) -> &[Crank] {
+        &self.cranks
+    }
+
+    /// Index of a cylinder's crank.
+    #[must_use]
+    pub fn crank_of(&self, cylinder: usize) -> usize {
+        self.crank_of[cylinder]
+    }
+
+    /// Rejects several cranks, where a quantity is defined for one alone.
+    pub fn check_one_crank(&self, argument: &'static str) -> Result<()> {
+        if self.cranks.len() == 1 {
+            return Ok(());
+        }
+        let reason = format!("it has {} cranks; one is needed", self.cranks.len());
+        Err(Error::Undefined { argument, reason })
+    }
+
     /// Unbalances that the crankshaft carries besides the rotating masses of the cylinders.
     #[must_use]
     pub fn counterweights(&self) -> &[Unbalance] {
@@ -307,6 +326,7 @@ impl Engine {
 
     /// The two banks of a vee.
     pub fn banks(&self) -> Result<Banks> {
+        self.check_one_crank("bank_angle_deg")?;
         let directions = self.bank_directions();
         let Some(right) = self.right else {
             let listed: Vec<String> = directions.iter().map(|bank| format!("{bank}°")).collect();
@@ -362,6 +382,24 @@ impl Engine {
         turned
     }
 
+    /// The same engine with these cranks, the main one first, and of each cylinder the index of its
+    /// crank. Tops remain angles of the main crank; what follows a crankpin moves to its crank.
+    pub fn with_cranks(&self, cranks: Vec<Crank>, crank_of: Vec<usize>) -> Result<Self> {
+        if cranks.first() != Some(&Crank::MAIN) {
+            let hint = "make the first crank the main one, at x = y = 0 with ratio 1";
+            return Err(Error::value("cranks[0]", format!("{:?}", cranks.first()), hint));
+        }
+        for (k, crank) in cranks.iter().enumerate() {
+            crank.check(&format!("cranks[{k}]"))?;
+        }
+        check_each_cylinder("crank_of", crank_of.len(), self.placements.len())?;
+        if let Some(k) = crank_of.iter().position(|&crank| crank >= cranks.len()) {
+            let hint = format!("give the number of a crank, below {}", cranks.len());
+            return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
+        }
+        Ok(Self { cranks, crank_of, ..self.clone() })
+    }
+
     /// The same engine with these counterweights on the crankshaft instead of those it has.
     pub fn with_counterweights(&self, counterweights: Vec<Unbalance>) -> Result<Self> {
         shaft::check_count("counterweights", counterweights.len())?;
@@ -386,15 +424,7 @@ impl Engine {
 
     /// The same engine with these figures of its cylinders.
     pub fn with_details(&self, details: Vec<Details>) -> Result<Self> {
-        if details.len() != self.placements.len() {
-            return Err(Error::Length {
-                argument: "details".into(),
-                found: details.len(),
-                reference: "the engine".into(),
-                expected: self.placements.len(),
-                item: "cylinder",
-            });
-        }
+        check_each_cylinder("details", details.len(), self.placements.len())?;
         for Details { bore, piston_mass, rod } in &details {
             bore.map(|bore| limits::length("bore", bore)).transpose()?;
             piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
@@ -450,6 +480,15 @@ fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
         0.0 | 180.0 => usize::from(keys[second] < keys[0]),
         ahead => usize::from(ahead > 180.0),
     })
+}
+
+/// Rejects a list that has not one entry for each cylinder.
+fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<()> {
+    if found == expected {
+        return Ok(());
+    }
+    let (argument, reference) = (argument.to_owned(), "the engine".to_owned());
+    Err(Error::Length { argument, found, reference, expected, item: "cylinder" })
 }
 
 /// A text of moderate length.

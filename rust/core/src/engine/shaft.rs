@@ -31,8 +31,43 @@ pub struct Shaft {
     pub unbalances: Vec<Unbalance>,
 }
 
+/// A crankshaft. Every crank turns evenly: each has a flywheel of its own, and gears between cranks
+/// transmit nothing that varies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crank {
+    /// Place of its axis in the cross-section, x and y from the main crank's, m.
+    pub axis: [f64; 2],
+    /// Speed over that of the main crank; negative where it turns the other way.
+    pub ratio: i32,
+}
+
 /// Highest speed of a shaft over crank speed.
 const FASTEST: i32 = 20;
+
+impl Crank {
+    /// The main crank, to which crank angles and ratios refer.
+    pub const MAIN: Self = Self { axis: [0.0; 2], ratio: 1 };
+
+    /// Rejects figures that make no crank; `place` is its name in errors.
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        check_rotation(place, self.ratio, self.axis)
+    }
+}
+
+/// Rejects a ratio and an axis that no shaft has.
+fn check_rotation(place: &str, ratio: i32, axis: [f64; 2]) -> Result<()> {
+    if ratio == 0 || ratio.abs() > FASTEST {
+        let hint = format!(
+            "give a whole number from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \
+             -2 against it at twice its speed"
+        );
+        return Err(Error::value(format!("{place}.ratio"), ratio, hint));
+    }
+    for (axis, name) in axis.iter().zip(["x", "y"]) {
+        limits::finite(&format!("{place}.{name}"), *axis)?;
+    }
+    Ok(())
+}
 
 impl Unbalance {
     /// Checked, its angle reduced to one turn; `place` is its name in errors.
@@ -53,19 +88,10 @@ impl Unbalance {
 impl Shaft {
     /// Checked; `place` is its name in errors.
     pub(super) fn checked(mut self, place: &str) -> Result<Self> {
-        if self.ratio == 0 || self.ratio.abs() > FASTEST {
-            let hint = format!(
-                "give a whole number from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \
-                 -2 against it at twice its speed"
-            );
-            return Err(Error::value(format!("{place}.ratio"), self.ratio, hint));
-        }
+        check_rotation(place, self.ratio, self.axis)?;
         if self.name.len() > limits::LONGEST_NAME {
             let hint = format!("give {} bytes at most", limits::LONGEST_NAME);
             return Err(Error::value(format!("{place}.name"), &self.name, hint));
-        }
-        for (axis, name) in self.axis.iter().zip(["x", "y"]) {
-            limits::finite(&format!("{place}.{name}"), *axis)?;
         }
         check_count(&format!("{place}.unbalances"), self.unbalances.len())?;
         for (i, unbalance) in self.unbalances.iter_mut().enumerate() {

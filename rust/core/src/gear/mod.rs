@@ -39,10 +39,10 @@ pub(crate) enum GearKind {
 }
 
 impl Gear {
-    /// The slider-crank of a cylinder on the main crank.
-    pub fn of(cylinder: Cylinder) -> Self {
+    /// The slider-crank of a cylinder on a crank of this speed.
+    pub fn of(cylinder: Cylinder, ratio: i32) -> Self {
         let proportions = cylinder.proportions();
-        Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio: 1 }
+        Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio }
     }
 
     /// Harmonics of the force; zero at orders that it does not have.

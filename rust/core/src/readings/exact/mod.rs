@@ -58,6 +58,7 @@ impl Proportions {
 /// All loads; pistons share a gear where their proportions are equal as typed, though quotients of
 /// doubles may differ.
 fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
+    engine.check_one_crank("an exact sum")?;
     let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
     let same = first_equal(loads.cylinders().iter().map(Proportions::of));
     for load in &mut loads.list {

@@ -125,6 +125,7 @@ impl Tolerances {
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
+        engine.check_one_crank("tolerances")?;
         check_pins(engine, pin_of)?;
         for (figure, spreads) in Figure::ALL.into_iter().zip(&mut spreads) {
             check_spreads(engine, pin_of, figure, spreads)?;
