@@ -99,11 +99,14 @@ import resource
 import numpy as np
 import crankpin as cp
 v6 = cp.Engine.preset("v6-60")
+v16 = cp.Engine.vee(
+    v6.cylinders[0], bank_angle_deg=45, spacing=0.1, throws_deg=[0, 90, 270, 180, 180, 270, 90, 0]
+)
 def limited(megabytes):
     "Allow so much address space more than is in use."
     with open("/proc/self/statm") as file:
         used = int(file.read().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (used + megabytes * 10**6, -1))
+    resource.setrlimit(resource.RLIMIT_AS, (int(used + megabytes * 10**6), -1))
 {before}
 limited({megabytes})
 try:
@@ -139,10 +142,37 @@ except MemoryError as error:
             "speeds = np.linspace(100, 5000, 10_000_000)",
             "cp.sweep(v6, rpm=speeds, orders='auto').force",
         ),
+        # Small allocations fail where there is almost nothing left.
+        (0, "", "v16.firing_orders()"),
+        (2, "", "v16.firing_orders()"),
+        (16, "", "v16.firing_orders()"),
+        (0, "found = cp.search_arrangements(22)", "found.bank_angles_deg"),
+        (50, "found = cp.search_arrangements(22)", "found.bank_angles_deg"),
+        (0, "found = cp.search_arrangements(22)", "for each in found: pass"),
+        (0, "several = v6.balance(5000, orders=range(1, 10_001))", "several.total.force.peak"),
+        (
+            0.5,
+            "ratios = np.linspace(0.1, 0.5, 20_000)",
+            "cp.sweep(v6, rpm=3000, rod_ratio=ratios, orders=[1, 2, 4]).total.moment.peak",
+        ),
+        (
+            250,
+            "ratios = np.linspace(0.1, 0.5, 16_384); several = [v6.replace(name=f'{k}') for k in "
+            "range(100)]",
+            "cp.sweep(several, rpm=3000, rod_ratio=ratios, orders=[1, 2]).moment.xy",
+        ),
+        (
+            8,
+            # OpenBLAS ends the process where it has no memory for its first call.
+            "np.linalg.lstsq(np.eye(3), np.ones(3)); "
+            "question = {'layout': 'vee', 'cylinder': v6.cylinders[0], 'bank_angle_deg': 90, "
+            "'spacing': 0.1, 'rpm': 6000, 'by': 'total.moment.peak'}; cp.design(4, **question)",
+            "cp.design(16, **question)",
+        ),
     ],
 )
 def test_memory_that_is_not_there_raises_memory_error(
-    megabytes: int, before: str, call: str
+    megabytes: float, before: str, call: str
 ) -> None:
     program = LITTLE_MEMORY.format(megabytes=megabytes, before=before, call=call)
     assert python(program) == "MemoryError\n"

@@ -8,6 +8,8 @@ use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::reserve;
+
 pyo3::create_exception!(
     crankpin,
     InputError,
@@ -27,12 +29,13 @@ pub fn python_error(error: core::Error) -> PyErr {
 
 /// Result of the core as a Python result.
 pub trait OrRaise<T> {
-    /// Map the error.
+    /// Map the error; an error too if the reserve of memory is used up.
     fn or_raise(self) -> PyResult<T>;
 }
 
 impl<T> OrRaise<T> for core::Result<T> {
     fn or_raise(self) -> PyResult<T> {
+        reserve::ensure()?;
         self.map_err(python_error)
     }
 }

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use crankpin_core as core;
 use crankpin_core::firing::{self, NamedOrder, Period, PortTiming, ValveTiming};
 use crankpin_core::layout::Strokes;
+use crankpin_core::memory;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
 use crate::convert::{Angle, OrRaise, frozen};
 use crate::engine::{Engine, VeeLayout, firing_rule};
+use crate::interrupt;
 
 /// A way to fire, of the core.
 #[pyclass(frozen, eq, module = "crankpin._core")]
@@ -57,10 +59,11 @@ fn periods<'py>(py: Python<'py>, periods: &[Period]) -> Bound<'py, PyArray2<f64>
 impl Firing {
     /// The most even of [`Self::all_named`].
     #[staticmethod]
-    fn named(engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Self> {
+    fn named(py: Python<'_>, engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Self> {
         let strokes = Strokes::from_number(strokes).or_raise()?;
         let order: NamedOrder = firing_order.parse().or_raise()?;
-        core::Firing::named(&engine.0, &order, strokes).or_raise().map(Self)
+        let engine = Arc::clone(&engine.0);
+        interrupt::run(py, |cancel| core::Firing::named(&engine, &order, strokes, cancel)).map(Self)
     }
 
     /// The most even way to fire, if no other order is as even.
@@ -68,7 +71,7 @@ impl Firing {
     fn most_even(py: Python<'_>, engine: &Engine, strokes: u32) -> PyResult<Self> {
         let strokes = Strokes::from_number(strokes).or_raise()?;
         let engine = Arc::clone(&engine.0);
-        py.detach(|| core::Firing::most_even(&engine, strokes)).or_raise().map(Self)
+        interrupt::run(py, |cancel| core::Firing::most_even(&engine, strokes, cancel)).map(Self)
     }
 
     #[staticmethod]
@@ -83,8 +86,8 @@ impl Firing {
     fn all(py: Python<'_>, engine: &Engine, strokes: u32) -> PyResult<Vec<Self>> {
         let strokes = Strokes::from_number(strokes).or_raise()?;
         let engine = Arc::clone(&engine.0);
-        let found = py.detach(|| core::Firing::all(&engine, strokes)).or_raise()?;
-        Ok(found.into_iter().map(Self).collect())
+        let found = interrupt::run(py, |cancel| core::Firing::all(&engine, strokes, cancel))?;
+        memory::collected(found.into_iter().map(Self)).or_raise()
     }
 
     #[staticmethod]

@@ -8,6 +8,7 @@ use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
+use crate::reserve;
 
 /// Do `work` without the interpreter; stop it when a signal handler raises.
 ///
@@ -23,6 +24,7 @@ pub fn watched<T: Send>(
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&Cancel) -> Result<T> + Send,
 ) -> PyResult<T> {
+    reserve::ensure()?;
     let raised = Arc::new(Mutex::new(None));
     let error = Arc::clone(&raised);
     let function = progress.map(|function| function.clone_ref(py));

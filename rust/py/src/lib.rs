@@ -14,6 +14,7 @@ mod engine;
 mod firing;
 mod interrupt;
 mod matching;
+mod reserve;
 mod search;
 mod slider_crank;
 mod sweep;
@@ -21,8 +22,12 @@ mod tolerances;
 mod vanishing;
 mod waveform;
 
+#[global_allocator]
+static ALLOCATOR: reserve::Allocator = reserve::Allocator;
+
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    reserve::allocate();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
     module.add("LONGEST_FILE", crankpin_core::engine::file::LONGEST_TEXT)?;

@@ -6,7 +6,7 @@ use crankpin_core::search::{self, Angles};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_error};
+use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
 
@@ -88,8 +88,8 @@ impl BankAngles {
         Ok(frozen(py, interrupt::run(py, |cancel| self.angles.degrees(cancel))?.into()))
     }
 
-    fn solution(&self, k: usize) -> PyResult<Solution> {
-        let found = self.found(k)?;
+    fn solution(&self, py: Python<'_>, k: usize) -> PyResult<Solution> {
+        let found = interrupt::run(py, |_| self.found(k))?;
         let degrees = |phases: &[u32]| -> core::Result<Vec<f64>> {
             let angle = |&p: &u32| core::Angle::from_turns(p.into(), found.parts.into());
             phases.iter().map(|phase| angle(phase).map(core::Angle::degrees)).collect()
@@ -102,10 +102,9 @@ impl BankAngles {
 }
 
 impl BankAngles {
-    fn found(&self, k: usize) -> PyResult<search::Solution> {
-        self.search.get().0.solution(&self.angles, k).ok_or_else(|| {
-            python_error(Error::value("index", k, "there are fewer bank angles than that"))
-        })
+    fn found(&self, k: usize) -> core::Result<search::Solution> {
+        let missing = || Error::value("index", k, "there are fewer bank angles than that");
+        self.search.get().0.solution(&self.angles, k).ok_or_else(missing)
     }
 }
 

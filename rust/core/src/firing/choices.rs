@@ -8,7 +8,9 @@ use super::tops::Tops;
 use super::way::Firing;
 use crate::engine::Engine;
 use crate::layout::Strokes;
+use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result, shorten};
+use crate::numbers::memory;
 
 /// Most cylinders of which all orders are listed: a V16 has 2¹⁵ choices of turns.
 pub const MOST_LISTED: usize = 16;
@@ -25,8 +27,8 @@ impl Firing {
         let tops = Tops::of(engine);
         let count = tops.0.len();
         if order.cylinders.len() != count {
-            let cure = format!("name each of the engine's {count} cylinders once");
-            return Err(Error::value("firing_order", order, cure));
+            let hint = format!("name each of the engine's {count} cylinders once");
+            return Err(Error::value("firing_order", order, hint));
         }
         // Within a turn cylinders fire as they reach the top; the order may go back to an earlier
         // top once, where the second turn begins.
@@ -64,72 +66,82 @@ impl Firing {
     }
 
     /// The most even way for an engine to fire in this order.
-    pub fn named(engine: &Arc<Engine>, order: &NamedOrder, strokes: Strokes) -> Result<Self> {
+    pub fn named(
+        engine: &Arc<Engine>,
+        order: &NamedOrder,
+        strokes: Strokes,
+        cancel: &Cancel,
+    ) -> Result<Self> {
         if let Some(found) = Self::all_named(engine, order, strokes)?.into_iter().next() {
             return Ok(found);
         }
-        let later = vec![false; engine.placements().len()];
+        let count = engine.placements().len();
+        let later = vec![false; count];
         let within_a_turn = Self::assemble(engine, &Tops::of(engine), Strokes::Two, &later);
         let tops = shorten(&within_a_turn.to_string().replace('-', ", "));
-        let mut cure = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
-        if let Ok(possible) = Self::all(engine, strokes) {
+        let mut hint = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
+        if can_list(count, strokes) {
+            let possible = Self::all(engine, strokes, cancel)?;
             let (listed, more) = distinct_orders(&possible);
             let more = if more { ", …" } else { "" };
             let listed = listed.join(", ");
-            cure = format!("{cure}. Possible orders, most even first: {listed}{more}");
+            hint = format!("{hint}. Possible orders, most even first: {listed}{more}");
         }
-        Err(Error::value("firing_order", order, cure))
+        Err(Error::value("firing_order", order, hint))
     }
 
     /// The most even way for an engine to fire, if no other order is as even.
     ///
     /// Of several ways in that order, which differ in where the second turn begins, this is the one
     /// that [`Self::named`] gives.
-    pub fn most_even(engine: &Arc<Engine>, strokes: Strokes) -> Result<Self> {
-        let mut ways = Self::all(engine, strokes)?;
+    pub fn most_even(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
+        let mut ways = Self::all(engine, strokes, cancel)?;
         let as_even = ways.iter().take_while(|way| unevenness(way) == unevenness(&ways[0])).count();
         let (listed, more) = distinct_orders(&ways[..as_even]);
         if listed.len() == 1 {
             return Ok(ways.swap_remove(0));
         }
         let more = if more { ", …" } else { "" };
-        let cure =
+        let hint =
             format!("name one of the orders that are equally even: {}{more}", listed.join(", "));
-        Err(Error::value("firing_order", "None", cure))
+        Err(Error::value("firing_order", "None", hint))
     }
 
     /// Every way for an engine to fire, the most even first.
-    pub fn all(engine: &Arc<Engine>, strokes: Strokes) -> Result<Vec<Self>> {
+    pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
         let tops = Tops::of(engine);
         let count = tops.0.len();
-        let choices = match strokes {
-            Strokes::Two => 1_u32,
-            Strokes::Four if count <= MOST_LISTED => 1 << (count - 1),
-            Strokes::Four => {
-                let cure = format!(
-                    "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power \
-                     of {}; name an order in place of it",
-                    MOST_LISTED - 1
-                );
-                return Err(Error::value("number of cylinders", count, cure));
-            }
-        };
-        let mut found: Vec<Self> = (0..choices)
-            .map(|choice| {
-                let later: Vec<bool> = (0..count)
-                    .map(|i| i > 0 && choice.checked_shr(i as u32 - 1).unwrap_or(0) & 1 == 1)
-                    .collect();
-                Self::assemble(engine, &tops, strokes, &later)
-            })
-            .collect();
+        if !can_list(count, strokes) {
+            let hint = format!(
+                "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power of {}; \
+                 name an order in place of it",
+                MOST_LISTED - 1
+            );
+            return Err(Error::value("number of cylinders", count, hint));
+        }
+        let choices = if strokes == Strokes::Two { 1 } else { 1_usize << (count - 1) };
+        let mut found = memory::room(choices)?;
+        for choice in 0..choices {
+            cancel.check()?;
+            let bit = |i: usize| (choice << 1).checked_shr(i as u32).unwrap_or(0) & 1 == 1;
+            let later: Vec<bool> = (0..count).map(bit).collect();
+            found.push(Self::assemble(engine, &tops, strokes, &later));
+        }
         most_even_first(&mut found);
         Ok(found)
     }
 }
 
+/// True if every way to fire can be listed.
+fn can_list(cylinders: usize, strokes: Strokes) -> bool {
+    strokes == Strokes::Two || cylinders <= MOST_LISTED
+}
+
 fn most_even_first(firings: &mut [Firing]) {
-    firings
-        .sort_by_cached_key(|firing| (unevenness(firing), firing.order().to_vec(), firing.later()));
+    firings.sort_unstable_by(|a, b| {
+        let evenness = unevenness(a).cmp(&unevenness(b));
+        evenness.then_with(|| a.order().cmp(b.order())).then_with(|| a.is_later().cmp(b.is_later()))
+    });
 }
 
 /// To a millionth of a degree, so that rounding does not order what is equally even.
@@ -169,14 +181,14 @@ mod tests {
             sorted.sort_by(f64::total_cmp);
             assert_eq!(sorted, [60.0, 60.0, 60.0, 60.0, 60.0, 420.0]);
         }
-        let two_stroke = Firing::named(&v6, &order, Strokes::Two).unwrap();
+        let two_stroke = Firing::named(&v6, &order, Strokes::Two, &Cancel::new()).unwrap();
         assert_eq!(intervals(&two_stroke), [60.0; 6]);
     }
 
     #[test]
     fn cylinders_that_fire_together_are_told_and_read_back() {
         let boxer = engine(&vee(180.0, 180.0, &[0.0, 180.0], Side::Right));
-        let ways = Firing::all(&boxer, Strokes::Four).unwrap();
+        let ways = Firing::all(&boxer, Strokes::Four, &Cancel::new()).unwrap();
         assert_eq!(ways.len(), 8);
         for way in &ways {
             let order: NamedOrder = way.to_string().parse().unwrap();
@@ -184,10 +196,13 @@ mod tests {
             assert!(Firing::all_named(&boxer, &order, Strokes::Four).unwrap().contains(way));
         }
         let together: NamedOrder = "3+4-1+2".parse().unwrap();
-        let two_stroke = Firing::named(&boxer, &together, Strokes::Two).unwrap();
+        let two_stroke = Firing::named(&boxer, &together, Strokes::Two, &Cancel::new()).unwrap();
         assert_eq!(two_stroke.to_string(), "1+2-3+4");
         assert_eq!(intervals(&two_stroke), [0.0, 180.0, 0.0, 180.0]);
-        assert!(Firing::named(&boxer, &"1-2-3-4".parse().unwrap(), Strokes::Two).is_err());
+        assert!(
+            Firing::named(&boxer, &"1-2-3-4".parse().unwrap(), Strokes::Two, &Cancel::new())
+                .is_err()
+        );
     }
 
     /// A firing's own figures from its definition: each cylinder at its top in its own turn.
@@ -195,7 +210,7 @@ mod tests {
     fn every_way_to_fire_is_listed_once_and_tells_itself() {
         let tdcs = [40.0, 130.0, 305.5, 40.0];
         let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
-        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        let ways = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
         assert_eq!(ways.len(), 8);
         let mut choices: Vec<Vec<bool>> = ways.iter().map(Firing::later).collect();
         for way in &ways {
@@ -227,10 +242,10 @@ mod tests {
         assert!(Firing::with_later(&engine, Strokes::Two, &none).is_ok());
         assert!(Firing::with_later(&engine, Strokes::Four, &[true, false, false, false]).is_err());
         assert!(Firing::with_later(&engine, Strokes::Four, &[false; 3]).is_err());
-        assert_eq!(Firing::all(&engine, Strokes::Two).unwrap().len(), 1);
+        assert_eq!(Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap().len(), 1);
         let many = placed(&vec![(cylinder(0.0), 0.0, 90.0); MOST_LISTED + 1]);
-        assert!(Firing::all(&many, Strokes::Four).is_err());
-        assert!(Firing::all(&many, Strokes::Two).is_ok());
+        assert!(Firing::all(&many, Strokes::Four, &Cancel::new()).is_err());
+        assert!(Firing::all(&many, Strokes::Two, &Cancel::new()).is_ok());
     }
 
     #[test]
@@ -238,7 +253,7 @@ mod tests {
         // Half of the ways come within a degree of another.
         let tdcs = [0.0, 90.3, 180.4, 270.9];
         let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
-        let ways = Firing::all(&engine, Strokes::Four).unwrap();
+        let ways = Firing::all(&engine, Strokes::Four, &Cancel::new()).unwrap();
         let unevenness: Vec<f64> = ways.iter().map(Firing::unevenness).collect();
         assert!(
             unevenness.windows(2).any(|pair| 1e-3 < pair[1] - pair[0] && pair[1] - pair[0] < 0.5)
@@ -250,7 +265,7 @@ mod tests {
     fn the_most_even_order_is_taken_if_no_other_is_as_even() {
         let of = |tdcs: &[f64], strokes| {
             let places: Vec<_> = tdcs.iter().map(|&tdc| (cylinder(0.0), tdc, 90.0)).collect();
-            Firing::most_even(&placed(&places), strokes)
+            Firing::most_even(&placed(&places), strokes, &Cancel::new())
         };
         let order = |tdcs: &[f64], strokes| of(tdcs, strokes).unwrap().to_string();
         assert_eq!(order(&[0.0], Strokes::Four), "1");
@@ -258,7 +273,9 @@ mod tests {
         assert_eq!(order(&[0.0, 180.0, 180.0, 0.0], Strokes::Two), "1+4-2+3");
         // Two ways in one order: 180-540 and 540-180.
         let twin = of(&[0.0, 180.0], Strokes::Four).unwrap();
-        let named = Firing::named(twin.engine(), &"1-2".parse().unwrap(), Strokes::Four).unwrap();
+        let named =
+            Firing::named(twin.engine(), &"1-2".parse().unwrap(), Strokes::Four, &Cancel::new())
+                .unwrap();
         assert_eq!(twin, named);
         let message = |tdcs: &[f64]| of(tdcs, Strokes::Four).unwrap_err().to_string();
         assert_eq!(
@@ -273,7 +290,9 @@ mod tests {
     fn the_error_of_an_impossible_order_lists_possible_ones() {
         let engine = placed(&[0.0, 180.0, 180.0, 0.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
         let message = |order: &str, strokes| {
-            Firing::named(&engine, &order.parse().unwrap(), strokes).unwrap_err().to_string()
+            Firing::named(&engine, &order.parse().unwrap(), strokes, &Cancel::new())
+                .unwrap_err()
+                .to_string()
         };
         assert_eq!(
             message("1-2-3-4", Strokes::Four),
@@ -293,7 +312,8 @@ mod tests {
         let numbers: Vec<String> = (1..=1000).map(|number| number.to_string()).collect();
         let order: NamedOrder = numbers.join("-").parse().unwrap();
         for strokes in [Strokes::Two, Strokes::Four] {
-            let message = Firing::named(&engine, &order, strokes).unwrap_err().to_string();
+            let message =
+                Firing::named(&engine, &order, strokes, &Cancel::new()).unwrap_err().to_string();
             assert!(message.len() < 1000, "{}", message.len());
         }
         let message = "9-".repeat(500_000).parse::<NamedOrder>().unwrap_err().to_string();

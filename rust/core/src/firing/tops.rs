@@ -74,13 +74,14 @@ mod tests {
     use super::super::engines::{cylinder, intervals, placed};
     use super::*;
     use crate::layout::Strokes;
+    use crate::numbers::cancel::Cancel;
 
     #[test]
     fn what_only_rounding_parts_fires_together() {
         let apart = |by: f64| {
             let tdcs = [0.0, 17.123_456, 17.123_456 + by];
             let engine = placed(&tdcs.map(|tdc| (cylinder(0.0), tdc, 90.0)));
-            Firing::all(&engine, Strokes::Two).unwrap()[0].to_string()
+            Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap()[0].to_string()
         };
         assert_eq!(apart(0.0), "1-2+3");
         assert_eq!(apart(0.1 * MOST_ROUNDING), "1-2+3");
@@ -88,7 +89,7 @@ mod tests {
         // An offset of one and not of the other: tops asin(e/(l + r)) apart from their pins'.
         let past = (0.02_f64 / 0.2).asin().to_degrees();
         let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
-        let firing = Firing::all(&engine, Strokes::Two).unwrap().remove(0);
+        let firing = Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap().remove(0);
         assert_eq!(intervals(&firing), [120.0, 240.0]);
         assert_eq!(firing.intervals()[0], turns(1) - Angle::from_degrees(240.0).unwrap());
     }

@@ -18,6 +18,7 @@ pub struct Firing {
     pub(super) times: Vec<Angle>,
     order: Vec<usize>,
     intervals: Vec<Angle>,
+    unevenness: f64,
 }
 
 impl Firing {
@@ -44,7 +45,7 @@ impl Firing {
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
         let cycle = turns(strokes.turns());
-        let intervals = order
+        let intervals: Vec<Angle> = order
             .iter()
             .enumerate()
             .map(|(k, &now)| match order.get(k + 1) {
@@ -52,7 +53,18 @@ impl Firing {
                 None => cycle - times[now],
             })
             .collect();
-        Self { engine: Arc::clone(engine), strokes, times, order, intervals }
+        let mean = Angle::from_degree_fraction(360 * strokes.turns(), times.len() as i64)
+            .unwrap_or(Angle::ZERO);
+        let unevenness = if intervals.iter().all(|&interval| same(interval, mean)) {
+            0.0
+        } else {
+            let squares = intervals.iter().map(|&each| (each - mean).degrees().powi(2));
+            let mut squares: Vec<f64> = squares.collect();
+            // The same intervals in another order add up to the same.
+            squares.sort_unstable_by(f64::total_cmp);
+            (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        };
+        Self { engine: Arc::clone(engine), strokes, times, order, intervals, unevenness }
     }
 
     /// The engine.
@@ -82,7 +94,11 @@ impl Firing {
     /// True for cylinders that fire in the second turn after the first cylinder's firing.
     #[must_use]
     pub fn later(&self) -> Vec<bool> {
-        self.times.iter().map(|&time| time >= turns(1)).collect()
+        self.is_later().collect()
+    }
+
+    pub(super) fn is_later(&self) -> impl Iterator<Item = bool> {
+        self.times.iter().map(|&time| time >= turns(1))
     }
 
     /// Crank angles at which the cylinders fire, by number, within a cycle.
@@ -96,31 +112,18 @@ impl Firing {
     /// True if all intervals are equal.
     #[must_use]
     pub fn even(&self) -> bool {
-        self.intervals.iter().all(|&interval| same(interval, self.mean()))
+        self.unevenness == 0.0
     }
 
     /// Root mean square difference of the intervals from equal ones, degrees; 0 for even firing.
     #[must_use]
     pub fn unevenness(&self) -> f64 {
-        if self.even() {
-            return 0.0;
-        }
-        let mut squares: Vec<f64> =
-            self.intervals.iter().map(|&each| (each - self.mean()).degrees().powi(2)).collect();
-        // The same intervals in another order add up to the same.
-        squares.sort_by(f64::total_cmp);
-        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        self.unevenness
     }
 
     /// Crank angle of a cycle.
     pub(super) fn cycle(&self) -> Angle {
         turns(self.strokes.turns())
-    }
-
-    /// Interval of even firing.
-    fn mean(&self) -> Angle {
-        Angle::from_degree_fraction(360 * self.strokes.turns(), self.times.len() as i64)
-            .unwrap_or(Angle::ZERO)
     }
 
     /// Reduced modulo a cycle.
@@ -154,12 +157,13 @@ mod tests {
     use super::super::engines::{engine, intervals, vee};
     use super::super::*;
     use crate::layout::{Side, Strokes};
+    use crate::numbers::cancel::Cancel;
 
     #[test]
     fn the_cross_plane_v8_fires_evenly() {
         let v8 = engine(&vee(90.0, 0.0, &[0.0, 90.0, 270.0, 180.0], Side::Left));
         let order: NamedOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
-        let firing = Firing::named(&v8, &order, Strokes::Four).unwrap();
+        let firing = Firing::named(&v8, &order, Strokes::Four, &Cancel::new()).unwrap();
         assert!(firing.even());
         assert_eq!(intervals(&firing), [90.0; 8]);
         assert_eq!(Firing::all_named(&v8, &order, Strokes::Four).unwrap().len(), 1);

@@ -6,6 +6,7 @@ use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
 use crate::numbers::error::{Error, Result};
+use crate::numbers::memory;
 
 /// How often the caller's function is called while a computation runs.
 pub const PERIOD: Duration = Duration::from_millis(20);
@@ -68,7 +69,8 @@ impl Cancel {
         self.raised.store(true, Ordering::Relaxed);
     }
 
-    /// Return [`Error::Cancelled`] once the computation is to stop. Call it at least every few
+    /// Return [`Error::Cancelled`] once the computation is to stop, or [`Error::OutOfMemory`] once a
+    /// reserve of memory is used up. Call it at least every few
     /// milliseconds: every eighth call of all threads is a [`Cancel::poll`], which only the calling
     /// thread makes any use of.
     pub fn check(&self) -> Result<()> {
@@ -81,7 +83,7 @@ impl Cancel {
                 return self.poll();
             }
         }
-        if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+        if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { memory::check() }
     }
 
     /// Like [`Cancel::check`], and call the caller's function if this is the calling thread and it
@@ -101,7 +103,7 @@ impl Cancel {
                 poll.last.store(elapsed, Ordering::Relaxed);
             }
         }
-        if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+        if self.raised.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { memory::check() }
     }
 
     /// Add `steps` to the number of steps to do.

@@ -2,6 +2,7 @@
 //!
 //! Every allocation whose size follows from the lengths of inputs is made here.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use bytemuck::Zeroable;
@@ -11,6 +12,23 @@ use crate::numbers::error::{Error, Result};
 
 /// Numbers copied between two checks for cancellation.
 const PIECE: usize = 1 << 16;
+
+/// Bytes of a small allocation that took the reserve of the caller's allocator; 0 if none has.
+static EXHAUSTED: AtomicUsize = AtomicUsize::new(0);
+
+/// Stop every computation with [`Error::OutOfMemory`] at its next check for cancellation, because an
+/// allocation of this size took a reserve; with 0, once there is a reserve again, stop none.
+pub fn exhausted(bytes: usize) {
+    EXHAUSTED.store(bytes, Ordering::Relaxed);
+}
+
+/// An error while there is no reserve.
+pub fn check() -> Result<()> {
+    match EXHAUSTED.load(Ordering::Relaxed) {
+        0 => Ok(()),
+        bytes => Err(Error::OutOfMemory { bytes }),
+    }
+}
 
 fn out_of_memory<T>(count: usize) -> Error {
     Error::OutOfMemory { bytes: count.saturating_mul(size_of::<T>()) }
@@ -38,7 +56,21 @@ pub fn push<T>(to: &mut Vec<T>, value: T) -> Result<()> {
     Ok(())
 }
 
-/// A copy.
+/// Append values of a known number.
+pub fn extend<T>(to: &mut Vec<T>, values: impl ExactSizeIterator<Item = T>) -> Result<()> {
+    to.try_reserve(values.len()).map_err(|_| out_of_memory::<T>(to.len() + values.len()))?;
+    to.extend(values);
+    Ok(())
+}
+
+/// Collect values of a known number.
+pub fn collected<T>(values: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>> {
+    let mut found = room(values.len())?;
+    found.extend(values);
+    Ok(found)
+}
+
+/// A copy of values of any number, gigabytes of which take seconds.
 pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
     let mut copy = room(values.len())?;
     for piece in values.chunks(PIECE) {
@@ -48,8 +80,8 @@ pub fn copied<T: Copy>(values: &[T], cancel: &Cancel) -> Result<Vec<T>> {
     Ok(copy)
 }
 
-/// Drop a large value on a background thread, because returning gigabytes to the system takes most of
-/// a second; in the calling thread if no other can be started.
+/// Drop a large value on a background thread, because giving memory back takes 0.17 s to 0.25 s a
+/// gigabyte (pages of 4 KiB); in the calling thread if no other can be started.
 pub fn free_later<T: Send + 'static>(value: T) {
     drop(thread::Builder::new().spawn(move || drop(value)));
 }

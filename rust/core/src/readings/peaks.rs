@@ -44,16 +44,15 @@ impl PeakFinder {
     pub fn new(orders: &[Order]) -> Result<Self> {
         let halves = || orders.iter().map(|order| order.halves());
         let common = halves().fold(0, divisor).max(1);
-        let mut waves = memory::room(orders.len())?;
-        waves.extend(halves().map(|n| n / common));
+        let waves = memory::collected(halves().map(|n| n / common))?;
         let degree = 2 * waves.iter().copied().max().unwrap_or(1) as usize;
         let mut points = POINTS_PER_WAVE * degree;
         let tabled = points * waves.len() <= MOST_COSINES;
         if !tabled {
             points = points.next_power_of_two();
         }
-        let mut units: Vec<Complex64> = memory::room(points)?;
-        units.extend((0..points).map(|k| Complex64::cis(k as f64 * TAU / points as f64)));
+        let unit = |k: usize| Complex64::cis(k as f64 * TAU / points as f64);
+        let units = memory::collected((0..points).map(unit))?;
         let columns = |&n: &u32| {
             let turned = (0..points).map(|k| units[k * n as usize % points]);
             let (cos, sin) = turned.map(|unit| (unit.re, unit.im)).unzip();
@@ -251,9 +250,7 @@ impl<const N: usize> Vector<'_, N> {
             mem::swap(&mut from, &mut to);
             (half, stride) = (half / 2, 2 * stride);
         }
-        let mut squares = memory::room(count)?;
-        squares.extend(from.iter().map(Complex64::norm_sqr));
-        Ok(squares)
+        memory::collected(from.iter().map(Complex64::norm_sqr))
     }
 
     /// Bounds on the derivatives of the squared length, whose distance from its mean is known.

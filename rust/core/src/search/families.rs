@@ -85,9 +85,15 @@ impl Families<'_> {
             }
             families.sort_unstable();
             cancel.step()?;
-            let small = families.iter().copied().filter(|family| family.is_small()).collect();
+            let mut small = Vec::new();
+            families.retain(|family| {
+                if family.is_small() {
+                    small.push(*family); // bounded: few families have a small |Z|
+                }
+                !family.is_small()
+            });
             let mut distinct = memory::room(families.len())?;
-            join(&mut distinct, families.iter().filter(|f| !f.is_small()), &mut Same::new(self));
+            join(&mut distinct, &families, &mut Same::new(self));
             Ok([distinct, small])
         })?;
         let mut all: Vec<Family> = memory::room(parts.iter().map(|part| part[0].len()).sum())?;
@@ -101,14 +107,14 @@ impl Families<'_> {
             let joint = distinct.partition_point(close);
             join(&mut all, &distinct[..joint], &mut same);
             all.extend(&distinct[joint..]);
-            small.extend(of_small);
+            small.extend(of_small); // bounded: few families have a small |Z|
         }
-        self.insert(&mut all, &small, &mut same);
+        self.insert(&mut all, &small, &mut same)?;
         Ok(all)
     }
 
     /// Insert families of small |Z|, of which there are few: rounding may have put them anywhere near.
-    fn insert(self, to: &mut Vec<Family>, families: &[Family], same: &mut Same<'_>) {
+    fn insert(self, to: &mut Vec<Family>, families: &[Family], same: &mut Same<'_>) -> Result<()> {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
             let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
@@ -120,9 +126,10 @@ impl Families<'_> {
             }
         }
         if !new.is_empty() {
-            to.extend(new);
-            to.sort();
+            memory::extend(to, new.into_iter())?;
+            to.sort_unstable();
         }
+        Ok(())
     }
 
     /// One arrangement for each Z of a class, where turned, reversed and mirrored ones count once;
@@ -228,8 +235,7 @@ impl Sorted {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut sorted = memory::room(families.len())?;
-        sorted.extend_from_slice(families);
+        let mut sorted = memory::collected(families.iter().copied())?;
         for family in families {
             let place = &mut next[range(family)];
             sorted[*place] = *family;
@@ -473,7 +479,7 @@ mod tests {
                 assert!(!small.is_empty());
                 let inserted = |to: &[Family], family: &[Family]| {
                     let mut to = to.to_vec();
-                    families.insert(&mut to, family, &mut Same::new(families));
+                    families.insert(&mut to, family, &mut Same::new(families)).unwrap();
                     to
                 };
                 let all = inserted(&[], &small);
