@@ -372,7 +372,8 @@ def test_throws_of_the_cross_plane_order() -> None:
     assert found.throws_deg.tolist() == [0.0, 90.0, 270.0, 180.0]
     assert found.shared_pins
     assert repr(found) == "<Throws 0-90-270-180, shared pins>"
-    other = cp.throws(firing.CROSSPLANE, bank_angle_deg=90, odd_bank="right")
+    with pytest.warns(UserWarning, match="odd_bank"):
+        other = cp.throws(firing.CROSSPLANE, bank_angle_deg=90, odd_bank="right")
     assert other.pin_split_deg.tolist() == [180.0] * 4
     assert not other.shared_pins
 

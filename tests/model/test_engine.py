@@ -355,6 +355,20 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         r"^tdc_deg = .*: 51\.428571 is 4\.3e-7° from 360/7; if that is meant, give it as text",
     ),
     "tdc in radians": (lambda: I4.replace(tdc_deg=np.radians([0, 180, 180, 0])), "tdc_deg"),
+    "a small-block with cylinder 1 right": (
+        lambda: cp.Engine.from_firing_order(
+            CYLINDER, "1-8-4-3-6-5-7-2", bank_angle_deg=90, spacing=0.11
+        ),
+        'odd_bank = "right": .* split by 180°; with odd_bank="left" pins are shared',
+    ),
+    "its throws": (
+        lambda: cp.throws("1-8-4-3-6-5-7-2", bank_angle_deg=90),
+        '^odd_bank = "right": .* with odd_bank="left" pins are shared',
+    ),
+    "throws of a 90° V6": (
+        lambda: cp.throws("1-6-5-4-3-2", bank_angle_deg=90),
+        'split by 150°; with odd_bank="left" pins are split by 30°',
+    ),
     "split to the wrong side": (
         lambda: vee(pin_split_deg=30, odd_bank="left"),
         "pin_split_deg = 30: .* unevenly; with pin_split_deg = -30 it would fire evenly",
@@ -371,6 +385,12 @@ def test_likely_mistakes_are_warned_of_once_by_name(name: str) -> None:
 
 
 SOUND: dict[str, Callable[[], Any]] = {
+    "a small-block": lambda: cp.Engine.from_firing_order(
+        CYLINDER, "1-8-4-3-6-5-7-2", bank_angle_deg=90, odd_bank="left", spacing=0.11
+    ),
+    "a 60° V6 whose pins are split less this way": lambda: cp.throws(
+        "1-2-3-4-5-6", bank_angle_deg=60
+    ),
     "large two-stroke": lambda: cp.Engine.inline(  # RT-flex96C
         cp.Cylinder(1.25, 2.5, 15_000), throws_deg=range(0, 360, 30), spacing=1.67
     ),

@@ -10,6 +10,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.frozen import Frozen
+from crankpin.model import checks
 from crankpin.model.builders import vee_layout
 
 if TYPE_CHECKING:
@@ -121,4 +122,9 @@ def throws(
     if bank_angle_deg is None:
         return Throws(_core.inline_throws(text, listed, number), np.empty(0))
     layout = {"throws": [], "spacing": 0.0, "rotating_mass": [], "first_tdc": "0"}
-    return Throws(*_core.vee_throws(text, listed, number, layout | across))
+    found = Throws(*_core.vee_throws(text, listed, number, layout | across))
+    if intervals_deg is None:
+        other = across | {"odd_bank": checks.other_bank(odd_bank)}
+        _, splits = _core.vee_throws(text, listed, number, layout | other)
+        checks.odd_bank(odd_bank, found.pin_split_deg, splits)
+    return found

@@ -12,7 +12,8 @@ from crankpin.model import shafts as rotating
 from crankpin.model.data import EngineData, allowed, core_of_lists, parts
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Angle, Angles
     from crankpin.model.cylinder import Cylinder
@@ -370,6 +371,10 @@ class Builders(EngineData):
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
         else:
             core = _core.Engine.vee_from_firing_order(moving, order, *fired, along | across)
+            if rule == "even" and intervals_deg is None:
+                other = across | {"odd_bank": checks.other_bank(odd_bank)}
+                exchanged = _core.Engine.vee_from_firing_order(moving, order, *fired, along | other)
+                checks.odd_bank(odd_bank, _splits(core), _splits(exchanged))
         core = _kept(core, cylinder)
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
@@ -404,6 +409,10 @@ def _along_crank(
         "rotating_mass": inputs.vector("rotating_mass", rotating_mass).tolist(),
         "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
     }
+
+
+def _splits(core: _core.Engine) -> NDArray[np.float64]:
+    return EngineData(core).pin_split_deg
 
 
 def _kept(core: _core.Engine, cylinder: Cylinder) -> _core.Engine:

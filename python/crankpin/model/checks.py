@@ -19,7 +19,7 @@ from crankpin._support.warnings import warn
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft, Unbalance
@@ -58,6 +58,9 @@ LARGEST_BORE = 10.0
 
 LARGEST_OIL = 0.5
 """Oil of a crankpin over the masses beside it above which it is in grams: a pin holds 2 to 10 g."""
+
+LARGEST_SPLIT = 90.0
+"""Split of a crankpin, degrees, from which the other bank is tried: forged ones reach about 30."""
 
 PARTS_OF_A_TURN = range(1, 25)
 """Denominators of the parts of a turn for which radians are recognised: angles of 2 to 24 throws
@@ -208,6 +211,31 @@ def pin_split(core: _core.Engine, split: str) -> None:
             f"{-degrees:g} it would fire evenly. The split is left pin minus right pin in the "
             "direction of rotation, bank angle minus firing interval"
         )
+
+
+def other_bank(odd_bank: str) -> str:
+    """Return the bank that is not this one."""
+    return "left" if odd_bank == "right" else "right"
+
+
+def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
+    """Warn of cylinder 1 in the wrong bank: in the other one a firing order needs smaller splits.
+
+    Parameters
+    ----------
+    given
+        Bank of cylinder 1.
+    split_deg, of_other
+        Pin splits of all throws, and those with cylinder 1 in the other bank, degrees.
+    """
+    largest, smaller = (float(np.abs(each).max()) for each in (split_deg, of_other))
+    if largest < LARGEST_SPLIT or smaller > largest / 2.0:
+        return
+    how = f"split by {smaller:.6g}°" if smaller else "shared"
+    warn(
+        f'odd_bank = "{given}": this firing order needs pins split by {largest:.6g}°; with '
+        f'odd_bank="{other_bank(given)}" pins are {how}. Makers differ in the side of cylinder 1'
+    )
 
 
 def fires_evenly(tdc_deg: NDArray[np.float64]) -> bool:
