@@ -57,8 +57,10 @@ def test_the_table_has_what_matters_before_and_after() -> None:
     assert [line.split()[:4] for line in lines] == [
         ["shaking", "force,", "N", "2"],
         ["shaking", "force,", "N", "4"],
+        ["shaking", "force,", "N", "all"],
         ["roll", "torque,", "N·m", "2"],
         ["roll", "torque,", "N·m", "4"],
+        ["roll", "torque,", "N·m", "all"],
     ]
     assert repr(cp.compare(I4, V6, rpm=5000)).startswith("Inline-4 → V6 60°, shared pins at 5000")
     assert "<td>roll torque, N·m</td>" in cp.compare(I4, V6, rpm=5000)._repr_html_()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import crankpin as cp
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -84,6 +85,33 @@ def test_relabelling_changes_nothing(engine: cp.Engine, data: st.DataObject) -> 
     )
     same(of(relabelled).moment, of(engine).moment, size(engine))
     same(of(relabelled).torque, of(engine).torque, size(engine))
+
+
+def test_another_point_takes_the_moment_of_the_force_off() -> None:
+    """M′ = M − a × F with a = (x, y, z − z₀); also of sweeps, their totals and waveforms."""
+    engine = cp.Engine.preset("v6-90-odd-fire").replace(rotating_mass=0.5)
+    x, y, z = 0.3, -0.2, 0.7
+    s = cp.sweep(engine, rpm=[1000.0, 3000.0], orders=range(1, 13))
+    here, there = s.sel(rpm=3000.0), s.about((x, y, z)).sel(rpm=3000.0)
+    by = z - engine.reference_z
+    force, moment = here.force, here.moment
+    same(there.moment.x, moment.x + by * force.y, 2 * size(engine))
+    same(there.moment.y, moment.y - by * force.x, 2 * size(engine))
+    expected = here.torque - (x * force.y - y * force.x)
+    same(there.torque, expected, 2 * size(engine))
+    assert here.force.any()
+    alone = engine.balance(3000.0, orders=s.orders).about([x, y, z])
+    same(alone.torque, expected, 2 * size(engine))
+    theta = np.arange(0.0, 360.0, 0.5)
+    w = s.about((x, y, z)).waveform(theta).torque[1]
+    turned = np.exp(1j * np.deg2rad(theta)[:, np.newaxis] * np.array(s.orders))
+    same(w, (turned * expected).sum(axis=1).real, 2 * size(engine))
+    # Sampled at half degrees: within half the square of half a step at order 12.
+    assert there.total.torque.peak == pytest.approx(np.abs(w).max(), rel=0.5 * 0.06**2)
+    assert there.total.torque.peak == s.about((x, y, z)).total.torque.peak[1]
+    for point in ("x", (1, 2), np.nan, [1, 2, np.inf]):
+        with pytest.raises(cp.InputError, match="point"):
+            here.about(point)
 
 
 @settings(max_examples=60, deadline=None)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.absent import AbsentError
@@ -125,7 +126,9 @@ class Quantity(NDArrayOperatorsMixin, Record):
     @property
     def error_bound(self) -> float:
         """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
-        return float(getattr(self.result.error_bound, self.kind.bound))
+        bound = float(getattr(self.result.error_bound, self.kind.bound))
+        lever = sum(map(abs, self.result.request.aside)) if self.name == "torque" else 0.0
+        return bound + lever * self.result.error_bound.force
 
     @property
     def status(self) -> str:
@@ -491,6 +494,23 @@ class ByOrder(Quantities):
     def _quantity(self, name: str) -> Quantity:
         return CLASSES[name](self, name)
 
+    def about(self, point: float | Sequence[float]) -> Self:
+        """Return the same result with moments and roll torque about another point.
+
+        Parameters
+        ----------
+        point
+            Position z along the crank, or (x, y, z), m.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> b = cp.Engine.preset("i4").balance(rpm=6000)
+        >>> b[2].moment.peak, round(b.about(0.0)[2].moment.peak, 1)
+        (np.float64(0.0), np.float64(1390.4))
+        """
+        return self.with_request(self.request.about(point))
+
     # --- arrays ---------------------------------------------------------------------------------
 
     @property
@@ -506,9 +526,23 @@ class ByOrder(Quantities):
         self.request.check(quantity)
         found: NDArray[Any] | None = self._kept.get((quantity, what))
         if found is None:
-            found = read_only(np.asarray(self._compute(quantity, what)))
+            found = read_only(np.asarray(self._about_point(quantity, what)))
             found = self._kept.setdefault((quantity, what), found)
         return found
+
+    def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
+        """Compute an array; roll torque about a point beside the crank from that about its axis."""
+        x, y = self.request.aside
+        if quantity != "torque" or (x == 0.0 and y == 0.0):
+            return self._compute(quantity, what)
+        if what == "phasors":
+            force = self.read("force", "phasors")
+            return self._compute(quantity, what) - (x * force[..., 1] - y * force[..., 0])
+        if what == "zero_bound":
+            bound = (abs(x) + abs(y)) * self.read("force", "zero_bound")
+            return self._compute(quantity, what) + bound
+        phasors = self.read(quantity, "phasors")
+        return np.abs(phasors) if what == "peak" else total_peaks(self.orders, phasors)
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
@@ -522,9 +556,13 @@ class ByOrder(Quantities):
             found = self._kept.setdefault(order, self.at_orders((order,)))
         return found
 
+    def with_request(self, request: Request) -> Self:
+        """Return the same result by another request."""
+        raise NotImplementedError
+
     def at_orders(self, orders: tuple[int, ...]) -> Self:
         """Return the same result at the orders given."""
-        raise NotImplementedError
+        return self.with_request(self.request.at_orders(orders))
 
     def proved_zero(self, quantity: str, order: int) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
@@ -575,6 +613,12 @@ class ByOrder(Quantities):
         ('rpm', 'order', 'axis')
         """
         return export.to_xarray(self, self.named(quantities), split_complex=split_complex)
+
+
+def total_peaks(orders: tuple[int, ...], phasors: NDArray[np.complex128]) -> NDArray[np.float64]:
+    """Return the largest magnitude over θ of the sum of all orders: (…), of (…, n_orders)."""
+    flat = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
+    return _core.peaks_of_sums(list(orders), flat).reshape(phasors.shape[:-1])
 
 
 def largest_peaks(result: ByOrder, name: str) -> NDArray[np.float64]:

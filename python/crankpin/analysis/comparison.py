@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.frozen import Frozen
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.tables import Shown, Table
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
+from crankpin.analysis.by_order import ALL
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 
@@ -74,10 +75,12 @@ def compare(
     first = balance(before, rpm, orders=orders, **options)
     second = balance(after, rpm, orders=orders, **options)
     both = tuple(sorted({*first.orders, *second.orders}))
-    return Comparison(first.at_orders(both), second.at_orders(both))
+    if both:
+        first, second = first.at_orders(both), second.at_orders(both)
+    return Comparison(first, second)
 
 
-class Comparison(Frozen, Shown):
+class Comparison(Tabled):
     """Two balances at the same speed and orders.
 
     Made by :func:`crankpin.compare`.
@@ -93,26 +96,25 @@ class Comparison(Frozen, Shown):
     >>> cp.compare(i4, i4.with_shafts(shafts), rpm=6000, orders=[2, 4])
     Inline-4 at 6000 rpm: peaks
     quantity          order  before   after  change %
-    shaking force, N  2      9269.4  110.41   -98.809
-    shaking force, N  4      213.27  213.27         0
-    roll torque, N·m  2      657.31  657.31         0
-    roll torque, N·m  4      30.216  30.216         0
+    shaking force, N      2  9269.4  110.41   -98.809
+    shaking force, N      4  213.27  213.27         0
+    shaking force, N    all  9482.7  323.68   -96.587
+    roll torque, N·m      2  657.31  657.31         0
+    roll torque, N·m      4  30.216  30.216         0
+    roll torque, N·m    all  660.06  660.06         0
     """
-
-    _fields: ClassVar[tuple[str, ...]] = ("before", "after")
 
     before: Balance
     """Balance of the engine before the change."""
     after: Balance
     """Balance of the engine after the change."""
 
-    def __init__(self, before: Balance, after: Balance) -> None:
-        for each in (before, after):
+    def __post_init__(self) -> None:
+        for each in (self.before, self.after):
             if not isinstance(each, Balance):
                 raise InputError(f"Comparison({inputs.shorten(each)}): use crankpin.compare")
-        if before.orders != after.orders or before.rpm != after.rpm:
+        if self.before.orders != self.after.orders or self.before.rpm != self.after.rpm:
             raise InputError("Comparison of balances at different orders or speeds: use compare")
-        self._set(before=before, after=after)
 
     @property
     def rpm(self) -> float:
@@ -134,10 +136,7 @@ class Comparison(Frozen, Shown):
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         """
-        before, after = self._peaks(quantity)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            change = (after - before) / before
-        return np.where((before == 0.0) & (after == 0.0), 0.0, change)
+        return read_only(_change(*self._peaks(quantity)))  # type: ignore[no-any-return]
 
     def plot(
         self,
@@ -189,18 +188,22 @@ class Comparison(Frozen, Shown):
 
     @property
     def table(self) -> Table:
-        """Table that is shown: the peak of each quantity and order before and after."""
-        texts, rows = [], []
+        """Table that is shown: the peak of each quantity and order before and after, and of all."""
+        texts: list[tuple[str, int | str]] = []
+        rows = []
         for name in self.before.request.quantities:
             if name == "crank_torque":
                 continue
+            kind = QUANTITIES[name]
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
-            for k in self.shown_orders(name):
-                texts.append(
-                    (f"{QUANTITIES[name].words}, {QUANTITIES[name].unit}", f"{self.orders[k]}")
-                )
-                rows.append((before[k], after[k], change[k]))
+            shown = self.shown_orders(name)
+            texts += [(f"{kind.words}, {kind.unit}", self.orders[k]) for k in shown]
+            rows += [(before[k], after[k], change[k]) for k in shown]
+            if len(shown) > 1:
+                total = [getattr(each.total, name).peak for each in (self.before, self.after)]
+                texts.append((f"{kind.words}, {kind.unit}", ALL))
+                rows.append((*total, 100.0 * _change(*map(np.asarray, total))))
         title = f"{self.title} at {self.rpm:g} rpm: peaks"
         header = ["quantity", "order", "before", "after", "change %"]
         return Table.from_rows(title, header, texts, np.array(rows).reshape(-1, 3))
@@ -218,3 +221,10 @@ class Comparison(Frozen, Shown):
         if self.names == ("before", "after"):
             return labels.name_of(engine)
         return " → ".join(self.names)
+
+
+def _change(before: NDArray[np.float64], after: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the change relative to what was before: 0 where both are zero."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        change = (after - before) / before
+    return np.where((before == 0.0) & (after == 0.0), 0.0, change)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
@@ -28,6 +30,8 @@ class Request(Record):
     """Spectrum as pairs of order and amplitude."""
     torque: bool
     """Whether torque is computed."""
+    aside: tuple[float, float] = (0.0, 0.0)
+    """Point of the cross-section about which the roll torque is taken, m; the crank's axis."""
 
     @classmethod
     def checked(
@@ -55,9 +59,16 @@ class Request(Record):
             inputs.flag("torque", torque),
         )
 
-    def about(self, z: object) -> Request:
-        """Return the same request with moments about another plane."""
-        return self.replace(reference_z=inputs.number("z", z))
+    def about(self, point: object) -> Request:
+        """Return the same request with moments about a point: z, or (x, y, z), m."""
+        hint = "point is a position z along the crank, or (x, y, z), m"
+        if np.ndim(point) == 0:  # type: ignore[arg-type] # of any object
+            return self.replace(reference_z=inputs.finite("point", point), aside=(0.0, 0.0))
+        listed = [inputs.finite("point", each) for each in inputs.items("point", point, hint)]
+        if len(listed) != 3:
+            raise InputError(f"point = {inputs.shorten(point)}: {hint}")
+        x, y, z = listed
+        return self.replace(reference_z=z, aside=(x, y))
 
     def at_orders(self, orders: tuple[int, ...]) -> Request:
         """Return the same request of the orders given."""

@@ -11,9 +11,8 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
-from crankpin._support.warnings import suppressed
 from crankpin.analysis import export
-from crankpin.analysis.sweeps.sweep import Sweep, sweep
+from crankpin.analysis.sweeps.sweep import Sweep
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,17 +30,8 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     sizes = lengths | {"order": len(whole.orders), "axis": 2}
     by_name = dict(zip(sizes, _normalized(chunks, lengths, sizes), strict=True))
     axes = {name: _axis(whole, name, by_name[name]) for name in lengths}
-    request = whole.request
-    fixed: dict[str, Any] = {
-        **whole.fixed,
-        "hold": whole.hold,
-        "orders": whole.orders,
-        "reference_z": request.reference_z,
-        "spectrum": None if request.pairs is None else dict(request.pairs),
-        "torque": request.torque,
-    }
-    if "engine" not in lengths:
-        fixed["engines"] = whole.engines[0]
+    request = whole.request.at_orders(whole.orders)
+    fixed = {"engines": whole.engines, "names": None, "hold": whole.hold, "request": request}
     variables: dict[str, Any] = {}
     for name, quantity, what, trailing in export.variables(quantities):
         dims = (*lengths, *trailing)
@@ -55,6 +45,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
                 new_axes={dim: sizes[dim] for dim in trailing},
                 dims=tuple(lengths),
                 fixed=fixed,
+                axes=dict(whole.fixed),
                 quantity=quantity,
                 what=what,
                 # Slices of one axis along the one index that it has.
@@ -73,15 +64,16 @@ def _block(
     *slices: Any,  # noqa: ANN401 - engines or numbers
     dims: tuple[str, ...],
     fixed: Mapping[str, Any],
+    axes: Mapping[str, float],
     quantity: str,
     what: str,
 ) -> Any:  # noqa: ANN401 - complex or real
     """Compute one chunk by an ordinary sweep."""
-    given = dict(zip(dims, slices, strict=True))
-    if "engine" in given:
-        given["engines"] = list(given.pop("engine"))
-    with suppressed("mean piston speed"):
-        return sweep(**fixed, **given).read(quantity, what)
+    swept, given = dict(zip(dims, slices, strict=True)), dict(fixed)
+    if "engine" in swept:
+        given["engines"] = tuple(swept.pop("engine"))
+        given["names"] = tuple(engine.name for engine in given["engines"])
+    return Sweep(axes={**axes, **swept}, **given).read(quantity, what)
 
 
 def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array

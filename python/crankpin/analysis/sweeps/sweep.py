@@ -259,19 +259,9 @@ class Sweep(ByOrder, Tabled):
         """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
         return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
 
-    def at_orders(self, orders: tuple[int, ...]) -> Self:
-        """Return the same sweep at the orders given."""
-        return self.replace(request=self.request.at_orders(orders))
-
-    def about(self, z: float) -> Self:
-        """Return the same sweep with moments about another plane.
-
-        Parameters
-        ----------
-        z
-            Position along the crank, m.
-        """
-        return self.replace(request=self.request.about(z))
+    def with_request(self, request: Request) -> Self:
+        """Return the same sweep by another request."""
+        return self.replace(request=request)
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         if what in ("forward", "backward"):

@@ -144,6 +144,9 @@ class SweepWaveform(OverAngle, Record):
         values = np.empty(shape) if out is None else inputs.output("out", out, shape)
         with progress_bar.shown(progress, "waveforms") as report:
             core.waveform(name, self.__dict__["_angles"], self.exact, values.reshape(-1), report)
+        x, y = self.request.aside
+        if name == "torque" and (x != 0.0 or y != 0.0):
+            values -= x * self.force[..., 1] - y * self.force[..., 0]
         return values
 
     @cached_property

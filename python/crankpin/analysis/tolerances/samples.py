@@ -136,10 +136,10 @@ class Tolerances(ByOrder, Frozen, Shown):
         """Return one of the arrays of a quantity, read-only."""
         return self.source.read(quantity, what)
 
-    def at_orders(self, orders: tuple[int, ...]) -> Tolerances:
-        """Raise an InputError: samples have the orders that were given."""
+    def with_request(self, request: Request) -> Tolerances:
+        """Raise an InputError: samples have the orders and the plane that were given."""
         known = labels.orders_text(self.orders)
-        raise InputError(f"orders = {list(orders)}: is not among those of the samples ({known})")
+        raise InputError(f"orders = {request.orders}: is not among those of the samples ({known})")
 
     @property
     def engine(self) -> Engine:
