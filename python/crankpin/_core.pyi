@@ -159,6 +159,40 @@ class Engine:
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
+_Turning: TypeAlias = tuple[complex, complex]
+_FreeAxis: TypeAlias = tuple[float | None, float | None]
+
+def turning(engine: Engine, ratio: int, reference_z: float | None) -> _Turning: ...
+def roll_torque(engine: Engine, order: int) -> complex: ...
+def half_length(engine: Engine) -> float: ...
+def least_weights(
+    z: Sequence[float],
+    reference: float,
+    length: float,
+    force: complex | None,
+    moment: complex | None,
+    bounds: Sequence[float],
+    angles: Sequence[Sequence[float]] | None,
+    minimise: str,
+) -> tuple[list[tuple[int, int, _Weight]], bool, float]: ...
+def unbounded_weights(
+    wanted: _Turning, z: Sequence[float], reference: float, length: float
+) -> list[_Weight]: ...
+def fit_shafts(
+    engine: Engine,
+    wanted: Sequence[tuple[int, _FreeAxis, Sequence[float] | None, str]],
+    reference_z: float | None,
+    given: Sequence[tuple[int, complex]],
+) -> tuple[list[tuple[tuple[float, float], list[_Weight], _Turning]], float | None]: ...
+def place_shafts(
+    engine: Engine,
+    torques: Sequence[tuple[int, complex]],
+    forces: Sequence[tuple[int, complex]],
+    axes: Sequence[_FreeAxis],
+) -> list[tuple[float, float]]: ...
+def pair_heights(forward: complex, backward: complex, torque: complex) -> list[float]: ...
+def shared(forces: Sequence[tuple[complex, float]], front: float, rear: float) -> list[complex]: ...
+
 @final
 class Balance:
     @property

@@ -7,8 +7,7 @@ from crankpin.analysis.balancing.bob_weight import BobWeight, Straight
 from crankpin.analysis.balancing.counterweights import Counterweights, PartVerdict, Remainder
 from crankpin.analysis.balancing.first_order import BayLoad, Ellipses, ForwardPart
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
-from crankpin.analysis.balancing.fitted_shafts import BalanceShafts, PartLeft
-from crankpin.analysis.balancing.lanchester import PairHeights
+from crankpin.analysis.balancing.fitted_shafts import BalanceShafts, PairHeights, PartLeft
 from crankpin.analysis.balancing.planes import Turning
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
 from crankpin.analysis.by_order import (

@@ -131,7 +131,7 @@ def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _co
 
 def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
     """Return the unbalances on the crankshaft besides the rotating masses."""
-    return tuple(_unbalance(weight) for weight in core.counterweights)
+    return tuple(unbalance_of(weight) for weight in core.counterweights)
 
 
 def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
@@ -153,7 +153,7 @@ def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
 def shafts(core: _core.Engine) -> tuple[Shaft, ...]:
     """Return the balance shafts."""
     return tuple(
-        Shaft(ratio, tuple(_unbalance(weight) for weight in weights), x, y, name)
+        Shaft(ratio, tuple(unbalance_of(weight) for weight in weights), x, y, name)
         for name, ratio, x, y, weights in core.shafts
     )
 
@@ -185,7 +185,8 @@ def _weight(unbalance: Unbalance) -> _Weight:
     return (unbalance.amount, angle, unbalance.z, pin)
 
 
-def _unbalance(weight: _Weight) -> Unbalance:
+def unbalance_of(weight: _Weight) -> Unbalance:
+    """Return an unbalance of the core."""
     amount, angle, z, pin = weight
     return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1)
 

@@ -7,6 +7,7 @@
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, sweeps, tolerances, exact answers;
+//! - [`balancing`]: counterweights and balance shafts fitted to an engine;
 //! - [`firing`] and [`search`].
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
@@ -15,6 +16,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod balancing;
 pub mod engine;
 pub mod firing;
 pub mod gear;

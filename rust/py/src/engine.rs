@@ -39,14 +39,15 @@ where
 }
 
 /// Amount in kg·m, degrees as text that reads back exactly, z in m, index of the pin's cylinder.
-type Weight = (f64, String, f64, Option<usize>);
+pub type Weight = (f64, String, f64, Option<usize>);
 /// The same, its angle read.
 type GivenWeight = (f64, Angle, f64, Option<usize>);
 
 /// Bore, piston mass, and the rod's mass, inertia and place of its centre.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
 
-fn weight(unbalance: &Unbalance) -> Weight {
+/// An unbalance for Python.
+pub fn weight(unbalance: &Unbalance) -> Weight {
     (unbalance.amount, unbalance.angle.to_string(), unbalance.z, unbalance.pin)
 }
 

@@ -6,6 +6,8 @@ Figures are those of ``balancing-and-torque.md``, recomputed from first principl
 from __future__ import annotations
 
 import copy
+import dataclasses
+import itertools
 import pickle
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +24,7 @@ from rederivation import rotors, time_domain
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+pytestmark = pytest.mark.filterwarnings("ignore:the roll torque is not cancelled")
 RPM = 600.0
 OMEGA = 2 * np.pi * RPM / 60
 CYLINDER = conftest.CYLINDER
@@ -363,11 +366,57 @@ def test_free_planes() -> None:
     assert [w.z for w in cp.balance_shafts(I3, 1)[0].shaft.unbalances] == [0.0, 2.0]
 
 
-def test_counterweights_outside_the_cylinders_extend_the_engine() -> None:
-    weights = [Unbalance(0.01, -0.2, 0), Unbalance(0.01, 0.5, 180)]
-    fit = cp.balance_shafts(SINGLE.with_counterweights(weights), 1)
-    assert {w.z for w in fit[0].shaft.unbalances} == {-0.2, 0.5}
-    assert turning(fit.engine, 1, "moment") == 0.0
+def test_counterweights_outside_the_cylinders_do_not_extend_the_engine() -> None:
+    """A weight of a milligram-metre at a damper moves neither planes nor bearings."""
+    weights = [Unbalance(1e-9, -0.12, 0), Unbalance(1e-9, 2.45, 180)]
+    for engine in (I3, I3.with_counterweights(weights)):
+        (each,) = cp.balance_shafts(engine, -1)
+        assert [w.z for w in each.shaft.unbalances] == [0.0, 2.0]
+        assert each.bearings == (0.0, 2.0)
+
+
+def test_a_pair_is_where_it_cancels_whatever_its_planes() -> None:
+    """Forces of the two differ by rounding only: no place follows from that difference."""
+    engine = cp.Engine.preset("i4")
+    for planes in itertools.combinations(range(31), 2):
+        at = [z / 100.0 for z in planes]
+        fit = cp.balance_shafts(engine, [2, -2], x=[0.08, -0.06], planes=at)
+        # The half of 141.8 mm, to the digits that planes 10 mm apart leave.
+        assert [each.shaft.y for each in fit] == [
+            pytest.approx(0.0709, abs=5e-5),
+            pytest.approx(-0.0709, abs=5e-5),
+        ]
+
+
+def test_axes_that_would_leave_the_engine_stay_with_a_warning() -> None:
+    """A VR6 has little third-order force and much roll torque: an axis 56 m away would cancel it."""
+    engine = cp.Engine.preset("vr6")
+    with pytest.warns(UserWarning, match=r"would be 56.* m from the crank axis; give x and y"):
+        fit = cp.balance_shafts(engine, -3)
+    # Ten lengths of the engine, in each direction.
+    assert np.hypot(fit[0].shaft.x, fit[0].shaft.y) < 10.0 * np.sqrt(2.0) * np.ptp(engine.z)
+    cp.balance_shafts(engine, -3, x=0.1, y=0.1)
+
+
+def test_shafts_in_a_single_plane_share_a_force() -> None:
+    fit = cp.balance_shafts(I4, [2, 2, -2, -2], x=0, y=0, planes=[0.0], remove="force")
+    left = fit.balance(RPM, orders=[2])[2].force.peak
+    assert left <= ROUNDING * MR * OMEGA**2
+    assert fit[0].unbalance == pytest.approx(fit[1].unbalance)
+
+
+def test_tables_show_angles_that_are_fractions() -> None:
+    engine = cp.Engine.inline(
+        CYLINDER, throws_deg=[f"{360 * k}/11" for k in range(11)], spacing=0.1,
+        first_tdc_deg="180/7",
+    )  # fmt: skip
+    fit = cp.balance_shafts(engine, -1)
+    exact = [Unbalance(w.amount, w.z, "5760/77") for w in fit[0].shaft.unbalances]
+    shaft = dataclasses.replace(fit[0].shaft, unbalances=exact)
+    shown = cp.types.BalanceShafts(
+        engine, (dataclasses.replace(fit[0], shaft=shaft),), fit.plane, fit.extra_torque
+    )
+    assert "74.805" in repr(shown)
 
 
 def test_force_alone_and_moment_alone() -> None:

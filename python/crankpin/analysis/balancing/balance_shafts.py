@@ -2,37 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
-from crankpin.analysis.balancing.lanchester import placed
-from crankpin.analysis.balancing.planes import (
-    Turning,
-    ends,
-    fitted,
-    length_of,
-    roll_torque,
-    turning,
-    unbalances,
-)
+from crankpin.analysis.balancing.planes import Turning, ends
 from crankpin.analysis.balancing.shaft_wishes import extra_torques, wishes
 from crankpin.analysis.request import engine_core
-from crankpin.model.shafts import Shaft
+from crankpin.model.shafts import Shaft, unbalance_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from crankpin.analysis.balancing.shaft_wishes import Remove, Wish
+    from crankpin.analysis.balancing.shaft_wishes import Remove
     from crankpin.model.engine import Engine
-    from crankpin.model.shafts import Unbalance
-
-INSIDE = 1e-12
-"""Rounding, relative to the engine's length, in the place of a single plane."""
 
 
 def balance_shafts(
@@ -66,7 +52,8 @@ def balance_shafts(
         Axis of each shaft from the crank axis, seen from the flywheel, m: a number for all, or a
         list with one for each. None is free: such coordinates are placed where the shafts cancel
         the roll torque of their order, or come closest to it, as near the crank axis as that
-        allows: far away where the torque is large beside the forces.
+        allows. Where that is further away than ten times the engine's length, the torque stays,
+        with a warning.
     planes
         Places of the unbalances along the crank, m: for all shafts, such as ``[0.0, 0.3]``, or a
         list of these, one for each shaft. None is free: a single plane where that is enough, the
@@ -129,87 +116,25 @@ def balance_shafts(
     plane = inputs.optional_number("reference_z", reference_z)
     asked = wishes(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
     extra = extra_torques(extra_torque, rpm, {each.order for each in asked})
-    torques = {
-        order: roll_torque(engine, order) + extra.get(order, 0j)
-        for order in dict.fromkeys(each.order for each in asked)
-    }
-    on_the_axis = _on_the_axis(engine, asked, plane)
-    shafts = at_places(on_the_axis, [(each.x, each.y) for each in asked], torques)
-    return BalanceShafts(engine, shafts, plane, tuple(extra.items()))
-
-
-def at_places(
-    shafts: Sequence[FittedShaft],
-    places: Sequence[tuple[float | None, float | None]],
-    torques: Mapping[int, complex],
-) -> tuple[FittedShaft, ...]:
-    """Return the shafts with their axes at places, free coordinates where they cancel roll torque.
-
-    Parameters
-    ----------
-    shafts
-        The shafts, wherever they are.
-    places
-        x and y of each, m; None is free.
-    torques
-        Order → phasor of the roll torque without the shafts, over ω², kg·m².
-    """
-    found = list(shafts)
-    for order in dict.fromkeys(each.order for each in shafts):
-        which = [k for k, each in enumerate(shafts) if each.order == order]
-        forces = [(shafts[k].shaft.ratio, shafts[k].makes.force) for k in which]
-        axes = placed(torques[order], forces, [places[k] for k in which])
-        for k, axis in zip(which, axes, strict=True):
-            found[k] = shafts[k].moved(*axis)
-    return tuple(found)
-
-
-def _on_the_axis(
-    engine: Engine, asked: Sequence[Wish], reference_z: float | None
-) -> list[FittedShaft]:
-    """Return the shafts with their unbalances, all on the crank axis."""
-    z0 = engine.reference_z if reference_z is None else reference_z
+    found, beyond = _core.fit_shafts(
+        engine_core(engine),
+        [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
+        plane,
+        list(extra.items()),
+    )
+    if beyond is not None:
+        warn(
+            "the roll torque is not cancelled: shafts that do so would be "
+            f"{beyond:.3g} m from the crank axis; give x and y"
+        )
     places = ends(engine)
     bearings = (places[0], places[-1]) if len(places) > 1 else None
-    of_ratio = {
-        ratio: iter(_of_ratio(engine, [w for w in asked if w.ratio == ratio], reference_z))
-        for ratio in dict.fromkeys(each.ratio for each in asked)
-    }
-    return [
-        FittedShaft(Shaft(each.ratio, next(of_ratio[each.ratio])), z0, each.bearings or bearings)
-        for each in asked
+    shafts = [
+        FittedShaft(
+            Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y),
+            Turning(*exerts),
+            each.bearings or bearings,
+        )
+        for each, ((x, y), weights, exerts) in zip(asked, found, strict=True)
     ]
-
-
-def _of_ratio(
-    engine: Engine, asked: Sequence[Wish], reference_z: float | None
-) -> list[tuple[Unbalance, ...]]:
-    """Return the unbalances of each of the shafts of one ratio, which share their task."""
-    ratio, remove = asked[0].ratio, asked[0].remove
-    z0 = engine.reference_z if reference_z is None else reference_z
-    there = turning(engine, ratio, reference_z)
-    wanted = Turning(
-        0j if remove == "moment" else -there.force / ratio**2,
-        0j if remove == "force" else -there.moment / ratio**2,
-    )
-    free = _free_planes(engine, wanted, z0)
-    planes = [free if each.planes is None else each.planes for each in asked]
-    every = [z for each in planes for z in each]
-    # From a single plane a force makes the moment that it makes.
-    force_alone = remove == "force" and len(every) == 1
-    vectors = fitted(wanted, every, z0, math.inf if force_alone else length_of(engine))
-    starts = np.cumsum([len(each) for each in planes])[:-1]
-    parts = np.split(vectors, starts)
-    return [unbalances(part, z) for part, z in zip(parts, planes, strict=True)]
-
-
-def _free_planes(engine: Engine, wanted: Turning, z0: float) -> tuple[float, ...]:
-    """Return the single plane in which an unbalance makes this force and moment, or the ends."""
-    places = ends(engine)
-    first, last = places[0], places[-1]
-    if wanted.force and last > first:
-        lever = wanted.moment / (1j * wanted.force)
-        at = z0 + lever.real
-        if abs(lever.imag) <= INSIDE * (last - first) and first <= at <= last:
-            return (at,)
-    return places
+    return BalanceShafts(engine, tuple(shafts), plane, tuple(extra.items()))

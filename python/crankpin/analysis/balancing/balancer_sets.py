@@ -6,16 +6,10 @@ import itertools
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from crankpin import _core
 from crankpin._core import InputError
-from crankpin.analysis.balancing.balance_shafts import at_places, balance_shafts
-from crankpin.analysis.balancing.planes import (
-    Turning,
-    fitted,
-    length_of,
-    roll_torque,
-    turning,
-)
-from crankpin.analysis.balancing.planes import unbalances as unbalances_of
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
+from crankpin.analysis.balancing.planes import Turning, turning, weights_in
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -67,7 +61,7 @@ def counterweights_at(
     """Return counterweights at places z that remove the forward part of order 1."""
     force, moment = turning(engine, 1, reference_z)
     z0 = engine.reference_z if reference_z is None else reference_z
-    return unbalances_of(fitted(Turning(-force, -moment), z, z0, length_of(engine)), z)
+    return weights_in(engine, Turning(-force, -moment), z, z0)
 
 
 def balancer_sets(
@@ -92,14 +86,17 @@ def balancer_sets(
         for what in removals[ratio]:
             fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, reference_z=reference_z)
             parts.append(Part(fit[0], what))
-    torques = {order: roll_torque(engine, order) for order in dict.fromkeys(map(abs, ratios))}
+    orders = dict.fromkeys(map(abs, ratios))
+    torques = [(order, _core.roll_torque(engine.core, order)) for order in orders]
     found = []
     for choice in itertools.product(*choices):
         chosen = [each for each in choice if each is not None]
         if len(chosen) > most_shafts:
             continue
         where = [places.get(each.shaft.shaft.ratio, FREE) for each in chosen]
-        shafts = at_places([each.shaft for each in chosen], where, torques)
+        forces = [(each.shaft.shaft.ratio, each.shaft.makes.force) for each in chosen]
+        axes = _core.place_shafts(engine.core, torques, forces, where)
+        shafts = tuple(each.shaft.moved(*at) for each, at in zip(chosen, axes, strict=True))
         found += [
             BalancerSet(weights, shafts, _name(chosen, weighted=bool(weights)))
             for weights in dict.fromkeys([(), counterweights])

@@ -78,13 +78,13 @@ def counterweights(
         rotating mass, removes 2κ of what the pistons do: 52 % is ``fraction=1.04``.
     minimise
         Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
-        mass·radius, ``"largest"`` for the least largest (needs SciPy).
+        mass·radius, ``"largest"`` for the least largest.
     bound
         Largest mass·radius of a plane, kg·m: a number, or a mapping name → number with the planes
         that have one (needs SciPy where it binds).
     angles_deg
         Angles at which a plane can have weights, degrees from +x at θ = 0: a list for all planes,
-        or a mapping name → list; any angle by default (needs SciPy). The mass·radius of a plane is
+        or a mapping name → list; any angle by default. The mass·radius of a plane is
         then the sum of its weights'.
     length
         Where weights cannot remove both, they leave the least |force|² + |moment/length|², m. By
@@ -102,8 +102,6 @@ def counterweights(
     ------
     InputError
         If an argument is out of range.
-    ImportError
-        If SciPy is needed and not installed.
 
     Notes
     -----

@@ -7,13 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing.planes import Turning, influence, shares, vectors, without_rounding
+from crankpin._support.record import read_only
+from crankpin.analysis.geometry import direction
+from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from crankpin.analysis.balancing.planes import Turning
     from crankpin.model.shafts import Shaft
 
 
@@ -23,8 +27,8 @@ class FittedShaft:
 
     shaft: Shaft
     """The shaft: its ratio, its axis and its unbalances at θ = 0."""
-    reference_z: float
-    """Plane about which moments are taken, m."""
+    makes: Turning
+    """Force and moment of the shaft, over ω², as vectors x + iy at θ = 0: kg·m, kg·m²."""
     bearings: tuple[float, float] | None
     """Places of its two bearings, front first, m; None if they are not known."""
 
@@ -42,14 +46,6 @@ class FittedShaft:
     def unbalance(self) -> float:
         """Sum of the amounts of its unbalances, kg·m."""
         return float(sum(each.amount for each in self.shaft.unbalances))
-
-    @property
-    def makes(self) -> Turning:
-        """Force and moment of the shaft, over ω², as vectors x + iy at θ = 0: kg·m, kg·m²."""
-        rows, forces = influence(self._z(), self.reference_z), self._forces()
-        # Two opposite forces leave their rounding errors, not a force.
-        sums = (without_rounding(row @ forces, float(np.abs(row * forces).sum())) for row in rows)
-        return Turning(*(complex(each) for each in sums))
 
     @property
     def removed_force(self) -> float:
@@ -96,17 +92,13 @@ class FittedShaft:
         """
         if self.bearings is None:
             raise InputError("bearings = None: give bearings=(z_front, z_rear) to balance_shafts")
-        front, rear = self.bearings
-        taken = shares(self._z(), front, rear) @ self._forces()
-        return np.asarray(taken * inputs.angular_speed(rpm) ** 2)
+        forces = [
+            (each.amount * complex(direction(degrees(each.angle_deg))), each.z)
+            for each in self.shaft.unbalances
+        ]
+        over = (self.shaft.ratio * inputs.angular_speed(rpm)) ** 2
+        return read_only(over * np.array(_core.shared(forces, *self.bearings)))
 
     def moved(self, x: float, y: float) -> FittedShaft:
         """Return the same shaft with its axis at another place, m from the crank axis."""
         return dataclasses.replace(self, shaft=dataclasses.replace(self.shaft, x=x, y=y))
-
-    def _z(self) -> list[float]:
-        return [each.z for each in self.shaft.unbalances]
-
-    def _forces(self) -> NDArray[np.complex128]:
-        """Return the forces of the unbalances at θ = 0, over ω², kg·m: (n_unbalances,)."""
-        return self.shaft.ratio**2 * vectors(self.shaft.unbalances)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import math
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.frozen import Listed
@@ -15,11 +17,12 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.tables import Shown, Table, stacked
 from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
 from crankpin.analysis.balancing.fitted_shaft import FittedShaft
-from crankpin.analysis.balancing.lanchester import PairHeights, makes_a_pair, pair_heights
-from crankpin.analysis.balancing.planes import roll_torque
 from crankpin.analysis.drawing import draw
+from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
@@ -38,6 +41,36 @@ PARTS = {
     "torque": (("", "phasor"),),
 }
 """Quantity → name of each part and the attribute that reads it."""
+
+
+class PairHeights(NamedTuple):
+    """Places of a Lanchester pair that cancel the roll torque of its order.
+
+    Two shafts at +n and −n with equal forces push together along one line. With *up* along that
+    line and *right* to its right, their roll torque depends on how much higher the shaft that turns
+    with the crank stands, and on the sum of the two distances to the right, and on nothing else.
+    """
+
+    order: int
+    """Order of the pair."""
+    difference: float
+    """Height of the shaft that turns with the crank over the other, m."""
+    right_sum: float
+    """Sum of the distances of both to the right of the crank axis, m."""
+    up_deg: float
+    """Direction of *up*, degrees from +x in [0, 180): 90 for an upright inline engine."""
+
+
+EQUAL = 1e-9
+"""Relative difference up to which the forces of a pair are equal."""
+
+
+def _is_a_pair(forces: Sequence[tuple[int, complex]]) -> bool:
+    """Return whether shafts, as ratio and force, are one pair of opposite ratio and equal force."""
+    if len(forces) != 2 or forces[0][0] != -forces[1][0]:
+        return False
+    sizes = [abs(force) for _, force in forces]
+    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL * max(sizes)
 
 
 class PartLeft(NamedTuple):
@@ -134,10 +167,12 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         found = []
         for order in self.orders:
             pair = [(each.shaft.ratio, each.makes.force) for each in self._of(order)]
-            if makes_a_pair(pair):
+            if _is_a_pair(pair):
                 forces = dict(pair)
-                torque = roll_torque(self.before, order) + dict(self.extra_torque).get(order, 0j)
-                found.append(pair_heights(order, forces[order], forces[-order], torque))
+                torque = _core.roll_torque(self.before.core, order)
+                torque += dict(self.extra_torque).get(order, 0j)
+                *places, up = _core.pair_heights(forces[order], forces[-order], torque)
+                found.append(PairHeights(order, *places, round(math.degrees(up), 13)))
         return tuple(found)
 
     def _of(self, order: int) -> list[FittedShaft]:
@@ -167,7 +202,7 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         rows = [
             (
                 number, each.shaft.ratio, each.order, each.part, each.shaft.x, each.shaft.y,
-                weight.z, weight.amount, float(weight.angle_deg),
+                weight.z, weight.amount, degrees(weight.angle_deg),
             )
             for number, each in enumerate(self.shafts, start=1)
             for weight in each.shaft.unbalances
@@ -202,7 +237,7 @@ class BalanceShafts(Listed[FittedShaft], Shown):
             for _ in each.shaft.unbalances
         ]
         rows = [
-            [each.shaft.x, each.shaft.y, weight.z, weight.amount, float(weight.angle_deg)]
+            [each.shaft.x, each.shaft.y, weight.z, weight.amount, degrees(weight.angle_deg)]
             for each in self.shafts
             for weight in each.shaft.unbalances
         ]

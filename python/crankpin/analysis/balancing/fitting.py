@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.balancing.first_order import bay_alone
-from crankpin.analysis.balancing.least_weights import Problem, least
-from crankpin.analysis.balancing.planes import influence, turning, unbalance
+from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
-from crankpin.model.shafts import degrees
+from crankpin.model.shafts import degrees, unbalance_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from crankpin.model.shafts import Unbalance
 
 QUANTITIES = ("force", "moment")
-NOTHING = 1e-13
-"""Weights below this part of the largest are rounding."""
 
 Target: TypeAlias = Literal["external", "internal"]
 Minimise: TypeAlias = Literal["squares", "largest"]
@@ -119,34 +117,30 @@ def external(
 ) -> Fitted:
     """Return the weights that remove the most of an engine's forward force and moment."""
     plane = engine.reference_z if fit.reference_z is None else fit.reference_z
-    names, places = list(planes), np.array(list(planes.values()))
+    names, places = list(planes), list(planes.values())
     levers = np.append(places, engine.z) - plane
     length = fit.length or float(np.abs(levers).max()) or 1.0
-    there = turning(engine, 1, plane)._asdict()
-    made = dict(zip(QUANTITIES, influence(places, plane), strict=True))
-    unit = {"force": 1.0, "moment": length}
-    found = least(
-        Problem(
-            np.array([made[name] / unit[name] for name in fit.parts]),
-            np.array([-part * there[name] / unit[name] for name, part in fit.parts.items()]),
-            np.array([bounds[name] for name in names]),
-            None
-            if angles is None
-            else tuple(np.deg2rad([degrees(angle) for angle in angles[name]]) for name in names),
-            fit.minimise == "largest",
-        )
+    there = turning(engine, 1, plane)
+    force, moment = (
+        None if part is None else -part * of
+        for part, of in zip((fit.force, fit.moment), there, strict=True)
     )
-    amounts = np.abs(found.value)
+    allowed = None
+    if angles is not None:
+        allowed = [np.deg2rad([degrees(angle) for angle in angles[name]]) for name in names]
+    limits = [bounds[name] for name in names]
+    found, reached, missing = _core.least_weights(
+        places, plane, length, force, moment, limits, allowed, fit.minimise
+    )
     unbalances = []
-    for k in np.flatnonzero(amounts > NOTHING * amounts.max(initial=0.0)):
-        name = names[found.plane[k]]
-        weight = unbalance(complex(found.value[k]), planes[name])
+    for place, angle, each in found:
+        weight = unbalance_of(each)
         if angles is not None:
-            weight = dataclasses.replace(weight, angle_deg=angles[name][found.angle[k]])
-        unbalances.append((name, weight))
+            weight = dataclasses.replace(weight, angle_deg=angles[names[place]][angle])
+        unbalances.append((names[place], weight))
     usable = [z for name, z in planes.items() if bounds[name] > 0.0]
-    exact = found.reached and can_remove(engine, usable, fit, plane)
-    return Fitted(tuple(unbalances), exact, 0.0 if exact else found.missing)
+    exact = reached and can_remove(engine, usable, fit, plane)
+    return Fitted(tuple(unbalances), exact, 0.0 if exact else missing)
 
 
 def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> bool:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support.frozen import Frozen, read_only
 from crankpin._support.tables import Shown, Table
-from crankpin.analysis.balancing.planes import shares, unbalance
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Unbalance
 
@@ -139,7 +139,8 @@ class TwoPlaneCorrection(Frozen, Shown):
     def _weights(self) -> NDArray[np.complex128]:
         """Weights to add, g·mm."""
         heavy = np.array(self.measured_g_mm) * direction(np.array(self.measured_deg))
-        return np.asarray(-shares(self.measured_z, *self.correction_z) @ heavy)
+        forces = list(zip(heavy.tolist(), self.measured_z, strict=True))
+        return -np.array(_core.shared(forces, *self.correction_z))
 
     @property
     def amount_g_mm(self) -> NDArray[np.float64]:
@@ -169,8 +170,13 @@ class TwoPlaneCorrection(Frozen, Shown):
     @property
     def unbalances(self) -> tuple[Unbalance, ...]:
         """The corrections, as unbalances of a crankshaft, kg·m."""
-        weights = zip((self._weights * G_MM).tolist(), self.correction_z, strict=True)
-        return tuple(unbalance(weight, z) for weight, z in weights)
+        weights = zip(
+            (self.amount_g_mm * G_MM).tolist(),
+            self.correction_z,
+            self.angle_deg.tolist(),
+            strict=True,
+        )
+        return tuple(Unbalance(amount, z, round(angle, 13)) for amount, z, angle in weights)
 
     def to_pandas(self) -> pd.DataFrame:
         """Return the corrections, one row a plane (needs pandas)."""

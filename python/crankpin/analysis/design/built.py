@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -10,24 +12,16 @@ from crankpin._support import inputs
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.cranks import Crank, exact
 from crankpin.analysis.balance import UNIT_RPM
-from crankpin.analysis.balancing.planes import (
-    Turning,
-    ends,
-    fitted,
-    length_of,
-    unbalance,
-    unbalances,
-)
+from crankpin.analysis.balancing.planes import Turning, ends, weights_in
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Shaft
+from crankpin.model.shafts import Shaft, Unbalance
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from crankpin.analysis.design.question import Question
     from crankpin.analysis.sweeps.sweep import Sweep
-    from crankpin.model.shafts import Unbalance
 
 
 def engines(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
@@ -105,7 +99,8 @@ def _bob_weight(question: Question) -> Unbalance:
     cylinder = question.cylinder
     (first,) = cylinder.harmonics([1])
     mass = 0.5 * cylinder.reciprocating_mass * complex(first) + question.rotating_mass
-    return unbalance(-mass * cylinder.crank_radius, 0.0)
+    vector = -mass * cylinder.crank_radius
+    return Unbalance(abs(vector), 0.0, round(math.degrees(cmath.phase(vector)), 13))
 
 
 def _with_shafts(question: Question, bare: list[Engine]) -> list[Engine]:
@@ -126,6 +121,6 @@ def _shaft(swept: Sweep, k: int, ratio: int) -> Shaft:
     engine, found = swept.engines[k], swept[abs(ratio)]
     part = "forward" if ratio > 0 else "backward"
     force, moment = (getattr(each, part)[k] / ratio**2 for each in (found.force, found.moment))
-    places = ends(engine)
-    needed = fitted(Turning(-force, -moment), places, engine.reference_z, length_of(engine))
-    return Shaft(ratio, unbalances(needed, places), name=f"of order {abs(ratio)}")
+    wanted = Turning(-complex(force), -complex(moment))
+    needed = weights_in(engine, wanted, ends(engine), engine.reference_z)
+    return Shaft(ratio, needed, name=f"of order {abs(ratio)}")

@@ -1,0 +1,111 @@
+//! Hardware fitted to an engine: counterweights and balance shafts, and what they remove.
+//!
+//! A weight u (kg·m, x + iy at θ = 0) at z exerts the force u·ω² and the moment i(z − z₀)·u·ω². Both
+//! scale with ω², so that one fit serves every speed. Forces are in kg·m here, moments and torques in
+//! kg·m²: over ω².
+
+mod least_squares;
+mod nonnegative;
+pub mod shafts;
+pub mod weights;
+
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::readings::balance::{Orders, Request, balance};
+use crate::wrench::Wrench;
+
+/// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Turning {
+    /// Force, kg·m.
+    pub force: Complex64,
+    /// Moment about the reference plane, kg·m².
+    pub moment: Complex64,
+}
+
+/// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
+pub fn turning(
+    engine: &Engine,
+    ratio: i32,
+    reference_z: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Turning> {
+    let wrench = over_square(engine, ratio.unsigned_abs(), reference_z, false, cancel)?;
+    let [force, moment] = [wrench.force, wrench.moment]
+        .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
+    Ok(Turning { force, moment })
+}
+
+/// Phasor of an order of the roll torque on the block, over ω².
+pub fn roll_torque(engine: &Engine, order: u32, cancel: &Cancel) -> Result<Complex64> {
+    Ok(over_square(engine, order, None, true, cancel)?.torque.roll)
+}
+
+fn over_square(
+    engine: &Engine,
+    order: u32,
+    reference_z: Option<f64>,
+    torque: bool,
+    cancel: &Cancel,
+) -> Result<Wrench> {
+    // 1 rad/s
+    let rpm = 30.0 / std::f64::consts::PI;
+    let request = Request { rpm, reference_z, spectrum: None, torque };
+    let found = balance(engine, &request, &Orders::whole(&[order])?, cancel)?;
+    Ok(found.wrenches[0])
+}
+
+/// Forces at places along a shaft as taken by two planes, front and rear, by the lever rule.
+#[must_use]
+pub fn shared(forces: &[(Complex64, f64)], front: f64, rear: f64) -> [Complex64; 2] {
+    let mut taken = [Complex64::default(); 2];
+    for &(force, z) in forces {
+        let on_rear = (z - front) / (rear - front);
+        taken[0] += force * (1.0 - on_rear);
+        taken[1] += force * on_rear;
+    }
+    taken
+}
+
+/// Places of the first and the last cylinder, m.
+fn ends(engine: &Engine) -> [f64; 2] {
+    let z = || engine.placements().iter().map(|place| place.z);
+    [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// Length over which a moment counts as much as a force, m: half the distance between the first and
+/// the last cylinder, or the crank radius where they are at one place.
+#[must_use]
+pub fn half_length(engine: &Engine) -> f64 {
+    let [first, last] = ends(engine);
+    if last > first { (last - first) / 2.0 } else { engine.largest_crank_radius() }
+}
+
+/// Part of the largest of several values below which another is rounding.
+const NEGLIGIBLE: f64 = 1e-14;
+
+/// Zero for values that are rounding beside the largest of them.
+fn without_rounding(values: &mut [Complex64]) {
+    let largest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    for value in values {
+        if value.norm() <= NEGLIGIBLE * largest {
+            *value = Complex64::default();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_planes_take_the_force_and_the_moment() {
+        let [a, b] = [Complex64::new(1.0, -2.0), Complex64::new(0.5, 4.0)];
+        let [front, rear] = shared(&[(a, 0.1), (b, -0.3)], 0.2, 0.7);
+        // Sums of terms below 10, each with a few roundings.
+        assert!((front + rear - a - b).norm() < 1e-14);
+        assert!((front * 0.2 + rear * 0.7 - a * 0.1 + b * 0.3).norm() < 1e-14);
+    }
+}

@@ -1,0 +1,300 @@
+//! Balance shafts: their unbalances, and places where they cancel roll torque.
+
+use nalgebra::DMatrix;
+
+use super::least_squares::least_squares;
+use super::{NEGLIGIBLE, Turning, ends, half_length, roll_torque, turning, weights};
+use crate::Complex64;
+use crate::engine::{Engine, Shaft, Unbalance};
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+
+/// What a shaft is to remove of its part of an order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Remove {
+    /// Force and moment.
+    Both,
+    /// The force, without making a moment about the reference plane.
+    Force,
+    /// The moment, without making a force.
+    Moment,
+}
+
+/// A shaft that is wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// Speed over crank speed.
+    pub ratio: i32,
+    /// Axis, x and y from the crank axis, m; None where free.
+    pub axis: [Option<f64>; 2],
+    /// Places of its unbalances, m; None where free.
+    pub planes: Option<Vec<f64>>,
+    /// What it is to remove.
+    pub remove: Remove,
+}
+
+/// A shaft, and what it exerts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// The shaft.
+    pub shaft: Shaft,
+    /// Its force and moment, over ω².
+    pub exerts: Turning,
+}
+
+/// Places of the axes of shafts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axes {
+    /// x and y of each, m.
+    pub axes: Vec<[f64; 2]>,
+    /// Distance, m, of a place further away than the reach that would cancel more roll torque.
+    pub beyond: Option<f64>,
+}
+
+/// Rounding, relative to the engine's length, in the place of a single plane.
+const INSIDE: f64 = 1e-12;
+/// How far from the crank axis free axes may be placed, in lengths of the engine: whatever is the
+/// larger of its length along the crank and that of a crank and a rod.
+const REACH: f64 = 10.0;
+/// Decimals of the angle of an unbalance, degrees: 1e-15 rad, less than its rounding error.
+const DECIMALS: f64 = 1e13;
+
+/// Shafts that remove their parts of orders, those of one ratio together with the least squares; free
+/// axes where they cancel roll torque, as far as these are within reach of the engine.
+///
+/// `given` are torques on the block, over ω² at one speed, by order, that are cancelled as well.
+pub fn fit(
+    engine: &Engine,
+    wanted: &[Request],
+    reference_z: Option<f64>,
+    given: &[(u32, Complex64)],
+    cancel: &Cancel,
+) -> Result<(Vec<Fitted>, Option<f64>)> {
+    let reference = engine.reference(reference_z)?;
+    let mut found = vec![None; wanted.len()];
+    for ratio in distinct(wanted.iter().map(|each| each.ratio)) {
+        let there = turning(engine, ratio, reference_z, cancel)?;
+        let same: Vec<usize> = (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
+        let shafts: Vec<&Request> = same.iter().map(|&k| &wanted[k]).collect();
+        for (k, unbalances) in same.iter().zip(unbalances(engine, &there, &shafts, reference)?) {
+            found[*k] = Some(fitted(ratio, unbalances, reference));
+        }
+    }
+    let mut found: Vec<Fitted> = found.into_iter().flatten().collect();
+    let mut torques = Vec::new();
+    for order in distinct(wanted.iter().map(|each| each.ratio.unsigned_abs())) {
+        let extra = given.iter().filter(|(n, _)| *n == order).map(|(_, torque)| torque);
+        torques.push((order, roll_torque(engine, order, cancel)? + extra.sum::<Complex64>()));
+    }
+    let forces: Vec<_> = found.iter().map(|each| (each.shaft.ratio, each.exerts.force)).collect();
+    let axes: Vec<_> = wanted.iter().map(|each| each.axis).collect();
+    let placed = place(engine, &torques, &forces, &axes);
+    for (each, axis) in found.iter_mut().zip(placed.axes) {
+        each.shaft.axis = axis;
+    }
+    Ok((found, placed.beyond))
+}
+
+/// Axes of shafts, free coordinates where they cancel the roll torque of each order or come closest to
+/// it; of several solutions the nearest to the crank axis, and none beyond the reach of the engine.
+///
+/// `torques` are those without the shafts, by order, `forces` ratio and force of each shaft, over ω².
+#[must_use]
+pub fn place(
+    engine: &Engine,
+    torques: &[(u32, Complex64)],
+    forces: &[(i32, Complex64)],
+    axes: &[[Option<f64>; 2]],
+) -> Axes {
+    let mut found = Axes {
+        axes: axes.iter().map(|axis| axis.map(Option::unwrap_or_default)).collect(),
+        beyond: None,
+    };
+    for &(order, torque) in torques {
+        let mut rest = torque;
+        let mut free = Vec::new();
+        for (k, &(ratio, force)) in forces.iter().enumerate() {
+            if ratio.unsigned_abs() != order {
+                continue;
+            }
+            for (axis, per_metre) in roll_of(ratio, force).into_iter().enumerate() {
+                match axes[k][axis] {
+                    Some(given) => rest += per_metre * given,
+                    None => free.push((k, axis, per_metre)),
+                }
+            }
+        }
+        let parts = |row: usize, value: Complex64| if row == 0 { value.re } else { value.im };
+        let rows = DMatrix::from_fn(2, free.len(), |row, j| parts(row, free[j].2));
+        let target = DMatrix::from_fn(2, 1, |row, _| -parts(row, rest));
+        for most in (0..=2).rev() {
+            let mut places = least_squares(&rows, &target, most).solution;
+            let furthest = places.amax();
+            if furthest > REACH * size(engine) {
+                found.beyond = Some(found.beyond.map_or(furthest, |other| other.max(furthest)));
+                continue;
+            }
+            places.apply(|place| {
+                if place.abs() <= NEGLIGIBLE * furthest {
+                    *place = 0.0;
+                }
+            });
+            for (&(k, axis, _), place) in free.iter().zip(places.iter()) {
+                found.axes[k][axis] = *place;
+            }
+            break;
+        }
+    }
+    found
+}
+
+/// Heights at which a pair of shafts with equal and opposite ratios cancels a roll torque: how much
+/// higher the one that turns with the crank is than the other, the sum of the distances to the right
+/// of the crank axis, m, and the direction of *up*, the line along which the pair pushes, radians.
+#[must_use]
+pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) -> [f64; 3] {
+    let up = (f64::midpoint(forward.arg(), backward.arg())).rem_euclid(std::f64::consts::PI);
+    // With a = e^{i·up}(h − iw) the pair's torque is i·|F|·e^{iγ}·((h_B − h_A) − i(w_A + w_B)).
+    let gamma = forward.arg() - up;
+    let needed = -torque / Complex64::from_polar(forward.norm(), gamma);
+    let zeroed = |value: f64| if value.abs() <= NEGLIGIBLE * needed.norm() { 0.0 } else { value };
+    [zeroed(-needed.im), zeroed(needed.re), up]
+}
+
+/// Roll torque's phasor for each metre of a shaft's axis along x and y: `x·F_y − y·F_x`.
+fn roll_of(ratio: i32, force: Complex64) -> [Complex64; 2] {
+    // The force's phasors along x and y.
+    let i = Complex64::i();
+    let [x, y] = if ratio > 0 { [force, -i * force] } else { [force.conj(), i * force.conj()] };
+    [y, -x]
+}
+
+/// Unbalances of each of the shafts of one ratio, which share their task.
+fn unbalances(
+    engine: &Engine,
+    there: &Turning,
+    wanted: &[&Request],
+    reference: f64,
+) -> Result<Vec<Vec<Unbalance>>> {
+    let [Request { ratio, remove, .. }, ..] = wanted else { return Ok(Vec::new()) };
+    let of_shaft = |of_engine: Complex64| -of_engine / f64::from(ratio * ratio);
+    let none = Complex64::default();
+    let target = Turning {
+        force: if *remove == Remove::Moment { none } else { of_shaft(there.force) },
+        moment: if *remove == Remove::Force { none } else { of_shaft(there.moment) },
+    };
+    let free = free_planes(engine, &target, reference);
+    let planes: Vec<&[f64]> =
+        wanted.iter().map(|each| each.planes.as_deref().unwrap_or(&free)).collect();
+    let every = planes.concat();
+    let length = half_length(engine);
+    let (mut vectors, different) = weights::unbounded(&target, &every, reference, length);
+    if *remove == Remove::Force && different < 2 {
+        // From a single plane a force makes the moment that it makes.
+        (vectors, _) = weights::unbounded(&target, &every, reference, f64::INFINITY);
+    }
+    let mut vectors = vectors.into_iter();
+    planes
+        .into_iter()
+        .map(|z| {
+            let here = z.iter().zip(vectors.by_ref()).filter(|(_, vector)| *vector != none);
+            here.map(|(&z, vector)| unbalance(vector, z)).collect()
+        })
+        .collect()
+}
+
+/// The single plane in which an unbalance makes this force and moment, or the first and last cylinder.
+fn free_planes(engine: &Engine, wanted: &Turning, reference: f64) -> Vec<f64> {
+    let [first, last] = ends(engine);
+    if last <= first {
+        return vec![first];
+    }
+    if wanted.force != Complex64::default() {
+        let lever = wanted.moment / (Complex64::i() * wanted.force);
+        let z = reference + lever.re;
+        if lever.im.abs() <= INSIDE * (last - first) && (first..=last).contains(&z) {
+            return vec![z];
+        }
+    }
+    vec![first, last]
+}
+
+/// A weight as an unbalance.
+pub fn unbalance(vector: Complex64, z: f64) -> Result<Unbalance> {
+    let degrees = ((vector.arg().to_degrees() * DECIMALS).round() / DECIMALS).rem_euclid(360.0);
+    let angle = Angle::from_degrees(degrees)?;
+    Ok(Unbalance { amount: vector.norm(), angle, z, pin: None })
+}
+
+/// A shaft on the crank axis.
+fn fitted(ratio: i32, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
+    let square = f64::from(ratio * ratio);
+    let terms: Vec<Turning> = unbalances
+        .iter()
+        .map(|each| {
+            let force = each.angle.cis(1) * (square * each.amount);
+            Turning { force, moment: Complex64::i() * force * (each.z - reference) }
+        })
+        .collect();
+    // Two opposite forces leave their rounding errors, not a force.
+    let sum = |of: fn(&Turning) -> Complex64| {
+        let (sum, size) =
+            terms.iter().map(of).fold((Complex64::default(), 0.0), |(sum, size), term| {
+                (sum + term, size + term.norm())
+            });
+        if sum.norm() <= NEGLIGIBLE * size { Complex64::default() } else { sum }
+    };
+    let exerts = Turning { force: sum(|term| term.force), moment: sum(|term| term.moment) };
+    let shaft = Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances };
+    Fitted { shaft, exerts }
+}
+
+/// Length of an engine, m: along the crank or of a crank and its rod, whichever is the larger.
+fn size(engine: &Engine) -> f64 {
+    let [first, last] = ends(engine);
+    let reach = engine.gears().iter().map(|gear| gear.crank_radius() + gear.rod_length());
+    reach.fold(last - first, f64::max)
+}
+
+fn distinct<T: Copy + PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for value in values {
+        if !found.contains(&value) {
+            found.push(value);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Placement;
+    use crate::gear::slider_crank::Cylinder;
+
+    fn single() -> Engine {
+        let cylinder = Cylinder::new(0.04, 0.14, 0.5, 0.0).unwrap();
+        let bank = Angle::from_degrees(90.0).unwrap();
+        let place = Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
+        Engine::new("", "", vec![place]).unwrap()
+    }
+
+    #[test]
+    fn forces_that_differ_by_rounding_place_no_shaft_far_away() {
+        let torque = Complex64::new(1e-4, 2e-4);
+        let force = Complex64::new(0.0, 3e-3);
+        let axes = [[Some(0.08), None], [Some(-0.06), None]];
+        for rounding in [0.0, 1e-15, -1e-13, 1e-11] {
+            let forces = [(2, force), (-2, force * (1.0 + rounding))];
+            let found = place(&single(), &[(2, torque)], &forces, &axes);
+            let [[_, one], [_, other]] = found.axes[..] else { panic!("two axes") };
+            // Equal and opposite: the difference of heights is what counts.
+            assert!((one + other).abs() < 1e-9 && one.abs() < 0.05 && found.beyond.is_none());
+        }
+        let small = [(2, force * 1e-6)];
+        let beyond = place(&single(), &[(2, torque)], &small, &[[None, None]]);
+        assert!(beyond.beyond.is_some_and(|distance| distance > 1e3));
+        assert_eq!(beyond.axes, [[0.0, 0.0]]);
+    }
+}

@@ -1,0 +1,139 @@
+//! Counterweights and balance shafts.
+
+use crankpin_core::balancing::shafts::{self, Remove};
+use crankpin_core::balancing::weights::{self, Minimise};
+use crankpin_core::balancing::{self, Turning};
+use crankpin_core::{Complex64, Engine as CoreEngine};
+use pyo3::prelude::*;
+
+use crate::convert::OrRaise;
+use crate::engine::{Engine, Weight, choice, weight};
+use crate::interrupt;
+
+/// Plane, place among its angles, and weight.
+type PlacedWeight = (usize, usize, Weight);
+/// Force and moment over ω².
+type Pair = (Complex64, Complex64);
+/// x and y of an axis, None where free.
+type FreeAxis = (Option<f64>, Option<f64>);
+/// Ratio, axis, places of the unbalances, and what to remove.
+type WantedShaft = (i32, FreeAxis, Option<Vec<f64>>, String);
+/// Axis, unbalances, force and moment.
+type FittedShaft = ((f64, f64), Vec<Weight>, Pair);
+
+/// Part of force and moment that turns with a shaft of this ratio, over ω².
+#[pyfunction]
+pub fn turning(engine: &Bound<'_, Engine>, ratio: i32, reference_z: Option<f64>) -> PyResult<Pair> {
+    let core = &engine.get().0;
+    let work = |cancel: &_| balancing::turning(core, ratio, reference_z, cancel);
+    let found = interrupt::run(engine.py(), work)?;
+    Ok((found.force, found.moment))
+}
+
+/// Roll torque of an order over ω².
+#[pyfunction]
+pub fn roll_torque(engine: &Bound<'_, Engine>, order: u32) -> PyResult<Complex64> {
+    let core = &engine.get().0;
+    interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, cancel))
+}
+
+/// Length over which a moment counts as much as a force, m.
+#[pyfunction]
+pub fn half_length(engine: &Bound<'_, Engine>) -> f64 {
+    balancing::half_length(&engine.get().0)
+}
+
+/// Plane, place among its angles and weight of each, whether they are proved to exert what was wanted,
+/// and the part of it that is missing.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+pub fn least_weights(
+    py: Python<'_>,
+    z: Vec<f64>,
+    reference: f64,
+    length: f64,
+    force: Option<Complex64>,
+    moment: Option<Complex64>,
+    bounds: Vec<f64>,
+    angles: Option<Vec<Vec<f64>>>,
+    minimise: &str,
+) -> PyResult<(Vec<PlacedWeight>, bool, f64)> {
+    let words = [("squares", Minimise::Squares), ("largest", Minimise::Largest)];
+    let minimise = choice("minimise", minimise, &words)?;
+    let found = interrupt::run(py, |cancel| {
+        let angles = angles.as_deref();
+        let (z, bounds) = (z.as_slice(), bounds.as_slice());
+        let request =
+            weights::Request { z, reference, length, force, moment, bounds, angles, minimise };
+        weights::least(&request, cancel)
+    })?;
+    let each = found.list.iter().map(|one| {
+        let unbalance = shafts::unbalance(one.vector, z[one.plane]).or_raise()?;
+        Ok((one.plane, one.angle, weight(&unbalance)))
+    });
+    Ok((each.collect::<PyResult<_>>()?, found.reached, found.missing))
+}
+
+/// Weights in planes, of any size and direction, that exert a force and moment or come closest to it.
+#[pyfunction]
+pub fn unbounded_weights(
+    wanted: Pair,
+    z: Vec<f64>,
+    reference: f64,
+    length: f64,
+) -> PyResult<Vec<Weight>> {
+    let wanted = Turning { force: wanted.0, moment: wanted.1 };
+    let (vectors, _) = weights::unbounded(&wanted, &z, reference, length);
+    let found = vectors.into_iter().zip(z).filter(|(vector, _)| *vector != Complex64::default());
+    found.map(|(vector, z)| Ok(weight(&shafts::unbalance(vector, z).or_raise()?))).collect()
+}
+
+/// Shafts that remove their parts of orders, and the distance of places beyond reach, m.
+#[pyfunction]
+pub fn fit_shafts(
+    engine: &Bound<'_, Engine>,
+    wanted: Vec<WantedShaft>,
+    reference_z: Option<f64>,
+    given: Vec<(u32, Complex64)>,
+) -> PyResult<(Vec<FittedShaft>, Option<f64>)> {
+    let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
+    let request = |(ratio, (x, y), planes, remove): WantedShaft| {
+        let remove = choice("remove", &remove, &words)?;
+        Ok(shafts::Request { ratio, axis: [x, y], planes, remove })
+    };
+    let wanted = wanted.into_iter().map(request).collect::<PyResult<Vec<_>>>()?;
+    let core = &engine.get().0;
+    let (found, beyond) = interrupt::run(engine.py(), |cancel| {
+        shafts::fit(core, &wanted, reference_z, &given, cancel)
+    })?;
+    let each = found.iter().map(|each| {
+        let unbalances = each.shaft.unbalances.iter().map(weight).collect();
+        (each.shaft.axis.into(), unbalances, (each.exerts.force, each.exerts.moment))
+    });
+    Ok((each.collect(), beyond))
+}
+
+/// Axes of shafts, free coordinates where they cancel roll torques.
+#[pyfunction]
+pub fn place_shafts(
+    engine: &Bound<'_, Engine>,
+    torques: Vec<(u32, Complex64)>,
+    forces: Vec<(i32, Complex64)>,
+    axes: Vec<FreeAxis>,
+) -> Vec<(f64, f64)> {
+    let core: &CoreEngine = &engine.get().0;
+    let axes: Vec<_> = axes.into_iter().map(|(x, y)| [x, y]).collect();
+    shafts::place(core, &torques, &forces, &axes).axes.into_iter().map(Into::into).collect()
+}
+
+/// Difference and sum of the places of a pair that cancels a roll torque, m, and its line, radians.
+#[pyfunction]
+pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) -> [f64; 3] {
+    shafts::pair_heights(forward, backward, torque)
+}
+
+/// Forces at places as taken by two planes, by the lever rule.
+#[pyfunction]
+pub fn shared(forces: Vec<(Complex64, f64)>, front: f64, rear: f64) -> [Complex64; 2] {
+    balancing::shared(&forces, front, rear)
+}
