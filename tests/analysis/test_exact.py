@@ -28,6 +28,8 @@ from rederivation import crossplane
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from crankpin.model.engine import Hold
+
 RPM = 10.0
 NAMES = list(cp.presets())
 # Tops dead centre of the right rows come from an arc sine; banks of the V14s from an argument.
@@ -100,6 +102,19 @@ def test_proportions_are_compared_as_typed() -> None:
     )
     assert twin.vanishing_orders([2]).force.vanishing == (2,)
     assert twin.closed_form(2, "force").peak == 0
+
+
+@pytest.mark.parametrize("hold", ["firing", "pins"])
+def test_an_arrangement_hands_its_proof_on(hold: Hold) -> None:
+    """The bank angle of an arrangement is exact, though it is no part of a turn."""
+    found = cp.search_arrangements(10, hold=hold)
+    for k in range(0, len(found), 7):
+        engine = found[k].engine(CYLINDER, spacing=0.13)
+        assert engine.vanishing_orders([1])[1].moment.backward == "vanishes", k
+    (ito,) = cp.search_arrangements(14).best(within=(60, 90))
+    engine = ito.engine(CYLINDER, spacing=0.13)
+    beside = engine.with_bank_angle(float(engine.bank_angle_deg) + 1e-11, hold="firing")
+    assert beside.vanishing_orders([1])[1].moment.backward == "undecided"
 
 
 def test_classical_results() -> None:

@@ -7,9 +7,10 @@
 
 use num_traits::{CheckedDiv, CheckedMul};
 
+use super::roots::{Roots, Share};
 use super::{Levers, too_long, whole};
 use crate::engine::Engine;
-use crate::load::{Load, Loads, Source};
+use crate::load::{Load, Loads, Source, Wanted, superpose};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -172,6 +173,9 @@ pub fn closed_form(
     } else {
         (vec![Ratio::ONE; loads.list.len()], 0.0)
     };
+    let product =
+        |(weight, lever): (&Ratio, &Ratio)| weight.checked_mul(lever).ok_or_else(too_long);
+    let products = weights.iter().zip(&levers).map(product).collect::<Result<Vec<_>>>()?;
     let mut parts = Vec::with_capacity(loads.list.len());
     for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
         let (motion, square) = match load.source {
@@ -191,13 +195,9 @@ pub fn closed_form(
         });
     }
     let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
-    let (denominator, [forward, backward_conj]) = sums(&parts, order)?;
-    // The moment of a force is i·lever times it; x = f + b*, y = −i(f − b*), b* conjugate.
-    let (forward, backward_conj) = if moment {
-        (forward.turned(1, 4), backward_conj.turned(-1, 4))
-    } else {
-        (forward, backward_conj)
-    };
+    let (denominator, [forward, backward_conj]) =
+        sums(&loads, of_order, &products, moment, cancel)?;
+    // x = f + b*, y = −i(f − b*), b* conjugate.
     let x = forward.plus(&backward_conj, 1)?;
     let y = forward.plus(&backward_conj, -1)?.turned(-1, 4);
     let backward = backward_conj.conjugate();
@@ -213,31 +213,29 @@ pub fn closed_form(
     Ok(ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors })
 }
 
-/// Twice forward and twice the conjugate of backward force, times levers, over a denominator.
-fn sums(parts: &[Part], order: u32) -> Result<(i128, [RootSum; 2])> {
-    let product = |part: &Part| part.weight.checked_mul(&part.lever).ok_or_else(too_long);
-    let (weights, measure) = whole(&parts.iter().map(product).collect::<Result<Vec<_>>>()?)?;
-    let (mut forward, mut backward) = (Vec::new(), Vec::new());
-    for (part, count) in parts.iter().zip(weights) {
-        let weight = count.checked_mul(*measure.numer()).ok_or_else(too_long)?;
-        let (toward, at) = (part.direction, part.phase);
-        let common = i128::from(toward.1).checked_mul(at.1.into()).ok_or_else(too_long)?;
-        // Without whole turns, so that no product overflows.
-        let rest = |(k, n): (i64, i64)| i128::from(k.rem_euclid(n));
-        let direction = rest(toward) * i128::from(at.1);
-        let phase = i128::from(order) * rest(at) * i128::from(toward.1);
-        let turns = |numerator: i128| Ratio::new(numerator, common).into_raw();
-        let (ahead, against) = (turns(direction - phase), turns(-direction - phase));
-        let twice = weight.checked_mul(2).ok_or_else(too_long)?;
-        match part.motion {
-            Motion::Along => {
-                forward.push((ahead.0, ahead.1, weight));
-                backward.push((against.0, against.1, weight));
-            }
-            Motion::Forward => forward.push((ahead.0, ahead.1, twice)),
-            Motion::Backward => backward.push((against.0, against.1, twice)),
-        }
-    }
+/// Twice the forward and twice the conjugate of the backward part, over a denominator; `products` are
+/// weights times levers.
+fn sums(
+    loads: &Loads,
+    order: Order,
+    products: &[Ratio],
+    moment: bool,
+    cancel: &Cancel,
+) -> Result<(i128, [RootSum; 2])> {
+    let (weights, measure) = whole(products)?;
+    let wanted = Wanted { planar: true, roll: false, by_bank: false };
+    let terms = superpose(&Roots::new(loads, cancel)?, loads, order, wanted);
+    let of = |side: usize| -> Result<Vec<(i128, i128, i128)>> {
+        let shares =
+            terms.iter().flat_map(|t| if moment { &t.moment[side] } else { &t.force[side] });
+        let root = |share: &Share| {
+            let factor = i128::from(share.halves).checked_mul(*measure.numer())?;
+            let (numerator, denominator) = share.root.turns.into_raw();
+            Some((numerator, denominator, weights[share.load].checked_mul(factor)?))
+        };
+        shares.map(|share| root(share).ok_or_else(too_long)).collect()
+    };
+    let (forward, backward) = (of(0)?, of(1)?);
     // A period for both, and with quarters of a turn for i; three at least, so that there is a cosine.
     let one = RootSum::new(&forward, 4)?.period();
     let backward = RootSum::new(&backward, one)?;

@@ -1,8 +1,9 @@
 //! Exact answers: which orders vanish, with proof, and what the others are in closed form.
 //!
-//! Both read the engine's loads with whole-number weights and roots of unity instead of doubles.
+//! Both superpose the engine's loads with rational weights and roots of unity instead of doubles.
 
 pub mod closed_form;
+mod roots;
 pub mod vanishing;
 
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};

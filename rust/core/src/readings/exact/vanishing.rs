@@ -11,6 +11,10 @@
 //! vanishes if each of those does, whatever the symbols are. It remains if just one of them does not
 //! and its symbol is known not to be zero. Otherwise nothing is proved.
 //!
+//! One relation of angles that are no parts of a turn is known: the bank angle of Ito and Hattori, at
+//! which two sums of order 1 that are left have one size, decided in integers, and cancel. Doubles of
+//! it stand for it, as those of 360/7° do for that.
+//!
 //! Which harmonics are known not to be zero:
 //! - a₁ = 1 + ib of any slider-crank;
 //! - without pin offset the even orders of the force: √(1 − λ² sin²θ) is a power series in λ² sin²θ
@@ -23,24 +27,27 @@
 //!   and rod that it is the sum of, and 10⁻¹² of n² p₂^{n−2}, which bounds the terms that these are
 //!   made of (p₂ as in [`crate::gear::harmonics`]).
 
-mod symbols;
 mod terms;
 
 use std::collections::BTreeMap;
 
-use self::symbols::{Channel, Direct, Symbol, Term, View};
-use self::terms::Proof;
+use self::terms::{Channel, Proof, Sums, Symbol, Term, View};
+use super::roots::{Entry, PartOfTurn};
 use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::harmonics;
 use crate::gear::slider_crank::Cylinder;
 use crate::load::Load;
+use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::{Order, check_list};
 use crate::numbers::ring::RootSum;
 use crate::readings::balance::{self, Orders, Request, Vector};
+
+/// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
 /// What is known of a sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,14 +110,20 @@ pub struct Vanishing {
 }
 
 impl Proof {
-    fn verdict(&self, quantity: Quantity, order: u32, cancel: &Cancel) -> (Verdict, Option<Error>) {
+    fn verdict(
+        &self,
+        sums: &Sums,
+        quantity: Quantity,
+        order: u32,
+        cancel: &Cancel,
+    ) -> (Verdict, Option<Error>) {
         let torque = quantity == Quantity::Torque;
         let views = [(false, torque), (true, torque), (false, false), (true, false)];
         let views = views.into_iter().take(if torque { 4 } else { 2 });
         let mut obstacle = None;
         for view in views.map(|(parts, gears)| View { parts, gears }) {
             let decided = self
-                .terms(quantity, order, view)
+                .terms(sums, quantity, order, view)
                 .and_then(|terms| self.decided(&terms, order, torque, view, cancel));
             match decided {
                 Ok(Verdict::Undecided) => {}
@@ -136,18 +149,77 @@ impl Proof {
         }
         let mut left = Vec::new();
         for (symbol, terms) in sums {
-            let (weights, _) = whole(&terms.iter().map(|term| term.weight).collect::<Vec<_>>())?;
-            let roots: Vec<(i128, i128, i128)> =
-                terms.iter().zip(weights).map(|(t, w)| (t.turns.0, t.turns.1, w)).collect();
+            let roots = roots(&terms)?;
             if !RootSum::new(&roots, 1)?.vanishes()? {
-                left.push(symbol.channel);
+                left.push((symbol, terms));
             }
         }
-        Ok(match left[..] {
-            [] => Verdict::Vanishes,
-            [channel] if self.is_nonzero(channel, order, torque, view, cancel)? => Verdict::Remains,
+        let channel = |k: usize| left.get(k).map(|(symbol, _): &(Symbol, _)| symbol.channel);
+        Ok(match left.len() {
+            0 => Verdict::Vanishes,
+            1 if self.is_nonzero(
+                channel(0).unwrap_or_default(),
+                order,
+                torque,
+                view,
+                cancel,
+            )? =>
+            {
+                Verdict::Remains
+            }
+            2 if order == 1 && !torque && self.balanced_angle(&left, order)? => Verdict::Vanishes,
             _ => Verdict::Undecided,
         })
+    }
+
+    /// Whether what is left are two sums of one size, s·A + t·B, that cancel at the directions given.
+    ///
+    /// |A| = |B| is decided in integers. The angle between s and t at which they then cancel is in
+    /// general no part of a turn; angles that are doubles and rounded from it stand for it, as those
+    /// of 360/7 do.
+    fn balanced_angle(&self, left: &[(Symbol, Vec<&Term>)], order: u32) -> Result<bool> {
+        let [(s, a), (t, b)] = left else { return Ok(false) };
+        if (s.channel, s.weight, s.lever) != (t.channel, t.weight, t.lever) {
+            return Ok(false);
+        }
+        let all = roots(&[&a[..], &b[..]].concat())?;
+        let (a, b) = all.split_at(a.len());
+        let values = [(s, a), (t, b)].map(|(symbol, roots)| {
+            let sum: Complex64 = roots
+                .iter()
+                .map(|&(k, n, weight)| {
+                    Complex64::cis(std::f64::consts::TAU * (k as f64 / n as f64)) * weight as f64
+                })
+                .sum();
+            Some(sum * self.unit_of(symbol, order)?)
+        });
+        let [Some(x), Some(y)] = values else { return Ok(false) };
+        // Doubles of a few units in the last place of a turn, and the sums of as many terms.
+        let size: f64 = all.iter().map(|&(_, _, weight)| weight.abs() as f64).sum();
+        if (x + y).norm() > ROUNDED * size {
+            return Ok(false);
+        }
+        let period = RootSum::new(&all, 1)?.period();
+        let [a, b] = [a, b].map(|roots| RootSum::new(roots, period)?.squared_size());
+        a?.plus(&b?, -1)?.vanishes()
+    }
+
+    /// The number that symbols stand for, of directions and phases that are doubles.
+    fn unit_of(&self, symbol: &Symbol, order: u32) -> Option<Complex64> {
+        let first = |list: &[PartOfTurn], index: usize, angle: fn(&Load) -> Angle| {
+            let place = list.iter().position(|part| part.symbol == index && index > 0);
+            let angle = place.map_or(Angle::ZERO, |i| angle(&self.loads.list[i]));
+            (index == 0 || angle.turns().is_none()).then_some(angle)
+        };
+        let (index, entry) = symbol.direction;
+        let direction = first(&self.roots.directions, index, |load| load.direction)?;
+        let phase = first(&self.roots.phases, symbol.phase, |load| load.phase)?;
+        let sign = match entry {
+            Entry::Root => 1,
+            Entry::Conjugate => -1,
+            Entry::Component => return None,
+        };
+        Some(direction.cis(sign) * phase.cis(-i64::from(order)))
     }
 
     /// Whether a harmonic is known not to be zero; see the head of this file.
@@ -201,7 +273,7 @@ impl Proof {
     fn obstacles(&self) -> Vec<String> {
         let mut found = Vec::new();
         let cylinders = self.gear_of.len();
-        let listed = |directions: &[Direct]| {
+        let listed = |directions: &[PartOfTurn]| {
             let numbers: Vec<String> = (1..)
                 .zip(&directions[..cylinders])
                 .filter(|(_, d)| d.symbol > 0)
@@ -210,12 +282,14 @@ impl Proof {
                 .collect();
             (!numbers.is_empty()).then(|| numbers.join(", "))
         };
-        for (name, directions) in [("tdc_deg", &self.phases), ("bank_deg", &self.directions[0])] {
+        for (name, directions) in
+            [("tdc_deg", &self.roots.phases), ("bank_deg", &self.roots.directions)]
+        {
             if let Some(numbers) = listed(directions) {
                 found.push(format!("{name} is no simple part of a turn in cylinders {numbers}"));
             }
         }
-        if self.directions[0][cylinders..].iter().any(|direction| direction.symbol > 0) {
+        if self.roots.directions[cylinders..].iter().any(|direction| direction.symbol > 0) {
             found.push("angles of unbalances that are no simple part of a turn".to_owned());
         }
         if self.motions.len() > 1 {
@@ -259,6 +333,13 @@ impl Proof {
     }
 }
 
+/// Numerators and denominators of parts of a turn, with weights as whole numbers.
+fn roots(terms: &[&Term]) -> Result<Vec<(i128, i128, i128)>> {
+    let (weights, _) = whole(&terms.iter().map(|term| term.weight).collect::<Vec<_>>())?;
+    let root = |(t, weight): (&&Term, i128)| (*t.turns.numer(), *t.turns.denom(), weight);
+    Ok(terms.iter().zip(weights).map(root).collect())
+}
+
 /// What vanishes of an engine, at any speed, about the plane z = `reference_z` (default: half-way
 /// between the first and the last cylinder).
 pub fn vanishing(
@@ -272,11 +353,12 @@ pub fn vanishing(
     let proof = Proof::new(engine, reference_z, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
-    for &order in orders {
+    for (&order, &whole) in orders.iter().zip(&listed) {
+        let sums = proof.sums(whole);
         let mut of_order = [Verdict::Undecided; 9];
         for (verdict, quantity) in of_order.iter_mut().zip(QUANTITIES) {
             cancel.check()?;
-            let (found, error) = proof.verdict(quantity, order, cancel);
+            let (found, error) = proof.verdict(&sums, quantity, order, cancel);
             *verdict = found;
             if let Some(text) = error.map(|error| error.to_string())
                 && !errors.contains(&text)

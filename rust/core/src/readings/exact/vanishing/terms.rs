@@ -3,51 +3,96 @@
 
 use num_traits::CheckedMul;
 
+use super::super::roots::{Entry, PartOfTurn, Roots, Share, parts_of_turn};
 use super::super::{Levers, Proportions, too_long};
 use super::Quantity;
-use super::symbols::{Channel, Direct, Entry, Symbol, Term, View, Weights, directions};
 use crate::engine::{Engine, first_equal};
 use crate::gear::slider_crank::Cylinder;
-use crate::load::{Load, Loads, Source};
+use crate::load::{self, Harmonic, Load, Loads, Source, Wanted, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
-use crate::numbers::rational::{Multiples, Ratio, common_multiple};
+use crate::numbers::order::Order;
+use crate::numbers::rational::{Multiples, Ratio};
 
-/// Components in the cross-section.
+/// Harmonic by which a sum is multiplied; of pin offsets the odd parts apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) enum Channel {
+    /// 1: the first order of pistons without offset, and unbalances.
+    #[default]
+    One,
+    /// Of the masses of a motion.
+    Masses(usize),
+    OddOfMasses(usize),
+    /// Torque of the rod inertia of a motion.
+    Rod(usize),
+    OddOfRod(usize),
+    /// Torque of a whole running gear, masses and rod.
+    Gear(usize),
+    OddOfGear(usize),
+}
+
+/// Lists of weights that have no rational relation to each other's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) enum Weights {
+    /// m·r and unbalances, kg·m.
+    #[default]
+    Planar,
+    /// m·r², kg·m².
+    Masses,
+    /// Rod inertia, kg·m².
+    Rod,
+    /// Unbalance times x or y of the shaft's axis, kg·m².
+    Arm,
+    /// 1.
+    Gear,
+}
+
+/// What a sum of roots of unity is multiplied by: indices of symbols.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) struct Symbol {
+    pub channel: Channel,
+    /// Unit of weight.
+    pub weight: (Weights, usize),
+    /// Unit of length.
+    pub lever: usize,
+    /// Direction that is no simple part of a turn, 0 for others.
+    pub direction: (usize, Entry),
+    /// Phase that is none.
+    pub phase: usize,
+}
+
+/// A load's part of a sum: weight times the root of unity at `turns`.
+pub(super) struct Term {
+    pub symbol: Symbol,
+    pub turns: Ratio,
+    pub weight: Ratio,
+}
+
+/// How the harmonics of cylinders of different proportions are distinguished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Direction {
-    X,
-    Y,
-    Forward,
-    Backward,
+pub(super) struct View {
+    /// Real and imaginary parts apart, of which a mirrored pin offset changes some signs:
+    /// `a₁ = 1 + ib`, even orders are real and even in the offset, odd ones above imaginary and odd in
+    /// it. Otherwise a complex number for each set of proportions.
+    pub parts: bool,
+    /// Torque by whole running gears, whose masses and rod have one phase.
+    pub gears: bool,
 }
 
-impl Quantity {
-    /// A levered sum; and its direction, that of the force: a moment about x comes from forces
-    /// along y. None for torque.
-    fn sum(self) -> (bool, Option<Direction>) {
-        match self {
-            Self::ForceX => (false, Some(Direction::X)),
-            Self::ForceY => (false, Some(Direction::Y)),
-            Self::ForceForward => (false, Some(Direction::Forward)),
-            Self::ForceBackward => (false, Some(Direction::Backward)),
-            Self::MomentX => (true, Some(Direction::Y)),
-            Self::MomentY => (true, Some(Direction::X)),
-            Self::MomentForward => (true, Some(Direction::Forward)),
-            Self::MomentBackward => (true, Some(Direction::Backward)),
-            Self::Torque => (false, None),
-        }
-    }
-}
+/// Units of weight and of length, and how many of them.
+type Amount = ((Weights, usize), usize, Ratio);
+
+/// Sums of one order, by harmonic.
+pub(super) type Sums = Vec<load::Term<Vec<Share>>>;
 
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
     pub loads: Loads,
     /// A slider-crank of each gear.
     pub motions: Vec<Cylinder>,
-    /// Directions, equal ones by one symbol; and those a rational part of a turn apart.
-    pub directions: [Vec<Direct>; 2],
-    pub phases: Vec<Direct>,
+    pub roots: Roots,
+    /// Directions, equal ones by one symbol.
+    bores: Vec<PartOfTurn>,
     /// For each list of weights, unit and multiple of every load; arms have two weights a load.
     pub planar: Multiples,
     masses: Multiples,
@@ -76,7 +121,7 @@ impl Proof {
             Source::Unbalance => [load.weight * load.axis.re, load.weight * load.axis.im],
             Source::Piston { .. } => [0.0; 2],
         });
-        let angles = || loads.list.iter().map(|load| load.direction);
+        let bores = loads.list.iter().map(|load| load.direction);
         let motions = loads.cylinders();
         let sizes = motions.iter().map(|motion| Proportions::of(motion).mirrored());
         let gears = engine.gears().to_vec();
@@ -90,8 +135,8 @@ impl Proof {
             (gear, of_gear[gear])
         });
         Ok(Self {
-            directions: [directions(angles(), false, cancel)?, directions(angles(), true, cancel)?],
-            phases: directions(loads.list.iter().map(|load| load.phase), true, cancel)?,
+            roots: Roots::new(&loads, cancel)?,
+            bores: parts_of_turn(bores, false, cancel)?,
             planar: weights(&|load| load.weight)?,
             masses: weights(&|load| piston(load, |second_moment, _| second_moment))?,
             rods: weights(&|load| piston(load, |_, rod_inertia| rod_inertia))?,
@@ -103,6 +148,11 @@ impl Proof {
             gears,
             loads,
         })
+    }
+
+    pub fn sums(&self, order: Order) -> Sums {
+        let wanted = Wanted { planar: true, roll: true, by_bank: false };
+        superpose(&self.roots, &self.loads, order, wanted)
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
@@ -120,205 +170,149 @@ impl Proof {
         }
     }
 
-    /// Channels of a piston's torque, their signs and weights.
+    /// Channels of a torque and their signs: of a motion or of a running gear, `own` or the first of
+    /// its size.
     fn torque_channels(
         &self,
-        load: usize,
         motion: usize,
         view: View,
-    ) -> Vec<(Channel, i128, (Weights, usize, Ratio))> {
+        [whole, odd]: [fn(usize) -> Channel; 2],
+        (own, mirrored): (usize, usize),
+    ) -> Vec<(Channel, i128)> {
         let offset = self.motions[motion].pin_offset();
-        let sign = offset.signum() as i128;
-        let of = |whole: fn(usize) -> Channel, odd: fn(usize) -> Channel, own, mirrored| {
-            // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
-            match (view.parts, offset == 0.0) {
-                (false, _) => vec![(whole(own), 1)],
-                (true, true) => vec![(whole(mirrored), 1)],
-                (true, false) => vec![(whole(mirrored), 1), (odd(mirrored), sign)],
-            }
-        };
-        if view.gears {
-            let (gear, mirrored) = self.gear_of[load];
-            let channels = of(Channel::Gear, Channel::OddOfGear, gear, mirrored).into_iter();
-            return channels.map(|(c, sign)| (c, sign, (Weights::Gear, 0, Ratio::ONE))).collect();
+        // T(θ) of an offset is −T(−θ) of the opposite one: sines are even in it.
+        match (view.parts, offset == 0.0) {
+            (false, _) => vec![(whole(own), 1)],
+            (true, true) => vec![(whole(mirrored), 1)],
+            (true, false) => vec![(whole(mirrored), 1), (odd(mirrored), offset.signum() as i128)],
         }
-        let mirrored = self.mirrored[motion];
-        let masses = of(Channel::Masses, Channel::OddOfMasses, motion, mirrored).into_iter();
-        let rods = of(Channel::Rod, Channel::OddOfRod, motion, mirrored).into_iter();
-        let (unit, weight) = self.masses.of[load];
-        let masses = masses.map(|(c, sign)| (c, sign, (Weights::Masses, unit, weight)));
-        let (unit, weight) = self.rods.of[load];
-        masses.chain(rods.map(|(c, sign)| (c, sign, (Weights::Rod, unit, weight)))).collect()
     }
 
-    pub fn terms(&self, quantity: Quantity, order: u32, view: View) -> Result<Vec<Term>> {
-        let (levered, direction) = quantity.sum();
+    /// Channels and their signs of one load's share of a sum.
+    fn channels(
+        &self,
+        harmonic: Harmonic,
+        share: &Share,
+        order: u32,
+        view: View,
+    ) -> Vec<(Channel, i128)> {
+        let both = |motion: usize| (motion, self.mirrored[motion]);
+        match harmonic {
+            Harmonic::One => vec![(Channel::One, 1)],
+            Harmonic::Force(motion) => self.force_channels(motion, order, view),
+            Harmonic::Torque(motion) if view.gears => {
+                let named = [Channel::Gear, Channel::OddOfGear];
+                self.torque_channels(motion, view, named, self.gear_of[share.load])
+            }
+            Harmonic::Torque(motion) => {
+                let named = [Channel::Masses, Channel::OddOfMasses];
+                self.torque_channels(motion, view, named, both(motion))
+            }
+            // In that of the gear.
+            Harmonic::Rod(_) if view.gears => vec![],
+            Harmonic::Rod(motion) => {
+                let named = [Channel::Rod, Channel::OddOfRod];
+                self.torque_channels(motion, view, named, both(motion))
+            }
+        }
+    }
+
+    /// Weights of one load's share of a sum, with their units and those of its levers.
+    fn weights(&self, share: &Share, view: View) -> Result<Vec<Amount>> {
+        use load::Weight;
+        let i = share.load;
+        let (list, (unit, weight)) = match share.weight {
+            Weight::Force | Weight::Moment => (Weights::Planar, self.planar.of[i]),
+            Weight::Torque if view.gears => (Weights::Gear, (0, Ratio::ONE)),
+            Weight::Torque => (Weights::Masses, self.masses.of[i]),
+            Weight::Rod => (Weights::Rod, self.rods.of[i]),
+            Weight::ArmX => (Weights::Arm, self.arms.of[2 * i]),
+            Weight::ArmY => (Weights::Arm, self.arms.of[2 * i + 1]),
+        };
+        let weight = weight.checked_mul(&Ratio::from(i128::from(share.halves)));
+        let weight = weight.ok_or_else(too_long)?;
+        if share.weight != Weight::Moment {
+            return Ok(vec![((list, unit), 0, weight)]);
+        }
+        let levered = |&(lever, factor): &(usize, Ratio)| {
+            Ok(((list, unit), lever, weight.checked_mul(&factor).ok_or_else(too_long)?))
+        };
+        self.levers.of[i].iter().map(levered).collect()
+    }
+
+    /// The terms of a quantity, all times one number that is not zero.
+    pub fn terms(
+        &self,
+        sums: &Sums,
+        quantity: Quantity,
+        order: u32,
+        view: View,
+    ) -> Result<Vec<Term>> {
         let mut terms = Vec::new();
-        for (i, load) in self.loads.list.iter().enumerate() {
-            let Some(direction) = direction else {
-                self.add_torque(&mut terms, i, order, view)?;
-                continue;
-            };
-            let no_lever = vec![(0, Ratio::ONE)];
-            let levers = if levered { &self.levers.of[i] } else { &no_lever };
-            for &lever in levers {
-                match load.source {
-                    Source::Piston { gear: motion, .. } => {
-                        for (channel, sign) in self.force_channels(motion, order, view) {
-                            self.add_piston(&mut terms, i, order, direction, channel, lever, sign)?;
+        for sum in sums {
+            for (shares, sign) in quantity.shares(sum) {
+                for share in shares {
+                    let Some(share) = self.component(quantity, share) else { continue };
+                    for (weight, lever, amount) in self.weights(&share, view)? {
+                        for (channel, of_channel) in
+                            self.channels(sum.harmonic, &share, order, view)
+                        {
+                            let amount = amount * (sign * of_channel);
+                            if amount == Ratio::ZERO {
+                                continue;
+                            }
+                            let root = share.root;
+                            let symbol = Symbol {
+                                channel,
+                                weight,
+                                lever,
+                                direction: root.direction,
+                                phase: root.phase,
+                            };
+                            terms.push(Term { symbol, turns: root.turns, weight: amount });
                         }
                     }
-                    Source::Unbalance if load.ratio.unsigned_abs() == order => {
-                        self.add_unbalance(&mut terms, i, load.ratio, direction, lever)?;
-                    }
-                    Source::Unbalance => {}
                 }
             }
         }
         Ok(terms)
     }
 
-    /// Twice the forward part, twice the conjugate of the backward part, or their sum (2X) and
-    /// difference (2iY).
-    #[expect(clippy::too_many_arguments, reason = "a term is this many factors")]
-    fn add_piston(
-        &self,
-        terms: &mut Vec<Term>,
-        i: usize,
-        order: u32,
-        direction: Direction,
-        channel: Channel,
-        (lever, factor): (usize, Ratio),
-        sign: i128,
-    ) -> Result<()> {
-        let (unit, weight) = self.planar.of[i];
-        let weight = product(&[weight, factor, Ratio::from(sign)])?;
-        let [bore, stepped] = [self.directions[0][i], self.directions[1][i]];
-        let phase = multiple(self.phases[i].turns, -i128::from(order));
-        let mut push = |(direction, entry), turns, weight| {
-            let weight_unit = (Weights::Planar, unit);
-            let direction = (direction, if direction == 0 { Entry::Root } else { entry });
-            let phase = self.phases[i].symbol;
-            let symbol = Symbol { channel, weight: weight_unit, lever, direction, phase };
-            add(terms, symbol, turns, weight);
-        };
-        let root = (stepped.symbol, Entry::Root);
-        let conjugate = (stepped.symbol, Entry::Conjugate);
-        match direction {
-            Direction::Forward => push(root, turned(phase, stepped.turns, 1)?, weight),
-            Direction::Backward => push(conjugate, turned(phase, stepped.turns, -1)?, weight),
-            Direction::X | Direction::Y if bore.symbol > 0 => {
-                push((bore.symbol, Entry::Component), phase, weight);
-            }
-            Direction::X | Direction::Y => {
-                let mirrored = if direction == Direction::X { weight } else { -weight };
-                push(root, turned(phase, bore.turns, 1)?, weight);
-                push(conjugate, turned(phase, bore.turns, -1)?, mirrored);
-            }
+    /// A share, in which the forward and the backward part of a piston along (about) x or y are one
+    /// where its bore is a symbol.
+    fn component(&self, quantity: Quantity, share: &Share) -> Option<Share> {
+        let piston = self.loads.list[share.load].source != Source::Unbalance;
+        let bore = self.bores[share.load];
+        if !quantity.is_component() || !piston || bore.symbol == 0 {
+            return Some(*share);
         }
-        Ok(())
+        let step = self.roots.directions[share.load].turns;
+        let root = share.root.turned(-step);
+        let root = super::super::roots::Root { direction: (bore.symbol, Entry::Component), ..root };
+        (share.root.direction.1 == Entry::Root).then_some(Share { root, ..*share })
+    }
+}
+
+impl Quantity {
+    /// Along (about) x or y.
+    fn is_component(self) -> bool {
+        matches!(self, Self::ForceX | Self::ForceY | Self::MomentX | Self::MomentY)
     }
 
-    /// Twice an unbalance's force: all forward or all backward.
-    fn add_unbalance(
-        &self,
-        terms: &mut Vec<Term>,
-        i: usize,
-        ratio: i32,
-        direction: Direction,
-        (lever, factor): (usize, Ratio),
-    ) -> Result<()> {
-        let forward = ratio > 0;
-        let none = if forward { Direction::Backward } else { Direction::Forward };
-        if direction == none {
-            return Ok(());
+    /// What of a sum it is made of, with signs: forward and conjugate backward parts add up to the
+    /// part along x, and differ by i times that along y.
+    fn shares(self, sum: &load::Term<Vec<Share>>) -> Vec<(&Vec<Share>, i128)> {
+        let load::Term { force: [f, b], moment: [m, n], roll, .. } = sum;
+        match self {
+            Self::ForceX => vec![(f, 1), (b, 1)],
+            Self::ForceY => vec![(f, 1), (b, -1)],
+            Self::ForceForward => vec![(f, 1)],
+            Self::ForceBackward => vec![(b, 1)],
+            Self::MomentX => vec![(m, 1), (n, 1)],
+            Self::MomentY => vec![(m, 1), (n, -1)],
+            Self::MomentForward => vec![(m, 1)],
+            Self::MomentBackward => vec![(n, 1)],
+            Self::Torque => vec![(roll, 1)],
         }
-        let (unit, weight) = self.planar.of[i];
-        let square = Ratio::from(2 * i128::from(ratio).pow(2));
-        let sign = if !forward && direction == Direction::Y { -1 } else { 1 };
-        let weight = product(&[weight, factor, square, Ratio::from(sign)])?;
-        let (entry, turns) = self.root_of_unbalance(i, forward)?;
-        let symbol = Symbol {
-            channel: Channel::One,
-            weight: (Weights::Planar, unit),
-            lever,
-            direction: entry,
-            phase: self.phases[i].symbol,
-        };
-        add(terms, symbol, turns, weight);
-        Ok(())
     }
-
-    /// Direction of an unbalance at θ = 0, conjugate where it turns against the crank.
-    fn root_of_unbalance(&self, i: usize, forward: bool) -> Result<((usize, Entry), (i128, i128))> {
-        let stepped = self.directions[1][i];
-        let phase = multiple(self.phases[i].turns, -1);
-        let entry = match (stepped.symbol, forward) {
-            (0, _) | (_, true) => Entry::Root,
-            _ => Entry::Conjugate,
-        };
-        let turns = turned(phase, stepped.turns, if forward { 1 } else { -1 })?;
-        Ok(((stepped.symbol, entry), turns))
-    }
-
-    fn add_torque(&self, terms: &mut Vec<Term>, i: usize, order: u32, view: View) -> Result<()> {
-        let phase = self.phases[i];
-        match self.loads.list[i].source {
-            Source::Piston { gear: motion, .. } => {
-                let turns = multiple(phase.turns, -i128::from(order));
-                for (channel, sign, (list, unit, weight)) in self.torque_channels(i, motion, view) {
-                    let symbol = Symbol {
-                        channel,
-                        weight: (list, unit),
-                        phase: phase.symbol,
-                        ..Symbol::default()
-                    };
-                    add(terms, symbol, turns, product(&[weight, Ratio::from(sign)])?);
-                }
-            }
-            Source::Unbalance if self.loads.list[i].ratio.unsigned_abs() == order => {
-                let ratio = self.loads.list[i].ratio;
-                // With F the force at θ = 0, x + iy the axis: −i·x·F − y·F if it turns with the crank,
-                // i·x·F̄ − y·F̄ if against it.
-                let forward = ratio > 0;
-                let (direction, turns) = self.root_of_unbalance(i, forward)?;
-                let square = Ratio::from(i128::from(ratio).pow(2));
-                let quarter = if forward { (3, 4) } else { (1, 4) };
-                for (arm, turn) in [(2 * i, quarter), (2 * i + 1, (1, 2))] {
-                    let (unit, weight) = self.arms.of[arm];
-                    let symbol = Symbol {
-                        weight: (Weights::Arm, unit),
-                        direction,
-                        phase: phase.symbol,
-                        ..Symbol::default()
-                    };
-                    add(terms, symbol, turned(turns, turn, 1)?, product(&[weight, square])?);
-                }
-            }
-            Source::Unbalance => {}
-        }
-        Ok(())
-    }
-}
-
-fn add(terms: &mut Vec<Term>, symbol: Symbol, turns: (i128, i128), weight: Ratio) {
-    if weight != Ratio::ZERO {
-        terms.push(Term { symbol, turns, weight });
-    }
-}
-
-fn product(factors: &[Ratio]) -> Result<Ratio> {
-    let product = factors.iter().try_fold(Ratio::ONE, |product, f| product.checked_mul(f));
-    product.ok_or_else(too_long)
-}
-
-fn multiple(turns: (i128, i128), times: i128) -> (i128, i128) {
-    (times * turns.0, turns.1)
-}
-
-/// One angle more, times a sign.
-fn turned(a: (i128, i128), b: (i128, i128), sign: i128) -> Result<(i128, i128)> {
-    let denominator = common_multiple(a.1, b.1).ok_or_else(too_long)?;
-    let sum = a.0 * (denominator / a.1) + sign * b.0 * (denominator / b.1);
-    Ok((sum, denominator))
 }

@@ -1,0 +1,141 @@
+//! Loads in exact numbers: roots of unity, times symbols for angles that are no simple parts of a turn.
+
+use crate::load::{Arithmetic, Load, Loads, Times, Weight};
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::decimal::WITHIN_ULP;
+use crate::numbers::error::Result;
+use crate::numbers::rational::{Ratio, recognise};
+
+/// Angles of more parts of a turn are symbols: those of six decimals have 3.6e8 at most.
+const MOST_PARTS: i64 = 1_000_000_000;
+
+/// Angle as a rational part of a turn and, if it is no simple one, an index from 1 of what is beside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PartOfTurn {
+    pub turns: Ratio,
+    pub symbol: usize,
+}
+
+/// Simple parts of a turn as they are; others by one index where they are equal or, if `in_steps`, a
+/// simple part of a turn apart.
+pub(super) fn parts_of_turn(
+    angles: impl Iterator<Item = Angle>,
+    in_steps: bool,
+    cancel: &Cancel,
+) -> Result<Vec<PartOfTurn>> {
+    let mut others: Vec<Angle> = Vec::new();
+    let part = |angle: Angle| {
+        if let Some(turns) = simple(angle) {
+            return Ok(PartOfTurn { turns, symbol: 0 });
+        }
+        cancel.check()?;
+        let known = others.iter().enumerate().find_map(|(k, &other)| {
+            let step = if other == angle { Some(Ratio::ZERO) } else { step(angle, other) };
+            Some((k, step.filter(|&turns| in_steps || turns == Ratio::ZERO)?))
+        });
+        let (index, turns) = known.unwrap_or_else(|| {
+            others.push(angle);
+            (others.len() - 1, Ratio::ZERO)
+        });
+        Ok(PartOfTurn { turns, symbol: index + 1 })
+    };
+    angles.map(part).collect()
+}
+
+fn simple(angle: Angle) -> Option<Ratio> {
+    let (numerator, denominator) = angle.turns().filter(|&(_, parts)| parts <= MOST_PARTS)?;
+    Some(Ratio::new(numerator.into(), denominator.into()))
+}
+
+/// The simple part of a turn from one angle to another, if it is one.
+fn step(to: Angle, from: Angle) -> Option<Ratio> {
+    if to.turns().is_some() && from.turns().is_some() {
+        return simple(to - from);
+    }
+    // Both are right within a few units in the last place of a turn.
+    recognise((to.degrees() - from.degrees()) / 360.0, WITHIN_ULP * f64::EPSILON)
+}
+
+/// How a direction that is no simple part of a turn enters a sum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) enum Entry {
+    #[default]
+    Root,
+    Conjugate,
+    /// Cosine along x, sine along y; neither is zero.
+    Component,
+}
+
+/// A root of unity times symbols, by their indices, 0 for none.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root {
+    /// In [0, 1).
+    pub turns: Ratio,
+    pub direction: (usize, Entry),
+    pub phase: usize,
+}
+
+impl Root {
+    /// Turned by a part of a turn, whose denominator is below 10⁹ as that of the others.
+    pub fn turned(self, by: Ratio) -> Self {
+        let turns = self.turns + by;
+        Self { turns: turns - turns.floor(), ..self }
+    }
+}
+
+/// A load's part of a sum: so many halves of its weight times a root.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Share {
+    pub load: usize,
+    pub weight: Weight,
+    pub root: Root,
+    pub halves: i32,
+}
+
+/// Arithmetic of proofs and closed forms: sums are lists of what each load adds.
+pub(super) struct Roots {
+    pub directions: Vec<PartOfTurn>,
+    pub phases: Vec<PartOfTurn>,
+}
+
+impl Roots {
+    pub fn new(loads: &Loads, cancel: &Cancel) -> Result<Self> {
+        let directions = loads.list.iter().map(|load| load.direction);
+        let phases = loads.list.iter().map(|load| load.phase);
+        Ok(Self {
+            directions: parts_of_turn(directions, true, cancel)?,
+            phases: parts_of_turn(phases, true, cancel)?,
+        })
+    }
+}
+
+impl Arithmetic for Roots {
+    type Unit = Root;
+    type Sum = Vec<Share>;
+
+    fn phase(&self, (i, _): (usize, &Load), times: i64) -> Root {
+        let PartOfTurn { turns, symbol } = self.phases[i];
+        let none = Root { turns: Ratio::ZERO, direction: (0, Entry::Root), phase: symbol };
+        none.turned(turns * i128::from(times))
+    }
+
+    fn toward(&self, (i, _): (usize, &Load), unit: &Root, conjugate: bool) -> Root {
+        let PartOfTurn { turns, symbol } = self.directions[i];
+        let entry = if conjugate && symbol > 0 { Entry::Conjugate } else { Entry::Root };
+        let turned = unit.turned(if conjugate { -turns } else { turns });
+        Root { direction: (symbol, entry), ..turned }
+    }
+
+    fn add(
+        &self,
+        sum: &mut Vec<Share>,
+        (load, _): (usize, &Load),
+        weight: Weight,
+        unit: &Root,
+        Times { halves, quarters }: Times,
+    ) {
+        let root = unit.turned(Ratio::new(quarters.into(), 4));
+        sum.push(Share { load, weight, root, halves });
+    }
+}
