@@ -1,4 +1,4 @@
-"""Pictures compared with images: on white, on dark, at a column's width, and in a grid.
+"""Pictures compared with images: on dark, and at a column's width.
 
 A test is marked by ``@in_every_look`` and returns ``seen(look, plot)``. After a change that is
 meant, and a look at every picture that differs:
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-LOOKS = ("white", "dark", "column", "grid")
+LOOKS = ("dark", "column")
+"""Looks of images; on white, in a grid and on plain axes pictures differ by their layout alone."""
 COLUMN = 3.4
 """Inches: a column of a paper."""
 TOLERANCE = 4.0

@@ -8,8 +8,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import CYLINDER
-from crankpin.plot.marks import MARK
-from crankpin.plot.style import SERIES
+from crankpin.plot.style import MARK, SERIES
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 

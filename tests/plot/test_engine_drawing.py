@@ -159,15 +159,20 @@ def test_a_pin_alone_on_its_throw_is_drawn_at_its_z() -> None:
 
 def test_areas_of_the_star_are_proportional_to_unbalances() -> None:
     ax = FITTED.plot(kind="star", theta_deg=0)
-    sectors = outlines(ax, UNBALANCES)
-    radii = [abs(sector).max() for sector in sectors]
-    # Rotating masses of two cylinders at each pin; their counterweights at the pin opposite.
-    mass, weight = 2 * 0.4 * 0.043, 2 * 0.012
-    assert len(sectors) == 4
-    assert radii[0] == pytest.approx(radii[1])
-    assert (radii[2] / radii[0]) ** 2 == pytest.approx(weight / mass)
-    directions = sorted(round(np.degrees(np.angle(sector[1:].mean()))) for sector in sectors)
-    assert directions == [-90, -90, 90, 90]
+    masses, sectors = np.split(np.array(outlines(ax, UNBALANCES), dtype=object), 2)
+    # Rotating masses of two cylinders round about each pin; their counterweights opposite, from
+    # the axis on.
+    assert sorted(middle(mass).imag for mass in masses) == pytest.approx([-0.043, 0.043], abs=1e-3)
+    assert [sector[0] for sector in sectors] == [0.0, 0.0]
+    directions = [round(np.degrees(np.angle(sector[1:].mean()))) for sector in sectors]
+    assert sorted(directions) == [-90, 90]
+
+    def area(outline: np.ndarray) -> float:
+        return 0.5 * abs((outline.conj() * np.roll(outline, -1)).imag.sum())
+
+    ratio = 2 * 0.012 / (2 * 0.4 * 0.043)
+    # Circles of 20 corners have 1.6 % less area than round ones, sectors of 9 0.3 %.
+    assert area(sectors[0]) / area(masses[0]) == pytest.approx(ratio, rel=0.02)
 
 
 def test_the_side_view_has_counterweights_and_shafts_at_their_places() -> None:
@@ -236,7 +241,10 @@ def test_numbers_of_many_cylinders_are_shortened(numbers: list[int], text: str) 
 
 def test_titles_and_legend_say_what_it_is() -> None:
     figure = figure_of(FITTED.plot(theta_deg=22.5))
-    assert figure.get_suptitle() == "Inline-4\nθ = 22.5°, seen from the flywheel"
+    assert (
+        figure.get_suptitle()
+        == "Inline-4 with 4 counterweights and 2 balance shafts\nθ = 22.5°, seen from the flywheel"
+    )
     titles = [ax.get_title(loc="left") for ax in figure.axes]
     assert titles == ["cross-section", "crank star", "crank from the side"]
     (legend,) = figure.legends
@@ -246,7 +254,10 @@ def test_titles_and_legend_say_what_it_is() -> None:
         "balance shafts, up to 0.002 kg·m each",
     ]
     ax = FITTED.plot(kind="star")
-    assert ax.get_title(loc="left") == "Inline-4\ncrank star, θ = 0°"  # type: ignore[union-attr]
+    assert (
+        ax.get_title(loc="left")
+        == "Inline-4 with 4 counterweights and 2 balance shafts\ncrank star, θ = 0°"
+    )  # type: ignore[union-attr]
     assert not figure_of(cp.Engine.preset("i4").plot()).legends
 
 

@@ -57,7 +57,8 @@ def wrapped(periods: Any, cycle: float) -> set[tuple[int, float, float]]:  # noq
 
 
 def test_it_shows_strokes_and_open_valves() -> None:
-    ax = V8.plot()
+    assert "intake open" not in drawn(V8.plot())  # nobody gave a timing
+    ax = V8.plot(timing=cp.types.ValveTiming())
     found = drawn(ax)
     for name, periods in V8.strokes_deg().items():
         assert found[name] == wrapped(periods, 720.0)
@@ -80,7 +81,7 @@ def test_cylinders_stand_bank_by_bank_and_fire_where_marked() -> None:
 
 
 def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
-    found = drawn(V8.plot())["exhausts overlap"]
+    found = drawn(V8.plot(timing=cp.types.ValveTiming()))["exhausts overlap"]
     exhausts = V8.valves().exhaust
     total = 0.0
     for bank in V8.exhaust_overlaps():
@@ -91,7 +92,7 @@ def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
                 inside = [(a, b) for k, a, b in found if k == cylinder and a <= start < b]
                 assert inside or each.overlap_deg == 0.0
     assert sum(b - a for _, a, b in found) == pytest.approx(total)
-    alone = cp.Engine.preset("single").firing().plot()
+    alone = cp.Engine.preset("single").firing().plot(timing=cp.types.ValveTiming())
     assert "exhausts overlap" not in drawn(alone)
 
 

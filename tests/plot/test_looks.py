@@ -26,14 +26,57 @@ if TYPE_CHECKING:
 @pytest.mark.parametrize("name", PICTURES)
 @in_every_look
 def test_picture(look: str, name: str) -> Figure:
-    figure = seen(look, PICTURES[name])
+    return legible(seen(look, PICTURES[name]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PICTURES)
+def test_picture_in_a_grid(name: str) -> None:
+    legible(seen("grid", PICTURES[name]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PICTURES)
+def test_picture_on_plain_axes(name: str) -> None:
+    """Legends, titles and labels stay inside figures that nobody gave a layout."""
+    plt.rcParams["font.size"] = 9
+    plot = PICTURES[name]
+    drawn = plot()
+    several = isinstance(drawn, np.ndarray)
+    for size in ((6.4, 4.8), (5.0, 3.3)):
+        plt.close("all")
+        figure, ax = plt.figure(figsize=size), None
+        if several:
+            plot(figure=figure)
+        else:
+            ax = figure.subplots()
+            plot(ax=ax)
+        legible(figure)
+
+
+def legible(figure: Figure) -> Figure:
+    """Return a figure whose texts are inside it, apart from each other, and seen."""
     figure.canvas.draw()
     panels = [ax for ax in figure.axes if ax.get_visible()]
     assert_legends_are_off_the_data(figure, panels)
     for ax in panels:
         assert_apart(list(_shown(ax.get_xticklabels())), "width")
         assert_seen(ax)
+        assert_inside(figure, ax)
     return figure
+
+
+def assert_inside(figure: Figure, ax: Axes) -> None:
+    """Title, labels and legend of axes are within their figure, a pixel allowed for hinting."""
+    texts = [ax.title, *(ax.get_title(loc="left") and [ax._left_title])]  # type: ignore[attr-defined]
+    for artist in [*texts, ax.xaxis.label, ax.yaxis.label, ax.get_legend()]:
+        if artist is not None and artist.get_visible() and ax.axison:
+            box = artist.get_window_extent()
+            if box.width > 1.0:
+                assert figure.bbox.padded(1.0).containsx(box.x0), artist
+                assert figure.bbox.padded(1.0).containsx(box.x1), artist
+                assert figure.bbox.padded(1.0).containsy(box.y0), artist
+                assert figure.bbox.padded(1.0).containsy(box.y1), artist
 
 
 def assert_legends_are_off_the_data(figure: Figure, panels: list[Axes]) -> None:

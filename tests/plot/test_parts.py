@@ -82,7 +82,7 @@ def test_what_has_no_such_picture(sweep: Any, options: dict[str, Any], says: str
 
 def test_what_is_zero_throughout_is_said_and_what_is_missing_leaves_no_figure() -> None:
     s = cp.sweep(cp.Engine.preset("v12-60"), rpm=[1000, 2000])
-    panels = s.plot(kind="parts")
+    panels = s.plot(kind="parts", quantity="moment")
     assert panels.shape == (1, 1)
     assert [text.get_text() for text in panels[0, 0].texts] == ["zero throughout"]
     plt.close("all")

@@ -9,7 +9,7 @@ import crankpin as cp
 import matplotlib as mpl
 import numpy as np
 import pytest
-from crankpin.plot import balance_shafts, balancers
+from crankpin.plot import balancing
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -41,7 +41,7 @@ def test_fit_is_drawn_with_and_without_shafts(quantity: str) -> None:
         assert drawn[name].get_ydata().tolist() == list(range(len(parts)))
     rows = [text.get_text() for text in ax.get_yticklabels()]
     assert rows == [f"order {each.order} {each.part}".strip() for each in parts]
-    (paths,) = (each for each in ax.collections if each.get_gid() == balance_shafts.CHANGE)
+    (paths,) = (each for each in ax.collections if each.get_gid() == balancing.CHANGE)
     ends = [segment[:, 0].tolist() for segment in paths.get_segments()]
     assert ends == [[each.after, each.before] for each in parts]
     assert ax.get_xlim()[1] > max(each.before for each in parts)
@@ -54,7 +54,7 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
     assert {name for name in drawn if name[0] != "_"} == {
         "total.force.peak",
         "total.moment.peak",
-        balancers.REACHED,
+        balancing.REACHED,
     }
     for k, name in enumerate(OPTIONS.by[:2]):
         expected = [100.0 * each.values[k] / start[k] for each in OPTIONS.front]
@@ -62,7 +62,7 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
     names = [text.get_text() for text in ax.get_yticklabels()]
     assert names[:3] == ["nothing", "weights", "+2"]
     assert names[-1] == "weights, −1, −2, +2"
-    (target,) = (line for line in ax.lines if line.get_gid() == balancers.TARGET)
+    (target,) = (line for line in ax.lines if line.get_gid() == balancing.TARGET)
     assert target.get_xdata()[0] == pytest.approx(100.0 * 900.0 / start[1])
     ringed = drawn["target reached"].get_ydata().tolist()
     assert ringed == [k for k, each in enumerate(OPTIONS.front) if each.reaches]
@@ -84,7 +84,7 @@ def test_sets_that_do_not_fit_are_counted() -> None:
     title = " ".join(ax.get_title(loc="left").split())
     assert title.endswith(f"; {len(OPTIONS.front) - rows} more")
     (size,) = {text.get_fontsize() for text in ax.get_yticklabels()}
-    assert size >= balancers.SMALLEST
+    assert size >= balancing.SMALLEST
 
 
 def test_several_fits_share_rows_of_the_same_name() -> None:
@@ -117,7 +117,7 @@ def test_nothing_to_remove_is_said() -> None:
 
 def test_no_target_has_no_ring() -> None:
     ax = UNTARGETED.plot()
-    assert balancers.REACHED not in lines(ax)
+    assert balancing.REACHED not in lines(ax)
     assert "more" not in ax.get_title(loc="left")
 
 
@@ -129,7 +129,7 @@ def test_drawn_where_told_with_style_and_label(name: str) -> None:
     assert plt.get_fignums() == []
     legend = ax.get_legend()
     texts = [] if legend is None else [text.get_text() for text in legend.get_texts()]
-    named = [text for text in texts if text != balancers.REACHED]
+    named = [text for text in texts if text != balancing.REACHED]
     assert all(text.startswith("mine, ") for text in named)
     colours = {to_rgb(line.get_color()) for line in ax.lines if line.get_gid() == "crankpin series"}
     assert colours == {to_rgb("green")}

@@ -48,7 +48,7 @@ def test_a_histogram_has_all_samples_and_the_nominal_value(ax: Axes) -> None:
     assert vertical(ax, "nominal") == T.nominal_value()
     lines = ax.collections[0].get_segments()  # type: ignore[attr-defined]
     assert [line[0, 0] for line in lines] == T.quantile().tolist()
-    assert ax.get_xlabel() == "total.force.peak, N"
+    assert ax.get_xlabel() == "longest shaking force, N"
 
 
 def test_an_ecdf_rises_by_a_sample_at_each_value(ax: Axes) -> None:

@@ -54,7 +54,7 @@ def test_engines_without_bank_angles_are_listed_whatever_their_banks() -> None:
     assert names == [choice.name for choice in ranking]
     first = [(choice.value, k) for k, choice in enumerate(ranking) if choice.place == 1]
     assert marks(ax)["o"] == first
-    assert ax.get_xlabel() == "total.moment.peak, N·m"
+    assert ax.get_xlabel() == "longest rocking moment, N·m"
 
 
 def test_of_many_engines_the_best_are_named() -> None:

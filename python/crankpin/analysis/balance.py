@@ -219,7 +219,7 @@ class Balance(ByOrder, Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         kind: str = "spectrum",
-        quantity: str = "moment",
+        quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw the orders; return the axes.
@@ -237,7 +237,8 @@ class Balance(ByOrder, Tabled):
             orders, with its direction and, as a dot, the place at θ = 0; ``"phasors"``: what
             cylinders, counterweights and shafts add to each order, head to tail, and their sum.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+            else the first that is not zero.
         **options
             ``log=True`` for a logarithmic spectrum; ``orders=`` of phasors, by default those given
             to the balance, or else 1 and 2; ``label``, for a legend of several results on

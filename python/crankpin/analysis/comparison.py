@@ -143,7 +143,7 @@ class Comparison(Tabled):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        quantity: str = "moment",
+        quantity: str | None = None,
         **style: Any,  # noqa: ANN401 - of matplotlib's bars
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw peaks of both engines over order, and the curves that force or moment trace.
@@ -157,7 +157,8 @@ class Comparison(Tabled):
         figure
             Figure or SubFigure for both panels; by default a new one.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+            else the first that is not zero.
         **style
             Passed on to the bars, such as ``linewidth=``.
 

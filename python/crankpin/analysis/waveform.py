@@ -235,7 +235,7 @@ class Waveform(OverAngle, Tabled):
         ax: Axes | None = None,
         *,
         kind: str = "curves",
-        quantity: str = "moment",
+        quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Axes:
         """Draw a quantity over crank angle, or the curve that its tip traces; return the axes.
@@ -248,7 +248,8 @@ class Waveform(OverAngle, Tabled):
             ``"curves"``: a curve over crank angle for each axis; ``"orbit"``: the tip of force or
             moment in the cross-section plane, arrows in its direction, a dot every 30°.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+            else the first that is not zero.
         **options
             ``label``, for a legend of several results on the same axes; colour, line width and
             other properties of matplotlib lines.

@@ -6,40 +6,30 @@ imported when a picture is drawn, and matplotlib with it.
 
 from crankpin.plot import (
     balance,
-    balance_shafts,
-    balancers,
-    bob_weight,
+    balancing,
     compare,
     counterweights,
-    designs,
     engine,
     firing,
     ranking,
-    search,
     sweep,
-    sweep_waveform,
     tolerances,
     waveform,
 )
 from crankpin.plot.dispatch import draw
-from crankpin.plot.svg import inline_svg
+from crankpin.plot.engine import inline_svg
 
 __all__ = [
     "balance",
-    "balance_shafts",
-    "balancers",
-    "bob_weight",
+    "balancing",
     "compare",
     "counterweights",
-    "designs",
     "draw",
     "engine",
     "firing",
     "inline_svg",
     "ranking",
-    "search",
     "sweep",
-    "sweep_waveform",
     "tolerances",
     "waveform",
 ]

@@ -1,21 +1,236 @@
-"""Balances: the picture of each kind."""
+"""Balances: spectra, ellipses of each order, and the kinds of picture."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from crankpin._support import inputs
+import numpy as np
+from matplotlib.transforms import ScaledTranslation
+
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance
-from crankpin.plot.axes import check_one_place
-from crankpin.plot.dispatch import draw
-from crankpin.plot.ellipses import ellipses
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    check_one_place,
+    label_x,
+    label_y,
+    make_panels,
+    note_zero,
+    reject_figure,
+    set_figure_title,
+    set_panel_title,
+    set_title,
+)
 from crankpin.plot.phasors import phasors
-from crankpin.plot.spectrum import spectrum
+from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
+from crankpin.plot.rows import largest
+from crankpin.plot.style import SERIES, background, count_series, series
+from crankpin.plot.ticks import from_zero, numeric
+from crankpin.plot.words import by_component, drawn_quantity, number, series_names, with_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.by_order import OrderBalance
+
+
+MARKERS = "os^Dv"
+BESIDE = 6.0
+"""Points between stems of the same order."""
+ZEROS = "crankpin zeros"
+"""Marks the hollow circles of a series by their gid."""
+ZERO = "exactly zero"
+
+
+def spectrum(
+    result: Balance,
+    ax: Axes | None = None,
+    figure: object = None,
+    *,
+    quantity: str | None = None,
+    log: bool = False,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    """Draw peaks over order; exact zeros as hollow circles on the axis."""
+    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    logarithmic = inputs.flag("log", log)
+    drawn = getattr(result, name)
+    reject_figure(figure, "spectrum")
+    ax = axes_or_new(ax)
+    orders = np.array(result.orders, dtype=np.float64)
+    peaks = by_component(drawn.peak_xy if name in PLANE_VECTORS else drawn.peak, name)
+    how = "" if result.request.orders is None else ", orders given"
+    how += "" if result.spectrum is None else ", spectrum given"
+    set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}")
+    if label is None and count_series(ax):
+        label = labels.name_of(result.engine)
+    styles = series(ax, peaks.shape[1], style)
+    for k, text in enumerate(series_names(name, label)):
+        _stems(ax, orders, peaks[:, k], text, styles[k])
+    _beside_each_other(ax)
+    _scale(ax, logarithmic=logarithmic)
+    label_x(ax, "order (multiples of crank speed)")
+    label_y(ax, with_unit(name, peak=True))
+    add_legend(ax, last=ZERO)
+    return ax
+
+
+def _exists(result: Balance, name: str) -> bool:
+    """Return whether a quantity is determined and anywhere different from zero."""
+    found = getattr(result, name, None)
+    return found is not None and bool(found.peak.any())
+
+
+def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) -> None:  # noqa: ANN401
+    """Draw one series: a line up to each peak, a marker there, a hollow circle for zero."""
+    along = np.repeat(orders, 3)
+    up = np.stack([np.zeros_like(peaks), peaks, np.full_like(peaks, np.nan)], axis=1).ravel()
+    of_series: dict[str, Any] = {
+        "marker": MARKERS[count_series(ax) % len(MARKERS)],
+        "markersize": 5.0,
+    }
+    of_series |= style
+    of_series["markevery"] = slice(1, None, 3)
+    (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **of_series)
+    zeros = orders[peaks == 0.0]
+    known = ZERO in ax.get_legend_handles_labels()[1]
+    (hollow,) = ax.plot(
+        zeros,
+        np.zeros_like(zeros),
+        linestyle="",
+        marker="o",
+        markersize=5.0,
+        markeredgecolor=line.get_color(),
+        markerfacecolor=background(ax),
+        transform=ax.get_xaxis_transform(),
+        clip_on=False,
+        zorder=3,
+        gid=ZEROS,
+        label=ZERO if zeros.size and not known else "",
+    )
+    # The layout would make room for a line without points at the figure's corner.
+    hollow.set_in_layout(bool(zeros.size))
+
+
+def _of(ax: Axes, gid: str) -> list[Line2D]:
+    return [line for line in ax.lines if line.get_gid() == gid]
+
+
+def _beside_each_other(ax: Axes) -> None:
+    """Shift the stems of all series on the axes, so that those of an order stand about it."""
+    drawn, hollow = _of(ax, SERIES), _of(ax, ZEROS)
+    to_inches = ax.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
+    for k, (line, zeros) in enumerate(zip(drawn, hollow, strict=True)):
+        points = BESIDE * (k - 0.5 * (len(drawn) - 1))
+        shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
+        line.set_transform(ax.transData + shift)
+        zeros.set_transform(ax.get_xaxis_transform() + shift)
+
+
+def _scale(ax: Axes, *, logarithmic: bool) -> None:
+    along = np.concatenate([line.get_xdata() for line in _of(ax, SERIES)])
+    peaks = np.concatenate([np.asarray(line.get_ydata())[1::3] for line in _of(ax, SERIES)])
+    ax.set_xlim(0.0, float(along.max(initial=0.0)) + 1.0)
+    numeric(ax.xaxis, whole=True)
+    if not peaks.any():
+        note_zero(ax)
+    above = peaks[peaks > 0.0]
+    if logarithmic and above.size:
+        ax.set_yscale("log", nonpositive="clip")
+        ax.set_ylim(0.3 * float(above.min()), 3.0 * float(above.max()))
+    else:
+        numeric(ax.yaxis)
+        from_zero(ax, float(peaks.max(initial=0.0)))
+
+
+# --- ellipses ------------------------------------------------------------------------------------
+
+COLUMNS = 2
+PHASES = np.linspace(0.0, 2.0 * np.pi, 181)
+
+
+def ellipses(
+    result: Balance,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw a panel for each of the largest orders, or all of them on given axes."""
+    name = plane_vector(quantity, lambda name: _exists(result, name))
+    places, note = largest(result, name)
+    shown = [result.orders[place] for place in places]
+    where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm"
+    if ax is not None:
+        ax = axes_or_new(ax)
+        set_title(ax, labels.name_of(result.engine), where, note)
+        _on_one(ax, [result[order] for order in shown], name, style)
+        return ax
+    rows = max(1, -(-len(shown) // COLUMNS))
+    made = make_panels(None, figure, rows, min(COLUMNS, max(1, len(shown))), row_height=0.6)
+    panels = made.axes.ravel()
+    for panel, order in zip(panels, shown, strict=False):
+        curve = result[order]
+        ellipse(panel, curve, name, "", series(panel, 1, style)[0])
+        set_panel_title(panel, f"order {order}", direction(curve, name))
+        scale_plane(panel)
+    if not shown:
+        scale_plane(panels[0])
+    for panel in panels[max(1, len(shown)) :]:
+        panel.set_visible(False)
+    along_x, along_y = QUANTITIES[name].components
+    made.figure.supxlabel(f"{along_x}, {QUANTITIES[name].unit}", fontsize="medium")
+    made.figure.supylabel(f"{along_y}, {QUANTITIES[name].unit}", fontsize="medium")
+    scales = "each panel to its own scale; dot: θ = 0"
+    set_figure_title(made.figure, labels.name_of(result.engine), where, scales, note)
+    return made.axes
+
+
+def ellipse(
+    ax: Axes, order: OrderBalance, name: str, text: str, style: dict[str, Any]
+) -> NDArray[np.complex128]:
+    """Draw one ellipse, a dot where it is at θ = 0, and an arrow from there; return the curve."""
+    vector = getattr(order, name)
+    curve: NDArray[np.complex128] = vector.forward * np.exp(1j * PHASES)
+    curve = curve + vector.backward * np.exp(-1j * PHASES)
+    (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text or "_", **style)
+    ax.plot(curve.real[:1], curve.imag[:1], "o", color=line.get_color(), gid="crankpin start")
+    if vector.ellipse.minor != 0.0:
+        arrow_at(ax, curve, len(PHASES) // 8, line.get_color())
+    return curve
+
+
+def direction(order: OrderBalance, name: str) -> str:
+    """Return the direction in which an ellipse is passed."""
+    minor = getattr(order, name).ellipse.minor
+    if minor == 0.0:
+        return "straight line"
+    return labels.TURNING["forward" if minor > 0.0 else "backward"]
+
+
+def _on_one(ax: Axes, orders: Sequence[OrderBalance], name: str, style: dict[str, Any]) -> None:
+    for order, look in zip(orders, series(ax, len(orders), style), strict=True):
+        ellipse(ax, order, name, f"order {order.order}: {direction(order, name)}", look)
+    scale_plane(ax)
+    label_plane(ax, name)
+    add_legend(ax)
+
+
+# --- balance -------------------------------------------------------------------------------------
 
 KINDS = {"spectrum": spectrum, "ellipses": ellipses, "phasors": phasors}
 
 
-@draw.register(Balance)
+@picture.register(Balance)
 def _balance(
     result: Balance,
     ax: Any = None,  # noqa: ANN401 - checked

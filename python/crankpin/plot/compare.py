@@ -8,26 +8,23 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
-from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.axes import (
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
     check_one_place,
-    entitle,
-    entitle_figure,
-    head,
     inches_of,
+    label_x,
     label_y,
-    many_panels,
-    one_panel,
-    say_zero,
+    make_panels,
+    note_zero,
+    points_of,
+    set_panel_title,
 )
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import figure_legend, legend_below
 from crankpin.plot.style import background, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import number, rounded, width_of, with_unit
+from crankpin.plot.words import drawn_quantity, number, rounded, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,36 +38,37 @@ MATTERS = 1e-3
 """Orders that are below this part of the largest peak in both engines have no bars."""
 
 
-@draw.register(Comparison)
+@picture.register(Comparison)
 def _comparison(
     result: Comparison,
     ax: Axes | None = None,
     *,
     figure: Any = None,  # noqa: ANN401 - checked
-    quantity: str = "moment",
+    quantity: str | None = None,
     **style: Any,  # noqa: ANN401 - of bars
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+    name = drawn_quantity(quantity, lambda name: _exists(result, name))
     result.before.request.check(name)
-    lines = (result.title, f"{number(result.rpm)} rpm, {_total(result, name)}")
-    if ax is not None:
-        ax = one_panel(ax)
-        _bars(ax, result, name, style)
-        entitle(ax, *lines)
-        legend_below(ax)
-        return ax
     width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
     beside = width >= SIDE_BY_SIDE
     shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
-    made = many_panels(figure, 1 if beside else 2, 2 if beside else 1, row_height=0.75, **shape)
-    bars, curves = made.axes.ravel()
+    grid = (1, 2) if beside else (2, 1)
+    made = make_panels(ax, figure, *grid, row_height=0.75, **shape)
+    bars, *curves = made.axes.ravel()
     _bars(bars, result, name, style)
-    head(bars, "peaks by order")
-    _curves(curves, result, name)
-    entitle_figure(made.figure, *lines)
-    figure_legend(made.figure, bars.get_legend_handles_labels()[0])
-    return made.axes
+    if not made.single:
+        set_panel_title(bars, "peaks by order")
+        _curves(curves[0], result, name)
+    made.set_title(result.title, f"{number(result.rpm)} rpm, {_total(result, name)}")
+    made.add_legend(bars.get_legend_handles_labels()[0])
+    return made.drawn
+
+
+def _exists(result: Comparison, name: str) -> bool:
+    """Return whether a quantity is determined and different from zero in either engine."""
+    peaks = [getattr(each, name, None) for each in (result.before, result.after)]
+    return any(each is not None and each.peak.any() for each in peaks)
 
 
 def _total(result: Comparison, name: str) -> str:
@@ -117,10 +115,10 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
         }  # fmt: skip
         ax.bar(orders + (k - 0.5) * WIDTH, peaks, 0.96 * WIDTH, label=text, **(fill | style))
     if not shown:
-        say_zero(ax)
+        note_zero(ax)
     last = float(orders.max(initial=0.0)) + 1.0
     texts = [changed(*pairs[:, k].tolist()) for k in shown]
-    widths = [width_of(text, FontProperties(size="x-small")) for text in texts]
+    widths = [points_of(ax, text, FontProperties(size="x-small")) for text in texts]
     # The layout will take a part of the axes for labels.
     apart = float(np.diff(orders).min(initial=last)) / last
     upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
@@ -139,7 +137,7 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     ax.set_ylim(0.0, (1.4 if upright else 1.25) * top or 1.0)
     numeric(ax.xaxis, whole=True)
     numeric(ax.yaxis)
-    ax.set_xlabel("order (multiples of crank speed)")
+    label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
 
 
@@ -148,16 +146,16 @@ def _curves(ax: Axes, result: Comparison, name: str) -> None:
     kind = "orbit" if name in PLANE_VECTORS else "curves"
     for balance, label in zip((result.before, result.after), result.names, strict=True):
         waveform = Waveform(balance.engine, balance.rpm, TURN, True, balance.request)
-        draw(waveform, ax, kind=kind, quantity=name, label=label)
+        picture(waveform, ax, kind=kind, quantity=name, label=label)
     if legend := ax.get_legend():  # the figure's names both
         legend.remove()
     if kind == "orbit":
         _square(ax)
-    head(ax, "over a turn")
+    set_panel_title(ax, "over a turn")
 
 
 def _square(ax: Axes) -> None:
-    """Give orbits a square panel that they fill, without crank angles: whose would they be?"""
+    """Give orbits a square panel that they fill; crank angles would not tell which is which."""
     for text in [*ax.texts]:
         if text.get_text():
             text.remove()

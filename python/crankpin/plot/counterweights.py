@@ -16,24 +16,26 @@ from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.first_order import first_order
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import degrees
-from crankpin.plot.axes import (
+from crankpin.plot.balance import direction, ellipse
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    add_figure_legend,
+    add_legend,
+    axes_or_new,
     check_one_place,
-    entitle,
-    entitle_figure,
-    head,
     inches_of,
     label_x,
     label_y,
-    many_panels,
-    one_panel,
-    refuse_figure,
+    make_panels,
+    reject_figure,
+    set_figure_title,
+    set_panel_title,
+    set_title,
 )
-from crankpin.plot.dispatch import draw
-from crankpin.plot.ellipses import direction, ellipse
-from crankpin.plot.legend import figure_legend, legend_below
-from crankpin.plot.plane import dress_plane
+from crankpin.plot.plane import label_plane, scale_plane
 from crankpin.plot.style import SERIES, muted, series
 from crankpin.plot.ticks import numeric
+from crankpin.plot.words import drawn_quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,33 +49,39 @@ NARROWEST = 2.4
 KINDS = ("summary", "weights", "ellipses")
 
 
-@draw.register(Counterweights)
+@picture.register(Counterweights)
 def _counterweights(
     result: Counterweights,
     ax: Any = None,  # noqa: ANN401 - checked
     *,
     figure: Any = None,  # noqa: ANN401 - checked
     kind: str = "summary",
-    quantity: str = "moment",
+    quantity: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
-    name = inputs.one_of("quantity", quantity, PLANE_VECTORS)
+    name = drawn_quantity(quantity, lambda name: _exists(result, name), PLANE_VECTORS)
     if chosen == "summary" and ax is None:
         return _summary(result, figure, style)
-    refuse_figure(figure, chosen)
-    ax = one_panel(ax)
+    reject_figure(figure, chosen)
+    ax = axes_or_new(ax)
     if chosen == "ellipses":
-        entitle(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
+        set_title(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
         _ellipses(ax, result, name, style)
-        legend_below(ax)
+        add_legend(ax)
         return ax
-    entitle(
+    set_title(
         ax, labels.name_of(result.before), "counterweights, arrows at θ = 0 seen from the flywheel"
     )
     _weights(ax, result, style)
     return ax
+
+
+def _exists(result: Counterweights, name: str) -> bool:
+    """Return whether order 1 has a force or moment before or after."""
+    found = (result.ellipses_before, result.ellipses)
+    return any(getattr(each, name).major > 0.0 for each in found)
 
 
 def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
@@ -86,19 +94,19 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     given = isinstance(figure, FigureBase)
     width = inches_of(figure) if given else float(mpl.rcParams["figure.figsize"][0])
     beside = width >= NARROWEST * count
-    made = many_panels(
-        figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
+    made = make_panels(
+        None, figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
     )
     panels = made.axes.ravel()
-    head(panels[0], "weights at θ = 0")
+    set_panel_title(panels[0], "weights at θ = 0")
     _weights(panels[0], result, style)
     for panel, name in zip(panels[1:], shown, strict=True):
-        head(panel, QUANTITIES[name].words)
+        set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
-    entitle_figure(
+    set_figure_title(
         made.figure, labels.name_of(result.before), "counterweights, and order 1 over ω²"
     )
-    figure_legend(made.figure, states)
+    add_figure_legend(made.figure, states)
     return made.axes
 
 
@@ -181,5 +189,6 @@ def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]
         given = style.get("label")
         ellipse(ax, order, name, f"{given}, {text}" if given else text, look)
         entries.append(Line2D([], [], label=state, **look))
-    dress_plane(ax, name, unit=QUANTITIES[name].unit_over_square)
+    scale_plane(ax)
+    label_plane(ax, name, QUANTITIES[name].unit_over_square)
     return entries

@@ -17,7 +17,7 @@ from crankpin.analysis.geometry import (
     weights_on_shafts,
 )
 from crankpin.model.crankpins import Crankpin, throws
-from crankpin.plot.axes import inches_of
+from crankpin.plot.layout import inches_of, points_of
 from crankpin.plot.section import shaft_text
 from crankpin.plot.shapes import (
     JOURNAL,
@@ -38,7 +38,7 @@ from crankpin.plot.shapes import (
     text_corner,
     wedge,
 )
-from crankpin.plot.words import plain_text, width_of
+from crankpin.plot.words import plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +52,9 @@ if TYPE_CHECKING:
 PINS = "crankpin pins"
 """Marks the main journal, then the crankpins."""
 UNBALANCES = "crankpin unbalances"
-"""Marks the sectors of the star, the largest first."""
+"""Marks the discs of rotating masses in the star, then the sectors of counterweights."""
+AS_LARGE = 6.0**-0.5
+"""Radius of a disc over that of a sector of the same area."""
 WEIGHTS = "crankpin counterweights"
 """Marks the counterweights of the side view."""
 
@@ -62,7 +64,7 @@ WEIGHTS = "crankpin counterweights"
 def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
     """Draw crankpins in their directions, numbered, with rotating masses and counterweights.
 
-    Unbalances of one direction are added up, and drawn as a sector whose area is as the sum.
+    Unbalances of one direction are added up; the area of their disc or sector is as the sum.
     """
     theta = crank_angle(theta_deg)
     ink = inks_of(ax)
@@ -70,35 +72,33 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     turn = complex(direction(theta))
     pins = {at * turn: cylinders for at, cylinders in pins_in_line(engine).items()}
     half = 0.65 * JOURNAL * largest
-    sums = [
-        (amount, towards, colour)
-        for weights, colour in (
-            (rotating_masses(engine, theta), ink.journal),
-            (weights_on_crank(engine, theta), ink.weight),
-        )
-        for towards, amount in by_direction(weights).items()
-    ]
-    sums.sort(key=lambda each: -each[0])  # smaller sectors over larger ones
-    radii = radius_of_amounts(engine, [amount for amount, _, _ in sums])
+    rotating = by_direction(rotating_masses(engine, theta))
+    weights = by_direction(weights_on_crank(engine, theta))
+    radii = radius_of_amounts(engine, [*rotating.values(), *weights.values()])
+    # Rotating masses are round and at their pins, so that they do not look like counterweights.
+    rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
     sectors = [
-        wedge(0.0, radius, float(np.degrees(np.angle(towards))))
-        for radius, (_, towards, _) in zip(radii, sums, strict=True)
+        *(disc(largest * at, radius) for at, radius in zip(rotating, rounds, strict=True)),
+        *(
+            wedge(0.0, radius, float(np.degrees(np.angle(at))))
+            for at, radius in zip(weights, radii[len(rotating) :], strict=True)
+        ),
     ]
-    faces = [colour for _, _, colour in sums]
+    faces = [ink.journal] * len(rotating) + [ink.weight] * len(weights)
     add(ax, sectors, facecolor=faces, edgecolor=ink.line, linewidth=0.6, zorder=2, gid=UNBALANCES)
     looks = {"facecolor": ink.web, "edgecolor": ink.line, "linewidth": 0.8, "zorder": 3}
     add(ax, [bar(0.0, at, 2.6 * half, 1.3 * half) for at in pins], **(looks | style))
-    rounds = [disc(0.0, 1.5 * half), *(disc(at, half) for at in pins)]
+    journals = [disc(0.0, 1.5 * half), *(disc(at, half) for at in pins)]
     faces = [ink.paper] + [ink.journal] * len(pins)
-    add(ax, rounds, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
+    add(ax, journals, facecolor=faces, edgecolor=ink.line, linewidth=0.8, zorder=4, gid=PINS)
     circle = largest * direction(np.linspace(0.0, 360.0, 181))
     ax.plot(circle.real, circle.imag, color=ink.faint, linewidth=0.8, linestyle="-", zorder=1)
     arrow_round(ax, largest, _widest_gap([*pins]), ink)
-    reach = max(1.25 * largest, *radii) if radii else largest + half
+    reach = max([1.25 * largest, *radii[len(rotating) :], *(largest + each for each in rounds)])
     limit = 1.25 * reach
     # The layout may make the axes smaller yet.
     scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
-    for at, cylinders in _numbers(pins, scale * reach).items():
+    for at, cylinders in _numbers(ax, pins, scale * reach).items():
         outside(ax, reach * at, listed(cylinders), fontsize="small")
     ax.set_aspect("equal")
     ax.set_xlim(-limit, limit)
@@ -106,7 +106,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     ax.set_axis_off()
 
 
-def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
+def _numbers(ax: Axes, pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
     """Join the cylinders of pins whose numbers would overlap, so many points from the axis."""
     font = FontProperties(size="small")
     labels = [
@@ -117,7 +117,7 @@ def _numbers(pins: dict[complex, list[int]], radius: float) -> dict[complex, lis
     def place(towards: complex, cylinders: list[int]) -> Bbox:
         anchor = radius * towards
         left, bottom = text_corner(towards)
-        width, height = width_of(listed(cylinders), font), font.get_size_in_points()
+        width, height = points_of(ax, listed(cylinders), font), font.get_size_in_points()
         x0, y0 = anchor.real + left * width, anchor.imag + bottom * height
         return Bbox.from_bounds(x0, y0, width, height)
 
@@ -225,7 +225,7 @@ def _number(
     They are below each other where they are wider than ``room``, points.
     """
     text = listed(cylinders)
-    if width_of(text, FontProperties(size="small")) > room:
+    if points_of(ax, text, FontProperties(size="small")) > room:
         text = text.replace(", ", "\n")
     up = 1.0 if y > -1e-9 * clear else -1.0
     ax.annotate(

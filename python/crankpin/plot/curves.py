@@ -2,32 +2,48 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import itertools
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 
-from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.axes import (
-    BESIDE_A_SCALE,
-    entitle,
-    entitle_figure,
-    head,
+from crankpin.plot.layout import (
     label_x,
     label_y,
-    many_panels,
-    one_panel,
-    say_zero,
+    make_panels,
+    note_zero,
 )
-from crankpin.plot.bundle import Bundle, Curve, bundle_of, colour_scale
-from crankpin.plot.legend import figure_legend, legend_below
-from crankpin.plot.marks import entry, ring, write
-from crankpin.plot.rows import Rows, along_x, at, dimension, rows_of, words_of
-from crankpin.plot.style import MOST_TOLD_APART, SERIES, foreground
-from crankpin.plot.ticks import degrees, from_zero, numeric, span
-from crankpin.plot.words import plain_text
+from crankpin.plot.rows import (
+    Rows,
+    Words,
+    along_x,
+    at,
+    dimension,
+    rows_of,
+    swept_quantity,
+    values_of,
+    words_of,
+)
+from crankpin.plot.style import (
+    DASHES,
+    DISTINCT,
+    SERIES,
+    cycle,
+    entry,
+    foreground,
+    muted,
+    ring,
+    scale,
+    series,
+    write,
+)
+from crankpin.plot.ticks import RoundLocator, degrees, from_zero, numeric, span
+from crankpin.plot.words import in_degrees, number, plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -36,6 +52,138 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.analysis.sweeps.sweep import Sweep
+
+
+MOST_DASHES = 4
+"""Number of dashes that are used beside colours of another meaning."""
+NAMED = 5
+"""Engines with a name in the legend where there are too many for all."""
+THIN: dict[str, Any] = {"linewidth": 0.8, "linestyle": "-"}
+
+
+class Curve(NamedTuple):
+    """How one combination of swept values is drawn."""
+
+    place: tuple[Any, ...]
+    """Picks it from an array without the dimension along x."""
+    style: dict[str, Any]
+    name: str
+    """Its entry in a legend; empty for none."""
+
+
+class Bundle(NamedTuple):
+    """All curves of a panel, and what their looks mean."""
+
+    curves: list[Curve]
+    handles: list[Line2D]
+    """Entries of a legend for several panels."""
+    scale: str | None
+    """Dimension that a scale of colours stands for."""
+
+
+def bundle_of(
+    ax: Axes,
+    sweep: Sweep,
+    others: Sequence[str],
+    words: Words,
+    sizes: NDArray[np.float64],
+    style: Mapping[str, Any],
+) -> Bundle:
+    """Give every combination of the other dimensions its look.
+
+    One dimension: successive colours and dashes; if it is long, a scale of colours for numbers,
+    and the ``NAMED`` engines with the least of ``sizes`` named among thin lines of the others.
+    More dimensions: colours by the first, dashes by the rest, or thin lines if they are many.
+    """
+    lengths = [len(sweep.coords[dim]) for dim in others]
+    places = list(np.ndindex(*lengths))
+    label = str(style.get("label") or "")
+    given = {name: value for name, value in style.items() if name != "label"}
+    if not others:
+        (look,) = series(ax, 1, given)
+        return Bundle([Curve((), look, label)], [], None)
+    texts = [values_of(sweep, dim, words) for dim in others]
+    names = [", ".join(filter(None, [label, *parts])) for parts in itertools.product(*texts)]
+    if len(others) == 1 and (others[0] == "engine" or len(places) <= DISTINCT):
+        return Bundle(*engine_looks(ax, names, sizes, given), None)
+    n_rest = len(places) // lengths[0]
+    few = lengths[0] <= DISTINCT
+    colours = [entry["color"] for entry in cycle(ax)] if few else scale(ax, lengths[0])
+    looks = []
+    for k in range(len(places)):
+        colour, dash = divmod(k, n_rest)
+        thin = THIN if n_rest > MOST_DASHES else {"linestyle": DASHES[dash]}
+        looks.append({"color": colours[colour % len(colours)]} | thin | given)
+    handles = [
+        Line2D([], [], color=colour, label=text)
+        for colour, text in zip(colours, texts[0], strict=False)
+        if few
+    ]
+    if 1 < n_rest <= MOST_DASHES:
+        rest = [", ".join(parts) for parts in itertools.product(*texts[1:])]
+        grey = muted(ax)
+        handles += [
+            Line2D([], [], color=grey, linestyle=DASHES[k], label=text)
+            for k, text in enumerate(rest)
+        ]
+    elif n_rest > 1:
+        what = " × ".join(f"{len(sweep.coords[dim])} of {dimension(dim)}" for dim in others[1:])
+        handles.append(Line2D([], [], color=muted(ax), **THIN, label=f"each: {what}"))
+    distinct = few and n_rest <= MOST_DASHES
+    drawn = names if distinct else [""] * len(names)
+    return Bundle(_zipped(places, looks, drawn), handles, None if few else others[0])
+
+
+def _zipped(
+    places: Sequence[tuple[Any, ...]], looks: Sequence[dict[str, Any]], names: Sequence[str]
+) -> list[Curve]:
+    return [Curve(*each) for each in zip(places, looks, names, strict=True)]
+
+
+def engine_looks(
+    ax: Axes, names: Sequence[str], sizes: NDArray[np.float64], style: Mapping[str, Any]
+) -> tuple[list[Curve], list[Line2D]]:
+    """Give each engine successive colours and dashes; of many, the ones with the least sizes.
+
+    The others are thin lines below them, with one entry in the legend.
+    """
+    count = len(names) if len(names) <= DISTINCT else NAMED
+    kept = sorted(np.argsort(sizes, kind="stable")[:count].tolist())
+    looks = series(ax, count, style)
+    curves = [Curve((k,), look, names[k]) for k, look in zip(kept, looks, strict=True)]
+    handles = [Line2D([], [], **curve.style, label=curve.name) for curve in curves]
+    rest = [k for k in range(len(names)) if k not in kept]
+    if rest:
+        grey: dict[str, Any] = {"color": muted(ax, 0.35), "zorder": 1.9, **THIN}
+        text = f"{len(rest)} others"
+        handles.append(Line2D([], [], **grey, label=text))
+        thin = [Curve((k,), grey, text if k == rest[0] else "") for k in rest]
+        curves += thin
+    return curves, handles
+
+
+def colour_scale(panels: NDArray[Any], sweep: Sweep, dim: str) -> None:
+    """Put a scale of the colours of a swept dimension beside panels.
+
+    Colours go by place in the list, so that the scale is right for uneven steps too.
+    """
+    values = np.asarray(sweep.coords[dim], dtype=np.float64)
+    order, count = np.argsort(values, kind="stable"), len(values)
+    first = panels.flat[0]
+    colours = ListedColormap(np.array(scale(first, count))[order])
+    mappable = ScalarMappable(BoundaryNorm(np.arange(count + 1) - 0.5, count), colours)
+    figure = first.get_figure(root=False)
+    bar = figure.colorbar(mappable, ax=panels.ravel().tolist(), aspect=35, pad=0.02)
+    ticks = np.array(RoundLocator(6).tick_values(values.min(), values.max()))
+    ticks = ticks[(ticks >= values.min()) & (ticks <= values.max())]
+    written = in_degrees if dim.endswith("_deg") else number
+    where = np.interp(ticks, values[order], np.arange(count))
+    bar.set_ticks(where.tolist(), labels=[written(float(f"{tick:.10g}")) for tick in ticks])
+    bar.ax.minorticks_off()
+    bar.set_label(dimension(dim), color=foreground(first))
+
+
+# --- curves --------------------------------------------------------------------------------------
 
 FEW_POINTS = 40
 """Up to so many points of a curve are marked."""
@@ -49,36 +197,29 @@ def curves(
     ax: Axes | None = None,
     figure: Any = None,  # noqa: ANN401 - checked
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over a swept dimension, rows for orders and columns for axes."""
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+    name = swept_quantity(sweep, quantity)
     rows = rows_of(sweep, name, orders, single=ax is not None)
     along, words = along_x(sweep, x), words_of(sweep)
-    if ax is not None:
-        ax = one_panel(ax)
-        entitle(ax, words.title, words.subtitle(name), rows.columns[0])
-        _draw(np.array([[ax]]), sweep, name, along, rows, style)
-        legend_below(ax, words.common)
-        return ax
     shared: dict[str, Any] = {"sharex": "col", "sharey": "row"}
     if along == "engine":
         shared = {"sharex": "row", "sharey": "all"}
-    made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
-    for panel, axis in zip(made.axes[0], rows.columns, strict=True):
-        head(panel, axis)
+    made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
+    made.name_columns(rows.columns)
     bundle = _draw(made.axes, sweep, name, along, rows, style)
-    if bundle.scale:
-        for panel, axis in zip(made.axes[0], rows.columns, strict=True):
-            head(panel, axis, part=BESIDE_A_SCALE)
-    entitle_figure(made.figure, words.title, words.subtitle(name), rows.note)
+    what = rows.columns[0] if made.single else rows.note
+    made.set_title(words.title, words.subtitle(name), what)
     marks = [entry_of(made.axes, text) for text in (ZERO, LEAST)]
-    handles = [*bundle.handles, *filter(None, marks)]
-    figure_legend(made.figure, handles, words.common if bundle.handles else "")
-    return made.axes
+    made.add_legend(
+        [*bundle.handles, *filter(None, marks)],
+        words.common if bundle.handles or made.single else "",
+    )
+    return made.drawn
 
 
 def _draw(
@@ -123,14 +264,14 @@ def lines(
 ) -> None:
     """Draw curves of an array (along x, …), with markers if they have few points."""
     in_order = np.argsort(x, kind="stable")
-    few = len(drawn) <= MOST_TOLD_APART and len(x) <= FEW_POINTS
+    few = len(drawn) <= DISTINCT and len(x) <= FEW_POINTS
     for curve in drawn:
         heights = peaks[:, *curve.place][in_order]
         look: dict[str, Any] = {"marker": "o" if few or len(x) == 1 else "", "markersize": 3.0}
         look |= curve.style
         ax.plot(x[in_order], heights, gid=SERIES, label=curve.name or "_", clip_on=False, **look)
     if not peaks.any():
-        say_zero(ax)
+        note_zero(ax)
 
 
 def _dots(
@@ -175,7 +316,7 @@ def mark(
 ) -> None:
     """Mark where curves vanish, and with ``least`` the smallest value of all if none does."""
     found: dict[float, str] = {}
-    for curve in drawn if len(drawn) <= MOST_TOLD_APART else []:
+    for curve in drawn if len(drawn) <= DISTINCT else []:
         heights = peaks[:, *curve.place]
         zeros = x[heights == 0.0]
         if 0 < zeros.size <= MOST_MARKS and heights.any():

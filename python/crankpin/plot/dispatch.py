@@ -3,17 +3,36 @@
 from __future__ import annotations
 
 import functools
+import re
 from typing import Any
+
+from matplotlib import pyplot as plt
 
 from crankpin._core import InputError
 from crankpin._support import inputs
 
 
-@functools.singledispatch
 def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
     """Draw a result on matplotlib axes, by default new ones; return the axes.
 
     The options are those of the result's ``plot`` method. Nothing is shown: notebooks show the
-    figure, scripts call ``matplotlib.pyplot.show()``.
+    figure, scripts call ``matplotlib.pyplot.show()``. An error leaves no figure.
     """
+    before = plt.get_fignums()
+    try:
+        return picture(result, ax, **options)
+    except Exception as error:
+        for made in set(plt.get_fignums()).difference(before):
+            plt.close(made)
+        unknown = re.search(r"unexpected keyword argument '(\w+)'", str(error))
+        if unknown is None or not isinstance(error, (AttributeError, TypeError)):
+            raise
+        name = unknown[1]
+        hint = "this picture has no such option, and what it draws no such property"
+        raise InputError(f"{name} = {inputs.shorten(options.get(name))}: {hint}") from None
+
+
+@functools.singledispatch
+def picture(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
+    """Draw a result; the functions that do are registered by its class."""
     raise InputError(f"result = {inputs.shorten(result)}: there is no picture of this kind")

@@ -1,27 +1,34 @@
-"""Engines: cross-section, crank star, and side view of the crank."""
+"""Engines: cross-section, crank star and side view, as figures and as small SVG elements."""
 
 from __future__ import annotations
 
+import html
+import io
+import re
+import uuid
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.backends.backend_svg import RendererSVG
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 
 from crankpin._support import inputs, labels
 from crankpin.analysis.geometry import crank_angle
 from crankpin.model.engine import Engine
-from crankpin.plot.axes import (
-    check_one_place,
-    entitle,
-    entitle_figure,
-    head,
-    many_panels,
-    one_panel,
-    refuse_figure,
-)
 from crankpin.plot.crank import side, star
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import figure_legend, legend_below
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    add_figure_legend,
+    add_legend,
+    axes_or_new,
+    check_one_place,
+    make_panels,
+    reject_figure,
+    set_figure_title,
+    set_panel_title,
+    set_title,
+)
 from crankpin.plot.section import section
 from crankpin.plot.shapes import inks_of, legend_handles
 from crankpin.plot.ticks import numeric
@@ -32,11 +39,80 @@ if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
+
+FOREGROUND = "#010203"
+"""Drawn in place of the page's own colour of text, which matplotlib cannot name."""
+BEHIND = "#cccccc"
+"""Mixed into the colours of parts, for outlines white or black."""
+INLINE = 0.8
+"""Size of a picture in a page over its size as drawn."""
+
+
+class _Renderer(RendererSVG):
+    """Writes text as text; ``rcParams["svg.fonttype"]`` would apply to all threads."""
+
+    def _draw_text_as_path(self, *text: Any, **options: Any) -> None:  # noqa: ANN401
+        self._draw_text_as_text(*text, **options)  # type: ignore[no-untyped-call]
+
+
+def inline_svg(engine: Engine) -> str:
+    """Return cross-section and side view of an engine as an ``<svg>`` element.
+
+    Its lines have the colour of the text around it; nothing in it refers to anything outside, and
+    its ids are its own.
+    """
+    figure = Figure(figsize=(6.5, 2.5), dpi=72, layout="constrained", facecolor="none")
+    left, right = axes = figure.subplots(1, 2, width_ratios=[2, 3])
+    for ax in axes:
+        ax.set_facecolor(BEHIND)
+        ax.title.set_color(FOREGROUND)
+    section(engine, left, 0.0)
+    side(engine, right, 0.0)
+    right.set_axis_off()
+    for ax in axes:
+        for text in ax.texts:
+            text.set_color(FOREGROUND)
+        for artist in (*ax.collections, *ax.lines):
+            artist.set_clip_on(False)  # clip paths would be half of the text
+    file = io.StringIO()
+    metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+    renderer: Any = _Renderer(*figure.bbox.size, file, metadata=metadata)  # type: ignore[no-untyped-call]
+    figure.draw(renderer)
+    renderer.finalize()
+    return _element(
+        file.getvalue(), f"{labels.name_of(engine)}: cross-section and crank from the side"
+    )
+
+
+def _element(document: str, label: str) -> str:
+    """Return the element of an SVG document, made fit to stand in a page among others."""
+    text = document[document.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = text.replace(FOREGROUND, "currentColor")
+    # A style sheet in the element would apply to the whole page.
+    text = re.sub(r"<defs>\s*<style.*?</style>\s*</defs>", "", text, count=1, flags=re.DOTALL)
+    # Ids that nothing refers to go; the rest get a prefix that no other picture has.
+    used = set(re.findall(r'(?:href="|url\()#([^")]+)', text))
+    prefix = f"c{uuid.uuid4().hex[:8]}"
+
+    def kept(match: re.Match[str]) -> str:
+        return f' id="{prefix}{match[1]}"' if match[1] in used else ""
+
+    text = re.sub(r' id="([^"]+)"', kept, text)
+    text = re.sub(r'(href="|url\()#', rf"\g<1>#{prefix}", text)
+    text = re.sub(r"\d+\.\d{3,}", lambda match: f"{float(match[0]):.2f}", text)
+    text = re.sub(r'="([\d.]+)pt"', lambda match: f'="{INLINE * float(match[1]):.4g}pt"', text)
+    look = f'role="img" aria-label="{html.escape(label)}" style="stroke-linejoin: round"'
+    return re.sub(r"\s*\n\s*", " ", text).replace("<svg", f"<svg {look}", 1)
+
+
+# --- engine --------------------------------------------------------------------------------------
+
 PANELS = {"section": section, "star": star, "side": side}
 PANEL_NAMES = {"section": "cross-section", "star": "crank star", "side": "crank from the side"}
 
 
-@draw.register(Engine)
+@picture.register(Engine)
 def _engine(
     engine: Engine,
     ax: Axes | None = None,
@@ -50,15 +126,15 @@ def _engine(
     theta = crank_angle(theta_deg)
     if kind is not None:
         inputs.one_of("kind", kind, PANELS)
-        refuse_figure(figure, kind)
+        reject_figure(figure, kind)
     elif ax is not None:
         kind = "section"
     if kind is not None:
-        ax = one_panel(ax)
+        ax = axes_or_new(ax)
         panel(engine, ax, kind, theta, **style)
         what = f"{PANEL_NAMES[kind]}, θ = {rounded(theta, 6)}°"
-        entitle(ax, labels.name_of(engine), what, pad=_above())
-        legend_below(ax, handles=legend_handles(engine, inks_of(ax)))
+        set_title(ax, labels.name_of(engine), what, pad=_above())
+        add_legend(ax, handles=legend_handles(engine, inks_of(ax)))
         return ax
     return all_panels(engine, figure, theta, style)
 
@@ -77,18 +153,18 @@ def all_panels(
     engine: Engine, figure: FigureBase | None, theta: float, style: dict[str, Any]
 ) -> NDArray[Any]:
     """Draw the cross-section and the star beside each other, and the side view below them."""
-    figure, cells = many_panels(figure, 2, 2, row_height=0.6, height_ratios=[2.0, 1.1])
+    figure, cells, _ = make_panels(None, figure, 2, 2, row_height=0.6, height_ratios=[2.0, 1.1])
     below = cells[1, 0].get_gridspec()[1, :]
     for cell in cells[1]:
         cell.remove()
     axes = np.array([*cells[0], figure.add_subplot(below)])
     for ax, (kind, name) in zip(axes, PANEL_NAMES.items(), strict=True):
         panel(engine, ax, kind, theta, **style)
-        head(ax, name, _above())
-    entitle_figure(
+        set_panel_title(ax, name, pad=_above())
+    set_figure_title(
         figure, labels.name_of(engine), f"θ = {rounded(theta, 6)}°, seen from the flywheel"
     )
-    figure_legend(figure, legend_handles(engine, inks_of(axes[0])))
+    add_figure_legend(figure, legend_handles(engine, inks_of(axes[0])))
     return axes
 
 

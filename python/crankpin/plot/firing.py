@@ -13,11 +13,16 @@ from matplotlib.patches import Patch
 from crankpin._support import labels
 from crankpin.analysis.firing import Firing
 from crankpin.plot import ticks
-from crankpin.plot.axes import entitle, one_panel
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import legend_below
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    label_x,
+    label_y,
+    points_of,
+    set_title,
+)
 from crankpin.plot.style import background, colours, foreground, muted
-from crankpin.plot.words import width_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -32,11 +37,7 @@ STROKES = (-0.44, 0.5)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
 INLETS = (0.1, 0.15)
 EXHAUSTS = (0.28, 0.15)
-SMALL_LEGEND: dict[Any, Any] = {
-    "legend.fontsize": "x-small",
-    "legend.handlelength": 1.2,
-    "legend.columnspacing": 1.0,
-}
+SMALL_LEGEND: dict[str, Any] = {"fontsize": "x-small", "handlelength": 1.2}
 """Of charts whose rows have no room for letters: the legend must not take theirs."""
 ROW = 0.24
 """Inches of a row that suffice for letters."""
@@ -52,7 +53,7 @@ class Kind(NamedTuple):
     letter: str = ""
 
 
-@draw.register(Firing)
+@picture.register(Firing)
 def _firing(
     result: Firing,
     ax: Axes | None = None,
@@ -61,26 +62,26 @@ def _firing(
     **style: Any,  # noqa: ANN401
 ) -> Axes:
     rows = [cylinder for bank in result.banks for cylinder in bank]
-    openings = _openings(result, timing)  # an error in the timing comes before a figure
-    overlaps = result.exhaust_overlaps(timing=timing)
     room = 1.0 if ax is None else 0.55  # the legend of given axes will take its part
     if ax is None:
-        ax = one_panel(ax)
+        ax = axes_or_new(ax)
         _make_room(ax, len(rows))
     else:
-        ax = one_panel(ax)
+        ax = axes_or_new(ax)
     row_height = room * _row_height(ax, len(rows))
     inlet, exhaust, compression, power = _inks(ax)
-    inlet_name, inlets, exhausts = openings
     faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
     strokes = [
         Kind(name, _tint(ax, faces[name]), periods, STROKES, name[0].upper())
         for name, periods in result.strokes_deg().items()
     ]
-    opened = [
-        Kind(f"{inlet_name} open", inlet, inlets, INLETS),
-        Kind("exhaust open", exhaust, exhausts, EXHAUSTS),
-    ]
+    opened = []
+    if timing is not None:
+        inlet_name, inlets, exhausts = _openings(result, timing)
+        opened = [
+            Kind(f"{inlet_name} open", inlet, inlets, INLETS),
+            Kind("exhaust open", exhaust, exhausts, EXHAUSTS),
+        ]
     cycle = 180.0 * result.strokes
     lettered = row_height >= ROW
     handles: list[Any] = []
@@ -95,17 +96,18 @@ def _firing(
                 _letters(ax, kind.letter, pieces, row)
         name = f"{kind.letter}: {kind.name}" if kind.letter and lettered else kind.name
         handles.append(Patch(label=name, **(looks | {"edgecolor": "none"} | style)))
-    handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
+    if timing is not None:
+        overlaps = result.exhaust_overlaps(timing=timing)
+        handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
     handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1])
     _dress(ax, result, rows, row_height)
-    entitle(ax, labels.name_of(result.engine), labels.cut(result.summary))
-    with mpl.rc_context({} if lettered else SMALL_LEGEND):
-        legend_below(ax, handles=handles)
+    set_title(ax, labels.name_of(result.engine), labels.cut(result.summary))
+    add_legend(ax, handles=handles, **({} if lettered else SMALL_LEGEND))
     return ax
 
 
 def _openings(
-    result: Firing, timing: ValveTiming | PortTiming | None
+    result: Firing, timing: ValveTiming | PortTiming
 ) -> tuple[str, NDArray[np.float64], NDArray[np.float64]]:
     """Return the name of the inlet, and the periods in which inlets and exhausts are open."""
     if result.strokes == 2:
@@ -204,19 +206,19 @@ def _dress(ax: Axes, result: Firing, rows: list[int], row_height: float) -> None
     ticks.degrees(ax.xaxis)
     ax.set_yticks(range(len(rows)), [str(cylinder) for cylinder in rows])
     ax.tick_params(axis="y", length=0)
-    ax.set_xlabel("crank angle θ")
+    label_x(ax, "crank angle θ")
     if row_height < ROW:
         size = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
         ax.tick_params(axis="y", labelsize=min(size, max(5.0, 65.0 * row_height)))
     spacious = len(result.banks) > 1 and row_height >= ROW
-    ax.set_ylabel("cylinder, bank by bank" if spacious else "cylinder")
+    label_y(ax, "cylinder, bank by bank" if spacious else "cylinder")
     first = 0
     names = {numbers: name for name, numbers in result.engine.banks.items()}
     for bank in result.banks:
         if first:
             ax.axhline(first - 0.5, color=muted(ax), linewidth=0.8, linestyle="-")
         name = names.get(bank, "") if len(result.banks) > 1 else ""
-        if width_of(name, FontProperties(size="small")) < 72.0 * row_height * len(bank):
+        if points_of(ax, name, FontProperties(size="small")) < 72.0 * row_height * len(bank):
             ax.text(
                 1.01,
                 first + 0.5 * (len(bank) - 1),

@@ -8,18 +8,23 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._core import InputError
-from crankpin._support import inputs
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.axes import (
-    entitle,
-    entitle_figure,
-    head,
+from crankpin.plot.layout import (
+    Panels,
     label_x,
     label_y,
-    many_panels,
-    one_panel,
+    make_panels,
+    note_zero,
 )
-from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
+from crankpin.plot.rows import (
+    Row,
+    Rows,
+    along_x,
+    dimension,
+    rows_of,
+    swept_quantity,
+    words_of,
+)
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
 
@@ -44,35 +49,29 @@ def heat_map(
     ax: Axes | None = None,
     figure: Any = None,  # noqa: ANN401 - checked
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes."""
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+    name = swept_quantity(sweep, quantity)
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
     words = words_of(sweep)
     dims = [dim for dim in sweep.coords if dim != "engine"]
     grids = [np.moveaxis(row.peaks, dims.index(up), 0) for row in rows.rows]
     coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
-    if ax is not None:
-        ax = one_panel(ax)
-        what = f"{rows.rows[0].name}, {rows.columns[0]}"
-        entitle(ax, words.title, words.subtitle(name), what)
-        _heat(np.array([ax]), coords, grids[0], name, style)
-        _label(ax, along, up)
-        return ax
-    made = many_panels(figure, len(grids), len(rows.columns), sharex=True, sharey=True)
+    made = make_panels(ax, figure, len(grids), len(rows.columns), sharex=True, sharey=True)
     vanishes = [
         _heat(panels, coords, grid, name, style)
         for grid, panels in zip(grids, made.axes, strict=True)
     ]
-    _label_all(made.axes, along, up, rows)
-    dots = "white dots: exactly zero" if any(vanishes) else ""
-    entitle_figure(made.figure, words.title, words.subtitle(name), dots, note)
-    return made.axes
+    _label_all(made, along, up, rows)
+    notes = [note, "white dots: exactly zero" if any(vanishes) else ""]
+    what = [f"{rows.rows[0].name}, {rows.columns[0]}"] if made.single else []
+    made.set_title(words.title, words.subtitle(name), *what, *notes)
+    return made.drawn
 
 
 def order_map(
@@ -80,12 +79,12 @@ def order_map(
     ax: Axes | None = None,
     figure: Any = None,  # noqa: ANN401 - checked
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     x: str | None = None,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over speed, or another swept number, and order, in a logarithmic scale."""
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+    name = swept_quantity(sweep, quantity)
     dims = [dim for dim in sweep.coords if dim != "engine"]
     along = along_x(sweep, x or ("rpm" if "rpm" in dims else None), dims or ["engine"])
     if dims != [along]:
@@ -94,20 +93,14 @@ def order_map(
     rows, note = _rows(sweep, name, sweep.orders, single=ax is not None, by_order=True)
     words = words_of(sweep)
     values = np.asarray(sweep.coords[along], dtype=np.float64)
-    if ax is not None:
-        ax = one_panel(ax)
-        entitle(ax, words.title, words.subtitle(name), rows.columns[0])
-        _cells(np.array([ax]), values, sweep.orders, rows.rows[0].peaks, name, style)
-        _label(ax, along, "order")
-        return ax
     height = 0.7 if len(rows.rows) == 1 else 0.45
-    shared = {"sharex": True, "sharey": True, "row_height": height}
-    made = many_panels(figure, len(rows.rows), len(rows.columns), **shared)
+    shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
+    made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
     for row, panels in zip(rows.rows, made.axes, strict=True):
         _cells(panels, values, sweep.orders, row.peaks, name, style)
-    _label_all(made.axes, along, "order", rows)
-    entitle_figure(made.figure, words.title, words.subtitle(name), note)
-    return made.axes
+    _label_all(made, along, "order", rows)
+    made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
+    return made.drawn
 
 
 def _axes_of(sweep: Sweep, x: str | None) -> tuple[str, str]:
@@ -175,6 +168,8 @@ def _heat(
             dotted = True
             # The scale of colours is dark at zero, whatever the background.
             panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
+        if not largest:
+            note_zero(panel, color="white")
     _colour_bar(panels, mesh, quantity)
     return dotted
 
@@ -226,25 +221,23 @@ def _colour_bar(
     bar = first.get_figure(root=False).colorbar(mesh, ax=list(panels), aspect=25, pad=0.02)  # type: ignore[union-attr]
     bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
-    if plain:
+    if not mesh.get_array().any():  # a scale of nothing would mislead
+        bar.set_ticks([0.0])
+    elif plain:
         numeric(bar.ax.yaxis)
 
 
-def _label(ax: Axes, along: str, up: str, name: str = "") -> None:
-    label_x(ax, dimension(along))
-    label_y(ax, *filter(None, [name, dimension(up)]))
-    for axis, dim in ((ax.xaxis, along), (ax.yaxis, up)):
-        if dim.endswith("_deg"):
-            degrees(axis)
-        else:
-            numeric(axis, whole=dim == "order")
-
-
-def _label_all(panels: NDArray[Any], along: str, up: str, rows: Rows) -> None:
+def _label_all(made: Panels, along: str, up: str, rows: Rows) -> None:
     """Name the columns above them, the rows and axes on the left and below."""
-    for row, of_row in zip(rows.rows, panels, strict=True):
-        for panel in of_row:
-            _label(panel, along, up, row.name)
-            panel.label_outer()
-    for panel, axis in zip(panels[0], rows.columns, strict=True):
-        head(panel, axis)
+    for (row, column), panel in np.ndenumerate(made.axes):
+        for axis, dim in ((panel.xaxis, along), (panel.yaxis, up)):
+            if dim.endswith("_deg"):
+                degrees(axis)
+            else:
+                numeric(axis, whole=dim == "order")
+        if row == len(made.axes) - 1:
+            label_x(panel, dimension(along))
+        if not column:
+            name = "" if made.single else rows.rows[row].name
+            label_y(panel, *filter(None, [name, dimension(up)]))
+    made.name_columns(rows.columns)

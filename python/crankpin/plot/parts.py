@@ -14,27 +14,22 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.axes import (
-    entitle,
-    entitle_figure,
-    head,
+from crankpin.plot.curves import ZERO, Curve, entry_of, lines, mark
+from crankpin.plot.layout import (
+    Panels,
     inches_of,
     label_x,
     label_y,
-    many_panels,
-    one_panel,
+    make_panels,
+    set_panel_title,
 )
-from crankpin.plot.bundle import Curve
-from crankpin.plot.curves import ZERO, entry_of, lines, mark
-from crankpin.plot.legend import figure_legend, legend_below
-from crankpin.plot.orders import MOST, largest
-from crankpin.plot.rows import along_x, dimension, values_of, words_of
-from crankpin.plot.style import MOST_TOLD_APART, series
+from crankpin.plot.rows import MOST, along_x, dimension, exists, largest, values_of, words_of
+from crankpin.plot.style import DISTINCT, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.words import drawn_quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
     from crankpin.analysis.by_order import PlaneVector
@@ -49,13 +44,13 @@ def parts(
     ax: Axes | None = None,
     figure: Any = None,  # noqa: ANN401 - checked
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     x: str | None = None,
     orders: object = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw both parts over a swept number, a panel for each order and what else was swept."""
-    name = inputs.one_of("quantity", quantity, PLANE_VECTORS)
+    name = drawn_quantity(quantity, lambda name: exists(sweep, name), PLANE_VECTORS)
     along, words = along_x(sweep, x), words_of(sweep)
     if along == "engine":
         raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
@@ -67,46 +62,51 @@ def parts(
     if orders is not None:
         chosen, note = inputs.explicit_orders(orders), ""
     vectors = [getattr(sweep[order], name) for order in chosen]
-    if len(names) > MOST_TOLD_APART:
+    if len(names) > DISTINCT:
         raise InputError(
             f'kind="parts" has a panel for each of {len(names)} engines or values: sweep up to '
-            f"{MOST_TOLD_APART} beside {along}"
+            f"{DISTINCT} beside {along}"
         )
-    if ax is not None:
-        if len(chosen) * len(names) > 1:
-            raise InputError("ax: here is a panel for each order and engine; give figure")
-        ax = one_panel(ax)
-        entitle(ax, words.title, words.subtitle(name), f"order {chosen[0]}")
-        _draw(ax, sweep, vectors[0], along, style)
-        label_y(ax, QUANTITIES[name].words, QUANTITIES[name].unit)
-        legend_below(ax)
-        return ax
-    made, panels = _panels(figure, len(chosen), len(names))
+    if ax is not None and len(chosen) * len(names) > 1:
+        raise InputError("ax: here is a panel for each order and engine; give figure")
+    made, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
-        head(panel, ", ".join(filter(None, (f"order {chosen[row]}", names[column]))))
+        if not made.single:
+            of = ", ".join(filter(None, (f"order {chosen[row]}", names[column])))
+            set_panel_title(panel, of)
         _draw(panel, sweep, vectors[row], along, style, column)
-        if not panel.get_subplotspec().colspan.start:
+        if made.single or panel.get_subplotspec().is_first_col():
             label_y(panel, QUANTITIES[name].words, QUANTITIES[name].unit)
+        if made.single or panel.get_subplotspec().is_last_row():
+            label_x(panel, dimension(along))
     for of_order in panels:
         top = max(panel.get_ylim()[1] for panel in of_order)
         for panel in of_order:
             panel.set_ylim(0.0, top)
-    entitle_figure(made, words.title, words.subtitle(name), note)
+    what = f"order {chosen[0]}" if made.single else note
+    made.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]
-    figure_legend(made, [*both, *filter(None, [entry_of(panels, ZERO)])])
-    return panels
+    made.add_legend([*both, *filter(None, [entry_of(panels, ZERO)])])
+    return made.drawn if made.single else panels
 
 
-def _panels(figure: Any, orders: int, rest: int) -> tuple[FigureBase, NDArray[Any]]:  # noqa: ANN401
-    """Return a figure and its panels: (orders, rest). As many are side by side as fit."""
+def _panels(
+    ax: Axes | None,
+    figure: Any,  # noqa: ANN401 - checked
+    orders: int,
+    rest: int,
+) -> tuple[Panels, NDArray[Any]]:
+    """Return panels, also as (orders, rest). As many are side by side as fit."""
     width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
     if rest > 1 and width >= WIDE * rest:
-        made = many_panels(figure, orders, rest, sharex="col", sharey="row")
-        return made.figure, made.axes
+        made = make_panels(ax, figure, orders, rest, sharex="col", sharey="row")
+        return made, made.axes
     columns = orders if width >= WIDE * orders else 1
     height = 0.7 if rest == 1 and columns > 1 else 0.45
-    made = many_panels(figure, orders * rest // columns, columns, row_height=height, sharex="col")
-    return made.figure, made.axes.reshape(rest, orders).T
+    made = make_panels(
+        ax, figure, orders * rest // columns, columns, row_height=height, sharex="col"
+    )
+    return made, made.axes.reshape(rest, orders).T
 
 
 def _draw(
@@ -133,6 +133,3 @@ def _draw(
     from_zero(ax, float(heights.max(initial=0.0)))
     mark(ax, along, values, heights, drawn, least=False)
     (degrees if along.endswith("_deg") else numeric)(ax.xaxis)
-    grid = ax.get_subplotspec()
-    if grid is None or grid.is_last_row():
-        label_x(ax, dimension(along))

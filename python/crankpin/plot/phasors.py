@@ -16,10 +16,18 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
 from crankpin.plot import ticks
-from crankpin.plot.axes import entitle_figure, head, label_y, many_panels, say_zero
-from crankpin.plot.legend import figure_legend
+from crankpin.plot.layout import (
+    add_figure_legend,
+    label_x,
+    label_y,
+    make_panels,
+    note_zero,
+    points_of,
+    set_figure_title,
+    set_panel_title,
+)
 from crankpin.plot.style import colours, foreground, muted
-from crankpin.plot.words import number, rounded, width_of
+from crankpin.plot.words import drawn_quantity, number, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,7 +53,7 @@ def phasors(
     ax: object = None,
     figure: FigureBase | None = None,
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     orders: Orders | None = None,
     **style: Any,  # noqa: ANN401 - of arrows
 ) -> NDArray[Any]:
@@ -56,7 +64,7 @@ def phasors(
     """
     if ax is not None:
         raise InputError('ax: kind="phasors" has several panels; give figure=')
-    kind = inputs.one_of("quantity", quantity, QUANTITIES)
+    kind = drawn_quantity(quantity, lambda name: bool(np.any(getattr(result, name).peak)))
     result.request.check(kind)
     shown = inputs.explicit_orders(
         orders if orders is not None else result.request.orders or ORDERS
@@ -69,9 +77,10 @@ def phasors(
     # Square panels, each below its two lines, between the title and the legend.
     inches = len(rows) * (0.8 * width / len(shown) + 0.4) + 1.1
     row_height = (inches / height - 0.25) / len(rows)
-    figure, axes = many_panels(figure, len(rows), len(shown), row_height=row_height)
+    figure, axes, _ = make_panels(None, figure, len(rows), len(shown), row_height=row_height)
     groups = list(dict.fromkeys(arm.group for arm in arms))
     inks = dict(zip(groups, colours(axes[0, 0], len(groups)), strict=True))
+    aside = False
     for column, order in enumerate(shown):
         for row, part in enumerate(rows):
             panel, total = axes[row, column], complex(sums[row, column])
@@ -80,18 +89,20 @@ def phasors(
             room = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
             length = f"{rounded(abs(total), 4)} {QUANTITIES[kind].unit}" if total else "0"
-            head(panel, f"order {order} {part}".strip() + f"\n{length}")
-    axes[-1, 0].set_xlabel(_axis_label(kind, 0))
+            set_panel_title(panel, f"order {order} {part}".strip(), length)
+            aside = aside or room > 0.0
+    label_x(axes[-1, 0], _axis_label(kind, 0))
     for panel in axes[:, 0]:
         label_y(panel, _axis_label(kind, 1))
-    entitle_figure(
+    set_figure_title(
         figure,
         labels.name_of(result.engine),
         f"{QUANTITIES[kind].words}, {number(result.rpm)} rpm, θ = 0",
+        "arrows that cover each other are drawn side by side" if aside else "",
     )
     handles = [Line2D([], [], color=inks[name], linewidth=1.5, label=name) for name in groups]
     handles.append(Line2D([], [], color=muted(axes[0, 0], 0.5), linewidth=SUM, label="sum"))
-    figure_legend(figure, handles)
+    add_figure_legend(figure, handles)
     return axes
 
 
@@ -107,13 +118,13 @@ def _polygon(
     lengths = abs(np.diff(chain))
     longest = lengths.max(initial=0.0)
     if not longest:
-        say_zero(ax)
+        note_zero(ax)
         return 0.0
     drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
     arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
     lanes = _lanes(arrows)
     font = FontProperties(size="small")
-    lane = 5.0 + max(width_of(arms[k].part, font) for k in drawn)
+    lane = 5.0 + max(points_of(ax, arms[k].part, font) for k in drawn)
     middle = complex(chain[:-1].mean())
     for k, (start, end), aside in zip(drawn, arrows, lanes, strict=True):
         across = _across(end - start)

@@ -7,23 +7,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.axes import label_x, label_y, say_zero
+from crankpin.plot.layout import label_x, label_y, note_zero
 from crankpin.plot.style import muted
 from crankpin.plot.ticks import numeric
+from crankpin.plot.words import drawn_quantity
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
 
-def plane_vector(quantity: object) -> str:
-    """Return a quantity that traces a curve, force or moment, or raise an InputError."""
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+def plane_vector(quantity: object, exists: Callable[[str], bool]) -> str:
+    """Return the quantity to draw, one that traces a curve, or raise an InputError."""
+    among = PLANE_VECTORS if quantity is None else QUANTITIES
+    name = drawn_quantity(quantity, exists, among)
     if name not in PLANE_VECTORS:
-        cure = 'give quantity="force" or "moment"'
-        raise InputError(f"quantity = {name!r} traces no curve; {cure}")
+        hint = 'give quantity="force" or "moment"'
+        raise InputError(f"quantity = {name!r} traces no curve; {hint}")
     return name
 
 
@@ -43,12 +46,16 @@ def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -
     )
 
 
-def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15, unit: str = "") -> None:
-    """Label both axes, with one scale about zero, ``reach`` times as long as the curves need."""
+def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:
+    """Label both axes with the components of force or moment."""
     along_x, along_y = QUANTITIES[quantity].components
     unit = unit or QUANTITIES[quantity].unit
     label_x(ax, f"{along_x}, {unit}")
     label_y(ax, f"{along_y}, {unit}")
+
+
+def scale_plane(ax: Axes, reach: float = 1.15) -> None:
+    """Give both axes one scale about zero, ``reach`` times as long as the curves need."""
     ends = np.concatenate([np.abs(line.get_xydata()).ravel() for line in ax.lines] or [np.zeros(1)])
     largest = float(ends.max(initial=0.0))
     if not any(line.get_gid() == "crankpin axis" for line in ax.lines):
@@ -62,4 +69,4 @@ def dress_plane(ax: Axes, quantity: str, *, reach: float = 1.15, unit: str = "")
     numeric(ax.yaxis)
     if not largest:
         ax.set(xticks=[0.0], yticks=[0.0])
-        say_zero(ax)
+        note_zero(ax)

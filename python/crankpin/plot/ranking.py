@@ -1,4 +1,4 @@
-"""Rankings: the first objective over bank angle, or engine by engine, with the best marked."""
+"""Rankings, designs and searches: an objective over bank angle or row by row, the best marked."""
 
 from __future__ import annotations
 
@@ -8,31 +8,46 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
-from crankpin._support import labels
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin.analysis.arrangements.search import ArrangementSearch
+from crankpin.analysis.design.built import turned
+from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.analysis.ranking.ranking import Ranking
-from crankpin.plot.axes import entitle, label_x, label_y, one_panel
-from crankpin.plot.bundle import engine_looks
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import legend_below
-from crankpin.plot.marks import ring, write
-from crankpin.plot.style import MOST_TOLD_APART, SERIES, foreground, series
+from crankpin.plot.curves import engine_looks
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
+from crankpin.plot.style import DISTINCT, SERIES, foreground, ring, series, write
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
-from crankpin.plot.words import in_degrees, numbers, plain_text, rounded, short_names
+from crankpin.plot.words import (
+    in_degrees,
+    numbers,
+    objective_words,
+    plain_text,
+    rounded,
+    short_names,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin.analysis.design.designs import Design
     from crankpin.analysis.ranking.choices import Choice
 
 MOST_ENGINES = 24
 """Engines shown below each other, the best ones."""
 FEW_POINTS = 40
 """Up to so many points of a curve are marked."""
-BEST = "best bank angle"
+POINTS = 181
+"""Bank angles of a design's curve, besides those of the designs."""
+BEST, DESIGN = "best bank angle", "design"
+FORBIDDEN = "needs a pin split that is not allowed"
 
 
-@draw.register(Ranking)
+@picture.register(Ranking)
 def _ranking(
     ranking: Ranking,
     ax: Axes | None = None,
@@ -40,35 +55,29 @@ def _ranking(
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
-    ax = one_panel(ax)
+    ax = axes_or_new(ax)
     of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
     names, shared = short_names(list(ranking.names))
     title, _, common = shared.rpartition(", ")
     title = ranking.names[0] if len(names) == 1 else title or f"{len(names)} engines"
     if label:
         names = [f"{label}, {name}" if len(names) > 1 else label for name in names]
-    quantity = f"{ranking.by[0]}, {ranking.unit}".rstrip(", ")
+    quantity = objective_words(ranking.objectives[0])
     if ranking.bank_angles_deg is None:
-        note = _listed(ax, ranking, dict(zip(ranking.names, names, strict=True)), of_lines)
+        best = ranking.best(min(len(ranking), MOST_ENGINES))
+        short = dict(zip(ranking.names, names, strict=True))
+        _listed(ax, best, [short[choice.name] for choice in best], of_lines)
         label_x(ax, quantity)
-        entitle(ax, title, ranking.description(1), note)
+        rest = len(ranking) - len(best)
+        note = f"{rest} more engines not shown" if rest else ""
+        set_title(ax, title, ranking.description(1), note)
         return ax
-    entitle(ax, title, ranking.description(1), labels.HELD.get(ranking.hold or "", ""))
+    set_title(ax, title, ranking.description(1), labels.HELD.get(ranking.hold or "", ""))
     heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
-    span(ax, ranking.bank_angles_deg)
+    _dress(ax, ranking.bank_angles_deg, heights, quantity)
     _curves(ax, ranking, ranking.bank_angles_deg, heights, names, of_lines)
-    degrees(ax.xaxis)
-    numeric(ax.yaxis)
-    if not (heights < 0.0).any():
-        from_zero(ax, max(_largest(heights), ax.get_ylim()[1] / 1.08 if ax.lines else 0.0))
-    label_x(ax, "bank angle")
-    label_y(ax, quantity)
-    legend_below(ax, plain_text(common) if common else "", last=BEST)
+    add_legend(ax, common, last=BEST)
     return ax
-
-
-def _largest(heights: NDArray[np.float64]) -> float:
-    return float(np.nanmax(np.append(heights, 0.0)))
 
 
 def _curves(
@@ -84,7 +93,7 @@ def _curves(
     by_engine = [choices[name] for name in ranking.names]
     sizes = np.array([choice.value for choice in by_engine])
     looks, _ = engine_looks(ax, names, sizes, style)
-    marked = len(angles) <= FEW_POINTS and len(names) <= MOST_TOLD_APART
+    marked = len(angles) <= FEW_POINTS and len(names) <= DISTINCT
     for place, look, text in looks:
         (k,) = place
         choice = by_engine[k]
@@ -114,27 +123,162 @@ def _with_best(
     return x[in_order], y[in_order]
 
 
-def _listed(ax: Axes, ranking: Ranking, names: dict[str, str], style: dict[str, Any]) -> str:
-    """Draw engines below each other, the best first; those of the first place ringed.
+# --- designs ------------------------------------------------------------------------------------
 
-    Return a note of the engines left out.
+
+@picture.register(Designs)
+def _designs(
+    designs: Designs,
+    ax: Axes | None = None,
+    *,
+    count: int = 4,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    number = inputs.whole("count", count)
+    if number < 1:
+        raise InputError(f"count = {number}: give a whole number, 1 or more")
+    ax = axes_or_new(ax)
+    of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
+    best = designs.designs[:number]
+    names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]
+    quantity = objective_words(designs.objectives[0])
+    set_title(ax, _title(designs, len(best)), designs.description(1))
+    if designs.question.banks == 2 and designs.objectives[0].quantity:
+        _over_bank_angle(ax, designs, best, names, quantity, of_lines)
+        add_legend(ax, last=DESIGN)
+    else:
+        _listed(ax, best, names, of_lines)
+        label_x(ax, quantity)
+    return ax
+
+
+def _title(designs: Designs, shown: int) -> str:
+    question = designs.question
+    counted = f"{shown} of {designs.optima}" if shown < designs.optima else f"{shown}"
+    return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} designs"
+
+
+def _crank_text(design: Design) -> str:
+    split = design.crank.splits_text
+    return f"{design.crank.text}°" + (f" split {split.replace('-', '−')}°" if split else "")
+
+
+def _over_bank_angle(
+    ax: Axes,
+    designs: Designs,
+    best: tuple[Design, ...],
+    names: list[str],
+    quantity: str,
+    style: dict[str, Any],
+) -> None:
+    """Draw a curve for each crank, and rings at its designs, the best of all with its angle.
+
+    A curve is dotted where the firing would need pins split further than allowed.
     """
-    best = ranking.best(min(len(ranking), MOST_ENGINES))
+    question = designs.question
+    low, high = bank_angle_range(designs)
+    own = [float(each.bank_angle_deg or 0.0) for each in best]
+    angles = np.union1d(np.linspace(low, high, POINTS), own)
+    heights = designs.over_bank_angle(angles, len(best))
+    # Several designs may be dips of one curve.
+    cranks = [turned(question, each.crank, low) for each in best]
+    firsts = [cranks.index(crank) for crank in cranks]
+    curves = sorted(set(firsts))
+    looks = dict(zip(curves, series(ax, len(curves), style), strict=True))
+    _dress(ax, angles, heights, quantity)
+    least, most = question.pin_split
+    for k, look in looks.items():
+        splits = [turned(question, best[k].crank, angle).splits for angle in angles.tolist()]
+        allowed = np.array([all(least <= each <= most for each in at) for at in splits])
+        allowed |= question.hold == "pins"
+        ax.plot(
+            angles,
+            np.where(allowed, heights[k], np.nan),
+            gid=SERIES,
+            label=names[k],
+            clip_on=False,
+            **look,
+        )
+        if not allowed.all():
+            thin = look | {"linestyle": ":", "linewidth": 0.8}
+            known = FORBIDDEN in ax.get_legend_handles_labels()[1]
+            ax.plot(angles, heights[k], gid="", label="_" if known else FORBIDDEN, **thin)
+    for k, design in enumerate(best):
+        place = np.array([own[k]]), np.array([design.value])
+        ring(ax, *place, looks[firsts[k]]["color"], "o", DESIGN)
+    write(ax, own[0], best[0].value, in_degrees(float(numbers([own[0]])[0])))
+
+
+# --- searches -----------------------------------------------------------------------------------
+
+
+@picture.register(ArrangementSearch)
+def _search(
+    result: ArrangementSearch,
+    ax: Axes | None = None,
+    *,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    ax = axes_or_new(ax)
+    found = list(result)
+    angles = np.array([each.bank_angle_deg for each in found])
+    heights = np.array([max(each.second_order) for each in found])
+    without = f"{len(found)} bank angles without backward moment, {result.hold} held"
+    name = f"V{result.cylinders}"
+    set_title(ax, name, without)
+    (look,) = series(ax, 1, style)
+    dots: dict[str, Any] = {"marker": "o", "markersize": 3.2} | look | {"linestyle": ""}
+    ax.plot(angles, heights, gid=SERIES, clip_on=False, label=label or name, **dots)
+    _dress(
+        ax,
+        np.array(result.window_deg),
+        heights,
+        "larger second-order moment, over m·r·ω²·aₙ·spacing",
+    )
+    add_legend(ax)
+    return ax
+
+
+# --- both ---------------------------------------------------------------------------------------
+
+
+def _dress(
+    ax: Axes, angles: NDArray[np.float64], heights: NDArray[np.float64], quantity: str
+) -> None:
+    """Let axes show bank angles, and a quantity from zero on."""
+    span(ax, angles)
+    degrees(ax.xaxis)
+    numeric(ax.yaxis)
+    if not (heights < 0.0).any():
+        before = ax.get_ylim()[1] / 1.08 if len(ax.lines) else 0.0
+        from_zero(ax, max(_largest(heights), before))
+    label_x(ax, "bank angle")
+    label_y(ax, quantity)
+
+
+def _largest(values: NDArray[np.float64]) -> float:
+    return float(np.nanmax(values, initial=0.0))
+
+
+def _listed(
+    ax: Axes, best: Sequence[Choice | Design], names: Sequence[str], style: dict[str, Any]
+) -> None:
+    """Draw values below each other, the best first; those of the first place ringed."""
     rows = np.arange(len(best))
-    values = np.array([choice.value for choice in best])
+    values = np.array([each.value for each in best])
     values[~np.isfinite(values)] = np.nan
     (look,) = series(ax, 1, style)
     dots: dict[str, Any] = {"marker": "o", "markersize": 5.0} | look | {"linestyle": ""}
     ax.plot(values, rows, gid=SERIES, clip_on=False, label="_", **dots)
-    first = np.array([choice.place == 1 for choice in best])
+    first = np.array([each.place == 1 for each in best])
     ring(ax, values[first], rows[first], foreground(ax), "o", "_")
     for row, value in zip(rows, values, strict=True):
         if np.isfinite(value):
             write(ax, float(value), float(row), rounded(value, 4), beside=True)
-    ax.set_yticks(rows, [plain_text(names[choice.name]) for choice in best])
+    ax.set_yticks(rows, [plain_text(name) for name in names])
     ax.set_ylim(len(best) - 0.5, -0.5)
     numeric(ax.xaxis)
     if not (values < 0.0).any():
         ax.set_xlim(0.0, 1.3 * _largest(values) or 1.0)
-    rest = len(ranking) - len(best)
-    return f"{rest} more engines not shown" if rest else ""

@@ -10,15 +10,44 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
-from crankpin.plot.orders import MOST, largest
-from crankpin.plot.words import numbers, short_names
+from crankpin.plot.words import drawn_quantity, numbers, short_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
+    from crankpin.analysis.by_order import ByOrder
     from crankpin.analysis.sweeps.sweep import Sweep
+
+MOST = 4
+"""Number of orders in a picture."""
+MATTERS = 1e-3
+"""Orders whose peaks are all below this part of the largest are left out."""
+
+
+def swept_quantity(sweep: Sweep, given: object) -> str:
+    """Return the quantity asked for, by default the moment, or else the first that exists."""
+    return drawn_quantity(given, lambda name: exists(sweep, name))
+
+
+def exists(sweep: Sweep, name: str) -> bool:
+    """Return whether a quantity is determined and anywhere different from zero."""
+    found = getattr(sweep.total, name, None)
+    return found is not None and bool(found.peak.any())
+
+
+def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int], str]:
+    """Return places of the largest orders, ascending, and a note of the others, if not zero."""
+    count = len(result.orders)
+    peaks = (
+        result.read(quantity, "peak").reshape(-1, max(1, count)).max(axis=0, initial=0.0)[:count]
+    )
+    by_size = np.argsort(-peaks, kind="stable")
+    kept = [place for place in by_size[:most] if peaks[place] > MATTERS * peaks.max(initial=0.0)]
+    rest = [result.orders[place] for place in by_size if peaks[place] > 0.0 and place not in kept]
+    note = f"smaller, not shown: {labels.orders_text(tuple(sorted(rest)))}" if rest else ""
+    return sorted(int(place) for place in kept), note
 
 
 class Row(NamedTuple):

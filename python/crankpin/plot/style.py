@@ -1,4 +1,4 @@
-"""Colours and dashes: of the series on axes, and of text and marks before their background."""
+"""Colours, dashes and marks of series, and of text before its background."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ import numpy as np
 from matplotlib import colors
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
 
 # Okabe and Ito's colours, which colour-blind readers distinguish. The foreground colour follows
 # them in place of their black; yellow is too pale for a line.
@@ -27,7 +30,7 @@ DASHES: tuple[Any, ...] = (
     (0, (4, 1.5, 1.5, 1.5, 1.5, 1.5)),
     (0, (2.5, 2.5)),
 )
-MOST_TOLD_APART = len(DASHES)
+DISTINCT = len(DASHES)
 """Number of series that colours and dashes distinguish."""
 
 
@@ -134,3 +137,64 @@ def count_series(ax: Axes) -> int:
         line.get_gid() is None and not str(line.get_label()).startswith("_") for line in ax.lines
     )
     return ours + theirs
+
+
+# --- marks ---------------------------------------------------------------------------------------
+
+MARK = "crankpin mark"
+"""Marks rings by their gid."""
+
+
+def ring(
+    ax: Axes,
+    x: NDArray[Any],
+    y: NDArray[Any],
+    colour: Any,  # noqa: ANN401 - a colour
+    marker: str,
+    label: str,
+) -> None:
+    """Draw hollow marks; the first with a label on the axes is its entry in the legend."""
+    known = label in ax.get_legend_handles_labels()[1]
+    ax.plot(
+        x,
+        y,
+        linestyle="",
+        marker=marker,
+        markersize=8.0,
+        markeredgecolor=colour,
+        markeredgewidth=1.2,
+        markerfacecolor="none",
+        clip_on=False,
+        zorder=4,
+        gid=MARK,
+        label="_" if known else label,
+    )
+
+
+def write(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
+    """Write above a mark, or beside it on the right."""
+    low, high = ax.get_xlim()
+    part = (x - low) / (high - low)
+    within = "left" if part < 0.06 else "right" if part > 0.94 else "center"
+    written = ax.annotate(
+        text,
+        (x, y),
+        (8.0, 0.0) if beside else (0.0, 7.0),
+        textcoords="offset points",
+        ha="left" if beside else within,
+        va="center" if beside else "bottom",
+        fontsize="small",
+        color=foreground(ax),
+        zorder=5,
+    )
+    written.set_path_effects([withStroke(linewidth=2.5, foreground=background(ax))])
+
+
+def entry(ax: Axes, label: str) -> Line2D | None:
+    """Return an entry of a legend for marks on axes, if there are any."""
+    for line in ax.lines:
+        if line.get_label() == label:
+            handle = Line2D([], [], linestyle="", marker=line.get_marker(), label=label)
+            handle.set(markeredgecolor=foreground(ax), markerfacecolor="none")
+            return handle
+    return None

@@ -1,19 +1,159 @@
-"""Sweeps: the picture of each kind, chosen by the swept dimensions."""
+"""Sweeps: bars over engines, and the kind of picture chosen by the swept dimensions."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
-from crankpin.plot.axes import check_one_place
-from crankpin.plot.bars import bars
 from crankpin.plot.curves import curves
-from crankpin.plot.dispatch import draw
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    check_one_place,
+    label_x,
+    make_panels,
+)
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
-from crankpin.plot.style import MOST_TOLD_APART
+from crankpin.plot.rows import largest, swept_quantity, words_of
+from crankpin.plot.style import DISTINCT, background, colours, foreground, muted
+from crankpin.plot.ticks import numeric
+from crankpin.plot.words import plain_text
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+
+SUMMARY = 4
+"""The highest order by which engines are classed, and drawn by default."""
+MOST_ENGINES = 24
+HATCHES = ("", "////", "....", "xxxx")
+CLASSES = {
+    (False, False): "balanced",
+    (True, False): "shakes",
+    (False, True): "rocks",
+    (True, True): "shakes, rocks",
+}
+"""Whether there is force, and moment → the class of an engine."""
+
+
+def bars(
+    sweep: Sweep,
+    ax: Axes | None = None,
+    figure: Any = None,  # noqa: ANN401 - checked
+    *,
+    quantity: str | None = None,
+    orders: object = None,
+    **style: Any,  # noqa: ANN401 - of bars
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw the longest vectors of each engine, a panel for force and one for moment."""
+    if list(sweep.coords) != ["engine"]:
+        swept = ", ".join(sweep.coords)
+        raise InputError(f'kind = "bars" needs a sweep over engines alone, not over {swept}')
+    both = quantity is None and ax is None
+    names = ["force", "moment"] if both else [swept_quantity(sweep, quantity)]
+    chosen = _orders(sweep, names, orders)
+    peaks = [np.stack([getattr(sweep[n], name).peak for n in chosen], axis=-1) for name in names]
+    classes, words = _classes(sweep, chosen), words_of(sweep)
+    where = ", ".join([*words.parts, "longest vector"])
+    note = _note(sweep, chosen)
+    engines = min(len(words.names), MOST_ENGINES)
+    height = max(0.45, engines * (0.04 + 0.03 * len(chosen)))
+    made = make_panels(ax, figure, 1, len(names), row_height=height, sharey=True)
+    made.name_columns([QUANTITIES[name].words for name in names])
+    for panel, name, values in zip(made.axes.flat, names, peaks, strict=True):
+        _panel(panel, words.names[:engines], values[:engines], chosen, name, style)
+    _class(made.axes[0, -1], classes[:engines])
+    made.set_title(words.title, where, note)
+    made.add_legend(made.axes[0, 0].get_legend_handles_labels()[0], words.common)
+    return made.drawn
+
+
+def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[int]:
+    """Return the orders asked for, by default those of the summary, or else the largest."""
+    if orders is not None:
+        return inputs.explicit_orders(orders)
+    low = [order for order in sweep.orders if order <= SUMMARY]
+    if low:
+        return low
+    places, _ = largest(sweep, names[0])
+    return [sweep.orders[place] for place in places] or [*sweep.orders[:1], 1][:1]
+
+
+def _classes(sweep: Sweep, orders: Sequence[int]) -> list[str]:
+    """Return whether each engine shakes or rocks in these orders."""
+    force = np.stack([sweep[order].force.peak for order in orders], axis=-1)
+    moment = np.stack([sweep[order].moment.peak for order in orders], axis=-1)
+    pairs = zip(force.max(axis=-1) > 0.0, moment.max(axis=-1) > 0.0, strict=True)
+    return [CLASSES[bool(shakes), bool(rocks)] for shakes, rocks in pairs]
+
+
+def _note(sweep: Sweep, orders: Sequence[int]) -> str:
+    engines = len(sweep.coords["engine"])
+    rest = f"; {engines - MOST_ENGINES} more engines not shown" if engines > MOST_ENGINES else ""
+    return f"balanced: no force and no moment in {labels.orders_text(tuple(orders))}{rest}"
+
+
+def _panel(
+    ax: Axes,
+    names: Sequence[str],
+    peaks: NDArray[np.float64],
+    orders: Sequence[int],
+    quantity: str,
+    style: dict[str, Any],
+) -> None:
+    """Draw engines below each other, a bar for each order; hollow circles for exact zeros."""
+    rows, height = np.arange(len(names)), 0.8 / len(orders)
+    for k, (order, colour) in enumerate(zip(orders, colours(ax, len(orders)), strict=True)):
+        up, values = rows + (k - 0.5 * (len(orders) - 1)) * height, peaks[:, k]
+        look = {"color": colour, "hatch": HATCHES[k % len(HATCHES)], "edgecolor": background(ax)}
+        look |= {"linewidth": 0.0, "label": f"order {order}"} | style
+        ax.barh(up, values, 0.92 * height, **look)
+        (hollow,) = ax.plot(
+            np.zeros(int((values == 0.0).sum())),
+            up[values == 0.0],
+            linestyle="",
+            marker="o",
+            markersize=3.5,
+            markeredgecolor=colour,
+            markerfacecolor=background(ax),
+            clip_on=False,
+            zorder=3,
+        )
+        # The layout would make room for a line without points at the figure's corner.
+        hollow.set_in_layout(bool((values == 0.0).any()))
+    numeric(ax.xaxis)
+    ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
+    label_x(ax, f"peak, {QUANTITIES[quantity].unit}")
+    ax.set_yticks(rows, [plain_text(name) for name in names])
+    ax.tick_params(axis="y", length=0)
+    ax.set_ylim(len(names) - 0.5, -0.5)
+
+
+def _class(ax: Axes, classes: Sequence[str]) -> None:
+    """Write the class of each engine beside its row."""
+    for row, text in enumerate(classes):
+        ax.annotate(
+            text,
+            (1.0, row),
+            (5.0, 0.0),
+            xycoords=("axes fraction", "data"),
+            textcoords="offset points",
+            va="center",
+            fontsize="small",
+            color=foreground(ax) if text == CLASSES[False, False] else muted(ax),
+            annotation_clip=False,
+        )
+
+
+# --- sweep ---------------------------------------------------------------------------------------
 
 KINDS = {
     "curves": curves,
@@ -24,7 +164,7 @@ KINDS = {
 }
 
 
-@draw.register(Sweep)
+@picture.register(Sweep)
 def _sweep(
     result: Sweep,
     ax: Any = None,  # noqa: ANN401 - checked
@@ -56,5 +196,5 @@ def _chosen(sweep: Sweep, x: str | None) -> str:
     if not lengths and x is None:
         return "bars"
     if x is None and len(lengths) == 2 and "engine" not in sweep.coords:
-        return "map" if min(lengths) > MOST_TOLD_APART else "curves"
+        return "map" if min(lengths) > DISTINCT else "curves"
     return "curves"

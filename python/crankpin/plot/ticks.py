@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axis import XAxis
 from matplotlib.ticker import FuncFormatter, Locator, MaxNLocator
 
+from crankpin.plot.layout import inches_of, points_of
 from crankpin.plot.words import in_degrees, number
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
@@ -23,57 +24,77 @@ DEGREE_STEPS = (15, 30, 45, 60, 90, 180, 360, 720)
 
 
 class RoundLocator(Locator):
-    """Ticks at round numbers, as many as fit beside each other."""
+    """Ticks at round numbers, as many as have room for their labels beside each other."""
+
+    write = staticmethod(number)
+    """Writes the label of a tick."""
 
     def __init__(self, most: int, *, whole: bool = False) -> None:
         self.most = most
         """Largest number of steps."""
         self.whole = whole
         """Whether ticks are at whole numbers only."""
+        self._state: tuple[float, ...] = ()
+        self._places: Sequence[float] = ()
 
     def __call__(self) -> Sequence[float]:
         """Return the places of the ticks."""
         assert self.axis is not None  # noqa: S101 - by Axis.set_major_locator
-        return self.tick_values(*self.axis.get_view_interval())
+        limits = tuple(map(float, self.axis.get_view_interval()))
+        # A layout asks a hundred times for one picture: measuring anew takes four times as long.
+        axis: Any = self.axis
+        state = (*limits, *axis.axes.bbox.size)
+        if state != self._state:
+            self._state, self._places = state, self.tick_values(*limits)
+        return self._places
 
     def tick_values(self, vmin: float, vmax: float) -> Sequence[float]:
         """Return the places of the ticks between two values."""
         low, high = sorted((vmin, vmax))
-        longest = max(len(number(float(f"{end:.2g}"))) for end in (low, high))
-        steps = MaxNLocator(self._room(longest), steps=STEPS, integer=self.whole)
-        return steps.tick_values(low, high)
+        places: Sequence[float] = []
+        for places in self._candidates(low, high):
+            inside = [each for each in places if low <= each <= high]
+            if self.axis is None or high == low or self._fit(inside, high - low):
+                break
+        return places
 
-    def _room(self, characters: int) -> int:
-        """Return the number of labels that fit along the axis."""
-        if self.axis is None:
-            return self.most
-        space = self.axis.get_tick_space()
-        if isinstance(self.axis, XAxis):
-            # Matplotlib counts labels of three sizes of type; a digit is 0.6 wide. The labels at
-            # the ends stick out by half of their width.
-            space = int(3 * space / (0.6 * characters + 1.2) - 0.5)
-        return max(1, min(self.most, space))
+    def _candidates(self, low: float, high: float) -> Iterator[Sequence[float]]:
+        """Yield places of ticks, ever fewer."""
+        for count in range(self.most, 0, -1):
+            found = MaxNLocator(count, steps=STEPS, integer=self.whole).tick_values(low, high)
+            yield [each for each in found if not self.whole or each == round(each)]
+
+    def _fit(self, places: Sequence[float], span: float) -> bool:
+        """Return whether labels at these places do not touch."""
+        if len(places) < 2:
+            return True
+        axis: Any = self.axis
+        font = axis.get_major_ticks(1)[0].label1.get_fontproperties()
+        size = font.get_size_in_points()
+        if isinstance(axis, XAxis):
+            room = inches_of(axis.axes)
+            longest = max(map(self.write, places), key=len)
+            needed = 0.8 * size + points_of(axis.axes, longest, font)
+        else:
+            room, needed = inches_of(axis.axes, "height"), 1.5 * size
+        return 72.0 * room * float(np.diff(places).min()) / span >= needed
 
 
 class DegreeLocator(RoundLocator):
-    """Ticks at parts of a turn, as many as fit beside each other."""
+    """Ticks at parts of a turn, as many as have room for their labels beside each other."""
+
+    write = staticmethod(in_degrees)
 
     def __init__(self) -> None:
         super().__init__(8)
 
-    def tick_values(self, vmin: float, vmax: float) -> Sequence[float]:
-        """Return the places of the ticks between two angles."""
-        low, high = sorted((vmin, vmax))
-        room = self._room(4)
-        step = next((s for s in DEGREE_STEPS if high - low <= s * room), DEGREE_STEPS[-1])
-        if high - low < 2 * step:
-            places_between: Sequence[float] = MaxNLocator(room, steps=[1, 2, 5, 10]).tick_values(
-                low, high
-            )
-            return places_between
-        first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
-        places: list[int] = (step * np.arange(int(first), int(last) + 1)).tolist()
-        return places
+    def _candidates(self, low: float, high: float) -> Iterator[Sequence[float]]:
+        for step in DEGREE_STEPS:
+            if 2 * step <= high - low <= self.most * step:
+                first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
+                yield (step * np.arange(int(first), int(last) + 1)).tolist()
+        for count in range(self.most, 0, -1):
+            yield MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
 
 
 def degrees(axis: Axis) -> None:

@@ -13,12 +13,11 @@ from matplotlib.patches import Rectangle
 from crankpin._support import inputs, labels
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.tolerances.samples import QUANTILES, Tolerances
-from crankpin.plot.axes import entitle, inches_of, label_x, label_y, one_panel
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import legend_below
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_x, label_y, set_title
 from crankpin.plot.style import SERIES, foreground, muted, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import plain_text
+from crankpin.plot.words import objective_words, plain_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,12 +26,14 @@ if TYPE_CHECKING:
 MOST_BINS = 80
 ROUNDING = 1e-9
 """Relative difference of values that is drawn as none."""
+INTERACTION = 0.05
+"""Difference of summed shares from 1 that is explained."""
 LEAST_SHARE = 0.5
 """Percent below which a tolerance has no entry in the legend."""
 NOMINAL = "nominal"
 
 
-@draw.register(Tolerances)
+@picture.register(Tolerances)
 def _tolerances(
     result: Tolerances,
     ax: Axes | None = None,
@@ -45,19 +46,19 @@ def _tolerances(
     kinds = {"histogram": _histogram, "ecdf": _ecdf, "shares": None}
     distribution = kinds[inputs.one_of("kind", kind, kinds)]
     if distribution is None:
-        return _shares(result, one_panel(ax), by, style)
+        return _shares(result, axes_or_new(ax), by, style)
     name = result.by[0] if by is None else by
     values = result.values(name)
-    ax = one_panel(ax)
+    ax = axes_or_new(ax)
     objective = objectives.named(name)
-    entitle(ax, labels.name_of(result.engine), _words(result, objective.words))
+    set_title(ax, labels.name_of(result.engine), _words(result, objective.words))
     (look,) = series(ax, 1, mpl.cbook.normalize_kwargs(style, Line2D))
     distribution(ax, values, look, label or f"{result.samples} samples")
     _nominal(ax, result.nominal_value(name))
     numeric(ax.xaxis)
     numeric(ax.yaxis)
-    label_x(ax, f"{name}, {objective.unit}")
-    legend_below(ax, last=NOMINAL)
+    label_x(ax, objective_words(objective))
+    add_legend(ax, last=NOMINAL)
     return ax
 
 
@@ -131,7 +132,13 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     rows = np.arange(len(shares.by))
     ax.set_yticks(rows, [plain_text(name) for name in shares.by])
     _fit_rows(ax, len(rows))
-    entitle(ax, labels.name_of(result.engine), "variance by each tolerance alone; 100 % by all")
+    interact = bool((abs(shares.interaction) > INTERACTION).any())
+    set_title(
+        ax,
+        labels.name_of(result.engine),
+        "variance that each tolerance makes alone, in % of that of all together",
+        "sums differ from 100 % where tolerances interact" if interact else "",
+    )
     left = np.zeros(len(rows))
     looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
     for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):
@@ -145,7 +152,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     ax.set_xlim(0.0, max(100.0, 1.04 * float(left.max(initial=0.0))))
     numeric(ax.xaxis)
     label_x(ax, f"%, {labels.value_text('rpm', result.rpm)}")
-    legend_below(ax)
+    add_legend(ax)
     return ax
 
 

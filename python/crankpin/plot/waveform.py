@@ -1,25 +1,249 @@
-"""Waveforms: curves over crank angle, and orbits."""
+"""Waveforms: curves over crank angle, orbits, and the waveforms of a sweep."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
+import numpy as np
+from matplotlib.lines import Line2D
+
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.waveform import Waveform
-from crankpin.plot.axes import entitle, label_x, label_y, one_panel, say_zero
-from crankpin.plot.dispatch import draw
-from crankpin.plot.legend import legend_below
-from crankpin.plot.orbit import orbit
-from crankpin.plot.style import SERIES, count_series, muted, series
+from crankpin.plot.curves import bundle_of, colour_scale
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    check_one_place,
+    label_x,
+    label_y,
+    make_panels,
+    note_zero,
+    set_title,
+)
+from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
+from crankpin.plot.rows import words_of
+from crankpin.plot.style import DISTINCT, SERIES, count_series, foreground, muted, series
 from crankpin.plot.ticks import degrees, numeric, span
-from crankpin.plot.words import by_component, number, series_names, summed, with_unit
+from crankpin.plot.words import (
+    by_component,
+    drawn_quantity,
+    in_degrees,
+    number,
+    series_names,
+    summed,
+    with_unit,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
 
-@draw.register(Waveform)
+DOTS, LABELS = 30.0, 90.0
+"""Degrees between dots, and between dots with their angle."""
+SAME = 0.08
+"""Part of the orbit's radius within which dots share one label."""
+ARROWS = (15.0, 135.0, 255.0)
+"""Crank angles of the arrows, degrees."""
+
+
+def orbit(
+    result: Waveform,
+    ax: Axes | None = None,
+    *,
+    quantity: str | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    """Draw the tip of a force or moment, with crank angles and the direction marked."""
+    name = plane_vector(quantity, lambda name: _exists(result, name))
+    ax = axes_or_new(ax)
+    where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm, {summed(result, name)}"
+    set_title(ax, labels.name_of(result.engine), where)
+    values, theta = getattr(result, name), result.theta_deg
+    # A second turn would fill the gaps of dashes.
+    first_turn = theta <= theta.min(initial=np.inf) + 360.0
+    values, theta = values[first_turn], theta[first_turn]
+    curve = values[:, 0] + 1j * values[:, 1]
+    alone = not count_series(ax)
+    text = label or labels.name_of(result.engine)
+    (look,) = series(ax, 1, style)
+    (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text, **look)
+    colour = line.get_color()
+    if curve.any():
+        for angle in ARROWS:
+            place = int(np.searchsorted(theta, angle))
+            if 0 < place < len(theta):
+                arrow_at(ax, curve, place, colour)
+        dots = _places(theta, DOTS)
+        ax.plot(curve.real[dots], curve.imag[dots], "o", color=colour, markersize=3.5)
+    scale_plane(ax, 1.4)  # room for the angles
+    label_plane(ax, name)
+    if alone:  # of several orbits, numbers would not say whose they are
+        for where_to, angles in _labelled(theta, curve):
+            _annotate(ax, where_to, angles)
+    add_legend(ax)
+    return ax
+
+
+def _exists(result: Waveform | SweepWaveform, name: str) -> bool:
+    """Return whether a quantity is determined and anywhere different from zero."""
+    return bool(np.any(getattr(result, name, 0.0)))
+
+
+def _places(theta: NDArray[np.float64], step: float) -> NDArray[np.intp]:
+    """Return the places of multiples of a step in the first turn."""
+    angles = np.round(theta / step) * step
+    within = (abs(theta - angles) < 1e-9) & (theta - theta.min(initial=np.inf) < 360.0 - 1e-9)
+    return np.flatnonzero(within)
+
+
+def _labelled(
+    theta: NDArray[np.float64], curve: NDArray[np.complex128]
+) -> Iterator[tuple[complex, str]]:
+    """Yield points and the crank angles at which the curve passes them."""
+    near = SAME * float(abs(curve).max(initial=0.0))
+    rest = list(_places(theta, LABELS)) if near else []
+    while rest:
+        here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
+        yield complex(curve[rest[0]]), ", ".join(in_degrees(float(theta[k])) for k in here)
+        rest = [place for place in rest if place not in here]
+
+
+def _annotate(ax: Axes, point: complex, text: str) -> None:
+    """Write beside a point, on the side away from the centre."""
+    outward = point / abs(point) if point else 1.0 + 0.0j
+    ax.annotate(
+        text,
+        (point.real, point.imag),
+        (11.0 * outward.real, 11.0 * outward.imag),
+        textcoords="offset points",
+        fontsize="small",
+        color=foreground(ax),
+        ha="center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right",
+        va="center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top",
+    )
+
+
+# --- sweep waveform ------------------------------------------------------------------------------
+
+KINDS = ("curves", "envelope")
+BANDS = ((0.0, 1.0, 0.2, "smallest to largest"), (0.25, 0.75, 0.35, "middle half"))
+"""Quantiles between which a band lies, its opacity, and its name."""
+
+
+@picture.register(SweepWaveform)
+def _sweep_waveform(
+    result: SweepWaveform,
+    ax: Any = None,  # noqa: ANN401 - checked
+    *,
+    figure: Any = None,  # noqa: ANN401 - checked
+    kind: str | None = None,
+    quantity: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    count = math.prod(len(values) for values in result.sweep.coords.values())
+    chosen = "curves" if count <= DISTINCT else "envelope"
+    if kind is not None:
+        chosen = inputs.one_of("kind", kind, KINDS)
+    values, columns = np.asarray(getattr(result, name)), list(QUANTITIES[name].components)
+    if ax is not None and name in PLANE_VECTORS:
+        values, columns = np.linalg.norm(values, axis=-1, keepdims=True), ["length of the vector"]
+    else:
+        values = by_component(values, name)
+    draw_panels = _curves if chosen == "curves" else _envelope
+    of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
+    words = words_of(result.sweep)
+    points = f"{count} points of a sweep" if chosen == "envelope" else ""
+    made = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
+    made.name_columns(columns)
+    handles = draw_panels(made.axes, result, values, of_lines)
+    for k, panel in enumerate(made.axes.flat):
+        _dress(panel, result.theta_deg, values[..., k])
+    label_y(made.axes[0, 0], with_unit(name))
+    column = columns[0] if made.single else ""
+    how = ", ".join(filter(None, [summed(result, name), column, points]))
+    made.set_title(words.title, words.subtitle(name), how)
+    made.add_legend(handles, words.common if chosen == "curves" else "")
+    return made.drawn
+
+
+def _curves(
+    panels: NDArray[Any],
+    result: SweepWaveform,
+    values: NDArray[np.float64],
+    style: dict[str, Any],
+) -> list[Any]:
+    """Draw a curve for each point of the sweep; return the entries of a legend."""
+    sweep = result.sweep
+    sizes = np.abs(values).max(axis=(-1, -2)).reshape(-1)
+    bundle = bundle_of(panels[0, 0], sweep, list(sweep.coords), words_of(sweep), sizes, style)
+    for k, panel in enumerate(panels.flat):
+        for curve in bundle.curves:
+            heights = values[..., k][curve.place]
+            panel.plot(
+                result.theta_deg, heights, gid=SERIES, label=curve.name or "_", **curve.style
+            )
+    if bundle.scale:
+        colour_scale(panels, sweep, bundle.scale)
+    return list(bundle.handles)
+
+
+def _envelope(
+    panels: NDArray[Any],
+    result: SweepWaveform,
+    values: NDArray[np.float64],
+    style: dict[str, Any],
+) -> list[Any]:
+    """Draw bands of quantiles over all points, and the median; return the entries of a legend."""
+    label = style.get("label")
+    handles: list[Any] = []
+    for k, panel in enumerate(panels.flat):
+        heights = values[..., k].reshape(-1, len(result.theta_deg))
+        (look,) = series(panel, 1, style)
+        handles = [
+            panel.fill_between(
+                result.theta_deg,
+                *np.quantile(heights, (low, high), axis=0),
+                color=look["color"],
+                alpha=opacity,
+                linewidth=0.0,
+                label=", ".join(filter(None, [label, text])),
+            )
+            for low, high, opacity, text in BANDS
+        ]
+        text = ", ".join(filter(None, [label, "median"]))
+        median = np.quantile(heights, 0.5, axis=0)
+        handles += panel.plot(result.theta_deg, median, gid=SERIES, label=text, **look)
+    return handles
+
+
+def _dress(ax: Axes, theta_deg: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+    """Let axes show crank angles, and a line at zero."""
+    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
+    degrees(ax.xaxis)
+    span(ax, theta_deg)
+    numeric(ax.yaxis)
+    label_x(ax, "crank angle θ")
+    if not values.any():
+        ax.set_ylim(-1.0, 1.0)
+        ax.set_yticks([0.0])
+        note_zero(ax)
+
+
+# --- waveform ------------------------------------------------------------------------------------
+
+
+@picture.register(Waveform)
 def _waveform(
     result: Waveform,
     ax: Axes | None = None,
@@ -34,35 +258,26 @@ def curves(
     result: Waveform,
     ax: Axes | None = None,
     *,
-    quantity: str = "moment",
+    quantity: str | None = None,
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw a quantity over crank angle, a curve for each axis."""
-    name = inputs.one_of("quantity", quantity, QUANTITIES)
+    name = drawn_quantity(quantity, lambda name: _exists(result, name))
     values = by_component(getattr(result, name), name)
-    ax = one_panel(ax)
+    ax = axes_or_new(ax)
     where = f"{number(result.rpm)} rpm, {summed(result, name)}"
-    entitle(ax, labels.name_of(result.engine), where)
+    set_title(ax, labels.name_of(result.engine), where)
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     first = not count_series(ax)
-    if first:
-        ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
     styles = series(ax, values.shape[1], style)
     for k, text in enumerate(series_names(name, label)):
         ax.plot(result.theta_deg, values[:, k], gid=SERIES, label=text, **styles[k])
-    degrees(ax.xaxis)
     if first:
-        span(ax, result.theta_deg)
-    numeric(ax.yaxis)
-    label_x(ax, "crank angle θ")
-    label_y(ax, with_unit(name))
-    if first and not values.any():
-        ax.set_ylim(-1.0, 1.0)
-        ax.set_yticks([0.0])
-        say_zero(ax)
-    legend_below(ax)
+        _dress(ax, result.theta_deg, values)
+        label_y(ax, with_unit(name))
+    add_legend(ax)
     return ax
 
 

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.textpath import TextPath
 
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
-    from matplotlib.font_manager import FontProperties
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.sweeps.waveform import SweepWaveform
     from crankpin.analysis.waveform import Waveform
 
@@ -59,53 +57,36 @@ def short_names(names: Sequence[str]) -> tuple[list[str], str]:
     """Return names without the words they share at either end, and these words."""
     words = [name.split() for name in names]
     shortest = min(len(each) for each in words) - 1
-    head = tail = 0
+    start = tail = 0
     if len(set(names)) > 1:
-        while head < shortest and len({each[head] for each in words}) == 1:
-            head += 1
-        while tail < shortest - head and len({each[-1 - tail] for each in words}) == 1:
+        while start < shortest and len({each[start] for each in words}) == 1:
+            start += 1
+        while tail < shortest - start and len({each[-1 - tail] for each in words}) == 1:
             tail += 1
-    shared = words[0][:head] + words[0][len(words[0]) - tail :]
-    short = [" ".join(each[head : len(each) - tail]).strip(",;:") for each in words]
+    shared = words[0][:start] + words[0][len(words[0]) - tail :]
+    short = [" ".join(each[start : len(each) - tail]).strip(",;:") for each in words]
     return short, " ".join(shared).rstrip(",;:")
 
 
-# --- text that fits -----------------------------------------------------------------------------
-
-HINTED = 1.06
-"""Text drawn with few dots per inch, relative to its outlines: hinting moves letters apart."""
-
-
-def width_of(text: str, font: FontProperties) -> float:
-    """Return the width of a line of text at screen resolution, points."""
-    if not text.strip():
-        return 0.0
-    path = TextPath((0.0, 0.0), plain_text(text), size=font.get_size_in_points(), prop=font)
-    return HINTED * float(path.get_extents().x1)
-
-
-def wrapped(text: str, width: float, font: FontProperties) -> str:
-    """Break lines of text between words, so that they are narrower than ``width`` points."""
-    lines = []
-    for line in text.split("\n"):
-        whole = width_of(line, font)
-        if whole <= width:
-            lines.append(line)
-            continue
-        characters = max(8, int(len(line) * width / whole))
-        lines += textwrap.wrap(line, characters, break_long_words=False, break_on_hyphens=False)
-    return "\n".join(lines)
-
-
-def shortened(text: str, width: float, font: FontProperties) -> str:
-    """Cut text to ``width`` points, with an ellipsis."""
-    whole = width_of(text, font)
-    if whole <= width:
-        return text
-    return f"{text[: max(1, int(len(text) * width / whole) - 1)].rstrip(' ,;:')}…"
-
-
 # --- quantities ---------------------------------------------------------------------------------
+
+
+def drawn_quantity(
+    given: object, exists: Callable[[str], bool], among: Iterable[str] = QUANTITIES
+) -> str:
+    """Return the quantity asked for; by default the moment, or else the first that exists.
+
+    ``exists`` tells whether a quantity is anywhere different from zero.
+    """
+    if given is not None:
+        return inputs.one_of("quantity", given, among)
+    names = [name for name in ("moment", "force", "torque") if name in among]
+    return next((name for name in names if exists(name)), names[0])
+
+
+def objective_words(objective: Objective) -> str:
+    """Return what an objective is, with its unit, for an axis."""
+    return ", ".join(filter(None, [objective.words.split(", ")[0], objective.unit]))
 
 
 def with_unit(quantity: str, *, peak: bool = False) -> str:

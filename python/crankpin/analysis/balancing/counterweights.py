@@ -383,7 +383,7 @@ class Counterweights(Frozen, Shown):
         *,
         figure: Figure | SubFigure | None = None,
         kind: str = "summary",
-        quantity: str = "moment",
+        quantity: str | None = None,
         **style: Any,  # noqa: ANN401 - of lines
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw the weights, and what order 1 does before and after; return the axes.
@@ -400,7 +400,7 @@ class Counterweights(Frozen, Shown):
             its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
             ``"ellipses"``: what order 1 traces before and after.
         quantity
-            ``"force"`` or ``"moment"``, for ``"ellipses"``.
+            ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the one that is not zero.
         **style
             ``label`` and properties of matplotlib lines.
         """

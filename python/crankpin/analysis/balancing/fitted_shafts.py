@@ -210,7 +210,7 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         columns = ["shaft", "ratio", "order", "part", "x", "y", "z", "amount", "angle_deg"]
         return optional.data_frame(rows, columns=columns)
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.
 
         Parameters
@@ -218,7 +218,8 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         ax
             Axes to draw on; by default new ones.
         quantity
-            ``"force"``, ``"moment"`` or ``"torque"``, all over ω².
+            ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
+            the first that is not zero.
         **style
             Passed on to the markers; ``label`` names the result in a legend.
         """

@@ -479,8 +479,8 @@ class Sweep(ByOrder, Tabled):
             4, with the class of each engine. By default bars for engines alone, a map for two long
             numeric dimensions, otherwise curves.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, of
-            bars force and moment.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment,
+            or else the first that is not zero, of bars force and moment.
         x
             The dimension along the horizontal axis; by default the longest.
         orders

@@ -167,7 +167,7 @@ class SweepWaveform(OverAngle, Record):
         *,
         figure: Figure | SubFigure | None = None,
         kind: str | None = None,
-        quantity: str = "moment",
+        quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw a quantity over crank angle, a panel for each axis; return the axes.
@@ -183,7 +183,8 @@ class SweepWaveform(OverAngle, Record):
             points, the range of their middle half, and the median. By default curves if colours and
             dashes distinguish them.
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
+            else the first that is not zero.
         **options
             ``label``, put before the names in the legend; colour, line width and other properties
             of matplotlib lines.

@@ -1,0 +1,264 @@
+"""Balance shafts, sets of hardware, and bob weights: what they leave."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.lines import Line2D
+
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin.analysis.balancing.balancers import BalancerOptions
+from crankpin.analysis.balancing.bob_weight import BobWeight
+from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.style import (
+    SERIES,
+    background,
+    count_series,
+    font_of,
+    foreground,
+    muted,
+    ring,
+    series,
+    write,
+)
+from crankpin.plot.ticks import from_zero, numeric
+from crankpin.plot.words import drawn_quantity, in_degrees, number, plain_text, rounded
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from crankpin.analysis.balancing.balancers import BalancerOption
+
+
+def names_there(ax: Axes) -> list[str]:
+    """Return the names of the rows of results drawn on axes before."""
+    return [text.get_text() for text in ax.get_yticklabels()] if count_series(ax) else []
+
+
+def rows_for(
+    ax: Axes,
+    names: Sequence[str],
+    **style: Any,  # noqa: ANN401 - of text
+) -> NDArray[np.intp]:
+    """Return the rows of these names, new ones below those there; name them on the left."""
+    wanted = [plain_text(name) for name in names]
+    every = list(dict.fromkeys([*names_there(ax), *wanted]))
+    ax.set_yticks(np.arange(len(every)), every, **style)
+    ax.tick_params(axis="y", length=0, pad=8)
+    ax.set_ylim(len(every) - 0.5, -0.5)
+    return np.array([every.index(name) for name in wanted], dtype=np.intp)
+
+
+def wide_enough(ax: Axes, largest: float) -> None:
+    """Let the horizontal axis begin at zero and have room for this value and those there."""
+    there = ax.get_xlim()[1] if count_series(ax) else 0.0
+    ax.set_xlim(0.0, max(there, 1.08 * largest) or 1.0)
+
+
+# --- balance shafts ------------------------------------------------------------------------------
+
+CHANGE = "crankpin change"
+"""Marks the lines from without to with shafts by their gid."""
+
+
+@picture.register(BalanceShafts)
+def _balance_shafts(
+    result: BalanceShafts,
+    ax: Axes | None = None,
+    *,
+    quantity: str | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of markers
+) -> Axes:
+    every = result.parts()
+    there = {each.quantity for each in every if max(each.before, each.after) > 0.0}
+    name = drawn_quantity(quantity, there.__contains__, SHAKEN)
+    ax = axes_or_new(ax)
+    parts = [each for each in every if each.quantity == name]
+    before, after = (
+        np.array([getattr(each, when) for each in parts]) for when in ("before", "after")
+    )
+    set_title(ax, labels.name_of(result.before), "with and without balance shafts")
+    if label is None and count_series(ax):
+        label = labels.name_of(result.before)
+    wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
+    rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
+    ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
+    given = mpl.cbook.normalize_kwargs(style, Line2D)
+    # What does not change is a dot in a ring.
+    for values, text, size in ((before, "without shafts", 9.0), (after, "with shafts", 4.5)):
+        (look,) = series(ax, 1, given)
+        marks: dict[str, Any] = {"marker": "o", "markersize": size} | look | {"linestyle": ""}
+        if values is before:
+            marks |= {"markerfacecolor": background(ax), "markeredgewidth": 1.5}
+        named = f"{label}, {text}" if label else text
+        ax.plot(values, rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
+    numeric(ax.xaxis)
+    label_x(ax, f"{QUANTITIES[name].words} over ω², {QUANTITIES[name].unit_over_square}")
+    add_legend(ax)
+    return ax
+
+
+# --- balancers -----------------------------------------------------------------------------------
+
+MOST_SETS = 24
+"""Largest number of sets shown below each other, those with the fewest shafts."""
+MARKERS = "os^Dv"
+TARGET = "crankpin target"
+"""Marks the lines at the targets by their gid."""
+REACHED = "target reached"
+SMALLEST = 5.0
+"""Points of the smallest type of the rows."""
+
+
+@picture.register(BalancerOptions)
+def _balancers(
+    result: BalancerOptions,
+    ax: Axes | None = None,
+    *,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of markers
+) -> Axes:
+    ax = axes_or_new(ax)
+    alone = not count_series(ax)
+    room = _room(ax)
+    most = max(1, min(MOST_SETS, int(room / SMALLEST)) - len(names_there(ax)))
+    shown = result.front[:most]
+    left_out = len(result.front) - len(shown)
+    set_title(
+        ax,
+        labels.name_of(result.before),
+        f"hardware, {number(result.rpm)} rpm" + f"; {left_out} more" * bool(left_out),
+    )
+    if label is None and not alone:
+        label = labels.name_of(result.before)
+    start = np.array(result[0].values)
+    parts = np.array([each.values for each in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
+    drawn = [k for k, value in enumerate(start) if value > 0.0]
+    wide_enough(ax, max(100.0, float(parts[:, drawn].max(initial=0.0))))
+    rows = rows_for(ax, [_short(each.name) for each in shown])
+    usual = font_of("ytick.labelsize", "medium").get_size_in_points()
+    size = max(SMALLEST, min(usual, room / len(ax.get_yticks())))
+    ax.tick_params(axis="y", labelsize=size)
+    given = mpl.cbook.normalize_kwargs(style, Line2D)
+    limits = dict(result.targets)
+    reached = np.array([each.reaches for each in shown])
+    for k in drawn:
+        name = result.by[k]
+        (look,) = series(ax, 1, given)
+        marker = MARKERS[count_series(ax) % len(MARKERS)]
+        marks: dict[str, Any] = {"marker": marker, "markersize": min(6.0, size)} | look
+        marks |= {"linestyle": ""}
+        named = f"{label}, {name}" if label else name
+        ax.plot(parts[:, k], rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
+        if name in limits:
+            limit = limits[name] / start[k] * 100.0
+            ax.axvline(limit, color=marks["color"], linewidth=1.0, linestyle=":", gid=TARGET)
+        if reached.any():
+            ring(ax, parts[reached, k], rows[reached], foreground(ax), "o", REACHED)
+    if alone:
+        _write_amounts(ax, rows, shown, size)
+    else:  # amounts of several engines would share a row
+        for child in ax.child_axes:
+            child.set_visible(False)
+    if alone and not drawn:
+        note_zero(ax)
+    numeric(ax.xaxis)
+    label_x(ax, "what stays, % (nothing fitted: 100)")
+    add_legend(ax, last=REACHED)
+    return ax
+
+
+def _room(ax: Axes) -> float:
+    """Return the points of type that fit below each other: about half of the height of axes."""
+    figure: Any = ax.get_figure(root=True)
+    inches = float(ax.get_window_extent().height / figure.dpi)
+    return max(SMALLEST, 0.5 * 72.0 * inches / 1.1)
+
+
+def _write_amounts(
+    ax: Axes, rows: NDArray[np.intp], shown: Sequence[BalancerOption], size: float
+) -> None:
+    """Write the unbalance of each set on the right."""
+    amounts = ax.secondary_yaxis("right")
+    amounts.set_yticks(rows, [rounded(1000.0 * each.unbalance) for each in shown], fontsize=size)
+    amounts.tick_params(axis="y", length=0, pad=6, labelcolor=muted(ax))
+    amounts.set_ylabel("unbalance, g·m", color=muted(ax))
+    amounts.spines["right"].set_visible(False)
+
+
+def _short(name: str) -> str:
+    """Return the name of a set as short as columns of papers need it."""
+    for long, short in (
+        ("counterweights", "weights"),
+        (" + ", ", "),
+        ("shafts ", ""),
+        ("shaft ", ""),
+        (" alone", ""),
+    ):
+        name = name.replace(long, short)
+    return name
+
+
+# --- bob weight ----------------------------------------------------------------------------------
+
+POINTS = 201
+
+
+@picture.register(BobWeight)
+def _bob_weight(
+    result: BobWeight,
+    ax: Axes | None = None,
+    *,
+    quantity: str | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    name = _chosen(result, quantity)
+    ax = axes_or_new(ax)
+    if label is None and count_series(ax):
+        label = labels.name_of(result.before)
+    lines = result.straight(name)
+    end = max(1.0, result.factor, *(line.factor for line in lines))
+    # Both half axes have corners at these factors.
+    corners = [line.factor for line in lines] + [result.least(name) or 0.0, result.factor]
+    factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
+    stays = result.stays(name, factors)
+    own = result.stays(name)
+    set_title(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
+    curves = {"longest": stays.major, "shortest": np.abs(stays.minor)}
+    for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
+        full = f"{label}: {text}" if label else text
+        ax.plot(factors, values, gid=SERIES, label=full, **look)
+    ax.axvline(result.factor, color=muted(ax, 0.5), linewidth=0.8, zorder=1, gid="crankpin own")
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    ax.set_xlim(0.0, end)
+    drawn = [line.get_ydata() for line in ax.lines if line.get_gid() == SERIES]
+    from_zero(ax, max(float(np.max(values)) for values in drawn))
+    x = np.array([result.factor, result.factor])
+    ring(ax, x, np.array([own.major, abs(own.minor)]), foreground(ax), "o", "this factor")
+    if lines:
+        x = np.array([line.factor for line in lines])
+        ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
+        for line in lines:
+            write(ax, line.factor, 0.0, in_degrees(round(line.direction_deg, 1)))
+    label_x(ax, "balance factor")
+    label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
+    add_legend(ax)
+    return ax
+
+
+def _chosen(result: BobWeight, quantity: object) -> str:
+    """Return the quantity given, or the force, or the moment if there is no force."""
+    if quantity is not None:
+        return inputs.one_of("quantity", quantity, PLANE_VECTORS)
+    return "force" if result.stays("force", 0.0).major > 0.0 else "moment"

@@ -1,0 +1,418 @@
+"""Axes and figures, given or new; titles, labels and legends fitted to the room that they get."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
+from matplotlib.transforms import ScaledTranslation
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.plot.style import font_of, muted
+from crankpin.plot.words import plain_text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from matplotlib.font_manager import FontProperties
+    from numpy.typing import NDArray
+
+SHORT = 1.9
+"""Inches of height of a subplot below which its title has at most two lines."""
+MOST_PASSES = 4
+"""Layouts of a figure after which texts and legends stay as they are; most pictures take two."""
+MOST_ROWS = 2
+"""Rows of a legend that is no wider than its axes."""
+GAP = 4.0
+"""Points between the labels of an axis and the legend."""
+HANDLE, BETWEEN = 2.2, 1.2
+"""Length of a line in a legend, and distance of its columns, in sizes of type."""
+
+
+class Panels(NamedTuple):
+    """Panels of a picture, and the figure that they fill, or the axes that were given."""
+
+    figure: FigureBase
+    axes: NDArray[Any]
+    """The panels: (rows, columns)."""
+    single: bool = False
+    """True for axes that were given: they take title and legend of the picture."""
+
+    @property
+    def drawn(self) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """What a picture returns."""
+        return self.axes[0, 0] if self.single else self.axes
+
+    def set_title(self, *lines: str) -> None:
+        """Put lines above all panels on the left."""
+        if self.single:
+            set_title(self.axes[0, 0], *lines)
+        else:
+            set_figure_title(self.figure, *lines)
+
+    def name_columns(self, names: Sequence[str]) -> None:
+        """Put a name above each column of several panels."""
+        for panel, name in zip(self.axes[0], [] if self.single else names, strict=False):
+            set_panel_title(panel, name)
+
+    def add_legend(self, handles: Sequence[Any], title: str = "") -> None:
+        """Put a legend below all panels: of the handles, or of all series on given axes."""
+        if self.single:
+            add_legend(self.axes[0, 0], title)
+        else:
+            add_figure_legend(self.figure, handles, title if handles else "")
+
+
+def axes_or_new(ax: Axes | None) -> Axes:
+    """Return the axes given, or those of a new pyplot figure."""
+    if ax is not None and not isinstance(ax, Axes):
+        raise InputError(f"ax = {inputs.shorten(ax)}: give matplotlib axes")
+    return plt.subplots(layout=Layout())[1] if ax is None else ax
+
+
+def make_panels(
+    ax: Axes | None,
+    figure: Any,  # noqa: ANN401 - checked
+    rows: int,
+    columns: int,
+    *,
+    row_height: float = 0.45,
+    **options: Any,  # noqa: ANN401 - of Figure.subplots
+) -> Panels:
+    """Make panels in the figure given, or in a new pyplot figure; or take the axes given.
+
+    A new figure is as wide as ``rcParams["figure.figsize"]`` says; a row takes ``row_height`` of
+    its height, and title and legend stand beside them.
+    """
+    if ax is not None:
+        ax = axes_or_new(ax)
+        return Panels(_root(ax), np.array([[ax]]), single=True)
+    if figure is None:
+        width, height = mpl.rcParams["figure.figsize"]
+        for_texts = 0.11 * mpl.rcParams["font.size"]
+        extent = (width, height * row_height * rows + for_texts)
+        figure = plt.figure(figsize=extent, layout=Layout())
+    elif not isinstance(figure, FigureBase):
+        shown = inputs.shorten(figure)
+        raise InputError(f"figure = {shown}: give a matplotlib Figure or SubFigure")
+    return Panels(figure, figure.subplots(rows, columns, squeeze=False, **options))
+
+
+def check_one_place(ax: object, figure: object) -> None:
+    """Raise an InputError if both axes and a figure are given."""
+    if ax is not None and figure is not None:
+        raise InputError("ax and figure cannot be combined; give one of them")
+
+
+def reject_figure(figure: object, kind: str) -> None:
+    """Raise an InputError if a figure is given to a kind of picture with one panel."""
+    if figure is not None:
+        shown = inputs.shorten(figure)
+        raise InputError(f"figure = {shown}: kind={kind!r} has one panel; give ax")
+
+
+def inches_of(place: Axes | FigureBase, extent: Literal["width", "height"] = "width") -> float:
+    """Return the width or height of axes, or of a figure, in inches, as they are now."""
+    return max(_extent(place, extent) / _root(place).dpi, 0.5)
+
+
+def points_of(place: Axes | FigureBase, text: str, font: FontProperties) -> float:
+    """Return the width of a line of text, points."""
+    return 72.0 * _width(place, text, font) / _root(place).dpi if text.strip() else 0.0
+
+
+# --- what is fitted when a figure is drawn ------------------------------------------------------
+
+
+class Layout(ConstrainedLayoutEngine):
+    """Constrained layout that fits texts and legends to the room it leaves them."""
+
+    def __init__(self, **params: Any) -> None:  # noqa: ANN401 - of the base class
+        super().__init__(**params)
+        self.fits: dict[object, Callable[[], bool]] = {}
+        """Artist → refits it, and returns whether that changed it."""
+
+    def execute(self, fig: Figure) -> None:
+        """Place the axes of a figure, and fit texts and legends to them."""
+        for _ in range(MOST_PASSES):  # texts on more lines make axes smaller
+            super().execute(fig)
+            for ax in fig.axes:
+                ax.apply_aspect()
+            changed = [fit() for fit in self.fits.values()]
+            if not any(changed):
+                return
+        super().execute(fig)
+
+
+def _extent(place: Any, along: str) -> float:  # noqa: ANN401 - axes or a figure
+    return float(getattr(place.bbox, along))
+
+
+def _root(place: Axes | FigureBase) -> Figure:
+    figure = place.get_figure(root=True)
+    assert isinstance(figure, Figure)  # noqa: S101 - what is drawn has one
+    return figure
+
+
+def _fit(place: Axes | FigureBase, key: object, fit: Callable[[], bool]) -> None:
+    """Fit something now, and again whenever its figure is drawn.
+
+    Figures without a layout engine, or with matplotlib's constrained one, get ours; with another
+    engine, or margins that were set by hand, things are fitted to the axes as they are now.
+    """
+    figure = _root(place)
+    engine = figure.get_layout_engine()
+    if engine is None and not _is_adjusted(figure):
+        engine = Layout()
+        figure.set_layout_engine(engine)
+    elif type(engine) is ConstrainedLayoutEngine:
+        engine = Layout(**engine.get(), compress=getattr(engine, "_compress", False))
+        figure.set_layout_engine(engine)
+    if isinstance(engine, Layout):
+        engine.fits[key] = fit
+    fit()
+
+
+def _is_adjusted(figure: Figure) -> bool:
+    margins = ("left", "right", "bottom", "top", "wspace", "hspace")
+    usual: Any = mpl.rcParams
+    return any(
+        getattr(figure.subplotpars, margin) != usual[f"figure.subplot.{margin}"]
+        for margin in margins
+    )
+
+
+def _width(place: Axes | FigureBase, text: str, font: FontProperties) -> float:
+    """Return the width of a line of text, pixels."""
+    sample = Text(0.0, 0.0, plain_text(text), fontproperties=font)
+    sample.set_figure(_root(place))
+    return float(sample.get_window_extent().width)
+
+
+@dataclasses.dataclass
+class _FittedText:
+    """Lines of text, broken or cut to the extent of axes or a figure."""
+
+    text: Text
+    lines: Sequence[str]
+    place: Axes | FigureBase
+    along: Literal["width", "height"] = "width"
+    most: int | None = None
+    """Number of lines, each cut; None for as many as it takes."""
+
+    def __call__(self) -> bool:
+        room = self._room()
+        if self.most is None:
+            lines = [part for line in self.lines for part in self._broken(line, room)]
+        else:
+            lines = [_cut(self.place, line, room, self._font) for line in self.lines[: self.most]]
+        before, now = self.text.get_text(), plain_text("\n".join(lines))
+        self.text.set_text(now)
+        return now != before
+
+    def _room(self) -> float:
+        """Return the extent in pixels; of axes of a given aspect that of their cell."""
+        if self.along == "width" and isinstance(self.place, Axes):
+            parent: Any = self.place.get_figure(root=False)
+            return float(self.place.get_position(original=True).width * parent.bbox.width)
+        return _extent(self.place, self.along)
+
+    @property
+    def _font(self) -> FontProperties:
+        return self.text.get_fontproperties()
+
+    def _broken(self, line: str, room: float) -> list[str]:
+        """Break a line between words."""
+        broken: list[str] = []
+        for word in line.split(" "):
+            longer = f"{broken[-1]} {word}" if broken else word
+            if broken and _width(self.place, longer, self._font) <= room:
+                broken[-1] = longer
+            else:
+                broken.append(word)
+        return broken
+
+
+def _cut(place: Axes | FigureBase, text: str, room: float, font: FontProperties) -> str:
+    """Cut a line of text to some pixels, with an ellipsis."""
+    kept = text
+    while _width(place, kept, font) > room:
+        shorter = text[: len(kept) - 2]
+        if not shorter:
+            break
+        # Words are left out whole where several remain.
+        words, _, rest = shorter.rpartition(" ")
+        text = words if len(words) > len(rest) else shorter
+        kept = f"{text.rstrip(' ,;:')}…"
+    return kept
+
+
+# --- titles and labels --------------------------------------------------------------------------
+
+
+def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
+    """Put lines above axes on the left; of several results, the lines that all have.
+
+    ``pad`` is the distance in points, where the drawing has labels above the axes.
+    """
+    before = " ".join(ax.get_title(loc="left").split())
+    if before:
+        lines = tuple(line for line in lines if plain_text(line) in before)
+    size = font_of("axes.titlesize", "medium").get_size()
+    kept = [line for line in lines if line]
+    text = ax.set_title(plain_text("\n".join(kept)), loc="left", fontsize=size, pad=pad)
+    cell = ax.get_subplotspec()
+    part = ax.get_position(original=True) if cell is None else cell.get_position(_root(ax))
+    parent: Any = ax.get_figure(root=False)
+    inches = part.height * parent.bbox.height / _root(ax).dpi
+    _fit(ax, text, _FittedText(text, kept, ax, most=2 if inches < SHORT else None))
+
+
+def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
+    """Put the name of a panel above it on the left; ``pad`` as of :func:`set_title`."""
+    look: dict[str, Any] = {"loc": "left", "fontsize": "medium", "color": muted(ax), "pad": pad}
+    text = ax.set_title(plain_text("\n".join(lines)), **look)
+    _fit(ax, text, _FittedText(text, lines, ax))
+
+
+def set_figure_title(figure: FigureBase, *lines: str) -> None:
+    """Put lines above all panels of a figure on the left."""
+    size = font_of("figure.titlesize", "medium").get_size()
+    text = figure.suptitle("", x=0.012, ha="left", fontsize=size)
+    _fit(figure, text, _FittedText(text, [line for line in lines if line], figure))
+
+
+def label_x(ax: Axes, text: str) -> None:
+    """Label the horizontal axis, on several lines where it is short."""
+    ax.set_xlabel(plain_text(text))
+    _fit(ax, ax.xaxis.label, _FittedText(ax.xaxis.label, [text], ax))
+
+
+def label_y(ax: Axes, *lines: str) -> None:
+    """Label the vertical axis, on more lines where it is short."""
+    ax.set_ylabel(plain_text("\n".join(lines)))
+    _fit(ax, ax.yaxis.label, _FittedText(ax.yaxis.label, lines, ax, "height"))
+
+
+def note_zero(ax: Axes, color: Any = None) -> None:  # noqa: ANN401 - a colour
+    """Write that all values are zero."""
+    ink = muted(ax) if color is None else color
+    text = ax.text(0.5, 0.56, "zero throughout", transform=ax.transAxes, color=ink)
+    text.set_horizontalalignment("center")
+
+
+# --- legends ------------------------------------------------------------------------------------
+
+
+def add_legend(
+    ax: Axes,
+    title: str = "",
+    *,
+    last: str = "",
+    handles: Sequence[Any] | None = None,
+    **style: Any,  # noqa: ANN401 - of a legend
+) -> None:
+    """Put a legend below axes and their label, in as many columns as fit.
+
+    Of the handles given, or of all series: axes with a single series have none then. The entry
+    named ``last`` comes after the others.
+    """
+    fewest = 2 if handles is None else 1
+    handles = [*(ax.get_legend_handles_labels()[0] if handles is None else handles)]
+    handles.sort(key=lambda handle: handle.get_label() == last)
+    if len(handles) >= fewest:
+        _fit(ax, (ax, "legend"), _Legend(ax, handles, title, style))
+
+
+def add_figure_legend(figure: FigureBase, handles: Sequence[Any], title: str = "") -> None:
+    """Put a legend below all panels of a figure, in as many columns as fit."""
+    if handles:
+        _fit(figure, (figure, "legend"), _Legend(figure, handles, title, {}))
+
+
+@dataclasses.dataclass
+class _Legend:
+    """Legend below axes or figures, its columns as many as fit beside each other."""
+
+    place: Axes | FigureBase
+    handles: Sequence[Any]
+    title: str
+    style: dict[str, Any]
+    made: Any = None
+    """The legend, when it has been made."""
+    how: object = None
+    """Its arrangement."""
+
+    def __call__(self) -> bool:
+        if self.made is not None and self.made.get_figure(root=True) is None:
+            return False  # removed
+        names = [str(handle.get_label()) for handle in self.handles]
+        left, down = 0.0, 0.0
+        arranged = self._arranged(names, _extent(self.place, "width"))
+        if isinstance(self.place, Axes):
+            dpi, frame = _root(self.place).dpi, self.place.bbox
+            below, beside = self.place.xaxis.get_tightbbox(), self.place.yaxis.get_tightbbox()
+            down = 0.0 if below is None else max(0.0, frame.y0 - below.y0) / dpi
+            room = 0.0 if beside is None else max(0.0, frame.x0 - beside.x0)
+            if len(names) > MOST_ROWS * arranged["ncols"]:
+                # Under the labels of the vertical axis there is room too.
+                wider = self._arranged(names, frame.width + room)
+                if wider["ncols"] > arranged["ncols"]:
+                    left, arranged = room / dpi, wider
+        how = (arranged["ncols"], arranged["labels"], round(left, 2), round(down, 2))
+        if how == self.how:
+            return False
+        self.how = how
+        if self.made is not None:
+            self.made.remove()
+        self.made = self.place.legend(handles=self.handles, **arranged, **self._at(left, down))
+        return True
+
+    def _at(self, left: float, down: float) -> dict[str, Any]:
+        """Return where the legend is: below the labels of axes, or at the foot of a figure."""
+        if not isinstance(self.place, Axes):
+            return {"loc": "outside lower left"}
+        to_inches = self.place.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
+        shift = ScaledTranslation(-left, -down - GAP / 72.0, to_inches)
+        return {
+            "loc": "upper left",
+            "bbox_to_anchor": (0.0, 0.0),
+            "bbox_transform": self.place.transAxes + shift,
+            "borderaxespad": 0.0,
+        }
+
+    def _arranged(self, names: Sequence[str], pixels: float) -> dict[str, Any]:
+        """Return labels, title and number of columns of a legend so many pixels wide."""
+        font = font_of("legend.fontsize", "small")
+        if "fontsize" in self.style:
+            font.set_size(self.style["fontsize"])
+        em = font.get_size_in_points() * _root(self.place).dpi / 72.0
+        handle, between = (self.style.get("handlelength", HANDLE), BETWEEN)
+        of_handle = (handle + mpl.rcParams["legend.handletextpad"]) * em
+        pad = 2.0 * mpl.rcParams["legend.borderpad"] * em
+        texts = [_cut(self.place, name, pixels - of_handle - pad, font) for name in names]
+        widths = [_width(self.place, text, font) + of_handle for text in texts]
+        for columns in range(len(texts), 0, -1):
+            parts = [float(part.max()) for part in np.array_split(widths, columns)]
+            if sum(parts) + between * em * (len(parts) - 1) + pad <= pixels or columns == 1:
+                break
+        return {
+            "labels": [plain_text(text) for text in texts],
+            "ncols": columns,
+            "prop": font,
+            "title": plain_text(self.title) or None,
+            "title_fontproperties": font,
+            "alignment": "left",
+            "handlelength": handle,
+            "columnspacing": between,
+            "labelspacing": 0.3,
+            "frameon": False,
+        }
