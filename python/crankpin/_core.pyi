@@ -306,6 +306,27 @@ class Tolerances:
     ) -> tuple[_Complex, _Complex, _Complex, _Real]: ...
     def deviations(self, name: str, first: int, count: int) -> _Real: ...
 
+@final
+class Merit:
+    def __new__(
+        cls,
+        engine: Engine,
+        variables: Sequence[tuple[Sequence[float], Sequence[float]]],
+        objectives: Sequence[tuple[str, str, int | None]],
+        orders: Sequence[int],
+        removed: Sequence[int],
+    ) -> Merit: ...
+    @property
+    def weights(self) -> list[float]: ...
+    @property
+    def scales(self) -> list[float]: ...
+    @property
+    def steepest(self) -> float: ...
+    def evaluated(self, points: _Real) -> tuple[_Real, _Real]: ...
+    def smoothed(
+        self, x: Sequence[float], mu: float, objectives: int
+    ) -> tuple[float, list[float]]: ...
+
 def matched(
     start: Sequence[float],
     kinds: Sequence[tuple[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]]]],

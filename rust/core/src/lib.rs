@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balancing;
+pub mod design;
 pub mod engine;
 pub mod firing;
 pub mod gear;

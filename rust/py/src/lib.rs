@@ -11,6 +11,7 @@ mod balance;
 mod balancing;
 mod closed_form;
 mod convert;
+mod design;
 mod engine;
 mod firing;
 mod interrupt;
@@ -42,6 +43,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<waveform::CrankAngles>()?;
     module.add_class::<firing::Firing>()?;
     module.add_class::<tolerances::Tolerances>()?;
+    module.add_class::<design::Merit>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(convert::near_miss, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;

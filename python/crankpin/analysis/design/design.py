@@ -54,8 +54,9 @@ def design(
     """Choose throws, their order, pin splits and bank angle that minimise an objective.
 
     Finite choices (orders of throws; the throws that a firing needs) are all compared, those that
-    are mirror images of each other once. Angles that may vary are optimised from many starts, with
-    closed-form derivatives (needs SciPy); all optima found are reported.
+    are mirror images of each other once. A single angle that may vary is followed over its range,
+    several are optimised from many starts, with closed-form derivatives (needs SciPy); all optima
+    found are reported.
 
     Parameters
     ----------
@@ -123,7 +124,7 @@ def design(
     InputError
         If an argument is out of range, arguments contradict each other, or no crank fires so.
     ImportError
-        If angles vary and SciPy is not installed.
+        If several angles vary and SciPy is not installed.
 
     Examples
     --------

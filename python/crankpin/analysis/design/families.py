@@ -41,6 +41,15 @@ class Variable:
         """True for the angle of a throw."""
         return bool(self.throws)
 
+    def turns(self, banks: int, count: int) -> tuple[list[float], list[float]]:
+        """Return how far it turns the bore and the crankpin of each cylinder, per unit."""
+        throws, splits = (each or (0,) * count for each in (self.throws, self.splits))
+        if banks == 1:
+            return [0.0] * count, [float(throw) for throw in throws]
+        bores = [side * self.bank_angle for _ in throws for side in (-0.5, 0.5)]
+        pairs = zip(throws, splits, strict=True)
+        return bores, [float(pin) for throw, split in pairs for pin in (throw, throw + split)]
+
 
 @dataclasses.dataclass(frozen=True)
 class Family:

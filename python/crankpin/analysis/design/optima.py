@@ -1,6 +1,6 @@
 """Best values of the angles that may vary, from many starts.
 
-A single angle is started from every dip of a grid; several from random angles, until another
+A single angle is narrowed down to every dip of a grid; several from random angles, until another
 start can hardly find an optimum that has not been found yet.
 """
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._core import Merit
     from crankpin.analysis.arrangements.cranks import Symmetries
     from crankpin.analysis.design.families import Family
-    from crankpin.analysis.design.merit import Merit
 
     Real: TypeAlias = NDArray[np.float64]
     Told: TypeAlias = Callable[[int, int], object]
@@ -41,14 +41,20 @@ about w(w + 1)/(n(n − 1)) (Boender and Rinnooy Kan): below 2 % at eight starts
 """
 SAME = 1e-3
 """Degrees within which two angles are one."""
-LEVEL = 1e-7
+LEVEL = 1e-9
 """Difference of objectives, relative to their largest possible value, below which optima tie."""
 NEARLY_LEVEL = 1e-5
 """The same of an optimum that other angles nearby equal: its last objectives are less exact."""
+POINTS = 9
+"""Angles at which a dip is sampled in each round, which leaves a quarter of it."""
+NARROW = 1e-9
+"""Degrees to which a dip is narrowed."""
 MOST_BETTER = 5
 """Better optima that are followed from one to the next."""
-ASIDE = 2.0
+ASIDE = 1.0
 """Degrees by which an optimum is moved to see whether it comes back."""
+NEAR = 0.01
+"""Degrees within which a rounded angle may be better than the one it stands for."""
 FLAT = 1e-12
 """Difference of objectives that rounding explains."""
 
@@ -76,30 +82,72 @@ def of_one_angle(
     Dips are refined from the lowest up. Between two values of the grid the merit is not lower than
     its steepest slope allows: dips that cannot be among the best ones are left out.
     """
-    starts: list[tuple[float, float, int]] = []
+    brackets: list[tuple[float, float, float, int]] = []
     for k, family in enumerate(families):
-        merit, (variable,) = merit_of(family), family.variables
-        low, high = float(variable.low), float(variable.high)
-        grid = np.linspace(low, high, max(2, int(np.ceil((high - low) / GRID))) + 1)
-        heights = merit.sampled(np.radians(grid)[:, np.newaxis])
-        lowest = heights - merit.steepest * np.radians(grid[1] - grid[0])
-        around = np.pad(heights, 1, constant_values=np.inf)
-        dips = np.flatnonzero((heights <= around[:-2]) & (heights <= around[2:]))
-        starts += [(float(lowest[dip]), float(grid[dip]), k) for dip in _middles(dips)]
-        told(k + 1, len(families) + len(starts))
+        brackets += [(*bracket, k) for bracket in _brackets(family, merit_of(family))]
+        told(k + 1, len(families) + len(brackets))
     found: list[Optimum] = []
-    heights_found: list[float] = []
-    for k, (bound, start, which) in enumerate(sorted(starts), start=1):
-        if len(found) >= count and bound > heapq.nsmallest(count, heights_found)[-1]:
+    heights: list[float] = []
+    for k, (bound, low, high, which) in enumerate(sorted(brackets), start=1):
+        if len(found) >= count and bound > heapq.nsmallest(count, heights)[-1]:
             break
-        family = families[which]
-        merit = merit_of(family)
-        optimum = _optimum(family, merit, np.array([start]))
+        merit = merit_of(families[which])
+        optimum = _between(families[which], merit, low, high)
         if _new(found, optimum, symmetries):
             found.append(optimum)
-            heights_found.append(merit.of(np.array(optimum.values)))
-        told(len(families) + k, len(families) + len(starts))
+            heights.append(float(np.array(optimum.values) @ merit.weights))
+        told(len(families) + k, len(families) + len(brackets))
     return found
+
+
+def _brackets(family: Family, merit: Merit) -> Iterator[tuple[float, float, float]]:
+    """Yield lower bounds on the merit in steps of a grid with a dip, and the ends of the steps.
+
+    The merit falls into such a step from both of its ends, or out of the range at its end. Steps
+    that are neighbours, where it is level or a dip is at an angle of the grid, count as one.
+    """
+    low, high = (float(each[0]) for each in _limits(family))
+    grid = np.linspace(low, high, max(2, int(np.ceil((high - low) / GRID))) + 1)
+    values, slopes = merit.evaluated(np.radians(grid)[:, np.newaxis])
+    heights, slopes = values @ merit.weights, slopes[:, :, 0] @ merit.weights
+    # It falls before the range and rises behind it: there is a step before the first angle, and one
+    # behind the last.
+    falls, rises = np.append(True, slopes <= FLAT), np.append(slopes >= -FLAT, True)
+    steps = np.flatnonzero(falls & rises)
+    for run in np.split(steps, np.flatnonzero(np.diff(steps) > 1) + 1):
+        first, last = max(run[0] - 1, 0), min(run[-1], grid.size - 1)
+        lowest = float(heights[first : last + 1].min())
+        reach = merit.steepest * np.radians(grid[1] - grid[0])
+        yield lowest - reach, float(grid[first]), float(grid[last])
+
+
+def _between(family: Family, merit: Merit, low: float, high: float) -> Optimum:
+    """Return the optimum between two values of a single angle, degrees."""
+    first, last = (float(each[0]) for each in _limits(family))
+    weights = np.array(merit.weights)
+    angle = _lowest(merit, weights, low, high)
+    own = _values(merit, np.radians([angle]))
+    beside = np.clip([angle - ASIDE, angle + ASIDE], first, last)
+    around = merit.evaluated(np.radians(beside[beside != angle])[:, np.newaxis])[0] - own
+    isolated = bool((np.abs(around).max(axis=1) > LEVEL).all())
+    if len(weights) > 1 and own[0] > LEVEL and (np.abs(around[:, 0]) > LEVEL).all():
+        # The later objectives draw it aside a little, unless the first vanishes.
+        angle, isolated = _lowest(merit, weights * (weights == 1.0), *beside), True
+    return _optimum_at(family, merit, np.radians([angle]), isolated=isolated)
+
+
+def _lowest(merit: Merit, weights: Real, low: float, high: float) -> float:
+    """Return the angle between two, degrees, with the lowest weighted sum of objectives."""
+    while high - low > NARROW:
+        angles = np.linspace(low, high, POINTS)
+        heights = merit.evaluated(np.radians(angles)[:, np.newaxis])[0] @ weights
+        level = np.flatnonzero(heights <= heights.min() + FLAT)
+        if level.size > 2:
+            # So close to a smooth dip, rounding decides.
+            return float(0.5 * (angles[level[0]] + angles[level[-1]]))
+        low = float(angles[max(level[0] - 1, 0)])
+        high = float(angles[min(level[-1] + 1, POINTS - 1)])
+    return 0.5 * (low + high)
 
 
 def of_several_angles(
@@ -129,25 +177,27 @@ def of_several_angles(
     return everything
 
 
-def _middles(places: NDArray[np.intp]) -> Iterator[int]:
-    """Yield the middle of each run of neighbours."""
-    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
-        if run.size:
-            yield int(run[run.size // 2])
-
-
 def _optimum(family: Family, merit: Merit, start: Real) -> Optimum:
     """Return the optimum that a start, degrees, leads to."""
     number = len(merit.scales)
     values, isolated = _settled(family, merit, np.radians(start), number)
-    if number > 1 and merit.values(values)[0] > LEVEL:
+    if number > 1 and _values(merit, values)[0] > LEVEL:
         # The later objectives draw it aside a little, unless the first vanishes.
         alone, determined = _settled(family, merit, values, 1)
         if determined:
             values, isolated = alone, True
+    return _optimum_at(family, merit, values, isolated=isolated)
+
+
+def _optimum_at(family: Family, merit: Merit, values: Real, *, isolated: bool) -> Optimum:
     rounded = _rounded(family, merit, values)
-    found = merit.values(np.radians([float(each) for each in rounded]))
+    found = _values(merit, np.radians([float(each) for each in rounded]))
     return Optimum(family.crank(rounded), isolated, tuple(found.tolist()))
+
+
+def _values(merit: Merit, values: Real) -> Real:
+    """Return the objectives, over their scales, at some values of the variables, radians."""
+    return np.asarray(merit.evaluated(values[np.newaxis])[0][0])
 
 
 def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tuple[Real, bool]:
@@ -167,10 +217,10 @@ def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tupl
         again = _local(family, merit, aside, objectives)
         if np.degrees(np.abs(again - values)).max() < SAME:
             return values, True
-        levels = merit.values(again)[:objectives] - merit.values(values)[:objectives]
+        levels = (_values(merit, again) - _values(merit, values))[:objectives]
         if np.abs(levels).max() < NEARLY_LEVEL:
             return values, False
-        if merit.of(levels) > 0.0:
+        if levels @ merit.weights[:objectives] > 0.0:
             return values, True
         values = again
     return values, True
@@ -181,18 +231,23 @@ def _local(family: Family, merit: Merit, start: Real, objectives: int) -> Real:
     optimize = optional.scipy_optimize()
     limits = zip(family.variables, *(np.radians(each) for each in _limits(family)), strict=True)
     bounds = [(None, None) if each.periodic else (low, high) for each, low, high in limits]
+
+    def smoothed(values: Real, mu: float) -> tuple[float, Real]:
+        value, slopes = merit.smoothed(values.tolist(), mu, objectives)
+        return value, np.array(slopes)
+
     values = start
     for mu in SMOOTHING:
         solved = optimize.minimize(
-            merit.smoothed,
+            smoothed,
             values,
-            args=(mu, objectives),
+            args=(mu,),
             jac=True,
             method="SLSQP",
             bounds=bounds,
             options={"ftol": 1e-15, "maxiter": 200},
         )
-        if solved.fun <= merit.smoothed(values, mu, objectives)[0]:
+        if solved.fun <= smoothed(values, mu)[0]:
             values = np.asarray(solved.x)
     return values
 
@@ -206,7 +261,7 @@ def _limits(family: Family) -> tuple[Real, Real]:
 def _rounded(family: Family, merit: Merit, values: Real) -> list[Exact]:
     """Return the degrees with the fewest digits that are as good: 90 for 90.00000000001."""
     degrees = np.degrees(values)
-    level = merit.of(merit.values(values))
+    level = _values(merit, values) @ merit.weights
     for parts in (*range(8), None):
         found = [_near(each, family, parts) for each in degrees.tolist()]
         if parts is None:
@@ -214,8 +269,10 @@ def _rounded(family: Family, merit: Merit, values: Real) -> list[Exact]:
         limits = zip(found, family.variables, strict=True)
         if not all(each.periodic or each.low <= value <= each.high for value, each in limits):
             continue
-        radians = np.radians([float(each) for each in found])
-        if merit.of(merit.values(radians)) <= level + FLAT:
+        rounded = np.array([float(each) for each in found])
+        change = float(_values(merit, np.radians(rounded)) @ merit.weights - level)
+        # What is lower further away is another dip.
+        if change <= FLAT and (change >= -FLAT or np.abs(rounded - degrees).max() <= NEAR):
             break
     return found
 

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import progress as progress_bar
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import built, optima
 from crankpin.analysis.design.designs import Design
 from crankpin.analysis.design.families import families
-from crankpin.analysis.design.merit import Merit, rows_of, term
-from crankpin.analysis.design.phasors import Phasors
 from crankpin.analysis.ranking.choices import groups
 from crankpin.analysis.sweeps.sweep import sweep
 
@@ -49,15 +48,13 @@ class Search:
         self._question, self._objectives = question, objectives
         self._rpm, self._orders = rpm, orders
         self._families, self.cranks = families(question)
-        one = built.one_cylinder(question)
         if orders is None:
             # Totals guide the optimiser; those of the result have all orders.
-            orders = list(balance(one, rpm, rtol=GUIDING).orders)
-        listed = [each.order for each in objectives if each.order is not None]
-        self._share = balance(one, rpm, orders=sorted({*orders, *listed}))
-        smooth = [each for each in objectives if each.quantity]
-        self._rows = rows_of(smooth, orders)
-        self._terms = [term(each, self._rows) for each in smooth]
+            orders = list(balance(built.one_cylinder(question), rpm, rtol=GUIDING).orders)
+        self._totals = orders
+        self._smooth = [
+            (each.quantity, each.what, each.order) for each in objectives if each.quantity
+        ]
         unnamed = [each.label for each in objectives if not each.quantity]
         if unnamed and any(family.variables for family in self._families):
             raise InputError(
@@ -128,17 +125,17 @@ class Search:
         )
         return swept, np.stack([each.values(swept)[:, 0] for each in self._objectives], axis=1)
 
-    def _merit(self, family: Family) -> Merit:
-        removed = [
-            (abs(ratio), "forward" if ratio > 0 else "backward") for ratio in self._question.shafts
-        ]
-        (engine,) = built.engines(dataclasses.replace(self._question, shafts=()), [family.base])
-        phasors = Phasors(engine, family.variables, self._share, self._rows, removed)
-        return Merit(phasors, self._terms)
+    def _merit(self, family: Family) -> _core.Merit:
+        question = dataclasses.replace(self._question, shafts=())
+        (engine,) = built.engines(question, [family.base])
+        turns = [each.turns(question.banks, question.count) for each in family.variables]
+        removed = self._question.shafts
+        return _core.Merit(engine.core, turns, self._smooth, self._totals, removed)
 
     def _scales(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the largest value that each objective could have; of a function that it has."""
-        named = iter(self._merit(self._families[0]).scales if self._terms else ())
+        over_square = self._merit(self._families[0]).scales if self._smooth else ()
+        named = iter([_core.angular_speed(self._rpm) ** 2 * scale for scale in over_square])
         largest = np.abs(np.where(np.isfinite(rows), rows, 0.0)).max(axis=0)
         pairs = zip(self._objectives, largest, strict=True)
         return np.array([next(named) if each.quantity else most for each, most in pairs])

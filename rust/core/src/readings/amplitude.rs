@@ -46,14 +46,14 @@ pub(crate) fn wrenches(
 }
 
 /// Harmonics of every gear at some orders.
-struct GearHarmonics {
+pub(crate) struct GearHarmonics {
     force: Vec<Vec<Complex64>>,
     /// Torques of the masses, and of rods that have inertia.
     torque: Vec<(TorqueHarmonics, Option<TorqueHarmonics>)>,
 }
 
 impl GearHarmonics {
-    fn new(loads: &Loads, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
+    pub fn new(loads: &Loads, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
         let (mut force, mut torques) = (Vec::new(), Vec::new());
         for (k, gear) in loads.gears.iter().enumerate() {
             force.push(gear.force(orders, cancel)?);
@@ -70,7 +70,7 @@ impl GearHarmonics {
     }
 
     /// Factors of the sums of force and moment, of roll torque and of torque on the crank.
-    fn of(&self, harmonic: Harmonic, k: usize) -> [Complex64; 3] {
+    pub fn of(&self, harmonic: Harmonic, k: usize) -> [Complex64; 3] {
         let zero = Complex64::default();
         let of_torque = |torque: &TorqueHarmonics| [zero, torque.roll[k], torque.crank[k]];
         match harmonic {

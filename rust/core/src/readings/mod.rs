@@ -1,6 +1,6 @@
 //! Readings of the list of loads: balances, waveforms, sweeps, tolerances and exact answers.
 
-mod amplitude;
+pub(crate) mod amplitude;
 pub mod balance;
 mod choice;
 pub mod exact;
