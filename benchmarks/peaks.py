@@ -155,15 +155,14 @@ def ours(sweep: Sweep, _setting: None = None) -> Array:
     """Ask crankpin for true extrema, about the paper's plane, that of crank 1."""
     built = engines(sweep.firing_orders)
     if sweep.peaks == 1:
-        one = built[0].balance(ijesc.RPM, orders=(1, 2), reference_z=0.0, torque=False)
+        one = built[0].replace(reference_z=0.0).balance(ijesc.RPM, orders=(1, 2), torque=False)
         return np.array([[one.total.moment.peak]])
     found = cp.sweep(
-        built,
+        [engine.replace(reference_z=0.0) for engine in built],
         rpm=ijesc.RPM,
         bank_angle_deg=sweep.bank_angles_deg,
         hold="pins",
         orders=(1, 2),
-        reference_z=0.0,
         torque=False,
     )
     return found.total.moment.peak

@@ -36,7 +36,7 @@ def test_change_is_relative_to_before() -> None:
 
 
 def test_options_are_those_of_a_balance() -> None:
-    options = {"orders": [1, 2], "reference_z": 0.4, "spectrum": {1: 0.5, 2: 0.2}}
+    options = {"orders": [1, 2], "spectrum": {1: 0.5, 2: 0.2}}
     found = cp.compare(I4, FITTED, 5000, **options)  # type: ignore[arg-type]
     assert found.after == FITTED.balance(5000, **options)  # type: ignore[arg-type]
     with pytest.raises(AttributeError, match="torque is not available"):

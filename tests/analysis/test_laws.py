@@ -52,13 +52,13 @@ def same(found: np.ndarray, expected: np.ndarray, scale: float) -> None:
 
 
 def of(engine: cp.Engine, reference_z: float = 0.0) -> cp.types.Balance:
-    return engine.balance(RPM, orders=ORDERS, reference_z=reference_z)
+    return engine.replace(reference_z=reference_z).balance(RPM, orders=ORDERS)
 
 
 @settings(max_examples=60, deadline=None)
 @given(engine=engines(), factor=st.floats(0.01, 1))
 def test_force_goes_with_the_square_of_speed(engine: cp.Engine, factor: float) -> None:
-    faster = engine.balance(RPM * factor, orders=ORDERS, reference_z=0.0)
+    faster = engine.replace(reference_z=0.0).balance(RPM * factor, orders=ORDERS)
     same(faster.force, of(engine).force * factor**2, size(engine) * factor**2)
     same(faster.torque, of(engine).torque * factor**2, size(engine) * factor**2)
 
@@ -166,7 +166,7 @@ def test_boxer_pairs_cancel(cylinder: cp.Cylinder, throws: list[float | str]) ->
 def test_peaks_are_those_of_the_waveform(engine: cp.Engine) -> None:
     """No sample is higher than the true peak of the sum of orders, and a dense one is as high."""
     theta = np.linspace(0, 360, 2881)
-    waveform = engine.waveform(RPM, theta_deg=theta, orders=ORDERS, reference_z=0.0)
+    waveform = engine.replace(reference_z=0.0).waveform(RPM, theta_deg=theta, orders=ORDERS)
     balance = of(engine)
     for samples, peak, longest in (
         (waveform.force, balance.total.force.peak_xy, balance.total.force.peak),

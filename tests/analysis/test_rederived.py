@@ -62,14 +62,13 @@ def v6(rotating: float = 0.0) -> cp.Engine:
 def test_sweep_of_bank_angles_and_proportions(hold: Hold, reference_z: float | None) -> None:
     angles, ratios, offsets = [0.0, 47.3, 60.0, 120.0, 180.0], [0.2, 0.31], [-0.004, 0.0, 0.007]
     s = cp.sweep(
-        v6(rotating=0.3),
+        v6(rotating=0.3).replace(reference_z=reference_z),
         rpm=[RPM / 2, RPM],
         bank_angle_deg=angles,
         hold=hold,
         rod_ratio=ratios,
         pin_offset=offsets,
         orders=ORDERS,
-        reference_z=reference_z,
     )
     assert list(s.coords) == ["bank_angle_deg", "rod_ratio", "pin_offset", "rpm"]
     for a, angle in enumerate(angles):

@@ -136,8 +136,10 @@ def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
     argv = ["balance", "i3-ebook", "--rpm", "10", "--orders", "1,2", "--csv"]
     argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
     head, _, values = numbers(printed(capsys, *argv))
-    b = cp.Engine.preset("i3-ebook").balance(
-        10, orders=(1, 2), reference_z=-0.25, spectrum={1: 9.0, 2: 3.75}
+    b = (
+        cp.Engine.preset("i3-ebook")
+        .replace(reference_z=-0.25)
+        .balance(10, orders=(1, 2), spectrum={1: 9.0, 2: 3.75})
     )
     assert len(head) == 5  # a spectrum tells nothing of torque
     np.testing.assert_array_equal(values[:-1], np.hstack([b.force.peak_xy, b.moment.peak_xy]))
@@ -150,7 +152,10 @@ def test_reference_plane_matters_where_a_force_is_left(capsys: CAPTURE) -> None:
     assert middle[0, 2] == 0.0
     assert (
         front[0, 2]
-        == cp.Engine.preset("i4").balance(3000, orders=2, reference_z=0.0).moment.peak_xy[0, 0]
+        == cp.Engine.preset("i4")
+        .replace(reference_z=0.0)
+        .balance(3000, orders=2)
+        .moment.peak_xy[0, 0]
     )
     assert front[0, 2] > 0.0
 
@@ -278,7 +283,7 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
     argv = ["sweep", "i4", "--rpm", "1000,2000", "--orders", "2", "--reference-z", "0.05"]
     assert ", about z = 0.05 m" in printed(capsys, *argv).splitlines()[0]
     _, _, values = numbers(printed(capsys, *argv, "--csv"))
-    s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2], reference_z=0.05)
+    s = cp.sweep(cp.Engine.preset("i4"), rpm=[1000, 2000], orders=[2]).about(0.05)
     np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
     assert values[:, 0].all()
 
@@ -325,9 +330,10 @@ def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
     by = ["[1].moment.backward", "[2].moment.peak"]
     argv = ["rank", "ijesc-v6", "--rpm", "5000", "--by", ",".join(by), "--reference-z", "0"]
     argv += ["--orders", "1,2", "--spectrum", "1=0.0669,2=0.0191", "--refine"]
-    engines = {cp.Engine.preset(name).name: cp.Engine.preset(name) for name in IJESC}
+    known = [cp.Engine.preset(name) for name in IJESC]
+    engines = {each.name: each.replace(reference_z=0.0) for each in known}
     for hold in ("pins", "firing"):
-        how: dict[str, Any] = {"hold": hold, "refine": True, "reference_z": 0.0, "orders": [1, 2]}
+        how: dict[str, Any] = {"hold": hold, "refine": True, "orders": [1, 2]}
         how |= {"spectrum": {1: 0.0669, 2: 0.0191}, "bank_angle_deg": BANK_ANGLES}
         ranking = cp.rank(engines, rpm=5000, by=by, **how)
         out = printed(capsys, *argv, "--hold", hold, "--csv")

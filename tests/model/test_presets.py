@@ -396,9 +396,11 @@ def test_ijesc_tables(order: str) -> None:
         turned = engine.with_bank_angle(float(row["bank_angle_deg"]), hold="pins")
         # Printed with a₂ = λ, about the plane of crank 1.
         spectrum = {1: scale, 2: scale * ijesc.ROD_RATIO}
-        peaks = turned.balance(
-            ijesc.RPM, orders=[1, 2], reference_z=0.0, spectrum=spectrum
-        ).moment.peak_xy
+        peaks = (
+            turned.replace(reference_z=0.0)
+            .balance(ijesc.RPM, orders=[1, 2], spectrum=spectrum)
+            .moment.peak_xy
+        )
         printed = [float(row[column]) for column in ("m_px", "m_py", "m_sx", "m_sy")]
         # Printed to two decimals: half of the last, and a little for reading it.
         np.testing.assert_allclose(peaks.ravel(), printed, rtol=0, atol=0.0050001)

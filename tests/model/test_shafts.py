@@ -279,7 +279,7 @@ def test_waveform_counts_what_rotates(engine: cp.Engine, reference_z: float | No
     theta = np.degrees(time_domain.crank_angles(256))
     expected = rederived(engine, reference_z)
     for orders in (None, range(1, 60)):
-        w = engine.waveform(RPM, theta_deg=theta, orders=orders, reference_z=reference_z)
+        w = engine.replace(reference_z=reference_z).waveform(RPM, theta_deg=theta, orders=orders)
         for quantity in ("force", "moment", "torque"):
             assert agree(getattr(w, quantity), expected[quantity]), (orders, quantity)
 
@@ -287,14 +287,14 @@ def test_waveform_counts_what_rotates(engine: cp.Engine, reference_z: float | No
 @pytest.mark.parametrize("reference_z", [None, 0.07])
 def test_balance_counts_what_rotates(reference_z: float | None) -> None:
     expected, orders = rederived(EQUIPPED, reference_z), [1, 2, 3, 4, 6]
-    b = EQUIPPED.balance(RPM, orders=orders, reference_z=reference_z)
+    b = EQUIPPED.replace(reference_z=reference_z).balance(RPM, orders=orders)
     for quantity in ("force", "moment"):
         found = getattr(b, quantity)
         forward, backward = time_domain.forward_backward(expected[quantity], orders)
         assert agree(found.xy, time_domain.peak_phasors(expected[quantity], orders))
         assert agree(found.forward, forward)
         assert agree(found.backward, backward)
-        total = getattr(EQUIPPED.balance(RPM, reference_z=reference_z).total, quantity).peak
+        total = getattr(EQUIPPED.replace(reference_z=reference_z).balance(RPM).total, quantity).peak
         samples = np.hypot(*expected[quantity].T)
         # Between samples 1.4° apart the largest is hidden by about n²·(1.4°/2)²/2.
         assert samples.max() * (1 - 1e-9) <= total <= samples.max() * (1 + 1e-2)
@@ -389,8 +389,8 @@ def test_bob_weights_of_half_the_mass_remove_all_forward_parts_of_order_1(name: 
     engine = PRESETS[name]
     balanced = engine.with_counterweights(bob_weights(engine))
     for reference_z in (None, 0.123):
-        before = engine.balance(RPM, orders=[1], reference_z=reference_z)
-        after = balanced.balance(RPM, orders=[1], reference_z=reference_z)
+        before = engine.replace(reference_z=reference_z).balance(RPM, orders=[1])
+        after = balanced.replace(reference_z=reference_z).balance(RPM, orders=[1])
         for quantity in ("force", "moment"):
             assert getattr(after, quantity).forward.tolist() == [0.0]
             np.testing.assert_allclose(

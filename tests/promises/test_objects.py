@@ -367,7 +367,7 @@ def test_balances_are_compared_by_what_was_asked() -> None:
     for other in (
         balance(rpm=5001),
         balance(orders=[1, 2]),
-        balance(reference_z=0.0),
+        balance().about(0.0),
         balance(spectrum=SPECTRUM),
         V6.replace(name="another").balance(5000, orders=[1, 2, 6]),
     ):
@@ -382,7 +382,6 @@ def test_rankings_are_compared_by_what_was_asked_and_found() -> None:
         ranking(orders=[1, 2, 4]),
         ranking(bank_angle_deg=[60, 75, 91]),
         ranking(hold="firing"),
-        ranking(reference_z=0.0),
         ranking(spectrum=SPECTRUM),
         ranking(by="[2].moment.peak"),
         ranking(by=["total.moment.peak", "[2].moment.peak"]),

@@ -68,12 +68,11 @@ ENGINES = [engine(firing_order) for firing_order in ijesc.FIRING_ORDERS]
 def swept(angles_deg: Array, *, exact: bool = False) -> cp.types.Sweep:
     """All four engines over bank angle, their pins held."""
     return cp.sweep(
-        ENGINES,
+        [each.replace(reference_z=0.0) for each in ENGINES],
         rpm=ijesc.RPM,
         bank_angle_deg=angles_deg,
         hold="pins",
         orders=ORDERS,
-        reference_z=0.0,
         spectrum=None if exact else AS_PRINTED,
     )
 
@@ -184,8 +183,8 @@ def test_x_of_the_paper_is_our_pitch_and_y_our_yaw_both_reversed(
     v6 = engine(firing_order, angle, first_tdc_deg=-angle / 2.0)
     expected = ijesc.components(np.deg2rad(theta), angle, firing_order)
     for k, order in enumerate(ORDERS):
-        w = v6.waveform(
-            ijesc.RPM, theta_deg=theta, orders=[order], reference_z=0.0, spectrum=AS_PRINTED
+        w = v6.replace(reference_z=0.0).waveform(
+            ijesc.RPM, theta_deg=theta, orders=[order], spectrum=AS_PRINTED
         )
         np.testing.assert_allclose(
             -w.moment.T, expected[2 * k : 2 * k + 2], rtol=0, atol=ROUNDING * 1e4
@@ -202,8 +201,10 @@ def test_sweep_is_a_loop_of_balances(exact: bool) -> None:
     sweep = swept(angles, exact=exact)
     for i, v6 in enumerate(ENGINES):
         for j, angle in enumerate(angles):
-            b = v6.with_bank_angle(float(angle), hold="pins").balance(
-                ijesc.RPM, orders=ORDERS, reference_z=0.0, spectrum=None if exact else AS_PRINTED
+            b = (
+                v6.with_bank_angle(float(angle), hold="pins")
+                .replace(reference_z=0.0)
+                .balance(ijesc.RPM, orders=ORDERS, spectrum=None if exact else AS_PRINTED)
             )
             # A sweep takes a sum of two sines where a balance adds six cylinders: relative to the
             # moment of three cylinders, 1e4 N m.
@@ -231,7 +232,7 @@ def test_the_lags_entered_as_throws_are_another_engine() -> None:
             bank_deg=banks,
             z=ijesc.SPACING * np.repeat(np.arange(3.0), 2),
         )
-        b = v6.balance(ijesc.RPM, orders=ORDERS, reference_z=0.0, spectrum=AS_PRINTED)
+        b = v6.replace(reference_z=0.0).balance(ijesc.RPM, orders=ORDERS, spectrum=AS_PRINTED)
         off = np.abs(b.moment.peak_xy.ravel() - first).max()
         assert (off < HALF_DIGIT) == agrees
         assert agrees or off > 100.0

@@ -95,12 +95,12 @@ def test_core_computes_anew_when_a_setting_changes() -> None:
         "rod_ratio": 0.25,
         "hold": "pins",
     }
-    balance = expected.balance(6000, orders=range(1, 25), reference_z=0.1, torque=False)
+    balance = expected.replace(reference_z=0.1).balance(6000, orders=range(1, 25), torque=False)
     backward = [complex(*each["moment"]["backward"]) for each in widget.core["orders"]]
     np.testing.assert_array_equal(backward, balance.moment.backward)
     curve = widget.core["curve"]
     angles = np.linspace(0, 360, len(curve["moment"]))
-    wave = expected.waveform(6000, theta_deg=angles, reference_z=0.1)
+    wave = expected.replace(reference_z=0.1).waveform(6000, theta_deg=angles)
     np.testing.assert_array_equal(curve["moment"], np.asarray(wave.moment))
     np.testing.assert_array_equal(curve["torque"], np.asarray(wave.torque))
     # An angle computes nothing.

@@ -39,14 +39,11 @@ def balance(
     *,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
 ) -> Balance:
     """Return the balance of an engine; :meth:`Engine.balance` documents the arguments."""
-    request = Request.checked(
-        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum, torque=torque
-    )
+    request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     found = Balance(engine, inputs.number("rpm", rpm), request)
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
@@ -56,7 +53,8 @@ def over_square(
     engine: Engine, orders: Sequence[int], reference_z: float | None = None, *, torque: bool = False
 ) -> Balance:
     """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
-    return balance(engine, UNIT_RPM, orders=orders, reference_z=reference_z, torque=torque)
+    found = balance(engine, UNIT_RPM, orders=orders, torque=torque)
+    return found if reference_z is None else found.about(reference_z)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:

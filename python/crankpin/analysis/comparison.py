@@ -32,7 +32,6 @@ def compare(
     *,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
 ) -> Comparison:
@@ -46,9 +45,8 @@ def compare(
         Crank speed.
     orders
         Whole multiples of crank speed; by default all that either engine needs to reach ``rtol``.
-    rtol, reference_z, spectrum, torque
-        As in :meth:`Engine.balance`; by default moments of each engine are about its own reference
-        plane.
+    rtol, spectrum, torque
+        As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
 
     Returns
     -------
@@ -69,9 +67,7 @@ def compare(
     """
     for name, engine in (("before", before), ("after", after)):
         engine_core(engine, name)
-    options: dict[str, Any] = {
-        "rtol": rtol, "reference_z": reference_z, "spectrum": spectrum, "torque": torque,
-    }  # fmt: skip
+    options: dict[str, Any] = {"rtol": rtol, "spectrum": spectrum, "torque": torque}
     first = balance(before, rpm, orders=orders, **options)
     second = balance(after, rpm, orders=orders, **options)
     both = tuple(sorted({*first.orders, *second.orders}))

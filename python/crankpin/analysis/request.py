@@ -39,10 +39,10 @@ class Request(Record):
         *,
         orders: Orders,
         rtol: float | None,
-        reference_z: float | None,
         spectrum: Spectrum | None,
         torque: bool,
         default_rtol: float = 1e-9,
+        reference_z: float | None = None,
     ) -> Request:
         """Return a request, or raise an InputError that names the argument at fault."""
         wanted = inputs.orders(orders)

@@ -36,7 +36,6 @@ def waveform(
     theta_deg: ArrayLike | None = None,
     orders: Orders | None = None,
     rtol: float | None = None,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
 ) -> Waveform:
@@ -54,7 +53,6 @@ def waveform(
     request = Request.checked(
         orders="auto" if orders is None else orders,
         rtol=rtol,
-        reference_z=reference_z,
         spectrum=spectrum,
         torque=torque,
         default_rtol=1e-6,

@@ -28,12 +28,11 @@ def add(commands: Commands) -> None:
 
 def run(arguments: argparse.Namespace) -> str:
     """Return what the command prints."""
-    engine = inputs.engine(arguments.name, "balance")
+    engine = inputs.about_plane(inputs.engine(arguments.name, "balance"), arguments)
     chosen = inputs.chosen(arguments)
     picture = inputs.picture_file(arguments.plot)
     balance = engine.balance(
         inputs.number("--rpm", arguments.rpm),
-        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         **chosen,
     )

@@ -51,6 +51,12 @@ def engine(name: str, command: str) -> Engine:
     return next(iter(found.values()))
 
 
+def about_plane(engine: Engine, arguments: argparse.Namespace) -> Engine:
+    """Return the engine with the reference plane that was typed, if any."""
+    plane = optional_number("--reference-z", arguments.reference_z)
+    return engine if plane is None else engine.replace(reference_z=plane)
+
+
 def _decimal(name: str, text: str, what: str = "a number") -> Decimal:
     try:
         number = Decimal(text.strip())

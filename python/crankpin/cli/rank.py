@@ -45,7 +45,8 @@ def add(commands: Commands) -> None:
 
 def run(arguments: argparse.Namespace) -> str:
     """Return what the command prints."""
-    engines = inputs.engines(arguments.names)
+    known = inputs.engines(arguments.names)
+    engines = {name: inputs.about_plane(each, arguments) for name, each in known.items()}
     own = arguments.bank_angle_deg == "own"
     angles = None if own else inputs.number_or_range("--bank-angle", arguments.bank_angle_deg)
     points = len(engines) * (1 if angles is None else np.size(angles))
@@ -58,7 +59,6 @@ def run(arguments: argparse.Namespace) -> str:
         bank_angle_deg=angles,
         hold=None if own else arguments.hold,
         by=arguments.by.split(","),
-        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         refine=arguments.refine,
         orders=inputs.orders(arguments.orders),

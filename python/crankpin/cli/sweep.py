@@ -68,7 +68,8 @@ def add(commands: Commands) -> None:
 
 def run(arguments: argparse.Namespace) -> str:
     """Return what the command prints."""
-    engines = inputs.engines(arguments.names)
+    known = inputs.engines(arguments.names)
+    engines = {name: inputs.about_plane(each, arguments) for name, each in known.items()}
     texts = {dim: getattr(arguments, dim) for dim in FLAGS}
     given = {
         dim: inputs.number_or_range(FLAGS[dim], text)
@@ -96,7 +97,6 @@ def run(arguments: argparse.Namespace) -> str:
         rod_ratio=given.get("rod_ratio"),
         pin_offset=given.get("pin_offset"),
         hold=arguments.hold if "bank_angle_deg" in given else None,
-        reference_z=inputs.optional_number("--reference-z", arguments.reference_z),
         spectrum=inputs.spectrum(arguments.spectrum),
         **chosen,
     )

@@ -137,11 +137,12 @@ class Engine(Builders):
         *,
         orders: Orders = "auto",
         rtol: float | None = None,
-        reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
     ) -> Balance:
         """Return force, moment and torque at one speed, order by order.
+
+        Moments are about the engine's :attr:`reference_z`; :meth:`Balance.about` moves them.
 
         Parameters
         ----------
@@ -153,9 +154,6 @@ class Engine(Builders):
             For ``orders="auto"``: what the omitted orders may add up to, relative to the largest
             m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the longest lever
             for moments and the crank radius for torque. By default 1e-9.
-        reference_z
-            Plane about which moments are taken, m; by default midway between the first and the last
-            cylinder. Moments depend on it where a force remains.
         spectrum
             Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
             slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still
@@ -184,7 +182,7 @@ class Engine(Builders):
         from crankpin.analysis.balance import balance
 
         return balance(
-            self, rpm, orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum,
+            self, rpm, orders=orders, rtol=rtol, spectrum=spectrum,
             torque=torque,
         )  # fmt: skip
 
@@ -195,7 +193,6 @@ class Engine(Builders):
         theta_deg: ArrayLike | None = None,
         orders: Orders | None = None,
         rtol: float | None = None,
-        reference_z: float | None = None,
         spectrum: Spectrum | None = None,
         torque: bool = True,
     ) -> Waveform:
@@ -212,7 +209,7 @@ class Engine(Builders):
             few that reach ``rtol``, the rest being in ``omitted`` and ``error_bound``.
         rtol
             For ``orders="auto"``, as in :meth:`balance`; by default 1e-6.
-        reference_z, spectrum, torque
+        spectrum, torque
             As in :meth:`balance`; a spectrum needs ``orders``.
 
         Returns
@@ -234,8 +231,8 @@ class Engine(Builders):
         from crankpin.analysis.waveform import waveform
 
         return waveform(
-            self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, reference_z=reference_z,
-            spectrum=spectrum, torque=torque,
+            self, rpm, theta_deg=theta_deg, orders=orders, rtol=rtol, spectrum=spectrum,
+            torque=torque,
         )  # fmt: skip
 
     def firing(

@@ -76,14 +76,13 @@ def core_numbers(
     changed = settings.applied(engine)
     ratios = {abs(shaft.ratio) for shaft in engine.shafts}
     orders = sorted({*range(1, HIGHEST_ORDER + 1), *ratios, *(spectrum or ())})
-    balance = changed.balance(
-        settings.rpm, orders=orders, reference_z=reference_z, spectrum=spectrum, torque=False
-    )
+    if reference_z is not None:
+        changed = changed.replace(reference_z=reference_z)
+    balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
     waveform = changed.waveform(
         settings.rpm,
         theta_deg=np.arange(0.0, 361.0, CURVE_STEP),
         orders=None if spectrum is None else orders,
-        reference_z=reference_z,
         spectrum=spectrum,
         torque=spectrum is None,
     )

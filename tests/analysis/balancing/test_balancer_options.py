@@ -195,7 +195,7 @@ def test_functions_and_reference_plane() -> None:
     assert options.by == ("pitch",)
     assert options.reference_z == 0.4
     for each in options:
-        balance = each.engine.balance(RPM, reference_z=0.4)
+        balance = each.engine.replace(reference_z=0.4).balance(RPM)
         assert each.values[0] == pytest.approx(balance.total.moment.peak_xy[0], rel=1e-6)
 
 

@@ -216,9 +216,9 @@ def test_half_the_mass_removes_the_forward_part_of_any_engine_without_offset(see
     )
     bob = cp.bob_weight(engine)
     for plane in (None, 0.7):
-        after = bob.engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        after = bob.engine.replace(reference_z=plane).balance(UNIT_SPEED, orders=[1])[1]
         assert complex(after.force.forward) == complex(after.moment.forward) == 0.0
-        before = engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+        before = engine.replace(reference_z=plane).balance(UNIT_SPEED, orders=[1])[1]
         for quantity in ("force", "moment"):
             found = complex(getattr(after, quantity).backward)
             expected = complex(getattr(before, quantity).backward)

@@ -241,7 +241,7 @@ def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]
     assert abs(after.moment_forward) < 1e-11 * size
     assert abs(after.force_backward - before.force_backward) < 1e-11 * size
     assert abs(after.moment_backward - before.moment_backward) < 1e-11 * size
-    found = fitted.engine.balance(UNIT_SPEED, orders=[1], reference_z=plane)[1]
+    found = fitted.engine.replace(reference_z=plane).balance(UNIT_SPEED, orders=[1])[1]
     assert complex(found.force.backward) == pytest.approx(after.force_backward, abs=1e-11 * size)
     assert fitted.verdicts.force.forward == fitted.verdicts.moment.forward == "vanishes"
 
@@ -410,7 +410,7 @@ def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool
     assert fitted.exact
     assert fitted.unbalances[0].amount <= bound["plane 1"] * (1 + 1e-9)
     amounts = np.array([w.amount for w in fitted.unbalances])
-    before = engine.balance(UNIT_SPEED, orders=[1], reference_z=0.0)[1]
+    before = engine.replace(reference_z=0.0).balance(UNIT_SPEED, orders=[1])[1]
     wanted = -np.array([complex(before.force.forward), complex(before.moment.forward)])
     matrix = np.stack([np.ones(5), 1j * places])
 
@@ -675,7 +675,7 @@ def test_ellipses_are_those_of_the_balance() -> None:
         assert ellipses == (order_1.force.ellipse, order_1.moment.ellipse)
     assert fitted.ellipses.moment.major == pytest.approx(0.448288, abs=1e-6)
     balance = fitted.balance(100)
-    assert balance == fitted.engine.balance(100, reference_z=fitted.reference_z)
+    assert balance == fitted.engine.replace(reference_z=fitted.reference_z).balance(100)
 
 
 def test_tables_list_weights_and_what_stays() -> None:

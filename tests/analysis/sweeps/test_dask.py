@@ -32,8 +32,7 @@ AXES: dict[str, dict[str, Any]] = {
         "chunks": 199,
     },
     "offsets": {
-        "engines": {"a": V6, "b": V8},
-        "reference_z": 0.07,
+        "engines": {"a": V6.replace(reference_z=0.07), "b": V8},
         "rod_ratio": np.linspace(0.2, 0.4, 5),
         "pin_offset": np.linspace(-0.003, 0.003, 67),
         "rpm": np.linspace(500, 9000, 5),

@@ -142,7 +142,8 @@ class BalancerOptions(Listed[BalancerOption], Shown):
 
     def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
         """Return what stays with the least hardware that reaches the target."""
-        return balance(self.engine, rpm, orders=orders, rtol=rtol, reference_z=self.plane)
+        found = balance(self.engine, rpm, orders=orders, rtol=rtol)
+        return found if self.plane is None else found.about(self.plane)
 
     # --- tables and pictures --------------------------------------------------------------------
 

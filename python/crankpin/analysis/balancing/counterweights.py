@@ -247,7 +247,7 @@ class Counterweights(Frozen, Shown):
         orders
             As in :meth:`Engine.balance`.
         """
-        return self.engine.balance(rpm, orders=orders, reference_z=self.reference_z)
+        return self.engine.balance(rpm, orders=orders).about(self.reference_z)
 
     @property
     def residual(self) -> ForwardPart:

@@ -190,7 +190,8 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         orders, rtol
             As in :meth:`Engine.balance`.
         """
-        return balance(self.engine, rpm, orders=orders, rtol=rtol, reference_z=self.plane)
+        found = balance(self.engine, rpm, orders=orders, rtol=rtol)
+        return found if self.plane is None else found.about(self.plane)
 
     # --- tables and pictures --------------------------------------------------------------------
 

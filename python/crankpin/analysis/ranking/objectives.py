@@ -81,7 +81,6 @@ def again(swept: Sweep, **changes: object) -> Sweep:
         "engines": list(swept.engines),
         **swept.axes,
         "hold": swept.hold,
-        "reference_z": request.reference_z,
         "spectrum": request.spectrum,
         "torque": request.torque,
     }
@@ -117,7 +116,6 @@ def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
             balance(
                 each,
                 swept.fixed["rpm"],
-                reference_z=request.reference_z,
                 spectrum=request.spectrum,
                 torque=request.torque,
                 **chosen,

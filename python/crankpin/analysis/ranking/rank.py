@@ -35,7 +35,6 @@ def rank(
     hold: Hold | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     cylinder: Cylinder | None = None,
     spacing: float | None = None,
@@ -60,7 +59,7 @@ def rank(
         Bank angles to choose from, 0 to 180; by default each engine is taken unchanged.
     hold
         Quantity that a change of bank angle does not change, as in :func:`crankpin.sweep`.
-    orders, rtol, reference_z, spectrum
+    orders, rtol, spectrum
         As in :func:`crankpin.sweep`.
     cylinder, spacing
         Cylinder and spacing of the engines of arrangements, as in :meth:`Arrangement.engine`.
@@ -152,7 +151,6 @@ def rank(
             hold=hold,
             orders=orders,
             rtol=rtol,
-            reference_z=reference_z,
             spectrum=spectrum,
         )
         values = [objective.values(swept) for objective in ranked_by]

@@ -55,7 +55,6 @@ def sweep(
     pin_offset: ArrayLike | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
     torque: bool = True,
     progress: Progress = False,
@@ -84,8 +83,8 @@ def sweep(
     orders
         Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
         point. Choosing takes about the time of a sweep of all candidate orders at one speed.
-    rtol, reference_z, spectrum
-        As in :meth:`Engine.balance`.
+    rtol, spectrum
+        As in :meth:`Engine.balance`. Moments are about each engine's own reference plane.
     torque
         Whether torque is computed. If not, it does not count in the choice of orders.
     progress
@@ -131,9 +130,7 @@ def sweep(
         array = inputs.array(name, values)
         axes[name] = inputs.copied(inputs.vector(name, array)) if array.ndim else float(array)
     held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
-    request = Request.checked(
-        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=spectrum, torque=torque
-    )
+    request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     whole = Sweep(tuple(listed), names, axes, held, request, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
     return whole
