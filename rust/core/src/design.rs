@@ -240,7 +240,7 @@ impl Goal {
                 (true, _) => &[None],
                 (false, _) => &[Some(Complex64::new(1.0, 0.0))],
             };
-            return axes.iter().flat_map(|axis| self.peaks(&phasors, *axis)).collect();
+            return axes.iter().flat_map(|axis| self.peaks(&phasors, *axis, x.len())).collect();
         }
         match (self.objective.reading, &phasors[..]) {
             (Reading::PeakXy, [forward, backward]) => [1.0, -1.0]
@@ -256,7 +256,12 @@ impl Goal {
 
     /// The vectors of all orders together at the crank angles of the highest peaks of their length, or
     /// of their projection on an axis.
-    fn peaks(&self, phasors: &[Vector], axis: Option<Complex64>) -> Vec<Vec<Vector>> {
+    fn peaks(
+        &self,
+        phasors: &[Vector],
+        axis: Option<Complex64>,
+        variables: usize,
+    ) -> Vec<Vec<Vector>> {
         let square = |vector: Complex64| match axis {
             Some(axis) => (axis * vector).re.powi(2),
             None => vector.norm_sqr(),
@@ -287,7 +292,7 @@ impl Goal {
         at.into_iter()
             .map(|k| {
                 let theta = self.polished(phasors, axis, k as f64 * step, step);
-                let mut sum = Vector::zero(phasors[0].slopes.len());
+                let mut sum = Vector::zero(variables);
                 for (part, phasor) in self.parts.iter().zip(phasors) {
                     let unit = Complex64::cis(part.speed as f64 * theta);
                     sum.add(phasor, |part| {
@@ -401,7 +406,9 @@ impl Merit {
         all.extend_from_slice(orders);
         all.sort_unstable();
         all.dedup();
-        order::check_list(&all)?;
+        if !all.is_empty() {
+            order::check_list(&all)?;
+        }
         let gears = GearHarmonics::new(&loads, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<Part>; 4]> = all

@@ -358,6 +358,15 @@ def test_an_angle_may_be_an_array_without_dimensions() -> None:
     assert found == design(6, bank_angle_deg=60, by="total.moment.peak")
 
 
+@pytest.mark.parametrize("by", ["total.moment.peak", "[1].moment.backward", "total.torque.peak"])
+@pytest.mark.parametrize("rotating", [0.0, 0.5])
+def test_cylinders_without_mass_leave_every_choice(by: str, rotating: float) -> None:
+    given = {"cylinder": CYLINDER.replace(reciprocating_mass=0.0), "rotating_mass": rotating}
+    found = design(4, bank_angle_deg=(30, 120), **given, by=by)
+    assert found[0].value == 0.0
+    assert found.table.cells()
+
+
 def test_a_function_where_nothing_varies() -> None:
     by = [lambda b: b.total.moment.peak, "unevenness_deg"]
     found = design(6, bank_angle_deg=60, by=by)

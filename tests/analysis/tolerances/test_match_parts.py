@@ -209,13 +209,14 @@ def test_pistons_and_rods_of_several_engines() -> None:
 
 def test_tables() -> None:
     match = cp.match_parts(I4, masses(4), rods(4))
-    assert repr(match).splitlines()[1].split() == [
-        "set", "cylinder", "piston", "kg", "rod", "small", "end", "kg", "big", "end", "kg",
+    assert match.table.header == [
+        "set", "cylinder", "piston", "piston mass kg", "rod", "small end kg", "big end kg",
     ]  # fmt: skip
     assert "no assignment is better" in match._repr_html_()
     table = match.to_pandas()
     assert table.piston.tolist() == list(match.assignment[0].pistons)
-    assert table.small_end.tolist() == match.parts.rods[table.rod - 1, 0].tolist()  # type: ignore[index]
+    assert match.parts.rods is not None
+    assert table["small end kg"].tolist() == match.parts.rods[table.rod - 1, 0].tolist()
     again = pickle.loads(pickle.dumps(match))  # noqa: S301 - its own
     assert again == match
 
@@ -243,6 +244,14 @@ def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None
     arguments: dict[str, Any] = {"pistons": [0.4, 0.41] * 4} | changes
     with pytest.raises(cp.InputError, match=message):
         cp.match_parts(I4, **arguments)
+
+
+def test_the_parts_given_stay_writable() -> None:
+    pistons, ends = masses(3), rods(3)
+    match = cp.match_parts(I3, pistons, ends)
+    assert pistons.flags.writeable
+    assert ends.flags.writeable
+    assert not match.parts.pistons.flags.writeable
 
 
 @pytest.mark.parametrize(("name", "masses"), [("i4", 4), ("v12-60", 12), ("v16-45", 32)])

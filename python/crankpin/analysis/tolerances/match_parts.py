@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, optional
+from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
-from crankpin._support.frozen import Frozen
-from crankpin._support.tables import Shown, Table
+from crankpin._support.record import Record, Tabled
+from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    import pandas as pd
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders
@@ -57,10 +56,8 @@ class Assignment(NamedTuple):
     """Number, from 1, of the rod in each cylinder; None where no rods were given."""
 
 
-class MeasuredParts(Frozen):
+class MeasuredParts(Record):
     """Measured pistons and rods, and the engine that they are for."""
-
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "pistons", "rods", "orders", "reference_z")
 
     engine: Engine
     """The engine with its own masses."""
@@ -72,22 +69,6 @@ class MeasuredParts(Frozen):
     """Orders of what remains."""
     reference_z: float | None
     """Plane about which moments are taken, m; None for the engine's own."""
-
-    def __init__(
-        self,
-        engine: Engine,
-        pistons: NDArray[np.float64],
-        rods: NDArray[np.float64] | None,
-        orders: tuple[int, ...],
-        reference_z: float | None,
-    ) -> None:
-        kept = pistons.copy(), None if rods is None else rods.copy()
-        for each in kept:
-            if each is not None:
-                each.setflags(write=False)
-        self._set(
-            engine=engine, pistons=kept[0], rods=kept[1], orders=orders, reference_z=reference_z
-        )
 
     @cached_property
     def start(self) -> NDArray[np.float64]:
@@ -246,7 +227,7 @@ def match_parts(
     """
     engine_core(engine)
     count = len(engine)
-    word = inputs.one_of("objective", objective, WORDS)
+    inputs.one_of("objective", objective, WORDS)
     masses = _masses("pistons", pistons, 1)
     ends = None if rods is None else _masses("rods", rods, 2)
     for name, parts in (("pistons", masses), ("rods", ends)):
@@ -271,13 +252,13 @@ def match_parts(
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed), plane)
-    if word == "spread":
+    if objective == "spread":
         chosen, exact = _by_spread(measured, wanted)
         # Rods might make up for any difference of pistons.
-        bound = sum(measured.value(word, each) for each in chosen) if exact else 0.0
+        bound = sum(measured.value(objective, each) for each in chosen) if exact else 0.0
     else:
         chosen, exact, bound = _by_balance(measured, wanted, start, asked)
-    return Match(measured, word, tuple(chosen), bound, exact)
+    return Match(measured, objective, tuple(chosen), bound, exact)
 
 
 def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
@@ -290,7 +271,8 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
         raise InputError(f"{name} has {len(found)} entries: give {MOST_PARTS} at most")
     if not (np.isfinite(found).all() and (found > 0.0).all()):
         raise InputError(f"{name} = {inputs.shorten(values)}: give masses above zero, kg")
-    return found.reshape(-1, columns)
+    # Records make their arrays read-only: the caller's stay as they are.
+    return found.reshape(-1, columns).copy()
 
 
 # --- the search -----------------------------------------------------------------------------------
@@ -406,13 +388,11 @@ def windows(masses: NDArray[np.float64], size: int, sets: int) -> list[NDArray[n
     return found[::-1]
 
 
-class Match(Frozen, Shown):
+class Match(Tabled):
     """Which piston and rod goes into which cylinder.
 
     Made by :func:`crankpin.match_parts`.
     """
-
-    _fields: ClassVar[tuple[str, ...]] = ("parts", "objective", "assignment", "bound", "exact")
 
     parts: MeasuredParts
     """The measured parts and the engine."""
@@ -424,18 +404,6 @@ class Match(Frozen, Shown):
     """Value below which no assignment comes, in the unit of ``value``; equal to it if exact."""
     exact: bool
     """True if no assignment is better: all were compared, or it is proved."""
-
-    def __init__(
-        self,
-        parts: MeasuredParts,
-        objective: str,
-        assignment: tuple[Assignment, ...],
-        bound: float,
-        exact: bool,
-    ) -> None:
-        if not isinstance(parts, MeasuredParts):
-            raise InputError(f"Match({inputs.shorten(parts)}): use crankpin.match_parts")
-        self._set(parts=parts, objective=objective, assignment=assignment, bound=bound, exact=exact)
 
     @property
     def engine(self) -> Engine:
@@ -494,34 +462,27 @@ class Match(Frozen, Shown):
         ]
         return left[0], left[1]
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a tidy table: set, cylinder, piston and its mass, rod and its ends (pandas)."""
-        columns = ["set", "cylinder", "piston", "piston_mass"]
-        columns += [] if self.parts.rods is None else ["rod", "small_end", "big_end"]
-        rows = [(*names, *numbers) for names, numbers in self._rows()]
-        table = optional.data_frame(rows, columns=columns)
-        return table.astype({name: int for name in ("piston", "rod") if name in columns})
-
-    def _rows(self) -> list[tuple[tuple[int, int], list[float]]]:
-        rows = []
-        for k, each in enumerate(self.assignment, start=1):
-            for cylinder, piston in enumerate(each.pistons, start=1):
-                numbers = [float(piston), float(self.parts.pistons[piston - 1])]
-                if each.rods is not None and self.parts.rods is not None:
-                    rod = each.rods[cylinder - 1]
-                    numbers += [float(rod), *self.parts.rods[rod - 1].tolist()]
-                rows.append(((k, cylinder), numbers))
-        return rows
-
     @property
     def table(self) -> Table:
         """Table that is shown: the parts of each cylinder."""
-        header = ["set", "cylinder", "piston", "kg"]
-        header += [] if self.parts.rods is None else ["rod", "small end kg", "big end kg"]
+        places = [
+            (k, cylinder)
+            for k in range(len(self.assignment))
+            for cylinder in range(len(self.engine))
+        ]
+        pistons = [self.assignment[k].pistons[cylinder] for k, cylinder in places]
+        columns = [
+            Column("set", tuple(k + 1 for k, _ in places)),
+            Column("cylinder", tuple(cylinder + 1 for _, cylinder in places)),
+            Column("piston", tuple(pistons)),
+            Column("piston mass", tuple(self.parts.pistons[np.array(pistons) - 1].tolist()), "kg"),
+        ]
+        if self.parts.rods is not None:
+            rods = [(self.assignment[k].rods or ())[cylinder] for k, cylinder in places]
+            small, big = self.parts.rods[np.array(rods) - 1].T.tolist()
+            columns.append(Column("rod", tuple(rods)))
+            columns.append(Column("small end", tuple(small), "kg"))
+            columns.append(Column("big end", tuple(big), "kg"))
         known = "no assignment is better" if self.exact else f"none is below {self.bound:.4g}"
         title = f"{WORDS[self.objective]}: {self.value:.4g} {self.unit}, {known}"
-        rows = self._rows()
-        title += f"; as given {self.as_given:.4g}"
-        return Table.from_rows(
-            title, header, [names for names, _ in rows], np.array([row for _, row in rows])
-        )
+        return Table(f"{title}; as given {self.as_given:.4g}", tuple(columns))
