@@ -114,10 +114,10 @@ class Balance(ByOrder, Tabled):
         return _core.balance(
             engine_core(self.engine),
             self.rpm,
-            request.listed_orders,
+            request.orders,
             request.rtol,
             request.reference_z,
-            request.listed_spectrum,
+            request.pairs,
             request.torque,
         )
 

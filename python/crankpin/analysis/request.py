@@ -80,16 +80,6 @@ class Request(Record):
         return None if self.pairs is None else MappingProxyType(dict(self.pairs))
 
     @property
-    def listed_orders(self) -> list[int] | None:
-        """Orders as the core takes them."""
-        return None if self.orders is None else list(self.orders)
-
-    @property
-    def listed_spectrum(self) -> list[tuple[int, complex]] | None:
-        """Spectrum as the core takes it."""
-        return None if self.pairs is None else list(self.pairs)
-
-    @property
     def quantities(self) -> tuple[str, ...]:
         """Names of the quantities that there are."""
         torques = ("torque", "crank_torque") if self.torque and self.pairs is None else ()

@@ -182,10 +182,10 @@ class Waveform(OverAngle, Tabled):
             self.rpm,
             theta,
             self.summed,
-            request.listed_orders if self.summed else None,
+            request.orders if self.summed else None,
             request.rtol,
             request.reference_z,
-            request.listed_spectrum,
+            request.pairs,
             request.torque,
         )
         self.__dict__.update(

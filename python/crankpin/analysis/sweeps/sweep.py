@@ -182,10 +182,10 @@ class Sweep(ByOrder, Tabled):
             axes.get("rod_ratio"),
             axes.get("pin_offset"),
             axes["rpm"],
-            request.listed_orders,
+            request.orders,
             request.rtol,
             request.reference_z,
-            request.listed_spectrum,
+            request.pairs,
             request.torque,
             [self.names is not None, *(name in self.dims for name in AXES)],
         )
