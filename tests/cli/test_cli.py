@@ -10,6 +10,7 @@ import re
 import shlex
 import subprocess
 import sys
+from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,8 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from conftest import DATA
-from crankpin.cli import inputs, main
+from crankpin.cli import main
+from crankpin.cli.arguments import Given
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -316,9 +318,9 @@ def test_sweep_passes_reference_plane_and_says_so(capsys: CAPTURE) -> None:
 def test_ranges(text: str, values: float | list[float] | None) -> None:
     if values is None:
         with pytest.raises(cp.InputError, match=r"^--x = "):
-            inputs.number_or_range("--x", text)
+            Given(Namespace(x=text)).range("--x")
     else:
-        result = inputs.number_or_range("--x", text)
+        result: Any = Given(Namespace(x=text)).range("--x")
         assert np.ndim(result) == np.ndim(values)
         np.testing.assert_array_equal(result, values)
 
@@ -404,6 +406,84 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
     assert plt.get_fignums() == before
 
 
+# --- units ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("0.086", "m", 0.086),
+        ("86mm", "m", 0.086),
+        ("86 mm", "m", 0.086),
+        ("-8.6e1mm", "m", -0.086),
+        ("3.4in", "m", 0.08636),
+        ("480g", "kg", 0.48),
+        ("2oz", "kg", 0.05669904625),
+        ("0.2lb", "kg", 0.090718474),
+        ("180g·mm", "kg·m", 0.00018),
+        ("180g*mm", "kg·m", 0.00018),
+        ("180gmm", "kg·m", 0.00018),
+        ("1oz·in", "kg·m", 0.000720077887375),
+        ("52%", "", 0.52),
+        ("90°", "°", 90.0),
+        ("6000rpm", "rpm", 6000.0),
+        ("86kg", "m", None),
+        ("86mm", "kg", None),
+        ("52%", "m", None),
+        ("mm", "m", None),
+        ("8 6mm", "m", None),
+    ],
+)
+def test_numbers_with_units(text: str, unit: str, value: float | None) -> None:
+    given = Given(Namespace(x=text))
+    if value is None:
+        with pytest.raises(cp.InputError, match=rf"^--x = {re.escape(text)}: give a number"):
+            given.number("--x", unit)
+    else:
+        assert given.number("--x", unit) == value  # decimals are exact before they are floats
+
+
+def test_plain_numbers_are_in_the_units_asked_for(capsys: CAPTURE) -> None:
+    given = Given(Namespace(x="86", units="g,mm"))
+    assert [given.number("--x", unit) for unit in ("m", "kg", "kg·m", "°", "")] == [
+        0.086, 0.086, 0.000086, 86.0, 86.0,
+    ]  # fmt: skip
+    typed = ["bob-weight", "v8-crossplane", "--oil"]
+    in_grams = printed(capsys, *typed, "4", "--units", "g")
+    assert in_grams == printed(capsys, *typed, "4g") == printed(capsys, *typed, "0.004")
+    planes = ["counterweights", "v6-90", "--planes"]
+    assert printed(capsys, *planes, "0,200", "--units", "mm") == printed(capsys, *planes, "0,0.2")
+
+
+def test_rank_of_engines_with_and_without_banks(capsys: CAPTURE) -> None:
+    ranking = cp.rank(
+        [cp.Engine.preset("i4"), cp.Engine.preset("v6-60")], rpm=3000, by="total.moment.peak"
+    )
+    assert printed(capsys, "rank", "i4", "v6-60") == f"{ranking.table.text()}\n"
+
+
+def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path: Path) -> None:
+    """A name may set colours, move the cursor, or retitle the window (OSC)."""
+    name = "red \x1b[31m\x1b]0;title\x07 \x9b2J engine\r\nnext"
+    shaft = cp.Shaft(2, [], name=name)
+    engine = cp.Engine.preset("i4").replace(name=name, source=name, shafts=[shaft])
+    file = tmp_path / "engine.toml"
+    engine.save(file)
+    texts = [repr(engine), repr(engine.balance(3000))]
+    texts += [
+        printed(capsys, *argv.split())
+        for argv in (
+            f"balance {file}",
+            f"firing {file} --all",
+            f"rank {file} i4",
+            f"sweep {file} i4",
+        )
+    ]
+    texts.append(refused(capsys, "balance", "\x1b[2Jno"))
+    for text in texts:
+        assert not [c for c in text if not c.isprintable() and c != "\n"], text
+
+
 # --- what goes wrong ----------------------------------------------------------------------------
 
 
@@ -416,7 +496,7 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("balance i4 --rpm fast", "--rpm = fast: give a number"),
         ("balance i4 --rpm inf", "--rpm = inf: give a finite number"),
         ("balance i4 --rpm 1e999999999", "give a finite number"),
-        ("balance i4 --rpm -5", "rpm"),
+        ("balance i4 --rpm -5", "rpm = -5.0: give zero or more; the crank turns counter-clockwise"),
         ("balance i4 --orders 1,x", "--orders = 1,x: give whole numbers"),
         ("balance i4 --orders 1.5", "--orders = 1.5"),
         ("balance i4 --orders 0", "orders"),
@@ -453,7 +533,15 @@ def test_a_picture_that_cannot_be_written_leaves_no_figure(capsys: CAPTURE, tmp_
         ("rank v6-60 --orders 1,2 --by [3].moment.peak", "by = "),
         ("rank v6-60 --bank-angle own --refine", "refine = True"),
         ("rank v6-60 v6-90 --bank-angle 0:180:0.0002", "1800002 points to rank"),
-        ("rank i4", "bank"),
+        ("rank i4 --bank-angle 60", "bank"),
+        ("balance i4 --rpm=--", "--rpm = --: give a value"),
+        ("balance i4 --rpm 60mm", "--rpm = 60mm: give a number"),
+        ("balance i4 --reference-z 3kg", "give a number, such as 12 or with a unit (mm, in)"),
+        ("balance i4 --reference-z 3 --units g,inch", "--units = g,inch: give a unit or two of kg"),
+        ("sweep v6-60 --bank-angle 10-170", "such as 10:170:10"),
+        ("sweep v-twin-90 --bank-angle 45", "nothing to sweep: all options have one value; give"),
+        ("bob-weight harley", 'NAME = "harley": no such preset; "crankpin presets" lists all'),
+        ("tolerances v6-60", "no part deviates: give a spread, --reciprocating-mass, "),
         ("rank v6-60 --plot picture.bmp", "a picture's name ends in"),
         ("sweep", "NAME"),
         ("presets v6-60", "unrecognized arguments: v6-60"),

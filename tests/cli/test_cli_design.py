@@ -78,7 +78,7 @@ def test_a_picture(capsys: CAPTURE, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("argv", "message"),
     [
-        ("w12", "NAME = w12: give an engine with one or two banks of cylinders that are alike"),
+        ("w12", "NAME = w12: give an engine with one or two banks and one kind of cylinder"),
         ("v6-60 --bank-angle 10:20:30", "--bank-angle = 10:20:30: give one angle, or LOW:HIGH"),
         ("v6-60 --count 1.5", "--count = 1.5: give a whole number"),
         ("v6-60 --shafts=1", "give different speed ratios"),

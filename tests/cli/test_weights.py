@@ -80,7 +80,7 @@ def test_options_of_counterweights_are_those_of_the_library(capsys: CAPTURE) -> 
 
 
 def test_bob_weights_are_those_of_the_library(capsys: CAPTURE) -> None:
-    typed = ["--factor", "0.52", "--rotating", "550", "--reciprocating", "620", "--oil", "4"]
+    typed = ["--factor", "52%", "--rotating", "550g", "--reciprocating", "620g", "--oil", "4g"]
     engine = cp.Engine.preset("v8-crossplane", rotating_mass=0.55)
     cylinders = [each.replace(reciprocating_mass=0.62) for each in engine.cylinders]
     bob = cp.bob_weight(engine.replace(cylinder=cylinders), 0.52, oil=0.004)
@@ -103,7 +103,10 @@ def test_pictures_are_written(capsys: CAPTURE, tmp_path: Path, command: str) -> 
         (["counterweights", "v6-90", "--planes", "middle"], "--planes = middle: give a number"),
         (["counterweights", "v6-90", "--planes", "a=1,2"], "--planes = a=1,2: give ends, webs"),
         (["counterweights", "v6-90", "--planes", "a=1,a=2"], "--planes = a=1,a=2: give ends"),
-        (["counterweights", "v6-90", "--angles", "x"], "--angles = x: give a number"),
+        (
+            ["counterweights", "v6-90", "--angles", "x"],
+            "--angles = x: give one number, a list a,b,c or a range",
+        ),
         (["counterweights", "v6-90", "--bound", "-1"], "bound = -1.0: give a mass·radius"),
         (["counterweights", "ijesc-v6"], "NAME = ijesc-v6: counterweights takes one engine"),
         (["bob-weight", "v6-90", "--factor", "fifty"], "--factor = fifty: give a number"),

@@ -322,6 +322,8 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     try:
         result = [_index(order) for order in listed]
     except TypeError:
+        if any(isinstance(order, float) and order % 1.0 for order in listed):
+            hint += "; forces of inertia repeat in every turn and have no others"
         raise InputError(f"{name} = {shorten(values)}: {hint}") from None
     for order in result:
         if not 1 <= order <= HIGHEST_ORDER:

@@ -8,55 +8,41 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import (
-    balance,
-    bob_weight,
-    counterweights,
-    design,
-    firing,
-    gallery,
-    presets,
-    rank,
-    shafts,
-    streams,
-    sweep,
-    tolerances,
-    view,
-)
-from crankpin.cli.parser import PROG, Parser
+from crankpin.cli import engines, hardware, making, outputs, shaking
+from crankpin.cli.arguments import PROG, Given, Parser
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 COMMANDS = (
-    presets,
-    balance,
-    sweep,
-    rank,
-    firing,
-    counterweights,
-    bob_weight,
-    shafts,
-    design,
-    tolerances,
-    view,
-    gallery,
+    engines.add_presets,
+    shaking.add_balance,
+    shaking.add_sweep,
+    shaking.add_rank,
+    engines.add_firing,
+    hardware.add_counterweights,
+    hardware.add_bob_weight,
+    hardware.add_shafts,
+    making.add_design,
+    making.add_tolerances,
+    engines.add_view,
+    engines.add_gallery,
 )
-"""Modules of the commands, in the order of the help: each adds its parser and runs it."""
+"""Functions that add the commands, in the order of the help."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code."""
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = streams.warn
-            streams.write(_text(argv))
+            warnings.showwarning = outputs.warn
+            outputs.write(_text(argv))
     except BrokenPipeError:
         # The reader of the pipe has closed it.
-        streams.abandon(sys.stdout)
+        outputs.abandon(sys.stdout)
         return 128 + 13  # as a shell reports SIGPIPE
     except (InputError, OSError, ImportError) as error:
-        streams.say(f"error: {error}")
+        outputs.say(f"error: {error}")
         return 2
     except KeyboardInterrupt:
         return 128 + 2
@@ -65,13 +51,17 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _text(argv: Sequence[str] | None) -> str:
     """Return what a command prints."""
+    typed = sys.argv[1:] if argv is None else argv
+    for each in typed:
+        if each.startswith("--") and each.endswith("=--"):  # on which argparse fails
+            raise InputError(f"{each.removesuffix('=--')} = --: give a value")
     try:
-        arguments = _parser().parse_args(argv)
+        arguments = _parser().parse_args(typed)
     except SystemExit:
         if sys.stdout is not None:
-            streams.write("")  # flushes the help while a broken pipe can still be answered
+            outputs.write("")  # flushes the help while a broken pipe can still be answered
         raise
-    text: str = arguments.run(arguments)
+    text: str = arguments.run(Given(arguments))
     return text
 
 
@@ -85,5 +75,5 @@ def _parser() -> Parser:
     parser.add_argument("--version", action="version", version=f"crankpin {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for each in COMMANDS:
-        each.add(commands)
+        each(commands)
     return parser

@@ -1,25 +1,27 @@
-"""From values to what is printed or written."""
+"""What is printed and written; streams may be closed, full, or pipes that break."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import os
+import sys
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from pathlib import Path
 
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.sweeps.sweep import Sweep
 
+CONTROLS = {code: "�" for code in (*range(32), *range(127, 160)) if chr(code) not in "\n\t"}
+"""Control characters, which a terminal would obey, and what is printed instead."""
 
-def printed(tables: Sequence[Table], *, csv: bool) -> str:
-    """Return tables as text below each other, or the first as CSV."""
-    if csv:
-        return tables[0].csv()
-    return "\n\n".join(table.text() for table in tables) + "\n"
+
+def printed(table: Table, *, csv: bool) -> str:
+    """Return a table, with those below it, as text; as CSV without them."""
+    return table.csv() if csv else f"{table.text()}\n"
 
 
 def left_out(result: Balance | Sweep) -> str:
@@ -45,3 +47,44 @@ def draw(result: Any, path: Path | None, **options: str) -> None:  # noqa: ANN40
         figure.savefig(path, dpi=200)
     finally:
         plt.close(figure)
+
+
+# --- streams ------------------------------------------------------------------------------------
+
+
+def write(text: str) -> None:
+    """Write to standard output."""
+    if sys.stdout is None:
+        raise OSError("standard output is closed")
+    try:
+        # Line by line: a pipe that breaks within a single long write can go unnoticed.
+        sys.stdout.writelines(text.translate(CONTROLS).splitlines(keepends=True))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        abandon(sys.stdout)
+        raise OSError(f"standard output: {error.strerror}") from None
+
+
+def abandon(stream: TextIO) -> None:
+    """Discard what is buffered: Python would fail once more while it closes the stream."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, stream.fileno())
+    os.close(null)
+
+
+def say(message: str) -> None:
+    """Write a line to standard error, if there is one; print(file=None) would write to stdout."""
+    if sys.stderr is None:
+        return
+    try:
+        sys.stderr.write(f"crankpin: {message.translate(CONTROLS)}\n")
+        sys.stderr.flush()
+    except OSError:
+        abandon(sys.stderr)
+
+
+def warn(message: Warning | str, *_: object, **__: object) -> None:
+    """Write a warning to standard error, in place of ``warnings.showwarning``."""
+    say(f"warning: {message}")

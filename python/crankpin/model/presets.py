@@ -159,20 +159,24 @@ def family(name: str) -> list[str]:
     return [each for each in members if not each.endswith(OWN_PARTS)] or [name]
 
 
-def _unknown(name: object) -> str:
-    """Return the message for a name that is not a preset's, with what may have been meant."""
-    if not isinstance(name, str):
-        return f"name = {inputs.shorten(name)}: give the name of a preset, as a string"
+def suggestion(name: str) -> str:
+    """Return what to say of a name that is no preset's, with what may have been meant."""
     typed = name[:80].lower().replace("straight", "inline")
     near = family(typed)
     if near == [typed] and typed not in Presets():
         titles = {engine.name.lower(): each for each, engine in Presets().items()}
         words = {each: each for each in Presets()} | titles
         near = [words[each] for each in difflib.get_close_matches(typed, words, n=1, cutoff=0.7)]
-    meant = f"did you mean {' or '.join(map(repr, near))}? " if near else ""
-    meant = meant.replace("'", '"')
-    shown = name if len(name) <= 80 else f"{name[:79]}…"
-    return f'name = "{shown}": no such preset; {meant}crankpin.presets() lists all'
+    quoted = " or ".join(f'"{each}"' for each in near)
+    meant = f"did you mean {quoted}? " if near else ""
+    return f'"{labels.cut(labels.printable(name), 80)}": no such preset; {meant}'
+
+
+def _unknown(name: object) -> str:
+    """Return the message for what is not the name of a preset."""
+    if not isinstance(name, str):
+        return f"name = {inputs.shorten(name)}: give the name of a preset, as a string"
+    return f"name = {suggestion(name)}crankpin.presets() lists all"
 
 
 def _bank_angle(engine: Engine) -> str:

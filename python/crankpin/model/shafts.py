@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def lines(core: _core.Engine) -> list[str]:
         found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")
     for name, ratio, x, y, weights in core.shafts[:4]:
         total = sum(weight[0] for weight in weights)
-        title = f"balance shaft {name}".strip()
+        title = f"balance shaft {labels.printable(name)}".strip()
         found.append(f"{title}: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m, {total:.4g} kg·m")
     return found
 

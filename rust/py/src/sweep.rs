@@ -100,12 +100,12 @@ impl Sweep {
             (Some(_), Some(held)) => Some(hold(held)?),
             (None, None) => None,
             (Some(_), None) => {
-                let cure = "say what the bank angle leaves as it is: hold=\"pins\" (the crank; firing \
+                let cure = "give what is held as the bank angle changes: hold=\"pins\" (the crank; firing \
                             intervals change) or hold=\"firing\" (the TDCs; pins are split)";
                 return Err(python_error(Error::value("hold", "None", cure)));
             }
             (None, Some(held)) => {
-                let cure = "hold says what a sweep of bank_angle_deg leaves as it is: give both";
+                let cure = "hold is of sweeps of bank_angle_deg: give both or neither";
                 return Err(python_error(Error::value("hold", held, cure)));
             }
         };

@@ -197,6 +197,13 @@ impl Seat {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FiringOrder(Vec<usize>);
 
+impl std::fmt::Display for FiringOrder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let listed: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&listed.join("-"))
+    }
+}
+
 impl FiringOrder {
     /// Each cylinder from 1 to the number of them, once.
     pub fn new(order: Vec<usize>) -> Result<Self> {
@@ -305,9 +312,11 @@ impl FiringOrder {
     fn vee_seats(&self, rule: &FiringRule, layout: &Vee) -> Result<Vec<(Seat, Angle)>> {
         let count = self.0.len();
         if count % 2 == 1 {
-            let cure = "a vee has an even number of cylinders; leave out bank_angle_deg for an \
-                        inline engine";
-            return Err(Error::value("firing_order", format!("of {count} cylinders"), cure));
+            let hint = format!(
+                "has {count} cylinders and a vee an even number; leave out bank_angle_deg for an \
+                 inline engine"
+            );
+            return Err(Error::value("firing_order", self.to_string(), hint));
         }
         let (ranks, times) = (self.ranks(), self.times(rule)?);
         let seats = layout.seats(count)?;

@@ -5,7 +5,7 @@ use crate::engine::Engine;
 use crate::gear::spectrum::Spectrum;
 use crate::load::{Alike, Loads};
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
@@ -131,6 +131,11 @@ impl Balance {
 
 /// Angular speed in rad/s.
 pub fn angular_speed(rpm: f64) -> Result<f64> {
+    if rpm < 0.0 {
+        let hint = "give zero or more; the crank turns counter-clockwise seen from the flywheel: \
+                    mirror an engine that turns the other way, bank_deg = 180 - bank_deg";
+        return Err(Error::figure("rpm", rpm, hint));
+    }
     Ok(limits::not_negative("rpm", rpm)? * std::f64::consts::TAU / 60.0)
 }
 

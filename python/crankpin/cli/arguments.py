@@ -1,0 +1,335 @@
+"""What is typed: parsers, the options that commands share, and their values with units."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import labels
+from crankpin.model import presets
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Orders, Spectrum
+
+PROG = "crankpin"
+MOST_ROWS = 1_000_000
+"""Largest number of rows in a table."""
+PICTURES = (".pdf", ".png", ".svg")
+FILES = (".toml", ".json")
+
+# --- units --------------------------------------------------------------------------------------
+
+MASSES = {
+    "kg": Decimal(1), "g": Decimal("1e-3"), "mg": Decimal("1e-6"),
+    "lb": Decimal("0.45359237"), "oz": Decimal("0.028349523125"),
+}  # fmt: skip
+"""Unit of mass → kg."""
+LENGTHS = {
+    "m": Decimal(1), "cm": Decimal("1e-2"), "mm": Decimal("1e-3"), "µm": Decimal("1e-6"),
+    "in": Decimal("0.0254"), "ft": Decimal("0.3048"),
+}  # fmt: skip
+"""Unit of length → m."""
+UNBALANCES = {
+    f"{mass}{between}{length}": kilograms * metres
+    for mass, kilograms in MASSES.items()
+    for length, metres in LENGTHS.items()
+    for between in ("·", "*", "")
+}
+"""Unit of mass times radius → kg·m."""
+UNITS: dict[str, dict[str, Decimal]] = {
+    "kg": MASSES,
+    "m": LENGTHS,
+    "kg·m": UNBALANCES,
+    "°": {"°": Decimal(1), "deg": Decimal(1)},
+    "rpm": {"rpm": Decimal(1)},
+    "": {"%": Decimal("0.01")},
+}
+"""Unit that the library takes, empty for ratios → the units that may be typed behind a number."""
+
+NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re.ASCII)
+
+
+# --- parsers ------------------------------------------------------------------------------------
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are an InputError in one line."""
+
+    def error(self, message: str) -> NoReturn:  # noqa: D102 - of the base class
+        raise InputError(f"{message}; see {self.prog} --help")
+
+
+Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
+"""What a command adds its parser to."""
+
+OPTIONS: dict[str, dict[str, Any]] = {
+    "name": {"metavar": "NAME", "help": "a preset, or an engine file (.toml, .json)"},
+    "--rpm": {"default": "3000", "help": "crank speed (default: %(default)s)"},
+    "--by": {
+        "metavar": "OBJECTIVE,…",
+        "default": "total.moment.peak",
+        "help": "what to minimise (default: %(default)s)",
+    },
+    "--hold": {
+        "choices": ("pins", "firing"),
+        "default": "pins",
+        "help": "what is held as the bank angle changes: the crankpins, or the crank angles of all "
+        "top dead centres (default: %(default)s)",
+    },
+    "--orders": {
+        "default": "auto",
+        "help": "such as 1,2,4, or auto for all that matter (default: %(default)s)",
+    },
+    "--rtol": {
+        "help": "with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
+        "(default: 1e-9)",
+    },
+    "--quantity": {"choices": ("force", "moment", "torque"), "default": "moment"},
+    "--reference-z": {
+        "metavar": "Z",
+        "help": "plane about which moments are taken, m (default: the engine's)",
+    },
+    "--spectrum": {
+        "metavar": "N=A,…",
+        "help": "one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
+        "1=9.0,2=3.75",
+    },
+    "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
+    "--units": {
+        "metavar": "MASS,LENGTH",
+        "default": "kg,m",
+        "help": "units of numbers without one: g,mm or lb,in; a number may also have its own, such "
+        "as 86mm, 480g, 3.4in, 2oz, 180g·mm (default: %(default)s)",
+    },
+    "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
+    "--plot": {"metavar": "FILE", "help": "write a picture (.pdf, .png, .svg)"},
+}
+"""Options of several commands."""
+
+
+def command(
+    commands: Commands,
+    name: str,
+    what: str,
+    *,
+    example: str,
+    run: Callable[[Given], str],
+    note: str = "",
+) -> Parser:
+    """Add a command with its help to the others; return its parser."""
+    parser = commands.add_parser(
+        name,
+        help=what,
+        description=f"{what[0].upper()}{what[1:]}.",
+        epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def shared(parser: Parser, *names: str, **changes: object) -> None:
+    """Add options of :data:`OPTIONS`; a command may change, for one, what its help says."""
+    for name in names:
+        parser.add_argument(name, **OPTIONS[name] | changes)
+
+
+# --- values -------------------------------------------------------------------------------------
+
+
+class Given:
+    """Arguments of a command, read as values in the library's units.
+
+    Options are named as they are typed, ``"--reference-z"``; one that is left out reads as None.
+    """
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self._typed = vars(arguments)
+        for name, text in self._typed.items():
+            if isinstance(text, str) and "\0" in text:
+                raise InputError(f"{name} = {labels.cut(labels.printable(text))}: has a NUL byte")
+        self._plain = self._units(self._typed.get("units", "kg,m"))
+
+    def text(self, flag: str) -> Any:  # noqa: ANN401 - text or None, True or False of a flag
+        """Return what was typed."""
+        return self._typed[flag.removeprefix("--").replace("-", "_")]
+
+    @staticmethod
+    def _units(text: str) -> dict[str, Decimal]:
+        """Return what a plain number of each dimension stands for."""
+        mass = length = Decimal(1)
+        for name in text.split(","):
+            if name in MASSES:
+                mass = MASSES[name]
+            elif name in LENGTHS:
+                length = LENGTHS[name]
+            else:
+                known = ", ".join([*MASSES, *LENGTHS])
+                raise InputError(f"--units = {labels.cut(text)}: give a unit or two of {known}")
+        return {"kg": mass, "m": length, "kg·m": mass * length}
+
+    def decimal(self, flag: str, text: str, unit: str, what: str = "a number") -> Decimal:
+        """Return a finite number, typed with a unit or without, in the library's unit."""
+        typed, factor = text.strip(), self._plain.get(unit, Decimal(1))
+        parts = NUMBER.fullmatch(typed)
+        if parts and parts[2] is not None and parts[2] in UNITS.get(unit, {}):
+            typed, factor = parts[1], UNITS[unit][parts[2]]
+        try:
+            number = Decimal(typed)
+        except InvalidOperation:
+            raise InputError(
+                f"{flag} = {labels.cut(text)}: give {what}{_hint(typed, unit)}"
+            ) from None
+        # Decimals go far beyond floats; with these the arithmetic below could not overflow.
+        if not number.is_finite() or not math.isfinite(float(number)):
+            raise InputError(f"{flag} = {labels.cut(text)}: give a finite number")
+        return number * factor
+
+    def number(self, flag: str, unit: str = "") -> float:
+        """Return the number of an option that has one."""
+        return float(self.decimal(flag, self.text(flag), unit))
+
+    def optional(self, flag: str, unit: str = "") -> float | None:
+        """Return the number of an option, if it is given."""
+        return None if self.text(flag) is None else self.number(flag, unit)
+
+    def numbers(self, flag: str, unit: str = "") -> list[float] | None:
+        """Return a list of numbers, if it is given."""
+        text = self.text(flag)
+        return None if text is None else self.listed(flag, text, unit)
+
+    def listed(self, flag: str, text: str, unit: str = "") -> list[float]:
+        """Return the numbers of a text, separated by commas."""
+        return [float(self.decimal(flag, part, unit)) for part in text.split(",")]
+
+    def whole(self, flag: str) -> int:
+        """Return a whole number."""
+        text = self.text(flag)
+        found = self.decimal(flag, text, "count", "a whole number")
+        if found != int(found):
+            raise InputError(f"{flag} = {labels.cut(text)}: give a whole number")
+        return int(found)
+
+    def whole_numbers(self, flag: str, hint: str = "give whole numbers, such as 1,2") -> list[int]:
+        """Return a list of whole numbers."""
+        text = self.text(flag)
+        try:
+            return [int(part) for part in text.split(",")]
+        except ValueError:
+            raise InputError(f"{flag} = {labels.cut(text)}: {hint}") from None
+
+    def range(self, flag: str, unit: str = "") -> float | NDArray[np.float64] | None:
+        """Return a number, a list of numbers, or START:STOP:STEP with the stop included."""
+        text = self.text(flag)
+        if text is None:
+            return None
+        if ":" not in text:
+            what = "one number, a list a,b,c or a range START:STOP:STEP"
+            numbers = [float(self.decimal(flag, part, unit, what)) for part in text.split(",")]
+            return np.array(numbers) if "," in text else numbers[0]
+        parts = text.split(":")
+        shown = labels.cut(text)
+        if len(parts) != 3:
+            raise InputError(f"{flag} = {shown}: give START:STOP:STEP, a,b,c or one number")
+        # In decimals, so that 0.2:0.4:0.1 has 0.3 and 0.4 as they would be typed.
+        start, stop, step = (self.decimal(flag, part, unit) for part in parts)
+        if float(step) == 0.0 or (stop - start) * step < 0:
+            raise InputError(f"{flag} = {shown}: the step does not lead from {start} to {stop}")
+        steps = (stop - start) / step
+        if steps >= MOST_ROWS:
+            raise InputError(
+                f"{flag} = {shown}: {float(steps):.3g} steps; give {MOST_ROWS} at most"
+            )
+        return np.array([float(start + k * step) for k in range(int(steps) + 1)])
+
+    def engines(self) -> dict[str, Engine]:
+        """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
+        typed: dict[str, Engine] = {}
+        for name in self._typed.get("names") or [self.text("name")]:
+            if Path(name).suffix.lower() in FILES:
+                typed[name] = Engine.load(name)
+                continue
+            for member in presets.family(name):
+                if member not in presets.Presets():
+                    listing = f'"{PROG} presets" lists all; engine files end in .toml or .json'
+                    raise InputError(f"NAME = {presets.suggestion(name)}{listing}")
+                typed[member] = Engine.preset(member)
+        if (plane := self._typed.get("reference_z")) is not None:
+            z = float(self.decimal("--reference-z", plane, "m"))
+            typed = {name: engine.replace(reference_z=z) for name, engine in typed.items()}
+        titles = [engine.title if engine.name else "" for engine in typed.values()]
+        return {
+            title if title and titles.count(title) == 1 else name: engine
+            for title, (name, engine) in zip(titles, typed.items(), strict=True)
+        }
+
+    def engine(self, command: str) -> Engine:
+        """Return the engine of a command that takes one."""
+        found = self.engines()
+        if len(found) > 1:
+            name = self.text("name")
+            members = ", ".join(presets.family(name))
+            raise InputError(f"NAME = {name}: {command} takes one engine of {members}")
+        return next(iter(found.values()))
+
+    def orders(self) -> Orders:
+        """Return the orders of ``--orders``, or "auto"."""
+        if self.text("--orders") == "auto":
+            return "auto"
+        return self.whole_numbers("--orders", "give whole numbers, such as 1,2,4, or auto")
+
+    def chosen(self) -> dict[str, Any]:
+        """Return orders, or "auto", and the tolerance by which they are chosen, if it is given."""
+        listed = self.orders()
+        if self.text("--rtol") is None:
+            return {"orders": listed}
+        if listed != "auto":
+            raise InputError("--rtol needs --orders auto")
+        return {"orders": listed, "rtol": self.number("--rtol")}
+
+    def spectrum(self) -> Spectrum | None:
+        """Return the spectrum of ``--spectrum``, order → amplitude in kg·m, if it is given."""
+        if (text := self.text("--spectrum")) is None:
+            return None
+        shown, amplitudes = labels.cut(text), dict[int, float]()
+        for part in text.split(","):
+            typed, _, amplitude = part.partition("=")
+            order = int(typed) if typed.strip().isdecimal() and len(typed) < 10 else 0
+            if not amplitude or order < 1:
+                hint = "give order=amplitude, such as 1=9.0,2=3.75"
+                raise InputError(f"--spectrum = {shown}: {hint}")
+            if order in amplitudes:
+                raise InputError(f"--spectrum = {shown}: order {order} is given twice")
+            amplitudes[order] = float(self.decimal("--spectrum", amplitude, "kg·m"))
+        return amplitudes
+
+    def picture_file(self) -> Path | None:
+        """Return the file of the picture, checked before anything is computed for it."""
+        if (text := self.text("--plot")) is None:
+            return None
+        path = Path(text)
+        if path.suffix.lower() not in PICTURES:
+            hint = f"a picture's name ends in {', '.join(PICTURES)}"
+            raise InputError(f"--plot = {labels.cut(text)}: {hint}")
+        return path
+
+
+def _hint(typed: str, unit: str) -> str:
+    """Return what may be typed behind a number, and how a range is typed."""
+    if re.fullmatch(r"\d+(\.\d+)?\s*(-|–|\.\.|to)\s*\d+(\.\d+)?°?", typed):
+        low, high = re.findall(r"\d+(?:\.\d+)?", typed)
+        return f", such as {low}:{high}:10"
+    known = {"kg": "g, lb, oz", "m": "mm, in", "kg·m": "g·mm, oz·in", "": "%"}.get(unit)
+    return f", such as 12 or with a unit ({known})" if known and NUMBER.fullmatch(typed) else ""

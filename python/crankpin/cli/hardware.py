@@ -1,0 +1,264 @@
+"""Commands on what balances an engine: counterweights, bob weights, balance shafts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import labels
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
+from crankpin.analysis.balancing.balancer_options import balancer_options
+from crankpin.analysis.balancing.bob_weight import bob_weight
+from crankpin.analysis.balancing.counterweights import counterweights
+from crankpin.analysis.balancing.shaft_wishes import REMOVE
+from crankpin.cli.arguments import command, shared
+from crankpin.cli.outputs import draw, printed
+
+if TYPE_CHECKING:
+    from crankpin.analysis.balancing.correction_planes import Planes
+    from crankpin.cli.arguments import Commands, Given
+    from crankpin.model.engine import Engine
+
+OF_A_FIT = ("--x", "--y", "--planes", "--bearings", "--remove", "--quantity")
+"""Options that need ``--ratio``."""
+OF_OPTIONS = ("--rpm", "--by", "--target")
+"""Options that ``--ratio`` has no use for."""
+
+
+def add_counterweights(commands: Commands) -> None:
+    """Add the command ``counterweights``."""
+    fits = command(
+        commands,
+        "counterweights",
+        "weights that remove the most of what turns with the crankshaft at order 1",
+        example="counterweights v8-crossplane --planes webs --plot weights.png",
+        run=_counterweights,
+        note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
+        "What stays is in kg·m and kg·m², to be multiplied by ω².",
+    )
+    shared(fits, "name")
+    fits.add_argument(
+        "--planes",
+        default="webs",
+        metavar="ends|webs|Z,…|NAME=Z,…",
+        help="where weights can be: at the first and last cylinder, at both webs of every throw, "
+        "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: %(default)s)",
+    )
+    fits.add_argument(
+        "--target",
+        choices=("external", "internal"),
+        default="external",
+        help="relieve the mounts, or every throw's own main bearings (default: %(default)s)",
+    )
+    fits.add_argument(
+        "--fraction",
+        default="1",
+        help="part of the forward force and moment to remove (default: 1)",
+    )
+    fits.add_argument(
+        "--minimise",
+        choices=("squares", "largest"),
+        default="squares",
+        help="of weights that do the same (default: %(default)s)",
+    )
+    fits.add_argument("--bound", help="largest mass·radius of a plane, kg·m")
+    fits.add_argument(
+        "--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"
+    )
+    shared(fits, "--reference-z", "--units", "--csv", "--plot")
+
+
+def _counterweights(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("counterweights")
+    picture = given.picture_file()
+    angles = given.range("--angles", "°")
+    fitted = counterweights(
+        engine,
+        planes=_planes(given),
+        target=given.text("--target"),
+        fraction=given.number("--fraction"),
+        minimise=given.text("--minimise"),
+        bound=given.optional("--bound", "kg·m"),
+        angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
+    )
+    draw(fitted, picture)
+    return printed(fitted.table, csv=given.text("--csv"))
+
+
+def _planes(given: Given) -> Planes:
+    text: str = given.text("--planes")
+    if text in ("ends", "webs"):
+        return text
+    parts = [part.rpartition("=") for part in text.split(",")]
+    named = [name for name, equals, _ in parts if equals]
+    if not named:
+        return given.listed("--planes", text, "m")
+    if len(set(named)) < len(parts):
+        hint = "give ends, webs, places, or a name of its own for each place"
+        raise InputError(f"--planes = {labels.cut(text)}: {hint}")
+    return {name.strip(): float(given.decimal("--planes", z, "m")) for name, _, z in parts}
+
+
+def add_bob_weight(commands: Commands) -> None:
+    """Add the command ``bob-weight``."""
+    weighs = command(
+        commands,
+        "bob-weight",
+        "bob weight of each crankpin in grams, and what balance factors leave",
+        example="bob-weight v8-crossplane --rotating 550g --reciprocating 620g --oil 4g",
+        run=_bob_weight,
+        note="Masses are those of one cylinder, by default the engine's.",
+    )
+    shared(weighs, "name")
+    weighs.add_argument(
+        "--factor",
+        default="0.5",
+        help="part of the reciprocating mass, 0.5 or 50%% (default: %(default)s)",
+    )
+    masses = {
+        "--rotating": "big end, bolts and bearing shells",
+        "--reciprocating": "piston, pin, rings and small end",
+        "--oil": "oil of a crankpin (default: 0)",
+    }
+    for flag, what in masses.items():
+        weighs.add_argument(flag, metavar="MASS", help=f"{what}: 550g, or a number in kg")
+    shared(weighs, "--units", "--csv", "--plot")
+
+
+def _bob_weight(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("bob-weight")
+    picture = given.picture_file()
+    if (mass := given.optional("--reciprocating", "kg")) is not None:
+        cylinders = [each.replace(reciprocating_mass=mass) for each in engine.cylinders]
+        engine = engine.replace(cylinder=cylinders)
+    if (mass := given.optional("--rotating", "kg")) is not None:
+        engine = engine.replace(rotating_mass=mass)
+    bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
+    draw(bob, picture)
+    return printed(bob.table, csv=given.text("--csv"))
+
+
+def add_shafts(commands: Commands) -> None:
+    """Add the command ``shafts``."""
+    fits = command(
+        commands,
+        "shafts",
+        "balance shafts fitted to an engine, or all hardware against what stays",
+        example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
+        run=_shafts,
+        note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
+        "shafts are fitted. Write values that begin with a minus as --ratio=-2,2.",
+    )
+    shared(fits, "name")
+    fits.add_argument(
+        "--ratio", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"
+    )
+    for axis, where in (("x", "to the right of"), ("y", "above")):
+        fits.add_argument(
+            f"--{axis}",
+            metavar="M,…",
+            help=f"distances of the shafts {where} the crank axis, m: one for all or one for each, "
+            "free where left out: where they cancel roll torque (default: free)",
+        )
+    fits.add_argument("--planes", metavar="Z,…", help="places of the unbalances along the crank, m")
+    fits.add_argument("--bearings", metavar="Z,Z", help="places of the bearings, m")
+    fits.add_argument("--remove", choices=REMOVE, help="what the shafts remove (default: both)")
+    shared(fits, "--rpm", default=None, help="crank speed of the comparison (default: 3000)")
+    shared(
+        fits,
+        "--by",
+        default=None,
+        help="what to compare, as for rank (default: total.force.peak,total.moment.peak)",
+    )
+    fits.add_argument(
+        "--target",
+        metavar="OBJECTIVE=VALUE,…",
+        help="largest value allowed, in N or N·m, or in %% of what there is: "
+        "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
+    )
+    shared(fits, "--reference-z", "--units")
+    shared(fits, "--quantity", default=None, help="quantity of the picture (default: moment)")
+    shared(fits, "--csv", help="print the first table as CSV")
+    shared(fits, "--plot")
+    fits.add_argument(
+        "--save",
+        metavar="FILE",
+        help="write the engine with what was fitted (.toml, .json); without --ratio the least "
+        "hardware that reaches --target",
+    )
+
+
+def _shafts(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("shafts")
+    fits = given.text("--ratio") is not None
+    for name in OF_OPTIONS if fits else OF_A_FIT:
+        if given.text(name) is not None:
+            what = "is of the comparison without" if fits else "needs"
+            raise InputError(f"{name} {what} --ratio")
+    return _fit(engine, given) if fits else _compare(engine, given)
+
+
+def _fit(engine: Engine, given: Given) -> str:
+    picture = given.picture_file()
+    fit = balance_shafts(
+        engine,
+        given.whole_numbers("--ratio"),
+        x=_coordinates(given, "--x"),
+        y=_coordinates(given, "--y"),
+        planes=given.numbers("--planes", "m"),
+        bearings=given.numbers("--bearings", "m"),
+        remove=given.text("--remove") or "both",
+    )
+    if given.text("--save") is not None:
+        fit.engine.save(given.text("--save"))
+    draw(fit, picture, quantity=given.text("--quantity") or "moment")
+    return printed(fit.table, csv=given.text("--csv"))
+
+
+def _compare(engine: Engine, given: Given) -> str:
+    picture = given.picture_file()
+    by = (given.text("--by") or "total.force.peak,total.moment.peak").split(",")
+    targets, relative = _targets(given)
+    options = balancer_options(
+        engine,
+        rpm=given.optional("--rpm", "rpm") or 3000.0,
+        by=by,
+        target=targets,
+        relative=relative,
+    )
+    if given.text("--save") is not None:
+        if targets is None:
+            raise InputError("--save needs --ratio or --target")
+        options.engine.save(given.text("--save"))
+    draw(options, picture)
+    return printed(options.table, csv=given.text("--csv"))
+
+
+def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:
+    """Return one number for all shafts, or one for each, None where it is left out."""
+    text = given.text(flag)
+    if text is None or "," not in text:
+        return given.optional(flag, "m")
+    parts = text.split(",")
+    return [float(given.decimal(flag, part, "m")) if part.strip() else None for part in parts]
+
+
+def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
+    """Return objective → value, and whether values are parts of what there is."""
+    text = given.text("--target")
+    if text is None:
+        return None, False
+    hint = "give OBJECTIVE=VALUE, such as total.moment.peak=300 or total.moment.peak=5%"
+    pairs = [part.partition("=") for part in text.split(",")]
+    if not all(value.strip() for _, _, value in pairs):
+        raise InputError(f"--target = {labels.cut(text)}: {hint}")
+    per_cent = {value.strip().endswith("%") for _, _, value in pairs}
+    if len(per_cent) > 1:
+        raise InputError(f"--target = {labels.cut(text)}: give all values in %, or none")
+    values = {name.strip(): float(given.decimal("--target", value, "")) for name, _, value in pairs}
+    return values, per_cent == {True}

@@ -1,0 +1,200 @@
+"""Commands on engines to be made: designs, and what deviating parts leave."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import labels
+from crankpin.analysis.design.design import design
+from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
+from crankpin.analysis.tolerances.tolerances import tolerances
+from crankpin.cli.arguments import command, shared
+from crankpin.cli.outputs import draw, printed
+
+if TYPE_CHECKING:
+    from crankpin.cli.arguments import Commands, Given
+    from crankpin.model.engine import Engine
+
+MOST_SAMPLES = 10_000_000
+FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FIGURES}
+"""Figure that spreads → its option."""
+
+
+def add_design(commands: Commands) -> None:
+    """Add the command ``design``."""
+    designs = command(
+        commands,
+        "design",
+        "cranks, pin splits and bank angles that minimise an objective",
+        example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
+        run=_design,
+        note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
+        "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
+    )
+    shared(designs, "name")
+    designs.add_argument("--cylinders", metavar="N", help="number of cylinders (default: NAME's)")
+    designs.add_argument(
+        "--layout", choices=("inline", "vee", "flat", "boxer"), help="default: inline or vee"
+    )
+    shared(designs, "--by")
+    designs.add_argument(
+        "--bank-angle",
+        metavar="RANGE",
+        help="of a vee, degrees: one, or LOW:HIGH to choose from (default: NAME's)",
+    )
+    designs.add_argument(
+        "--pin-split",
+        metavar="RANGE",
+        help="left pin minus right pin, degrees, or LOW:HIGH (default: shared pins)",
+    )
+    designs.add_argument(
+        "--own-splits", action="store_true", help="let each throw have a split of its own"
+    )
+    designs.add_argument(
+        "--throws",
+        metavar="A,B,…",
+        help="throws to be put in order, degrees, or free (default: equally spaced)",
+    )
+    designs.add_argument("--even-firing", action="store_true", help="only cranks that fire evenly")
+    designs.add_argument(
+        "--intervals", metavar="A,B,…", help="only cranks that fire at these intervals, degrees"
+    )
+    designs.add_argument(
+        "--counterweights",
+        action="store_true",
+        help="do not count what counterweights remove, the forward part of order 1",
+    )
+    designs.add_argument(
+        "--shafts",
+        metavar="A,B,…",
+        help="speed ratios of balance shafts that are allowed: --shafts=-1 or --shafts=2,-2",
+    )
+    shared(designs, "--rpm", "--orders")
+    designs.add_argument(
+        "--count", default="20", help="number of designs to print (default: %(default)s)"
+    )
+    shared(designs, "--seed", "--csv", "--plot")
+
+
+def _design(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("design")
+    if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
+        hint = "give an engine with one or two banks and one kind of cylinder"
+        raise InputError(f"NAME = {given.text('name')}: {hint}")
+    picture = given.picture_file()
+    layout: Any = given.text("--layout") or ("inline" if len(engine.banks) == 1 else "vee")
+    angle = _angles(given, "--bank-angle")
+    if angle is None and layout == "vee" and len(engine.banks) == 2:
+        angle = engine.bank_angle_deg
+    shafts = [] if given.text("--shafts") is None else given.whole_numbers("--shafts")
+    found = design(
+        len(engine) if given.text("--cylinders") is None else given.whole("--cylinders"),
+        layout=layout,
+        cylinder=engine.cylinders[0],
+        spacing=_spacing(engine),
+        rotating_mass=float(engine.rotating_mass[0]),
+        rpm=given.number("--rpm", "rpm"),
+        by=given.text("--by"),
+        bank_angle_deg=angle,
+        pin_split_deg=_angles(given, "--pin-split"),
+        same_split=not given.text("--own-splits"),
+        throws_deg="free" if given.text("--throws") == "free" else _listed(given.text("--throws")),
+        even_firing=given.text("--even-firing"),
+        intervals_deg=_listed(given.text("--intervals")),
+        counterweights=given.text("--counterweights"),
+        shafts=shafts,
+        orders=given.orders(),
+        count=given.whole("--count"),
+        seed=given.whole("--seed"),
+    )
+    draw(found, picture)
+    return printed(found.table, csv=given.text("--csv"))
+
+
+def _spacing(engine: Engine) -> float:
+    """Return the distance between neighbouring throws."""
+    along = np.sort(engine.z[[number - 1 for number in next(iter(engine.banks.values()))]])
+    return float(along[1] - along[0]) if along.size > 1 else 0.0
+
+
+def _listed(text: str | None) -> list[str] | None:
+    return None if text is None else text.split(",")
+
+
+def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two, as exact text
+    """Return an angle or the ends of a range; angles stay text, which may be a fraction."""
+    if (text := given.text(flag)) is None:
+        return None
+    ends = [end.strip().removesuffix("°") for end in text.split(":")]
+    for end in ends:
+        if "/" not in end:
+            given.decimal(flag, end, "°", "one angle, or LOW:HIGH")
+    if len(ends) > 2:
+        raise InputError(f"{flag} = {labels.cut(text)}: give one angle, or LOW:HIGH")
+    return ends[0] if len(ends) == 1 else tuple(ends)
+
+
+def add_tolerances(commands: Commands) -> None:
+    """Add the command ``tolerances``."""
+    one = command(
+        commands,
+        "tolerances",
+        "what deviating masses, crankpins, places and rods leave of an engine's balance",
+        example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
+        run=_tolerances,
+        note="Spreads are standard deviations, or half widths with --distribution uniform.",
+    )
+    shared(one, "name")
+    for figure in FIGURES:
+        title, unit = labels.TOLERANCES[figure]
+        what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
+        one.add_argument(
+            FLAGS[figure], metavar="X", default="0",
+            help=f"{what}, {'degrees' if unit == '°' else unit}",
+        )  # fmt: skip
+    one.add_argument(
+        "--distribution", choices=tuple(SPREADS), default="normal", help="default: %(default)s"
+    )
+    one.add_argument("--samples", default="10000", help="number of samples (default: %(default)s)")
+    shared(one, "--seed", "--rpm")
+    shared(
+        one,
+        "--by",
+        default=None,
+        help="what to report, as for rank (default: total peaks, and order 1)",
+    )
+    one.add_argument(
+        "--shares", action="store_true", help="report the share of each tolerance in the variance"
+    )
+    shared(one, "--orders", "--reference-z", "--units", "--csv", "--plot")
+
+
+def _tolerances(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("tolerances")
+    picture = given.picture_file()
+    samples = given.whole("--samples")
+    if samples > MOST_SAMPLES:
+        raise InputError(f"--samples = {samples}: give {MOST_SAMPLES} at most")
+    spreads: dict[str, Any] = {
+        name: given.number(flag, labels.TOLERANCES[name][1]) for name, flag in FLAGS.items()
+    }
+    if not any(spreads.values()):
+        raise InputError(f"no part deviates: give a spread, {', '.join(FLAGS.values())}")
+    result = tolerances(
+        engine,
+        rpm=given.number("--rpm", "rpm"),
+        **spreads,
+        distribution=given.text("--distribution"),
+        samples=samples,
+        seed=given.whole("--seed"),
+        by=None if given.text("--by") is None else given.text("--by").split(","),
+        orders=given.orders(),
+    )
+    draw(result, picture, kind="shares" if given.text("--shares") else "histogram")
+    table = result.shares.table if given.text("--shares") else result.table
+    return printed(table, csv=given.text("--csv"))

@@ -1,0 +1,230 @@
+"""Commands on how engines shake: balance, sweep, rank."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import labels, tables
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.tables import Table
+from crankpin.analysis.ranking.rank import rank
+from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
+from crankpin.cli.arguments import MOST_ROWS, command, shared
+from crankpin.cli.outputs import draw, left_out, printed
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin.cli.arguments import Commands, Given
+
+SWEPT = {
+    "bank_angle_deg": ("--bank-angle", "°", "bank angle °"),
+    "rod_ratio": ("--rod-ratio", "", "rod ratio"),
+    "pin_offset": ("--pin-offset", "m", "pin offset m"),
+    "rpm": ("--rpm", "rpm", "rpm"),
+}
+"""Swept dimension → its option, unit and head of its column."""
+
+
+def add_balance(commands: Commands) -> None:
+    """Add the command ``balance``."""
+    one = command(
+        commands,
+        "balance",
+        "peaks of force, moment and torque at one speed, order by order",
+        example="balance v6-60 --rpm 6000 --plot v6.png",
+        run=_balance,
+    )
+    shared(one, "name", "--rpm", "--orders", "--rtol")
+    shared(one, "--quantity", help="quantity of the picture (default: %(default)s)")
+    shared(one, "--reference-z", "--spectrum", "--units", "--csv", "--plot")
+
+
+def _balance(given: Given) -> str:
+    """Return what the command prints."""
+    engine = given.engine("balance")
+    chosen = given.chosen()
+    picture = given.picture_file()
+    balance = engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
+    draw(balance, picture, quantity=given.text("--quantity"))
+    text = printed(balance.table, csv=given.text("--csv"))
+    return text if given.text("--csv") or chosen["orders"] != "auto" else text + left_out(balance)
+
+
+def add_sweep(commands: Commands) -> None:
+    """Add the command ``sweep``."""
+    many = command(
+        commands,
+        "sweep",
+        "peaks of each order over bank angle, rod ratio, pin offset or speed",
+        example="sweep ijesc-v6 --rpm 5000 --bank-angle 10:170:10 --plot v6.png",
+        run=_sweep,
+        note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number. Write one\n"
+        "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
+        "angle goes from 10 to 170 by 10.",
+    )
+    many.add_argument(
+        "names",
+        metavar="NAME",
+        nargs="+",
+        help="presets, engine files (.toml, .json), or families of presets: ijesc-v6 stands for "
+        "all whose names begin with ijesc-v6-",
+    )
+    many.add_argument("--bank-angle", metavar="RANGE", help="degrees")
+    many.add_argument("--rod-ratio", metavar="RANGE", help="crank radius / rod length")
+    many.add_argument("--pin-offset", metavar="RANGE", help="m")
+    shared(many, "--rpm", metavar="RANGE", help="default: %(default)s")
+    shared(many, "--hold", "--orders", "--rtol")
+    shared(many, "--quantity", help="quantity of the table (default: %(default)s)")
+    shared(many, "--reference-z", "--spectrum", "--units", "--csv", "--plot")
+
+
+def _sweep(given: Given) -> str:
+    """Return what the command prints."""
+    engines = given.engines()
+    typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit, _) in SWEPT.items()}
+    axes = {dim: values for dim, values in typed.items() if values is not None}
+    if not any(np.ndim(values) for values in axes.values()):
+        vees = all(len(engine.banks) == 2 for engine in engines.values())
+        if "bank_angle_deg" not in axes and vees:
+            axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
+        elif len(engines) == 1:
+            flags = ", ".join(flag for flag, *_ in SWEPT.values() if vees or "bank" not in flag)
+            raise InputError(
+                f"nothing to sweep: all options have one value; give one of {flags} as "
+                "START:STOP:STEP or a,b,c"
+            )
+    rows = math.prod([len(engines), *map(np.size, axes.values())])
+    if rows > MOST_ROWS:
+        raise InputError(f"{rows} points to sweep: give {MOST_ROWS} at most")
+    chosen = given.chosen()
+    picture = given.picture_file()
+    result = sweep(
+        engines if len(engines) > 1 else next(iter(engines.values())),
+        **axes,
+        hold=given.text("--hold") if "bank_angle_deg" in axes else None,
+        spectrum=given.spectrum(),
+        **chosen,
+    )
+    found, negligible = _tables_of(result, given)
+    draw(result, picture, quantity=given.text("--quantity"))
+    text = printed(tables.stacked(*found), csv=given.text("--csv"))
+    if given.text("--csv") or chosen["orders"] != "auto":
+        return text
+    return text + negligible + left_out(result)
+
+
+def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
+    """Return a table for each engine, or a single one with a column of engines; and a note.
+
+    For reading, engines that are swept along something else stand below each other, as in the
+    papers; a program needs a single table, and so does a comparison of engines alone. The note
+    names the chosen orders that are left out of tables for reading.
+    """
+    quantity = given.text("--quantity")
+    symbols = QUANTITIES[quantity].symbols
+    peaks = _peaks(result, quantity).reshape(-1, len(result.orders), len(symbols))
+    shown, note = np.full(len(result.orders), fill_value=True), ""
+    if given.text("--orders") == "auto" and not given.text("--csv"):
+        largest = peaks.max(axis=(0, 2), initial=0.0)
+        shown = largest >= labels.NEGLIGIBLE * largest.max(initial=0.0)
+        left = tuple(n for n, kept in zip(result.orders, shown, strict=True) if not kept)
+        note = f"{labels.not_shown(left)}\n" if left else ""
+    rows = peaks[:, shown].reshape(len(result.engines), -1, int(shown.sum()) * len(symbols))
+    dims = [dim for dim in result.coords if dim != "engine"]
+    swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
+    heads = [SWEPT[dim][-1] for dim in dims]
+    heads += [
+        f"{symbol} order {order} {QUANTITIES[quantity].unit}"
+        for order in np.array(result.orders)[shown].tolist()
+        for symbol in symbols
+    ]
+    how = _how(result, given)
+    decimals = tables.common_decimals(rows)
+    if "engine" not in result.coords or (dims and not given.text("--csv")):
+        return [
+            Table.from_rows(f"{name}: {how}", heads, swept, each, decimals)
+            for name, each in zip(engine_titles(result), rows, strict=True)
+        ], note
+    points = [(name, *point) for name in result.coords["engine"] for point in swept]
+    title = f"{how[0].upper()}{how[1:]}"
+    table = rows.reshape(len(points), -1)
+    return [Table.from_rows(title, ["engine", *heads], points, table, decimals)], note
+
+
+def _peaks(result: Sweep, quantity: str) -> NDArray[np.float64]:
+    """Return the peaks of a quantity: (…, n_orders, components)."""
+    drawn = getattr(result, quantity)
+    peaks: NDArray[np.float64] = drawn.peak if quantity == "torque" else drawn.peak_xy
+    return peaks
+
+
+def _how(result: Sweep, given: Given) -> str:
+    """Return what the table shows, and what is fixed, held or given."""
+    quantity = given.text("--quantity")
+    parts = [f"peaks of {QUANTITIES[quantity].words}"]
+    parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
+    if result.hold is not None:
+        parts.append(labels.HELD[result.hold])
+    if quantity == "moment" and given.text("--reference-z") is not None:
+        parts.append(f"about z = {given.number('--reference-z', 'm'):g} m")
+    if (spectrum := given.text("--spectrum")) is not None:
+        parts.append(f"spectrum {spectrum} kg·m")
+    return ", ".join(parts)
+
+
+def add_rank(commands: Commands) -> None:
+    """Add the command ``rank``."""
+    ranks = command(
+        commands,
+        "rank",
+        "engines by an objective, the smallest first, each at its best bank angles",
+        example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
+        run=_rank,
+        note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
+        "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
+        "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
+        "(of one order) and unevenness_deg.",
+    )
+    ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")
+    shared(ranks, "--by")
+    ranks.add_argument(
+        "--bank-angle",
+        metavar="RANGE",
+        help="degrees to choose from, or own for each engine's own (default: 10:170:10 if every "
+        "engine has two banks, else own)",
+    )
+    shared(ranks, "--hold")
+    ranks.add_argument("--refine", action="store_true", help="look between these angles too")
+    shared(ranks, "--rpm", "--orders", "--reference-z", "--spectrum", "--units", "--csv", "--plot")
+
+
+def _rank(given: Given) -> str:
+    """Return what the command prints."""
+    engines = given.engines()
+    own = given.text("--bank-angle") == "own"
+    angles: Any = None if own else given.range("--bank-angle", "°")
+    if given.text("--bank-angle") is None:
+        vees = all(len(engine.banks) == 2 for engine in engines.values())
+        own, angles = not vees, np.arange(10.0, 171.0, 10.0) if vees else None
+    points = len(engines) * (1 if angles is None else np.size(angles))
+    if points > MOST_ROWS:
+        raise InputError(f"{points} points to rank: give {MOST_ROWS} at most")
+    picture = given.picture_file()
+    ranking = rank(
+        engines,
+        rpm=given.number("--rpm", "rpm"),
+        bank_angle_deg=angles,
+        hold=None if own else given.text("--hold"),
+        by=given.text("--by").split(","),
+        spectrum=given.spectrum(),
+        refine=given.text("--refine"),
+        orders=given.orders(),
+    )
+    draw(ranking, picture)
+    return printed(ranking.table, csv=given.text("--csv"))
