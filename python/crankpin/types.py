@@ -29,8 +29,7 @@ from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
 from crankpin.analysis.tolerances.match_parts import Match
-from crankpin.analysis.tolerances.samples import Tolerances
-from crankpin.analysis.tolerances.shares import Shares
+from crankpin.analysis.tolerances.samples import Shares, Tolerances
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin.analysis.arrangements.cranks import TURN, Crank, Symmetries, exact
-from crankpin.analysis.arrangements.throw_orders import throw_orders
+from crankpin.analysis.arrangements.cranks import TURN, Crank, Symmetries, exact, throw_orders
 from crankpin.analysis.balance import balance
 from crankpin.analysis.vanishing import vanishing_orders
 from crankpin.model.cylinder import Cylinder

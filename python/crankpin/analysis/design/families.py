@@ -8,9 +8,11 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError
-from crankpin.analysis.arrangements.cranks import TURN, Crank, Exact
-from crankpin.analysis.arrangements.throw_orders import (
+from crankpin.analysis.arrangements.cranks import (
     MOST_CRANKS,
+    TURN,
+    Crank,
+    Exact,
     permutations,
     throw_orders,
     too_many,
