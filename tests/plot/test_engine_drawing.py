@@ -315,7 +315,7 @@ HREF = "{http://www.w3.org/1999/xlink}href"
 @pytest.mark.slow
 @any_engine
 def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engine) -> None:
-    text = engine._repr_svg_()
+    text = engine._picture()
     assert text is not None
     root = ET.fromstring(text)  # noqa: S314 - our own
     assert root.tag == f"{SVG}svg"
@@ -334,7 +334,7 @@ def test_the_inline_picture_is_one_element_that_fetches_nothing(engine: cp.Engin
 
 def test_pictures_on_one_page_have_ids_of_their_own() -> None:
     with plt.rc_context({"svg.hashsalt": "the same for all"}):
-        texts = [FITTED._repr_svg_() or "" for _ in range(2)]
+        texts = [FITTED._picture() or "" for _ in range(2)]
     first, second = (set(re.findall(r' id="([^"]+)"', text)) for text in texts)
     assert first
     assert not first & second
@@ -342,7 +342,7 @@ def test_pictures_on_one_page_have_ids_of_their_own() -> None:
 
 def test_its_lines_have_the_colour_of_the_page_s_text() -> None:
     with plt.style.context("dark_background"):
-        text = FITTED._repr_svg_() or ""
+        text = FITTED._picture() or ""
     assert "stroke: currentColor" in text
     assert "#010203" not in text
 
@@ -359,7 +359,7 @@ def test_without_matplotlib_there_is_the_table() -> None:
         "import sys; sys.modules['matplotlib'] = None\n"
         "import crankpin as cp\n"
         "engine = cp.Engine.preset('i4')\n"
-        "assert engine._repr_svg_() is None\n"
+        "assert engine._picture() is None\n"
         "assert engine._repr_html_().startswith('<table>')"
     )
     subprocess.run([sys.executable, "-c", code], check=True)  # noqa: S603

@@ -525,10 +525,10 @@ class Engine(Builders):
 
     def _repr_html_(self) -> str:
         table = self.table.replace(title="; ".join(self._summary()))._repr_html_()
-        picture = self._repr_svg_()
+        picture = self._picture()
         return table if picture is None else f"<div>{picture}</div>{table}"
 
-    def _repr_svg_(self) -> str | None:
+    def _picture(self) -> str | None:
         from crankpin.analysis.drawing import inline_svg
 
         return inline_svg(self)

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 SHORT = 1.9
 """Inches of height of a subplot below which its title has at most two lines."""
+LEAST_PART = 0.7
+"""Part of their cell in a grid that texts take at least, however small the axes become."""
 MOST_PASSES = 4
 """Layouts of a figure after which texts and legends stay as they are; most pictures take two."""
 MOST_ROWS = 2
@@ -156,6 +158,14 @@ def _extent(place: Any, along: str) -> float:  # noqa: ANN401 - axes or a figure
     return float(getattr(place.bbox, along))
 
 
+def _cell(ax: Axes, along: str) -> float:
+    """Return the extent of the cell of axes in their grid, before any layout, pixels."""
+    parent: Any = ax.get_figure(root=False)
+    spec = ax.get_subplotspec()
+    part = ax.get_position(original=True) if spec is None else spec.get_position(parent)
+    return float(getattr(part, along)) * _extent(parent, along)
+
+
 def _root(place: Axes | FigureBase) -> Figure:
     figure = place.get_figure(root=True)
     assert isinstance(figure, Figure)  # noqa: S101 - what is drawn has one
@@ -219,11 +229,16 @@ class _FittedText:
         return now != before
 
     def _room(self) -> float:
-        """Return the extent in pixels; of axes of a given aspect that of their cell."""
-        if self.along == "width" and isinstance(self.place, Axes):
-            parent: Any = self.place.get_figure(root=False)
-            return float(self.place.get_position(original=True).width * parent.bbox.width)
-        return _extent(self.place, self.along)
+        """Return the extent in pixels; of axes at least a part of that of their cell.
+
+        Without this limit narrow axes would break texts, which would make them narrower yet.
+        """
+        if not isinstance(self.place, Axes):
+            return _extent(self.place, self.along)
+        parent: Any = self.place.get_figure(root=False)
+        # Axes of a given aspect are smaller than their place.
+        part = getattr(self.place.get_position(original=True), self.along)
+        return max(part * _extent(parent, self.along), LEAST_PART * _cell(self.place, self.along))
 
     @property
     def _font(self) -> FontProperties:
@@ -269,11 +284,8 @@ def set_title(ax: Axes, *lines: str, pad: float | None = None) -> None:
     size = font_of("axes.titlesize", "medium").get_size()
     kept = [line for line in lines if line]
     text = ax.set_title(plain_text("\n".join(kept)), loc="left", fontsize=size, pad=pad)
-    cell = ax.get_subplotspec()
-    part = ax.get_position(original=True) if cell is None else cell.get_position(_root(ax))
-    parent: Any = ax.get_figure(root=False)
-    inches = part.height * parent.bbox.height / _root(ax).dpi
-    _fit(ax, text, _FittedText(text, kept, ax, most=2 if inches < SHORT else None))
+    short = _cell(ax, "height") < SHORT * _root(ax).dpi
+    _fit(ax, text, _FittedText(text, kept, ax, most=2 if short else None))
 
 
 def set_panel_title(ax: Axes, *lines: str, pad: float | None = None) -> None:

@@ -90,14 +90,15 @@ def order_map(
     if dims != [along]:
         swept = ", ".join(sweep.coords)
         raise InputError(f'kind = "orders" needs one swept number, not {swept}; give kind="curves"')
-    rows, note = _rows(sweep, name, sweep.orders, single=ax is not None, by_order=True)
+    orders = sweep.orders or (1,)  # zero, where nothing shakes
+    rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
     words = words_of(sweep)
     values = np.asarray(sweep.coords[along], dtype=np.float64)
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
     for row, panels in zip(rows.rows, made.axes, strict=True):
-        _cells(panels, values, sweep.orders, row.peaks, name, style)
+        _cells(panels, values, orders, row.peaks, name, style)
     _label_all(made, along, "order", rows)
     made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
     return made.drawn
@@ -170,7 +171,8 @@ def _heat(
             panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
         if not largest:
             note_zero(panel, color="white")
-    _colour_bar(panels, mesh, quantity)
+    if largest:  # a scale of nothing would mislead
+        _colour_bar(panels, mesh, quantity)
     return dotted
 
 
@@ -207,7 +209,10 @@ def _cells(
         options = {"shading": "nearest", "norm": norm, "rasterized": True} | style
         mesh = panel.pcolormesh(x[in_order], np.arange(1, highest + 1), cells, **options)
         panel.set_ylim(0.5, highest + 0.5)
-    _colour_bar(panels, mesh, quantity, plain=False)
+        if not nonzero.size:
+            note_zero(panel)
+    if nonzero.size:
+        _colour_bar(panels, mesh, quantity, plain=False)
 
 
 def _colour_bar(
@@ -221,9 +226,7 @@ def _colour_bar(
     bar = first.get_figure(root=False).colorbar(mesh, ax=list(panels), aspect=25, pad=0.02)  # type: ignore[union-attr]
     bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
-    if not mesh.get_array().any():  # a scale of nothing would mislead
-        bar.set_ticks([0.0])
-    elif plain:
+    if plain:
         numeric(bar.ax.yaxis)
 
 

@@ -12,7 +12,7 @@ import matplotlib as mpl
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, entry_of, lines, mark
 from crankpin.plot.layout import (
@@ -23,7 +23,16 @@ from crankpin.plot.layout import (
     make_panels,
     set_panel_title,
 )
-from crankpin.plot.rows import MOST, along_x, dimension, exists, largest, values_of, words_of
+from crankpin.plot.rows import (
+    MOST,
+    along_x,
+    dimension,
+    exists,
+    given_orders,
+    largest,
+    values_of,
+    words_of,
+)
 from crankpin.plot.style import DISTINCT, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import drawn_quantity
@@ -60,7 +69,7 @@ def parts(
     # Where all are zero, one panel says so.
     chosen = [sweep.orders[place] for place in places] or [*(sweep.orders or (1,))[:1]]
     if orders is not None:
-        chosen, note = inputs.explicit_orders(orders), ""
+        chosen, note = given_orders(orders), ""
     vectors = [getattr(sweep[order], name) for order in chosen]
     if len(names) > DISTINCT:
         raise InputError(

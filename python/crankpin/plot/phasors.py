@@ -18,6 +18,7 @@ from crankpin.analysis import contributions as adding
 from crankpin.plot import ticks
 from crankpin.plot.layout import (
     add_figure_legend,
+    inches_of,
     label_x,
     label_y,
     make_panels,
@@ -86,8 +87,9 @@ def phasors(
             panel, total = axes[row, column], complex(sums[row, column])
             # Corners of the polygon, from the origin on.
             chain = np.cumsum([0.0, *(arm.phasors[row, column] for arm in arms)])
-            room = _polygon(panel, arms, chain, total, inks, style)
+            room, names = _polygon(panel, arms, chain, total, inks, style)
             _frame(panel, chain, room)
+            _name(panel, names)
             length = f"{rounded(abs(total), 4)} {QUANTITIES[kind].unit}" if total else "0"
             set_panel_title(panel, f"order {order} {part}".strip(), length)
             aside = aside or room > 0.0
@@ -113,19 +115,23 @@ def _polygon(
     total: complex,
     inks: dict[str, Any],
     style: dict[str, Any],
-) -> float:
-    """Draw arms and sum; return the room that arrows moved aside need, points."""
+) -> tuple[float, list[tuple[str, complex, complex]]]:
+    """Draw arms and sum; return the room that arrows moved aside need, points, and names.
+
+    Names come with their place in data, and how far aside of it they stand, points.
+    """
     lengths = abs(np.diff(chain))
     longest = lengths.max(initial=0.0)
     if not longest:
         note_zero(ax)
-        return 0.0
+        return 0.0, []
     drawn = [k for k in range(len(arms)) if lengths[k] > NOTHING * longest]
     arrows = [(complex(chain[k]), complex(chain[k + 1])) for k in drawn]
     lanes = _lanes(arrows)
     font = FontProperties(size="small")
     lane = 5.0 + max(points_of(ax, arms[k].part, font) for k in drawn)
     middle = complex(chain[:-1].mean())
+    names: list[tuple[str, complex, complex]] = []
     for k, (start, end), aside in zip(drawn, arrows, lanes, strict=True):
         across = _across(end - start)
         # Outside of the polygon, or on the side of the arrow that has no other.
@@ -134,19 +140,38 @@ def _polygon(
         looks = {"color": inks[arms[k].group], "linewidth": 1.5} | style
         _arrow(ax, start, end, aside * lane * across, **looks)
         place = aside * lane * across + 0.5 * lane * out
+        names.append((arms[k].part, 0.5 * (start + end), place))
+    if abs(total) > NOTHING * longest:
+        _arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
+    ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
+    return lane * max(lanes), names
+
+
+def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
+    """Write names beside their arrows; those that would overlap one before are added to it."""
+    font = FontProperties(size="small")
+    # The layout will make the axes smaller than they are.
+    scale = 0.8 * 72.0 * inches_of(ax) / float(np.ptp(ax.get_xlim()))
+    written: list[tuple[list[str], complex, complex]] = []
+    for text, place, aside in names:
+        for texts, other, apart in written:
+            gap = scale * (place - other) + aside - apart
+            width = points_of(ax, ", ".join([*texts, text]), font)
+            if abs(gap.real) < 0.6 * width and abs(gap.imag) < font.get_size_in_points():
+                texts.append(text)
+                break
+        else:
+            written.append(([text], place, aside))
+    for texts, place, aside in written:
         ax.annotate(
-            arms[k].part,
-            (0.5 * (start + end).real, 0.5 * (start + end).imag),
+            ", ".join(texts),
             (place.real, place.imag),
+            (aside.real, aside.imag),
             textcoords="offset points",
             ha="center",
             va="center",
             fontsize="small",
         )
-    if abs(total) > NOTHING * longest:
-        _arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
-    ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
-    return lane * max(lanes)
 
 
 def _arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401

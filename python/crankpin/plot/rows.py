@@ -26,6 +26,13 @@ MATTERS = 1e-3
 """Orders whose peaks are all below this part of the largest are left out."""
 
 
+def given_orders(orders: object) -> list[int]:
+    """Return orders that are to be drawn, one at least."""
+    if found := inputs.explicit_orders(orders):
+        return found
+    raise InputError("orders = []: give at least one order, such as [1, 2]")
+
+
 def swept_quantity(sweep: Sweep, given: object) -> str:
     """Return the quantity asked for, by default the moment, or else the first that exists."""
     return drawn_quantity(given, lambda name: exists(sweep, name))
@@ -85,7 +92,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     if single and quantity in PLANE_VECTORS:
         columns = ("longest vector",)
     if orders is not None:
-        chosen = inputs.explicit_orders(orders)
+        chosen = given_orders(orders)
         if single and len(chosen) > 1:
             raise InputError(
                 f"orders = {inputs.shorten(orders)}: a single panel shows one order; give figure"

@@ -19,7 +19,7 @@ from crankpin.plot.layout import (
 )
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
-from crankpin.plot.rows import largest, swept_quantity, words_of
+from crankpin.plot.rows import given_orders, largest, swept_quantity, words_of
 from crankpin.plot.style import DISTINCT, background, colours, foreground, muted
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import plain_text
@@ -79,7 +79,7 @@ def bars(
 def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[int]:
     """Return the orders asked for, by default those of the summary, or else the largest."""
     if orders is not None:
-        return inputs.explicit_orders(orders)
+        return given_orders(orders)
     low = [order for order in sweep.orders if order <= SUMMARY]
     if low:
         return low

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axis import XAxis
 from matplotlib.ticker import FuncFormatter, Locator, MaxNLocator
 
-from crankpin.plot.layout import inches_of, points_of
+from crankpin.plot.layout import points_of
 from crankpin.plot.words import in_degrees, number
 
 if TYPE_CHECKING:
@@ -61,7 +61,9 @@ class RoundLocator(Locator):
     def _candidates(self, low: float, high: float) -> Iterator[Sequence[float]]:
         """Yield places of ticks, ever fewer."""
         for count in range(self.most, 0, -1):
-            found = MaxNLocator(count, steps=STEPS, integer=self.whole).tick_values(low, high)
+            found = MaxNLocator(count, steps=STEPS, integer=self.whole, min_n_ticks=1).tick_values(
+                low, high
+            )
             yield [each for each in found if not self.whole or each == round(each)]
 
     def _fit(self, places: Sequence[float], span: float) -> bool:
@@ -72,12 +74,13 @@ class RoundLocator(Locator):
         font = axis.get_major_ticks(1)[0].label1.get_fontproperties()
         size = font.get_size_in_points()
         if isinstance(axis, XAxis):
-            room = inches_of(axis.axes)
+            room = axis.axes.bbox.width
             longest = max(map(self.write, places), key=len)
             needed = 0.8 * size + points_of(axis.axes, longest, font)
         else:
-            room, needed = inches_of(axis.axes, "height"), 1.5 * size
-        return 72.0 * room * float(np.diff(places).min()) / span >= needed
+            room, needed = axis.axes.bbox.height, 1.5 * size
+        per_point = axis.axes.get_figure(root=True).dpi / 72.0
+        return bool(room * np.diff(places).min() >= per_point * needed * span)
 
 
 class DegreeLocator(RoundLocator):
@@ -94,7 +97,7 @@ class DegreeLocator(RoundLocator):
                 first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
                 yield (step * np.arange(int(first), int(last) + 1)).tolist()
         for count in range(self.most, 0, -1):
-            yield MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
+            yield MaxNLocator(count, steps=[1, 2, 5, 10], min_n_ticks=1).tick_values(low, high)
 
 
 def degrees(axis: Axis) -> None:
