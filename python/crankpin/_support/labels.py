@@ -71,7 +71,9 @@ def name_of(engine: Engine) -> str:
 
 def printable(text: str) -> str:
     """Return a text in one line, control characters as spaces: a terminal would obey them."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() else " " for c in text)
+    return " ".join(text.split())
 
 
 def orders_text(orders: tuple[int, ...]) -> str:

@@ -161,7 +161,8 @@ class Sweep(ByOrder, Tabled):
     engines: tuple[Engine, ...]
     """The engines."""
     names: tuple[str, ...] | None
-    """Names of the engines as given; None for a single engine, which is no dimension."""
+    """Names of the engines as given, empty where none was; None for a single engine, which is no
+    dimension."""
     axes: Mapping[str, NDArray[np.float64] | float]
     """Values of each argument: an array where it is swept, else a number."""
     hold: Hold | None
@@ -239,7 +240,8 @@ class Sweep(ByOrder, Tabled):
         """
         coords: dict[str, Any] = {}
         if self.names is not None:
-            coords["engine"] = _distinct(self.names)
+            pairs = zip(self.names, self.engines, strict=True)
+            coords["engine"] = _distinct([name or _name_of(engine) for name, engine in pairs])
         coords |= {name: self.axes[name] for name in self.dims if name != "engine"}
         return MappingProxyType(coords)
 
@@ -561,7 +563,7 @@ def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - name
 
 
 def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
-    """Return the engines, and their names where there may be several."""
+    """Return the engines, and their names in a mapping, empty in a list, where there are several."""
     if isinstance(engines, Engine):
         return [engines], None
     names: Sequence[str] | None = None
@@ -573,8 +575,12 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
         if not isinstance(engine, Engine):
             raise InputError(f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects")
     if names is None:
-        names = [labels.name_of(engine) if engine.name else "" for engine in engines]
+        names = [""] * len(engines)
     return list(engines), tuple(names)
+
+
+def _name_of(engine: Engine) -> str:
+    return labels.name_of(engine) if engine.name else ""
 
 
 def _distinct(names: Sequence[str]) -> list[str]:

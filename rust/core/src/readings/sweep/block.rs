@@ -151,21 +151,15 @@ impl Block {
     #[inline(always)]
     pub fn magnitudes(&self, components: usize, factor: f64, out: &mut [f64]) {
         let width = self.orders.len() * components;
-        let rows = out.len() / width;
-        // Two orders at a time, so that a row is written four numbers at once.
-        for (pair, orders) in self.orders.chunks(2).enumerate() {
-            let mut columns = [[0.0; BLOCK]; 4];
-            for (sums, columns) in orders.iter().zip(columns.chunks_exact_mut(2)) {
-                if let [along, across] = columns {
-                    sums.magnitudes(factor, along, across, rows);
+        for (order, sums) in self.orders.iter().enumerate() {
+            let mut columns = [[0.0; BLOCK]; 2];
+            let [along, across] = &mut columns;
+            sums.magnitudes(factor, along, across, out.len() / width);
+            for (i, row) in out.chunks_exact_mut(width).enumerate().take(BLOCK) {
+                row[order * components] = along[i];
+                if components == 2 {
+                    row[2 * order + 1] = across[i];
                 }
-            }
-            let [a, b, c, d] = &columns;
-            match (orders.len(), components) {
-                (2, 2) => write_rows(&[a, b, c, d], width, 4 * pair, out),
-                (1, 2) => write_rows(&[a, b], width, 4 * pair, out),
-                (2, _) => write_rows(&[a, c], width, 2 * pair, out),
-                _ => write_rows(&[a], width, 2 * pair, out),
             }
         }
     }
@@ -189,21 +183,6 @@ impl Sums {
 fn columns_of<const N: usize>(values: &[f64]) -> [&[f64]; N] {
     let length = values.len() / N;
     std::array::from_fn(|k| &values[k * length..(k + 1) * length])
-}
-
-/// Writes columns to neighbouring places of rows of some width.
-#[inline(always)]
-fn write_rows<const N: usize>(columns: &[&Column; N], width: usize, first: usize, out: &mut [f64]) {
-    if width == N {
-        let (rows, _) = out.as_chunks_mut::<N>();
-        for (i, row) in rows.iter_mut().enumerate().take(BLOCK) {
-            *row = columns.map(|column| column[i]);
-        }
-        return;
-    }
-    for (i, row) in out.chunks_exact_mut(width).enumerate().take(BLOCK) {
-        row[first..first + N].copy_from_slice(&columns.map(|column| column[i]));
-    }
 }
 
 /// Length of a phasor, 0 where its square is within a bound's.

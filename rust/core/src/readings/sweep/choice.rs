@@ -80,9 +80,9 @@ impl Sweep {
         for (index, (loads, gears)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
             let rest = tail(loads, sweep.orders.last(), torque, gears);
-            for &quantity in &quantities {
-                let layout = Layout::new(&sweep, index, quantity)?;
-                let largest = sweep.largest(&layout, gears, quantity, cancel)?;
+            let layouts = sweep.layouts(&sweep.engines[index], loads, &quantities)?;
+            for (&quantity, layout) in quantities.iter().zip(&layouts) {
+                let largest = sweep.largest(layout, gears, quantity, cancel)?;
                 sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
                 lost.push(rest[quantity.bound()]);
             }
@@ -105,7 +105,8 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Bounds over ω² of the size of each order, |forward| + |backward| or |torque|, at any point.
+    /// Bounds over ω² of the size of each order, |forward| + |backward| or |torque|, at any point;
+    /// `slowest` are the gears of the point where harmonics decrease most slowly.
     fn largest(
         &self,
         layout: &Layout,
@@ -114,9 +115,9 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<Vec<f64>> {
         let mut factors: Vec<(Harmonic, Vec<Factor>)> = Vec::new();
-        for sum in layout.by_order.iter().flatten() {
+        for sum in layout.iter().flatten() {
             if factors.iter().all(|(known, _)| *known != sum.harmonic) {
-                let found = self.factors(layout, slowest, sum.harmonic, quantity, cancel)?;
+                let found = self.factors(slowest, sum.harmonic, quantity, cancel)?;
                 factors.push((sum.harmonic, found));
             }
         }
@@ -140,31 +141,28 @@ impl Sweep {
             }
             size + span(&fixed, rounding)
         };
-        Ok(layout.by_order.iter().enumerate().map(size).collect())
+        Ok(layout.iter().enumerate().map(size).collect())
     }
 
-    /// Harmonics by order, or their bounds over the axes.
+    /// Harmonics of a gear by order, or their bounds over the axes.
     fn factors(
         &self,
-        layout: &Layout,
         slowest: &[Gear],
         harmonic: Harmonic,
         quantity: Quantity,
         cancel: &Cancel,
     ) -> Result<Vec<Factor>> {
         let orders = &self.orders;
-        let swept = self.axes.rod_ratio.is_some() || self.axes.pin_offset.is_some();
-        let k = match harmonic {
-            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) if swept => k,
-            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => {
-                let values = of(&layout.gears[k], harmonic, quantity, orders, cancel)?;
-                return Ok(values.into_iter().map(Factor::Fixed).collect());
-            }
+        let gear = match harmonic {
+            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => &slowest[k],
             Harmonic::One => {
                 return Ok(vec![Factor::Fixed(Complex64::new(1.0, 0.0)); orders.len()]);
             }
         };
-        let gear = &slowest[k];
+        if self.points() == 1 {
+            let values = of(gear, harmonic, quantity, orders, cancel)?;
+            return Ok(values.into_iter().map(Factor::Fixed).collect());
+        }
         let rod_ratio = match &gear.kind {
             GearKind::SliderCrank { proportions, .. } => 1.0 / proportions.rod,
             GearKind::Given(_) => 0.0,

@@ -7,8 +7,10 @@ use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
+use crate::gear::Gear;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// Functions of γ: cosine and sine for the forward part (or torque) and for the backward part.
@@ -22,29 +24,32 @@ pub(super) const CONSTANTS: usize = 13;
 pub(super) struct Turning(pub Vec<Vec<f64>>);
 
 impl Turning {
-    pub fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Self {
+    pub fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Result<Self> {
         let count = angles.len();
         let Some((bank_angles, hold)) = &sweep.axes.bank_angle else {
             // No bank turns: cosines of zero.
-            let none = [vec![1.0; count], vec![0.0; count]].concat().repeat(2);
-            return Self(vec![none; sweep.orders.len()]);
+            let ones = [1.0, 0.0, 1.0, 0.0].map(|value| std::iter::repeat_n(value, count));
+            let none: Vec<f64> = ones.into_iter().flatten().collect();
+            return Ok(Self(vec![none; sweep.orders.len()]));
         };
         let of_order = |&order: &crate::Order| {
             let multiples = quantity.turn(order, *hold);
-            let mut functions = vec![0.0; FUNCTIONS * count];
+            let mut functions: Vec<f64> = memory::zeros(FUNCTIONS * count)?;
+            let mut degrees: Vec<f64> = memory::zeros(count)?;
             for (multiple, pair) in multiples.into_iter().zip(functions.chunks_mut(2 * count)) {
                 let (cos, sin) = pair.split_at_mut(count);
                 let half = 0.5 * multiple as f64;
-                let degrees: Vec<f64> =
-                    bank_angles[angles.clone()].iter().map(|angle| half * angle).collect();
+                for (out, angle) in degrees.iter_mut().zip(&bank_angles[angles.clone()]) {
+                    *out = half * angle;
+                }
                 vectorised(
                     #[inline(always)]
                     || sin_cos_degrees(&degrees, sin, cos),
                 );
             }
-            functions
+            Ok(functions)
         };
-        Self(sweep.orders.iter().map(of_order).collect())
+        Ok(Self(sweep.orders.iter().map(of_order).collect::<Result<_>>()?))
     }
 }
 
@@ -59,15 +64,15 @@ impl Constants {
     pub fn new(
         sweep: &Sweep,
         quantity: Quantity,
-        layout: &Layout,
+        (gears, layout): (&[Gear], &Layout),
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let count = points.len();
-        let harmonics = PointHarmonics::new(sweep, layout, quantity, points, cancel)?;
-        let mut by_order = Vec::with_capacity(layout.by_order.len());
-        for (k, sums) in layout.by_order.iter().enumerate() {
-            let mut columns = vec![0.0; CONSTANTS * count];
+        let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, points, cancel)?;
+        let mut by_order = memory::room(layout.len())?;
+        for (k, sums) in layout.iter().enumerate() {
+            let mut columns: Vec<f64> = memory::zeros(CONSTANTS * count)?;
             for sum in sums {
                 let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };
                 let (constants, bounds) = columns.split_at_mut((CONSTANTS - 1) * count);

@@ -23,15 +23,15 @@ impl PointHarmonics {
     /// Those of a layout.
     pub fn new(
         sweep: &Sweep,
-        layout: &Layout,
+        (gears, layout): (&[Gear], &Layout),
         quantity: Quantity,
         points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let mut found: Vec<(Harmonic, Columns)> = Vec::new();
-        for harmonic in layout.by_order.iter().flatten().map(|sum| sum.harmonic) {
+        for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
             if found.iter().all(|(known, _)| *known != harmonic) {
-                let columns = sweep.columns(layout, harmonic, quantity, points.clone(), cancel)?;
+                let columns = sweep.columns(gears, harmonic, quantity, points.clone(), cancel)?;
                 found.push((harmonic, columns));
             }
         }
@@ -48,7 +48,7 @@ impl PointHarmonics {
 impl Sweep {
     fn columns(
         &self,
-        layout: &Layout,
+        gears: &[Gear],
         harmonic: Harmonic,
         quantity: Quantity,
         points: Range<usize>,
@@ -64,7 +64,7 @@ impl Sweep {
             }
             return Ok(columns);
         };
-        let gear = &layout.gears[k];
+        let gear = &gears[k];
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
         if let (Some(ratios), None, Harmonic::Force(_)) = (ratios, offsets, harmonic)
             && gear.is_centred()

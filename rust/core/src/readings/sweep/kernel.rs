@@ -16,6 +16,7 @@ use super::factors::{Constants, Turning};
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
+use crate::gear::Gear;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -86,14 +87,20 @@ impl<F: Sync> Job<'_, F> {
         let slab = (SLAB / sweep.orders.len()).clamp(BLOCK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let large = out.len() * if self.slow { 256 } else { 1 } >= WORTH_A_THREAD;
-        let layout = |k: usize| Layout::new(sweep, k, self.quantity);
-        let layouts: Vec<Layout> = self.each((0..sweep.engines.len()).collect(), large, layout)?;
+        let layout = |k: usize| {
+            let loads = sweep.loads(k);
+            let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;
+            Ok((loads.gears, layouts.into_iter().next().unwrap_or_default()))
+        };
+        let layouts: Vec<(Vec<Gear>, Layout)> =
+            self.each((0..sweep.engines.len()).collect(), large, layout)?;
         self.cancel.expect(sweep.engines.len() * angles * points);
         for angle_slab in slabs(angles) {
-            let turning = Turning::new(sweep, self.quantity, angle_slab.clone());
+            let turning = Turning::new(sweep, self.quantity, angle_slab.clone())?;
             for point_slab in slabs(points) {
-                let constants = |layout| {
-                    Constants::new(sweep, self.quantity, layout, point_slab.clone(), self.cancel)
+                let constants = |(gears, layout): &(Vec<Gear>, Layout)| {
+                    let (quantity, points) = (self.quantity, point_slab.clone());
+                    Constants::new(sweep, quantity, (gears, layout), points, self.cancel)
                 };
                 let constants = self.each(layouts.iter().collect(), large, constants)?;
                 let mut tasks = Vec::new();

@@ -2,14 +2,14 @@
 
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::engine::Hold;
-use crate::gear::Gear;
+use crate::engine::{Engine, Hold};
 use crate::load::{Alike, Harmonic, Loads, PhasorSum, Term, Turn, Wanted};
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::wrench::rounding;
 
 /// Sums of one harmonic of an order, over its amplitude.
+#[derive(Clone, Default)]
 pub(super) struct LayoutSum {
     pub harmonic: Harmonic,
     /// A, B and K as the kernel has them, each forward and backward.
@@ -18,65 +18,72 @@ pub(super) struct LayoutSum {
     pub bound: f64,
 }
 
-/// Layout sums of one engine, order by order.
-pub(super) struct Layout {
-    pub by_order: Vec<Vec<LayoutSum>>,
-    /// A gear of each kind.
-    pub gears: Vec<Gear>,
-}
+/// Layout sums of one engine and quantity, order by order.
+pub(super) type Layout = Vec<Vec<LayoutSum>>;
 
-impl Layout {
-    pub fn new(sweep: &Sweep, engine: usize, quantity: Quantity) -> Result<Self> {
-        let loads = sweep.loads(engine);
-        let engine = &sweep.engines[engine];
-        let vee = match &sweep.axes.bank_angle {
+impl Sweep {
+    /// Layout sums of an engine for some quantities.
+    pub(super) fn layouts(
+        &self,
+        engine: &Engine,
+        loads: &Loads,
+        quantities: &[Quantity],
+    ) -> Result<Vec<Layout>> {
+        let vee = match &self.axes.bank_angle {
             Some((_, hold)) => Some((engine.banks()?, *hold)),
             None => None,
         };
-        let planar = quantity.is_planar();
-        let wanted = Wanted { planar, roll: !planar, by_bank: vee.is_some() };
-        let mut by_order = Vec::with_capacity(sweep.orders.len());
-        for &order in &sweep.orders {
+        let planar = |quantity: &Quantity| quantity.is_planar();
+        let wanted = Wanted {
+            planar: quantities.iter().any(planar),
+            roll: !quantities.iter().all(planar),
+            by_bank: vee.is_some(),
+        };
+        let mut layouts = vec![Layout::new(); quantities.len()];
+        for &order in &self.orders {
             let rounding = rounding(loads.list.len(), order.number());
-            let mut sums: Vec<LayoutSum> = Vec::new();
-            for term in loads.sums(order, wanted) {
-                let Some(parts) = quantity.parts(&term) else { continue };
-                let known = sums.iter().position(|sum| sum.harmonic == term.harmonic);
-                let known = known.unwrap_or_else(|| {
-                    let constants = [Complex64::default(); 6];
-                    sums.push(LayoutSum { harmonic: term.harmonic, constants, bound: 0.0 });
-                    sums.len() - 1
-                });
-                let sum = &mut sums[known];
-                sum.bound += parts.iter().map(|part| part.size).sum::<f64>() * rounding;
-                let Some((bank, (banks, hold))) = term.bank.zip(vee) else {
-                    sum.constants[4] += parts[0].value;
-                    sum.constants[5] += parts[1].value;
-                    continue;
-                };
-                let is_right = bank == banks.right;
-                let bore = banks.directions[usize::from(!is_right)];
-                let to_bisector = banks.bisector() - bore;
-                for (k, multiple) in quantity.turn(order, hold).into_iter().enumerate() {
-                    let turned = parts[k].value * to_bisector.cis(multiple);
-                    // e^{−imγ} of the right bank, e^{imγ} of the left.
-                    let sine = Complex64::i() * turned;
-                    sum.constants[k] += turned;
-                    sum.constants[2 + k] += if is_right { -sine } else { sine };
+            let terms = loads.sums(order, wanted);
+            for (quantity, layout) in quantities.iter().zip(&mut layouts) {
+                let mut sums = Vec::new();
+                for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
+                    let sum = sum_of(&mut sums, term.harmonic);
+                    sum.bound += (parts[0].size + parts[1].size) * rounding;
+                    let Some((bank, (banks, hold))) = term.bank.zip(vee) else {
+                        sum.constants[4] += parts[0].value;
+                        sum.constants[5] += parts[1].value;
+                        continue;
+                    };
+                    let is_right = bank == banks.right;
+                    let bore = banks.directions[usize::from(!is_right)];
+                    let to_bisector = banks.bisector() - bore;
+                    for (k, multiple) in quantity.turn(order, hold).into_iter().enumerate() {
+                        let turned = parts[k].value * to_bisector.cis(multiple);
+                        // e^{−imγ} of the right bank, e^{imγ} of the left.
+                        let sine = Complex64::i() * turned;
+                        sum.constants[k] += turned;
+                        sum.constants[2 + k] += if is_right { -sine } else { sine };
+                    }
                 }
+                layout.push(sums);
             }
-            by_order.push(sums);
         }
-        Ok(Self { by_order, gears: loads.gears })
+        Ok(layouts)
     }
-}
 
-impl Sweep {
     /// Loads of an engine.
     pub(super) fn loads(&self, engine: usize) -> Loads {
         let reference = self.references[engine];
         Loads::new(&self.engines[engine], reference, Alike::Dimensions, self.spectrum.as_ref())
     }
+}
+
+/// The sum of this harmonic, added where there is none yet.
+fn sum_of(sums: &mut Vec<LayoutSum>, harmonic: Harmonic) -> &mut LayoutSum {
+    let known = sums.iter().position(|sum| sum.harmonic == harmonic).unwrap_or_else(|| {
+        sums.push(LayoutSum { harmonic, ..LayoutSum::default() });
+        sums.len() - 1
+    });
+    &mut sums[known]
 }
 
 impl Quantity {
