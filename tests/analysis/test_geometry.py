@@ -142,3 +142,9 @@ def test_unbalances_at_an_angle_make_the_force_of_the_balance(theta: float) -> N
     ]  # fmt: skip
     assert sum(vectors) == pytest.approx(complex(*force), abs=1e-15)
     assert [weight.z for weight in weights_on_crank(engine)] == [0.0, 0.2]
+
+
+def test_bores_that_are_known_are_drawn_as_wide() -> None:
+    bored = CYLINDER.replace(bore=0.07)
+    engine = cp.Engine.inline(bored, throws_deg=[0, 180], spacing=0.05)
+    assert assumed_bores(engine).tolist() == [0.07, 0.07]

@@ -116,14 +116,17 @@ def direction(degrees: NDArray[np.float64] | float) -> NDArray[np.complex128]:
 
 
 def assumed_bores(engine: Engine) -> NDArray[np.float64]:
-    """Return diameters of the bores to draw, m: (n_cylinders,). An engine does not store them.
+    """Return diameters of the bores to draw, m: (n_cylinders,).
 
-    As wide as the stroke is long, but at most 0.9 of the distance to the next cylinder of the bank,
-    and at least 0.6 of the stroke.
+    Those given; a bore that is not known is as wide as the stroke is long, but at most 0.9 of the
+    distance to the next cylinder of the bank, and at least 0.6 of the stroke.
     """
     banks = np.array(engine.core.bank)
-    bores = np.array([cylinder.stroke for cylinder in engine.cylinders])
+    cylinders = engine.cylinders
+    bores = np.array([cylinder.bore or cylinder.stroke for cylinder in cylinders])
     for k, z in enumerate(engine.z):
+        if cylinders[k].bore is not None:
+            continue
         distances = abs(engine.z[banks == banks[k]] - z)
         nearest = distances[distances > 0.0].min(initial=np.inf)
         bores[k] *= np.clip(WIDEST_BORE * nearest / bores[k], NARROWEST_BORE, 1.0)

@@ -545,10 +545,10 @@ class Engine(Builders):
         """Draw the engine at a crank angle: cross-section, crank star, crank from the side.
 
         Seen from the flywheel; the side view from x < 0, front to flywheel. Numbers are those of
-        the cylinders. An unbalance is a sector whose area is proportional to its amount. An engine
-        does not store its bores: they are drawn as wide as the stroke is long, but at most 0.9 of
-        the distance to the next cylinder of the bank, and at least 0.6 of the stroke. Crankpins at
-        one place along the crank are drawn side by side.
+        the cylinders. An unbalance is a sector whose area is proportional to its amount. A bore
+        that is not known is drawn as wide as the stroke is long, but at most 0.9 of the distance to
+        the next cylinder of the bank, and at least 0.6 of the stroke. Crankpins at one place along
+        the crank are drawn side by side.
 
         Parameters
         ----------
