@@ -82,7 +82,7 @@ def sweep(
         Pin offset of every cylinder, m.
     orders
         Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
-        point. Choosing takes about the time of a sweep of all candidate orders at one speed.
+        point. Choosing takes no longer for more points: it bounds every order over the axes.
     rtol, spectrum
         As in :meth:`Engine.balance`. Moments are about each engine's own reference plane.
     torque
@@ -563,7 +563,7 @@ def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - name
 
 
 def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
-    """Return the engines, and their names in a mapping, empty in a list, where there are several."""
+    """Return the engines, and where there are several their names, empty unless in a mapping."""
     if isinstance(engines, Engine):
         return [engines], None
     names: Sequence[str] | None = None
