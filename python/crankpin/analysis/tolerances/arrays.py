@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._support import progress as progress_bar
-from crankpin._support.frozen import Frozen
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.record import Record
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.request import engine_core
@@ -24,72 +24,51 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-class ToleranceArrays(ByOrder, Frozen):
+class ToleranceArrays(ByOrder, Record):
     """Arrays of samples: dimension ``sample``, then orders."""
-
-    _fields: ClassVar[tuple[str, ...]] = (
-        "engine", "rpm", "spreads", "samples", "seed", "request", "bound",
-    )  # fmt: skip
-
-    def __init__(
-        self,
-        engine: Engine,
-        rpm: float,
-        spreads: Spreads,
-        samples: int,
-        seed: int,
-        request: Request,
-        bound: ErrorBound,
-        progress: Progress = False,
-    ) -> None:
-        orders = request.orders or ()
-        core = _core.Tolerances(
-            engine_core(engine),
-            rpm,
-            list(orders),
-            request.reference_z,
-            request.torque,
-            spreads.values,
-            spreads.distribution,
-            seed,
-            spreads.pin_of,
-        )
-        with progress_bar.shown(progress, "tolerances") as report:
-            force, moment, torque, peaks = core.sample(0, samples, report)
-        self._set(
-            engine=engine,
-            rpm=rpm,
-            spreads=spreads,
-            samples=samples,
-            seed=seed,
-            request=request,
-            bound=bound,
-            _orders=orders,
-            core=core,
-            _planar={"force": force, "moment": moment},
-            _torques=torque,
-            _peaks=peaks,
-        )
 
     engine: Engine
     rpm: float
     spreads: Spreads
     samples: int
     seed: int
+    request: Request
     bound: ErrorBound
     """Bounds on what omitted orders add to the nominal engine."""
-    core: _core.Tolerances
-    """Compiled counterpart."""
-    _planar: dict[str, NDArray[np.complex128]]
-    _torques: NDArray[np.complex128]
-    _peaks: NDArray[np.float64]
 
-    _orders: tuple[int, ...]
+    @cached_property
+    def core(self) -> _core.Tolerances:
+        """Compiled counterpart."""
+        return _core.Tolerances(
+            engine_core(self.engine),
+            self.rpm,
+            list(self.orders),
+            self.request.reference_z,
+            self.request.torque,
+            self.spreads.values,
+            self.spreads.distribution,
+            self.seed,
+            self.spreads.pin_of,
+        )
+
+    def draw(self, progress: Progress) -> None:
+        """Evaluate the samples now."""
+        with progress_bar.shown(progress, "tolerances") as report:
+            force, moment, torques, peaks = self.core.sample(0, self.samples, report)
+        vars(self)["_drawn"] = {"force": force, "moment": moment}, torques, peaks
+
+    @cached_property
+    def _drawn(
+        self,
+    ) -> tuple[dict[str, NDArray[np.complex128]], NDArray[np.complex128], NDArray[np.float64]]:
+        """Force and moment, both torques, and peaks of all orders together."""
+        self.draw(progress=False)
+        return vars(self)["_drawn"]  # type: ignore[no-any-return]
 
     @property
     def orders(self) -> tuple[int, ...]:
         """Multiples of crank speed."""
-        return self._orders
+        return self.request.orders or ()
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -108,33 +87,25 @@ class ToleranceArrays(ByOrder, Frozen):
 
     def only(self, name: str) -> ToleranceArrays:
         """Return the same samples with one figure alone deviating."""
-        return ToleranceArrays(
-            self.engine,
-            self.rpm,
-            self.spreads.only(name),
-            self.samples,
-            self.seed,
-            self.request,
-            self.bound,
-        )
+        return self.replace(spreads=self.spreads.only(name))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         planar = quantity in PLANE_VECTORS
+        vectors, torques, peaks = self._drawn
         if what in ("forward", "backward"):
-            return self._planar[quantity][..., 2 + int(what == "backward")]
+            return vectors[quantity][..., 2 + int(what == "backward")]
         if what == "zero_bound":
             bound = self.nominal.read(quantity, what)
             return np.broadcast_to(bound, (self.samples, *bound.shape))
         if what == "total_peak":
-            return self._peaks[:, tuple(QUANTITIES).index(quantity)]
-        phasors = self._planar[quantity][..., :2] if planar else self._torque(quantity)
+            return peaks[:, tuple(QUANTITIES).index(quantity)]
+        phasors = (
+            vectors[quantity][..., :2] if planar else torques[..., int(quantity == "crank_torque")]
+        )
         if what == "total_peak_xy":
             orders = list(self.orders)
             along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
             return np.stack([_core.peaks_of_sums(orders, each) for each in along], axis=-1)
         if what == "peak" and planar:
-            return np.asarray(np.abs(self._planar[quantity][..., 2:]).sum(axis=-1))
+            return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
         return phasors if what == "phasors" else np.asarray(np.abs(phasors))
-
-    def _torque(self, quantity: str) -> NDArray[np.complex128]:
-        return self._torques[..., int(quantity == "crank_torque")]

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.frozen import Frozen
 from crankpin._support.record import Tabled, read_only
-from crankpin._support.tables import Shown, Table
+from crankpin._support.tables import Table
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
-from crankpin.analysis.tolerances.arrays import ToleranceArrays
 from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
 
 if TYPE_CHECKING:
@@ -26,6 +24,7 @@ if TYPE_CHECKING:
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.request import Request
+    from crankpin.analysis.tolerances.arrays import ToleranceArrays
     from crankpin.model.engine import Engine
 
 QUANTILES = (0.05, 0.5, 0.95)
@@ -65,7 +64,7 @@ def _checked(name: str, request: Request) -> Objective:
     return found
 
 
-class Tolerances(ByOrder, Frozen, Shown):
+class Tolerances(ByOrder, Tabled):
     """Samples of an engine whose parts deviate: force, moment and torque, order by order.
 
     The quantities are those of a balance with the dimension ``sample`` first: ``t.force.peak`` is
@@ -87,17 +86,10 @@ class Tolerances(ByOrder, Frozen, Shown):
     True
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("source", "by")
-
     source: ToleranceArrays
     """Arrays of the samples."""
     by: tuple[str, ...]
     """Names of what tables and pictures show."""
-
-    def __init__(self, source: ToleranceArrays, by: tuple[str, ...]) -> None:
-        if not isinstance(source, ToleranceArrays):
-            raise InputError(f"Tolerances({inputs.shorten(source)}): use crankpin.tolerances")
-        self._set(source=source, by=by)
 
     @property
     def request(self) -> Request:  # type: ignore[override] # read-only here

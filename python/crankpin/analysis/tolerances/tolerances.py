@@ -150,7 +150,8 @@ def tolerances(
     request = request.at_orders(kept)
     shown = names_of(by, request)
     report = progress_bar.checked(progress)
-    arrays = ToleranceArrays(engine, speed, spreads, count, start, request, bound, report)
+    arrays = ToleranceArrays(engine, speed, spreads, count, start, request, bound)
+    arrays.draw(report)
     inputs.warn_of_units(mean_piston_speed(engine, speed))
     return Tolerances(arrays, shown)
 
