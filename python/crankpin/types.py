@@ -3,12 +3,9 @@
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
-from crankpin.analysis.balancing.bob_weight import BobWeight, Straight
-from crankpin.analysis.balancing.counterweights import Counterweights, PartVerdict, Remainder
-from crankpin.analysis.balancing.first_order import BayLoad, Ellipses, ForwardPart
-from crankpin.analysis.balancing.fitted_shaft import FittedShaft
-from crankpin.analysis.balancing.fitted_shafts import BalanceShafts, PairHeights, PartLeft
-from crankpin.analysis.balancing.planes import Turning
+from crankpin.analysis.balancing.bob_weight import BobWeight
+from crankpin.analysis.balancing.counterweights import Counterweights
+from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
 from crankpin.analysis.by_order import (
     Ellipse,
@@ -47,7 +44,6 @@ __all__ = [
     "BalanceShafts",
     "BalancerOption",
     "BalancerOptions",
-    "BayLoad",
     "BobWeight",
     "Choice",
     "ClosedForm",
@@ -57,33 +53,24 @@ __all__ = [
     "Design",
     "Designs",
     "Ellipse",
-    "Ellipses",
     "ErrorBound",
     "Firing",
-    "FittedShaft",
-    "ForwardPart",
     "Gap",
     "Match",
     "OrderBalance",
     "OrderVerdicts",
     "Overlap",
-    "PairHeights",
-    "PartLeft",
-    "PartVerdict",
     "PlaneVector",
     "PortTiming",
     "Ports",
     "Quantity",
     "Ranking",
-    "Remainder",
     "Scalar",
     "Shares",
-    "Straight",
     "Sweep",
     "SweepWaveform",
     "Throws",
     "Tolerances",
-    "Turning",
     "TwoPlaneCorrection",
     "ValveTiming",
     "Valves",

@@ -47,7 +47,7 @@ def test_every_option_of_a_fit(capsys: CAPTURE) -> None:
 def test_csv_has_the_unbalances_in_full(capsys: CAPTURE) -> None:
     head, *rows = csv.reader(io.StringIO(printed(capsys, "i3", "--ratio", "-1", "--csv")))
     assert head == ["shaft", "ratio", "x m", "y m", "z m", "unbalance kg·m", "phase °"]
-    weights = cp.balance_shafts(cp.Engine.preset("i3"), -1)[0].shaft.unbalances
+    weights = cp.balance_shafts(cp.Engine.preset("i3"), -1)[0].unbalances
     expected = [[0.0, 0.0, w.z, w.amount, w.angle_deg] for w in weights]
     assert np.array([row[2:] for row in rows], float).tolist() == expected
 
@@ -55,7 +55,7 @@ def test_csv_has_the_unbalances_in_full(capsys: CAPTURE) -> None:
 def test_saves_the_engine_with_the_shafts(capsys: CAPTURE, tmp_path: Path) -> None:
     file = tmp_path / "smooth.toml"
     printed(capsys, "i4", "--ratio", "2,-2", "--save", str(file))
-    assert cp.Engine.load(file) == cp.balance_shafts(I4, [2, -2]).engine
+    assert cp.Engine.load(file) == cp.balance_shafts(I4, [2, -2]).fitted
 
 
 def test_compares_hardware(capsys: CAPTURE, tmp_path: Path) -> None:
@@ -64,7 +64,7 @@ def test_compares_hardware(capsys: CAPTURE, tmp_path: Path) -> None:
     options = cp.balancer_options(V6, rpm=3000, target=target)
     out = printed(capsys, "v6-90", "--target", "[1].moment.peak=0", "--save", str(file))
     assert out == f"{options!r}\n"
-    assert cp.Engine.load(file) == options.engine
+    assert cp.Engine.load(file) == options.fitted
     by = ["total.moment.peak", "[2].moment.peak"]
     options = cp.balancer_options(
         V6, rpm=4000, by=by, target={by[0]: 0.05}, relative=True, reference_z=0.2

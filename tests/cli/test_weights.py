@@ -57,18 +57,18 @@ def test_counterweights_are_those_of_the_library(
     head, *rows = csv.reader(
         io.StringIO(printed(capsys, "counterweights", "v6-90", "--csv", *typed))
     )
-    assert head == ["plane", "z m", "kg·m", "angle °"]
-    assert [float(row[2]) for row in rows] == [w.amount for w in fitted.unbalances]
+    assert head == ["plane", "z m", "amount kg·m", "angle °"]
+    assert [float(row[2]) for row in rows] == [w.amount for w in fitted.hardware]
 
 
 def test_options_of_counterweights_are_those_of_the_library(capsys: CAPTURE) -> None:
-    options = ["--target", "internal", "--fraction", "0.8", "--minimise", "largest"]
+    options = ["--target", "internal", "--factor", "0.4", "--minimise", "largest"]
     options += ["--bound", "0.004", "--angles", "0:330:30"]
     fitted = cp.counterweights(
         cp.Engine.preset("i4"),
         planes="webs",
         target="internal",
-        fraction=0.8,
+        factor=0.4,
         minimise="largest",
         bound=0.004,
         angles_deg=[30.0 * k for k in range(12)],
@@ -110,7 +110,7 @@ def test_pictures_are_written(capsys: CAPTURE, tmp_path: Path, command: str) -> 
         (["counterweights", "v6-90", "--bound", "-1"], "bound = -1.0: give a mass·radius"),
         (["counterweights", "ijesc-v6"], "NAME = ijesc-v6: counterweights takes one engine"),
         (["bob-weight", "v6-90", "--factor", "fifty"], "--factor = fifty: give a number"),
-        (["bob-weight", "v6-90", "--factor", "50"], "factor = 50.0: give a part"),
+        (["bob-weight", "v6-90", "--factor", "50"], "factor = 50.0: give a share"),
         (["bob-weight", "v6-90", "--plot", "x.txt"], "--plot = x.txt: a picture's name"),
     ],
 )

@@ -110,7 +110,7 @@ RESULTS = {
     cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
     cp.types.Throws: ["throws_deg", "pin_split_deg"],
     cp.types.Ranking: ["values"],
-    cp.types.Counterweights: ["largest", "residual", "ellipses", "bay_loads"],
+    cp.types.Counterweights: ["largest", "residual", "verdicts", "bay_loads"],
     cp.types.BobWeight: ["mass", "grams"],
     cp.types.TwoPlaneCorrection: ["amount_g_mm", "angle_deg", "drill_deg"],
 }

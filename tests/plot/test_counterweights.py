@@ -32,9 +32,9 @@ def points(ax: Axes, gid: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_weights_stand_at_their_places_and_point_their_way() -> None:
     ax = FITTED.plot(kind="weights")
     z, height, angle = points(ax, "crankpin weights")
-    assert z.tolist() == [w.z for w in FITTED.unbalances]
-    assert height.tolist() == [w.amount for w in FITTED.unbalances]
-    np.testing.assert_allclose(angle, [float(w.angle_deg) for w in FITTED.unbalances])
+    assert z.tolist() == [w.z for w in FITTED.hardware]
+    assert height.tolist() == [w.amount for w in FITTED.hardware]
+    np.testing.assert_allclose(angle, [float(w.angle_deg) for w in FITTED.hardware])
     z, height, angle = points(ax, "crankpin pins")
     np.testing.assert_array_equal(z, V6_90.z)
     np.testing.assert_allclose(angle, V6_90.pin_deg)
@@ -47,9 +47,9 @@ def test_weights_stand_at_their_places_and_point_their_way() -> None:
 
 def test_weights_of_a_plane_stand_on_each_other() -> None:
     fitted = cp.counterweights(V8, planes="ends", angles_deg=[0, 90, 180, 270])
-    assert len(fitted.unbalances) == 4
+    assert len(fitted.hardware) == 4
     z, height, angle = points(fitted.plot(plt.subplots()[1]), "crankpin weights")
-    first, second, *_ = fitted.unbalances
+    first, second, *_ = fitted.hardware
     assert height[0] == first.amount
     assert height[1] == first.amount + second.amount
     assert height.max() == pytest.approx(fitted.largest)
@@ -64,7 +64,7 @@ def traced(ax: Axes, place: int) -> np.ndarray:
 
 def test_ellipses_are_those_before_and_after() -> None:
     ax = FITTED.plot(kind="ellipses")
-    for place, engine in enumerate((V6_90, FITTED.engine)):
+    for place, engine in enumerate((V6_90, FITTED.fitted)):
         moment = engine.balance(UNIT_SPEED, orders=[1])[1].moment
         curve = traced(ax, place)
         assert abs(curve).max() == pytest.approx(float(moment.ellipse.major), rel=1e-3)
@@ -94,14 +94,14 @@ def test_bob_weights_show_what_stays() -> None:
     ax = bob.plot()
     longest, shortest = series(ax)
     factors = np.asarray(longest.get_xdata())
-    stays = bob.stays("moment", factors)
+    stays = bob.ellipse("moment", factors)
     np.testing.assert_array_equal(longest.get_ydata(), stays.major)
     np.testing.assert_array_equal(shortest.get_ydata(), np.abs(stays.minor))
     assert {0.0, 0.5, 0.55, 1.0} <= set(factors.round(12))
-    own = bob.stays("moment")
+    own = bob.ellipse("moment")
     assert marks(ax)["o"] == [(0.55, own.major), (0.55, abs(own.minor))]
     lines = bob.straight("moment")
-    assert marks(ax)["D"] == [(line.factor, 0.0) for line in lines]
+    assert marks(ax)["D"] == [(factor, 0.0) for factor, _ in lines]
     assert [text.get_text() for text in ax.texts] == ["90°", "0°"]
     assert title_of(ax) == "V6 90°, split pins\nrocking moment of order 1 over ω²"
     assert legend_texts(ax)[:2] == ["longest", "shortest"]

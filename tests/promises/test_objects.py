@@ -110,7 +110,7 @@ OBJECTS: dict[str, Any] = {
     "Choice": ranking()[0],
     "Counterweights": cp.counterweights(V6, planes="ends"),
     "Counterweights, bay by bay": cp.counterweights(
-        V6, planes="webs", target="internal", fraction=0.8, bound=0.1
+        V6, planes="webs", target="internal", factor=0.4, bound=0.1
     ),
     "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
     "TwoPlaneCorrection": cp.two_plane_correction(

@@ -12,7 +12,7 @@ from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.analysis.balancing.shaft_wishes import REMOVE
+from crankpin.analysis.balancing.shaft_requests import REMOVE
 from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, printed
 
@@ -53,9 +53,9 @@ def add_counterweights(commands: Commands) -> None:
         help="relieve the mounts, or every throw's own main bearings (default: %(default)s)",
     )
     fits.add_argument(
-        "--fraction",
-        default="1",
-        help="part of the forward force and moment to remove (default: 1)",
+        "--factor",
+        help="share of the reciprocating mass to balance, as of a bob weight: 0.5 or 50%% (default: "
+        "whatever removes all of the forward part)",
     )
     fits.add_argument(
         "--minimise",
@@ -79,7 +79,7 @@ def _counterweights(given: Given) -> str:
         engine,
         planes=_planes(given),
         target=given.text("--target"),
-        fraction=given.number("--fraction"),
+        factor=given.optional("--factor"),
         minimise=given.text("--minimise"),
         bound=given.optional("--bound", "kg·m"),
         angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
@@ -215,7 +215,7 @@ def _fit(engine: Engine, given: Given) -> str:
         remove=given.text("--remove") or "both",
     )
     if given.text("--save") is not None:
-        fit.engine.save(given.text("--save"))
+        fit.fitted.save(given.text("--save"))
     draw(fit, picture, quantity=given.text("--quantity") or "moment")
     return printed(fit.table, csv=given.text("--csv"))
 
@@ -234,7 +234,7 @@ def _compare(engine: Engine, given: Given) -> str:
     if given.text("--save") is not None:
         if targets is None:
             raise InputError("--save needs --ratio or --target")
-        options.engine.save(given.text("--save"))
+        options.fitted.save(given.text("--save"))
     draw(options, picture)
     return printed(options.table, csv=given.text("--csv"))
 

@@ -86,9 +86,9 @@ def _balance_shafts(
     before, after = (
         np.array([getattr(each, when) for each in parts]) for when in ("before", "after")
     )
-    set_title(ax, labels.name_of(result.before), "with and without balance shafts")
+    set_title(ax, labels.name_of(result.engine), "with and without balance shafts")
     if label is None and count_series(ax):
-        label = labels.name_of(result.before)
+        label = labels.name_of(result.engine)
     wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
     rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
     ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
@@ -135,11 +135,11 @@ def _balancers(
     left_out = len(result.front) - len(shown)
     set_title(
         ax,
-        labels.name_of(result.before),
+        labels.name_of(result.engine),
         f"hardware, {number(result.rpm)} rpm" + f"; {left_out} more" * bool(left_out),
     )
     if label is None and not alone:
-        label = labels.name_of(result.before)
+        label = labels.name_of(result.engine)
     start = np.array(result[0].values)
     parts = np.array([each.values for each in shown]) / np.where(start > 0.0, start, 1.0) * 100.0
     drawn = [k for k, value in enumerate(start) if value > 0.0]
@@ -225,15 +225,15 @@ def _bob_weight(
     name = _chosen(result, quantity)
     ax = axes_or_new(ax)
     if label is None and count_series(ax):
-        label = labels.name_of(result.before)
+        label = labels.name_of(result.engine)
     lines = result.straight(name)
-    end = max(1.0, result.factor, *(line.factor for line in lines))
+    end = max(1.0, result.factor, *(factor for factor, _ in lines))
     # Both half axes have corners at these factors.
-    corners = [line.factor for line in lines] + [result.least(name) or 0.0, result.factor]
+    corners = [factor for factor, _ in lines] + [result.least(name) or 0.0, result.factor]
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
-    stays = result.stays(name, factors)
-    own = result.stays(name)
-    set_title(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
+    stays = result.ellipse(name, factors)
+    own = result.ellipse(name)
+    set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
     curves = {"longest": stays.major, "shortest": np.abs(stays.minor)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
         full = f"{label}: {text}" if label else text
@@ -247,10 +247,10 @@ def _bob_weight(
     x = np.array([result.factor, result.factor])
     ring(ax, x, np.array([own.major, abs(own.minor)]), foreground(ax), "o", "this factor")
     if lines:
-        x = np.array([line.factor for line in lines])
+        x = np.array([factor for factor, _ in lines])
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
-        for line in lines:
-            write(ax, line.factor, 0.0, in_degrees(round(line.direction_deg, 1)))
+        for factor, direction_deg in lines:
+            write(ax, factor, 0.0, in_degrees(round(direction_deg, 1)))
     label_x(ax, "balance factor")
     label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
     add_legend(ax)
@@ -261,4 +261,4 @@ def _chosen(result: BobWeight, quantity: object) -> str:
     """Return the quantity given, or the force, or the moment if there is no force."""
     if quantity is not None:
         return inputs.one_of("quantity", quantity, PLANE_VECTORS)
-    return "force" if result.stays("force", 0.0).major > 0.0 else "moment"
+    return "force" if result.ellipse("force", 0.0).major > 0.0 else "moment"

@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.counterweights import Counterweights
-from crankpin.analysis.balancing.first_order import first_order
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import degrees
 from crankpin.plot.balance import direction, ellipse
@@ -67,12 +67,12 @@ def _counterweights(
     reject_figure(figure, chosen)
     ax = axes_or_new(ax)
     if chosen == "ellipses":
-        set_title(ax, labels.name_of(result.before), f"{QUANTITIES[name].words} of order 1 over ω²")
+        set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
         _ellipses(ax, result, name, style)
         add_legend(ax)
         return ax
     set_title(
-        ax, labels.name_of(result.before), "counterweights, arrows at θ = 0 seen from the flywheel"
+        ax, labels.name_of(result.engine), "counterweights, arrows at θ = 0 seen from the flywheel"
     )
     _weights(ax, result, style)
     return ax
@@ -80,15 +80,15 @@ def _counterweights(
 
 def _exists(result: Counterweights, name: str) -> bool:
     """Return whether order 1 has a force or moment before or after."""
-    found = (result.ellipses_before, result.ellipses)
-    return any(getattr(each, name).major > 0.0 for each in found)
+    found = (over_square(result.engine, [1], result.reference_z), result.residual)
+    return any(getattr(each[1], name).peak > 0.0 for each in found)
 
 
 def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
-    before = result.ellipses_before
-    shown = [name for name in PLANE_VECTORS if getattr(before, name).major > 0.0]
+    before = over_square(result.engine, [1], result.reference_z)[1]
+    shown = [name for name in PLANE_VECTORS if getattr(before, name).ellipse.major > 0.0]
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
     given = isinstance(figure, FigureBase)
@@ -104,7 +104,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
         set_panel_title(panel, QUANTITIES[name].words)
         states = _ellipses(panel, result, name, style)
     set_figure_title(
-        made.figure, labels.name_of(result.before), "counterweights, and order 1 over ω²"
+        made.figure, labels.name_of(result.engine), "counterweights, and order 1 over ω²"
     )
     add_figure_legend(made.figure, states)
     return made.axes
@@ -113,8 +113,8 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
 def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
     """Draw stems as high as the weights; those of one plane stand on each other."""
     (look,) = series(ax, 1, {"linestyle": "-"} | style)
-    places = np.array([weight.z for weight in result.unbalances])
-    amounts = np.array([weight.amount for weight in result.unbalances])
+    places = np.array([weight.z for weight in result.hardware])
+    amounts = np.array([weight.amount for weight in result.hardware])
     names = [name for name, _ in result.by_plane]
     feet = np.array(
         [sum(amounts[k] for k in range(i) if names[k] == names[i]) for i in range(len(names))]
@@ -128,10 +128,10 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
         label=style.get("label", "_"),
         **look,
     )
-    angles = [degrees(weight.angle_deg) for weight in result.unbalances]
+    angles = [degrees(weight.angle_deg) for weight in result.hardware]
     _needles(ax, places, tops, angles, line.get_color(), "crankpin weights")
     largest = float(tops.max(initial=0.0)) or 1.0
-    pins = crankpins(result.before)
+    pins = crankpins(result.engine)
     at = np.array([pin.z for pin in pins])
     height = np.full(len(pins), PINS * largest)
     _needles(ax, at, height, [pin.pin_deg for pin in pins], muted(ax), "crankpin pins")
@@ -181,9 +181,9 @@ def _needles(
 
 def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]) -> list[Line2D]:
     """Draw what order 1 traces before and after; return entries of a legend for both."""
-    entries, states = [], {"before": result.before, "after": result.engine}
+    entries, states = [], {"before": result.engine, "after": result.fitted}
     for (state, engine), look in zip(states.items(), series(ax, 2, style), strict=True):
-        order = first_order(engine, result.reference_z)
+        order = over_square(engine, [1], result.reference_z)[1]
         vanishes = getattr(order, name).ellipse.major == 0.0
         text = f"{state}: {'zero' if vanishes else direction(order, name)}"
         given = style.get("label")

@@ -86,8 +86,8 @@ def test_targets_of_several_objectives_must_all_be_reached() -> None:
     assert options.least is not None
     assert options.least.name == "counterweights + shafts −1, −2, +2"
     assert [each.reaches for each in options].count(True) == 1
-    assert options.engine == options.least.engine
-    after = options.balance(RPM, orders=[1, 2])
+    assert options.fitted == options.least.fitted
+    after = options.fitted.balance(RPM, orders=[1, 2])
     assert after.moment.peak.max() <= 1e-9 * V6_90.balance(RPM)[1].moment.peak
 
 
@@ -95,9 +95,10 @@ def test_engine_is_undefined_without_a_set_that_reaches_the_target() -> None:
     for target, words in ((None, "no target was given"), ({"[4].force.peak": 0.0}, "no set")):
         options = cp.balancer_options(I4, rpm=RPM, target=target)
         assert options.least is None
-        assert not hasattr(options, "engine")
-        with pytest.raises(cp.InputError, match=words):
-            options.balance(RPM)
+        for name in ("fitted", "hardware", "residual"):
+            assert not hasattr(options, name)
+            with pytest.raises(cp.InputError, match=words):
+                getattr(options, name)
 
 
 # --- what is compared -----------------------------------------------------------------------------
@@ -111,7 +112,8 @@ def test_sets_are_all_combinations_that_have_something_to_remove() -> None:
     assert names == {each or "nothing" for each in expected}
     assert len(OPTIONS) == len(names)
     assert OPTIONS[0].name == "nothing"
-    assert OPTIONS[0].engine == V6_90
+    assert OPTIONS[0].fitted == V6_90
+    assert OPTIONS[0].hardware == ()
     key = [(len(each.shafts), each.unbalance) for each in OPTIONS]
     assert key == sorted(key)
 
@@ -134,7 +136,7 @@ def test_force_and_moment_are_removed_together_or_alone() -> None:
         )
     }
     (alone,) = (each for each in options if each.name == "shaft −1 (force alone)")
-    after, before = (e.balance(RPM, orders=[1])[1] for e in (alone.engine, HEAVIER))
+    after, before = (e.balance(RPM, orders=[1])[1] for e in (alone.fitted, HEAVIER))
     assert abs(after.force.backward) <= 1e-12 * abs(before.force.backward)
     assert after.moment.backward == pytest.approx(complex(before.moment.backward))
 
@@ -148,7 +150,7 @@ def test_counterweights_stand_in_the_planes_given() -> None:
     options = cp.balancer_options(V6_90, rpm=RPM, planes=[-0.05, 0.3], shaft_orders=[2])
     assert {w.z for each in options for w in each.counterweights} == {-0.05, 0.3}
     for each in options:
-        forward = each.engine.balance(RPM, orders=[1])[1].moment.forward
+        forward = each.fitted.balance(RPM, orders=[1])[1].moment.forward
         assert (abs(forward) < 1e-9) == bool(each.counterweights)
 
 
@@ -157,10 +159,11 @@ def test_what_the_engine_has_stays() -> None:
     shaft = [Shaft(3, [Unbalance(0.001, 0.0)])]
     equipped = V6_90.with_counterweights(own).with_shafts(shaft)
     for each in cp.balancer_options(equipped, rpm=RPM):
-        assert each.engine.counterweights == (*own, *each.counterweights)
-        assert each.engine.shafts == (*shaft, *(fitted.shaft for fitted in each.shafts))
+        assert each.fitted.counterweights == (*own, *each.counterweights)
+        assert each.fitted.shafts == (*shaft, *each.shafts)
         assert each.unbalance == pytest.approx(
-            sum(w.amount for w in each.counterweights) + sum(f.unbalance for f in each.shafts)
+            sum(w.amount for w in each.counterweights)
+            + sum(w.amount for f in each.shafts for w in f.unbalances)
         )
 
 
@@ -168,8 +171,8 @@ def test_places() -> None:
     at = {-2: (0.1, None), 2: (-0.1, 0.05)}
     options = cp.balancer_options(I4, rpm=RPM, by="[2].torque.peak", places=at)
     pair = options[-1]
-    assert [each.shaft.x for each in pair.shafts] == [0.1, -0.1]
-    assert pair.shafts[1].shaft.y == 0.05
+    assert [each.x for each in pair.shafts] == [0.1, -0.1]
+    assert pair.shafts[1].y == 0.05
     assert pair.values[0] <= 1e-9 * options[0].values[0]
     free = cp.balancer_options(I4, rpm=RPM, by="[2].torque.peak")[-1]
     assert free.values[0] <= 1e-9 * options[0].values[0]
@@ -180,8 +183,8 @@ def test_places() -> None:
 
 def test_values_are_those_of_the_balance() -> None:
     for each in OPTIONS:
-        balance = each.engine.balance(RPM)
-        first = each.engine.balance(RPM, orders=[1])[1]
+        balance = each.fitted.balance(RPM)
+        first = each.fitted.balance(RPM, orders=[1])[1]
         expected = (balance.total.moment.peak, float(first.moment.peak))
         # Orders are chosen for all sets together, or for one.
         assert each.values == pytest.approx(expected, rel=1e-6, abs=1e-6)
@@ -195,7 +198,7 @@ def test_functions_and_reference_plane() -> None:
     assert options.by == ("pitch",)
     assert options.reference_z == 0.4
     for each in options:
-        balance = each.engine.replace(reference_z=0.4).balance(RPM)
+        balance = each.fitted.replace(reference_z=0.4).balance(RPM)
         assert each.values[0] == pytest.approx(balance.total.moment.peak_xy[0], rel=1e-6)
 
 

@@ -48,7 +48,7 @@ def test_an_engine_with_measured_imbalance_is_corrected() -> None:
         [900, 400], [10, 250], measured_z=[0.0, 0.3], correction_z=[-0.15, 0.45]
     )
     bad = i4.with_counterweights(found.measured)
-    good = i4.with_counterweights([*found.measured, *found.unbalances])
+    good = i4.with_counterweights([*found.measured, *found.hardware])
     assert bad.balance(6000, orders=[1])[1].force.peak > 100
     order_1 = good.balance(6000, orders=[1])[1]
     assert order_1.force.peak < 1e-9
@@ -62,8 +62,8 @@ def test_planes_of_measurement_are_corrected_opposite() -> None:
     np.testing.assert_allclose(found.amount_g_mm, [120, 80])
     np.testing.assert_allclose(found.angle_deg, [210, 20])
     np.testing.assert_allclose(found.drill_deg, [30, 200])
-    assert [w.amount for w in found.unbalances] == pytest.approx([120e-6, 80e-6])
-    assert [w.z for w in found.unbalances] == [0.0, 0.4]
+    assert [w.amount for w in found.hardware] == pytest.approx([120e-6, 80e-6])
+    assert [w.z for w in found.hardware] == [0.0, 0.4]
 
 
 def test_table_and_copies() -> None:
@@ -84,7 +84,7 @@ def test_table_and_copies() -> None:
         "°",
     ]
     assert "<table>" in found._repr_html_()
-    assert list(found.to_pandas().columns) == ["z", "amount_g_mm", "angle_deg", "drill_deg"]
+    assert list(found.to_pandas().columns) == found.table.header
     back = pickle.loads(pickle.dumps(found))  # noqa: S301 - its own
     assert back == found
     assert hash(back) == hash(found)

@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 from crankpin import _core
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
-from crankpin.analysis.balancing.fitted_shaft import FittedShaft
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.planes import Turning, ends
-from crankpin.analysis.balancing.shaft_wishes import extra_torques, wishes
+from crankpin.analysis.balancing.shaft_requests import extra_torques, shaft_requests
 from crankpin.analysis.request import engine_core
 from crankpin.model.shafts import Shaft, unbalance_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from crankpin.analysis.balancing.shaft_wishes import Remove
+    from crankpin.analysis.balancing.shaft_requests import Remove
     from crankpin.model.engine import Engine
 
 
@@ -71,7 +70,8 @@ def balance_shafts(
         Order → peak phasor of a torque on the block about +z that is not of inertia, such as gas
         torque, N·m: free places cancel it together with the engine's roll torque.
     rpm
-        Crank speed at which ``extra_torque`` acts.
+        Crank speed at which ``extra_torque`` acts. The shafts' own torque scales with the square of
+        the speed: the places cancel both at this speed.
 
     Returns
     -------
@@ -106,35 +106,38 @@ def balance_shafts(
 
     >>> i4 = cp.Engine.preset("i4")
     >>> pair = cp.balance_shafts(i4, [2, -2], x=[0.08, -0.08])
-    >>> [round(each.shaft.y, 4) for each in pair]
+    >>> [round(each.y, 4) for each in pair]
     [0.0709, -0.0709]
-    >>> second = pair.balance(rpm=6000, orders=[2])[2]
+    >>> second = pair.fitted.balance(rpm=6000, orders=[2])[2]
     >>> float(round(second.force.peak, 6)), float(round(second.torque.peak, 6))
     (0.0, 0.0)
     """
     engine_core(engine)
     plane = inputs.optional_number("reference_z", reference_z)
-    asked = wishes(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
+    asked = shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
     extra = extra_torques(extra_torque, rpm, {each.order for each in asked})
     found, beyond = _core.fit_shafts(
         engine_core(engine),
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
         plane,
-        list(extra.items()),
+        [(order, torque / inputs.angular_speed(rpm) ** 2) for order, torque in extra.items()],
     )
     if beyond is not None:
         warn(
             "the roll torque is not cancelled: shafts that do so would be "
             f"{beyond:.3g} m from the crank axis; give x and y"
         )
-    places = ends(engine)
-    bearings = (places[0], places[-1]) if len(places) > 1 else None
-    shafts = [
-        FittedShaft(
-            Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y),
-            Turning(*exerts),
-            each.bearings or bearings,
-        )
-        for each, ((x, y), weights, exerts) in zip(asked, found, strict=True)
-    ]
-    return BalanceShafts(engine, tuple(shafts), plane, tuple(extra.items()))
+    first, last = ends(engine)[0], ends(engine)[-1]
+    supports = (first, last) if first < last else None
+    return BalanceShafts(
+        engine,
+        tuple(
+            Shaft(each.ratio, tuple(map(unbalance_of, weights)), x, y)
+            for each, ((x, y), weights, _) in zip(asked, found, strict=True)
+        ),
+        tuple(Turning(*exerts) for _, _, exerts in found),
+        tuple(each.bearings or supports for each in asked),
+        plane,
+        tuple(extra.items()),
+        None if rpm is None else inputs.number("rpm", rpm),
+    )

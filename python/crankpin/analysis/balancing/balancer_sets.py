@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,10 +15,9 @@ from crankpin.analysis.balancing.planes import Turning, turning, weights_in
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from crankpin.analysis.balancing.fitted_shaft import FittedShaft
-    from crankpin.analysis.balancing.shaft_wishes import Remove
+    from crankpin.analysis.balancing.shaft_requests import Remove
     from crankpin.model.engine import Engine
-    from crankpin.model.shafts import Unbalance
+    from crankpin.model.shafts import Shaft, Unbalance
 
 MOST_SETS = 10_000
 """Largest number of sets."""
@@ -29,7 +29,9 @@ FREE = (None, None)
 class Part(NamedTuple):
     """A shaft that may be in a set, on the crank axis."""
 
-    shaft: FittedShaft
+    shaft: Shaft
+    force: complex
+    """Its force over ω², kg·m."""
     remove: Remove
 
 
@@ -38,7 +40,7 @@ class BalancerSet(NamedTuple):
 
     counterweights: tuple[Unbalance, ...]
     """Counterweights added to the engine's."""
-    shafts: tuple[FittedShaft, ...]
+    shafts: tuple[Shaft, ...]
     """Shafts added to the engine's."""
     name: str
     """The set in words."""
@@ -46,13 +48,13 @@ class BalancerSet(NamedTuple):
     @property
     def unbalance(self) -> float:
         """Sum of the amounts of all unbalances, kg·m."""
-        on_shafts = sum(each.unbalance for each in self.shafts)
-        return sum(each.amount for each in self.counterweights) + on_shafts
+        on_shafts = (weight for each in self.shafts for weight in each.unbalances)
+        return sum(each.amount for each in (*self.counterweights, *on_shafts))
 
     def fitted_to(self, engine: Engine) -> Engine:
         """Return the engine with this hardware added."""
         with_weights = engine.with_counterweights([*engine.counterweights, *self.counterweights])
-        return with_weights.with_shafts([*engine.shafts, *(each.shaft for each in self.shafts)])
+        return with_weights.with_shafts([*engine.shafts, *self.shafts])
 
 
 def counterweights_at(
@@ -85,7 +87,7 @@ def balancer_sets(
     for parts, ratio in zip(choices, ratios, strict=True):
         for what in removals[ratio]:
             fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, reference_z=reference_z)
-            parts.append(Part(fit[0], what))
+            parts.append(Part(fit[0], fit.exerts[0].force, what))
     orders = dict.fromkeys(map(abs, ratios))
     torques = [(order, _core.roll_torque(engine.core, order)) for order in orders]
     found = []
@@ -93,10 +95,13 @@ def balancer_sets(
         chosen = [each for each in choice if each is not None]
         if len(chosen) > most_shafts:
             continue
-        where = [places.get(each.shaft.shaft.ratio, FREE) for each in chosen]
-        forces = [(each.shaft.shaft.ratio, each.shaft.makes.force) for each in chosen]
+        where = [places.get(each.shaft.ratio, FREE) for each in chosen]
+        forces = [(each.shaft.ratio, each.force) for each in chosen]
         axes = _core.place_shafts(engine.core, torques, forces, where)
-        shafts = tuple(each.shaft.moved(*at) for each, at in zip(chosen, axes, strict=True))
+        shafts = tuple(
+            dataclasses.replace(each.shaft, x=x, y=y)
+            for each, (x, y) in zip(chosen, axes, strict=True)
+        )
         found += [
             BalancerSet(weights, shafts, _name(chosen, weighted=bool(weights)))
             for weights in dict.fromkeys([(), counterweights])
@@ -113,7 +118,7 @@ def _removals(there: Turning) -> tuple[Remove, ...]:
 
 def _name(parts: Sequence[Part], *, weighted: bool) -> str:
     words = [
-        f"{each.shaft.shaft.ratio:+d}".replace("-", "−")
+        f"{each.shaft.ratio:+d}".replace("-", "−")
         + ("" if each.remove == "both" else f" ({each.remove} alone)")
         for each in parts
     ]

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
-from crankpin._support.frozen import Listed
-from crankpin._support.tables import Shown, Table
+from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 
@@ -19,28 +18,25 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-    from crankpin._support.inputs import Orders
     from crankpin.analysis.balance import Balance
-    from crankpin.analysis.balancing.fitted_shaft import FittedShaft
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine
-    from crankpin.model.shafts import Unbalance
+    from crankpin.model.shafts import Shaft, Unbalance
 
 SHOWN = 30
 """Sets shown in text."""
 
 
-@dataclasses.dataclass(frozen=True)
-class BalancerOption:
+class BalancerOption(Record):
     """A set of balancing hardware, and what it leaves."""
 
     name: str
     """The set in words, such as ``"counterweights + shaft −1"``."""
     counterweights: tuple[Unbalance, ...]
     """Counterweights that were added."""
-    shafts: tuple[FittedShaft, ...]
+    shafts: tuple[Shaft, ...]
     """Shafts that were added."""
-    engine: Engine
+    fitted: Engine
     """The engine with them."""
     unbalance: float
     """Sum of the amounts of all unbalances that were added, kg·m."""
@@ -51,8 +47,13 @@ class BalancerOption:
     reaches: bool
     """True if the target is reached; False without one."""
 
+    @property
+    def hardware(self) -> tuple[Unbalance | Shaft, ...]:
+        """Counterweights and shafts that were added."""
+        return (*self.counterweights, *self.shafts)
 
-class BalancerOptions(Listed[BalancerOption], Shown):
+
+class BalancerOptions(Listed[BalancerOption], Tabled):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
     A sequence of :class:`~crankpin.types.BalancerOption`. Made by
@@ -64,17 +65,14 @@ class BalancerOptions(Listed[BalancerOption], Shown):
     >>> options = cp.balancer_options(cp.Engine.preset("i4"), rpm=6000)
     >>> [(each.name, len(each.shafts)) for each in options.front]
     [('nothing', 0), ('shaft +2', 1), ('shaft −2', 1), ('shafts −2, +2', 2)]
-    >>> float(options[-1].engine.balance(rpm=6000, orders=[2])[2].force.peak)
+    >>> float(options[-1].fitted.balance(rpm=6000, orders=[2])[2].force.peak)
     0.0
     """
 
-    _fields: ClassVar[tuple[str, ...]] = (
-        "before", "rpm", "plane", "objectives", "targets", "options",
-    )  # fmt: skip
     _items = "options"
 
-    before: Engine
-    """The engine as it was given."""
+    engine: Engine
+    """The engine that was asked about."""
     rpm: float
     """Crank speed, rpm."""
     plane: float | None
@@ -86,30 +84,16 @@ class BalancerOptions(Listed[BalancerOption], Shown):
     options: tuple[BalancerOption, ...]
     """All sets."""
 
-    def __init__(
-        self,
-        before: Engine,
-        rpm: float,
-        plane: float | None,
-        objectives: tuple[Objective, ...],
-        targets: tuple[tuple[str, float], ...],
-        options: tuple[BalancerOption, ...],
-    ) -> None:
-        if not options or not all(isinstance(each, BalancerOption) for each in options):
-            raise InputError(f"options = {inputs.shorten(options)}: use crankpin.balancer_options")
-        self._set(
-            before=before,
-            rpm=rpm,
-            plane=plane,
-            objectives=objectives,
-            targets=targets,
-            options=options,
-        )
+    def __post_init__(self) -> None:
+        if not self.options or not all(isinstance(each, BalancerOption) for each in self.options):
+            raise InputError(
+                f"options = {inputs.shorten(self.options)}: use crankpin.balancer_options"
+            )
 
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        return self.before.reference_z if self.plane is None else self.plane
+        return self.engine.reference_z if self.plane is None else self.plane
 
     @property
     def by(self) -> tuple[str, ...]:
@@ -133,17 +117,27 @@ class BalancerOptions(Listed[BalancerOption], Shown):
         return next((each for each in self.options if each.reaches), None)
 
     @property
-    def engine(self) -> Engine:
+    def fitted(self) -> Engine:
         """The engine with the least hardware that reaches the target; undefined without one."""
+        return self._least.fitted
+
+    @property
+    def hardware(self) -> tuple[Unbalance | Shaft, ...]:
+        """The least hardware that reaches the target; undefined without one."""
+        return self._least.hardware
+
+    @property
+    def residual(self) -> Balance:
+        """What stays with the least hardware that reaches the target, at the crank speed."""
+        found = balance(self.fitted, self.rpm)
+        return found if self.plane is None else found.about(self.plane)
+
+    @property
+    def _least(self) -> BalancerOption:
         if self.least is None:
             what = "no set reaches the target" if self.targets else "no target was given"
-            raise AbsentError(f"engine is undefined: {what}; take one of options, as options[0]")
-        return self.least.engine
-
-    def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
-        """Return what stays with the least hardware that reaches the target."""
-        found = balance(self.engine, rpm, orders=orders, rtol=rtol)
-        return found if self.plane is None else found.about(self.plane)
+            raise AbsentError(f"fitted is undefined: {what}; take one of options, as options[0]")
+        return self.least
 
     # --- tables and pictures --------------------------------------------------------------------
 
@@ -180,7 +174,7 @@ class BalancerOptions(Listed[BalancerOption], Shown):
     @property
     def table(self) -> Table:
         """Table that is shown: the Pareto front."""
-        engine = labels.name_of(self.before)
+        engine = labels.name_of(self.engine)
         front = self.front[:SHOWN]
         columns = {
             "set": [each.name for each in front],

@@ -4,39 +4,40 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen, read_only
+from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.tables import Shown, Table
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Table
+from crankpin.analysis.balance import over_square
+from crankpin.analysis.balancing.first_order import (
+    LARGEST_FACTOR,
+    check_factor,
+    with_bob_weights,
+)
 from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.by_order import Ellipse
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
-from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Orders
     from crankpin.analysis.balance import Balance
     from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Unbalance
 
 TABULATED = (0.0, 0.5, 1.0)
 """Factors in the table of what stays."""
-LARGEST_FACTOR = 10.0
-SMALLEST = 1e-30
-"""Smallest unbalance that engines take, kg·m."""
 
 
 def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
@@ -53,7 +54,7 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
         The engine; ``rotating_mass`` is what turns with the pin and is not part of the crankshaft:
         big ends, bolts, bearing shells. Its counterweights are replaced.
     factor
-        Part κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
+        Share κ of the reciprocating mass, 0 to 10; 0.5 is "50 % balance factor".
     oil
         Oil in the bearings and the bore of a crankpin, kg of each pin.
 
@@ -75,31 +76,20 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     array([1454., 1454., 1454., 1454.])
     >>> overbalanced = cp.bob_weight(v8, factor=0.52)
     >>> before = v8.replace(rotating_mass=0).balance(rpm=6000)[1].moment.peak
-    >>> after = overbalanced.balance(rpm=6000)[1].moment.peak
+    >>> after = overbalanced.fitted.balance(rpm=6000)[1].moment.peak
     >>> round(float(after / before), 9)  # 2 % too much leaves 4 %
     0.04
     """
     engine_core(engine)
     part, of_oil = inputs.number("factor", factor), inputs.number("oil", oil)
-    _check("factor", part)
+    check_factor("factor", part)
     if not 0.0 <= of_oil <= 1e6:
         raise InputError(f"oil = {of_oil}: give the oil of a crankpin in kilograms, 0 or more")
     checks.oil(of_oil, engine.cylinders[0].reciprocating_mass)
     return BobWeight(engine, part, of_oil)
 
 
-class Straight(NamedTuple):
-    """A factor that leaves a vector along a straight line."""
-
-    factor: float
-    """Part of the reciprocating mass."""
-    direction_deg: float
-    """Direction of the line from +x, degrees in (−90, 90]."""
-    half: float
-    """Half of its length over ω², kg·m or kg·m²."""
-
-
-class BobWeight(Frozen, Shown):
+class BobWeight(Tabled):
     """Bob weights of an engine's crankpins, from front to flywheel.
 
     Made by :func:`crankpin.bob_weight`.
@@ -110,24 +100,21 @@ class BobWeight(Frozen, Shown):
 
     >>> import crankpin as cp
     >>> single = cp.bob_weight(cp.Engine.preset("single"))
-    >>> [(line.factor, line.direction_deg) for line in single.straight("force")]
-    [(0.0, 90.0), (1.0, 0.0)]
+    >>> single.straight("force")
+    ((0.0, 90.0), (1.0, 0.0))
     >>> single.least("force")
     0.5
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("before", "factor", "oil")
-
-    before: Engine
-    """The engine that was given."""
+    engine: Engine
+    """The engine that was asked about."""
     factor: float
-    """Part κ of the reciprocating mass."""
+    """Share κ of the reciprocating mass."""
     oil: float
     """Oil of each crankpin, kg."""
 
-    def __init__(self, before: Engine, factor: float, oil: float) -> None:
-        engine_core(before)
-        self._set(before=before, factor=factor, oil=oil)
+    def __post_init__(self) -> None:
+        engine_core(self.engine)
 
     @cached_property
     def crankpins(self) -> tuple[Crankpin, ...]:
@@ -136,17 +123,17 @@ class BobWeight(Frozen, Shown):
         Cylinders share one if they are of different banks, their pins point the same way, and their
         places are less than a crank radius apart; split pins are two.
         """
-        return crankpins(self.before)
+        return crankpins(self.engine)
 
     @property
     def rotating(self) -> NDArray[np.float64]:
         """Rotating mass of each crankpin's rods, without oil, kg: (n_crankpins,)."""
-        return self._of_pins(self.before.rotating_mass)
+        return self._of_pins(self.engine.rotating_mass)
 
     @property
     def reciprocating(self) -> NDArray[np.float64]:
         """Reciprocating mass on each crankpin, kg: (n_crankpins,)."""
-        return self._of_pins([each.reciprocating_mass for each in self.before.cylinders])
+        return self._of_pins([each.reciprocating_mass for each in self.engine.cylinders])
 
     def _of_pins(self, masses: ArrayLike) -> NDArray[np.float64]:
         listed = np.asarray(masses)
@@ -163,54 +150,36 @@ class BobWeight(Frozen, Shown):
         """Bob weight of each crankpin, g: (n_crankpins,)."""
         return read_only((1e3 * self.mass).round(9))
 
-    @property
-    def engine(self) -> Engine:
+    @cached_property
+    def fitted(self) -> Engine:
         """The engine with a crankshaft that is balanced with these weights.
 
-        Its counterweights are opposite the crankpins. The oil turns with the pins and is balanced,
-        so that neither shows.
+        Its counterweights are opposite the crankpins, in place of those it has. The oil turns with
+        the pins and is balanced, so that neither shows.
         """
-        return self._balanced(self.factor)
+        return with_bob_weights(self.engine, self.factor)
 
-    def _balanced(self, factor: float) -> Engine:
-        weights = []
-        for number, (parts, rotating, z) in enumerate(
-            zip(
-                self.before.cylinders,
-                self.before.rotating_mass.tolist(),
-                self.before.z.tolist(),
-                strict=True,
-            ),
-            start=1,
-        ):
-            amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
-            if amount >= SMALLEST:
-                weights.append(Unbalance(amount, z, 180, pin=number))
-        return self.before.with_counterweights(weights)
+    @property
+    def hardware(self) -> tuple[Unbalance, ...]:
+        """The counterweights of the balanced crankshaft."""
+        return self.fitted.counterweights
 
     # --- what stays -----------------------------------------------------------------------------
 
-    def balance(self, rpm: float, *, orders: Orders = "auto") -> Balance:
-        """Return the balance of the engine with the crankshaft balanced so.
-
-        Parameters
-        ----------
-        rpm
-            Crank speed.
-        orders
-            As in :meth:`Engine.balance`.
-        """
-        return self.engine.balance(rpm, orders=orders)
+    @cached_property
+    def residual(self) -> Balance:
+        """Order 1 of the engine with the balanced crankshaft, over ω²: at 1 rad/s, N are kg·m."""
+        return over_square(self.fitted, [1])
 
     @cached_property
     def _first_order(self) -> dict[str, tuple[complex, complex, complex]]:
         """Forward part at factor 0, its change to factor 1, and backward part, over ω²."""
-        none, whole = (self._balanced(factor) for factor in (0.0, 1.0))
+        none, whole = (with_bob_weights(self.engine, factor) for factor in (0.0, 1.0))
         there = zip(turning(none, 1), turning(whole, 1), turning(none, -1), strict=True)
         parts = [(start, after - start, backward) for start, after, backward in there]
         return dict(zip(Turning._fields, parts, strict=True))
 
-    def stays(self, quantity: str, factor: ArrayLike | None = None) -> Ellipse:
+    def ellipse(self, quantity: str, factor: ArrayLike | None = None) -> Ellipse:
         """Return the ellipse of order 1 that factors leave, over ω².
 
         Without pin offset its half axes are ``|1 − 2κ|·|forward| ± |backward|``, in which forward
@@ -230,14 +199,15 @@ class BobWeight(Frozen, Shown):
         """
         parts = self._parts(quantity)
         factors = inputs.array("factor", self.factor if factor is None else factor)
-        _check("factor", factors)
+        check_factor("factor", factors)
         ellipse = _ellipse(*parts, factors)
         return ellipse if factors.ndim else Ellipse(*map(float, ellipse))
 
     def least(self, quantity: str) -> float | None:
         """Return the factor of the least longest vector: 0.5 without pin offset.
 
-        None if the factor makes no difference: the pistons have no forward part.
+        From 0 to 10, as ``factor`` is taken. None if the factor makes no difference: the pistons
+        have no forward part.
 
         Parameters
         ----------
@@ -247,13 +217,17 @@ class BobWeight(Frozen, Shown):
         start, change, _ = self._parts(quantity)
         if not change:
             return None
+        return min(max(self._nearest(start, change), 0.0), LARGEST_FACTOR)
+
+    @staticmethod
+    def _nearest(start: complex, change: complex) -> float:
         return -(start * change.conjugate()).real / abs(change) ** 2
 
-    def straight(self, quantity: str) -> tuple[Straight, ...]:
+    def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
 
         They are ½(1 ± |backward|/|forward|) without pin offset; none if either part is zero, and
-        those below 0 or above 10 are left out.
+        those below 0 or above 10 are left out. Directions are degrees from +x in (−90, 90].
 
         Parameters
         ----------
@@ -261,10 +235,10 @@ class BobWeight(Frozen, Shown):
             ``"force"`` or ``"moment"``.
         """
         start, change, backward = self._parts(quantity)
-        middle = self.least(quantity)
-        if middle is None or not backward:
+        if not change or not backward:
             return ()
         # |start + κ·change| = |backward|, about the factor at which the left side is least.
+        middle = self._nearest(start, change)
         least = abs(start + middle * change)
         reach = (abs(backward) - least) * (abs(backward) + least)
         if reach < 0.0:
@@ -275,28 +249,14 @@ class BobWeight(Frozen, Shown):
         found = []
         for factor in dict.fromkeys(roots):
             if 0.0 <= factor <= LARGEST_FACTOR:
-                ellipse = _ellipse(start, change, backward, np.array(factor))
-                direction = round(float(ellipse.tilt_deg), 9) + 0.0  # no −0
-                found.append(Straight(factor, direction, 2.0 * abs(backward)))
+                tilt = round(float(_ellipse(start, change, backward, np.array(factor)).tilt_deg), 9)
+                found.append((factor, 90.0 if tilt <= -90.0 else tilt + 0.0))  # no −0
         return tuple(found)
 
     def _parts(self, quantity: str) -> tuple[complex, complex, complex]:
         return self._first_order[inputs.one_of("quantity", quantity, ["force", "moment"])]
 
     # --- tables ---------------------------------------------------------------------------------
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the bob weights, one row a crankpin, masses in kg (needs pandas)."""
-        columns = {
-            "cylinders": [_numbers(pin) for pin in self.crankpins],
-            "pin_deg": [pin.pin_deg for pin in self.crankpins],
-            "z": [pin.z for pin in self.crankpins],
-            "rotating": self.rotating,
-            "reciprocating": self.reciprocating,
-            "oil": self.oil,
-            "mass": self.mass,
-        }
-        return optional.data_frame(columns)
 
     @property
     def table(self) -> Table:
@@ -311,7 +271,7 @@ class BobWeight(Frozen, Shown):
             ],
             axis=1,
         )
-        name = labels.name_of(self.before)
+        name = labels.name_of(self.engine)
         title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
         title += " + oil" if self.oil else ""
         header = [
@@ -341,7 +301,7 @@ class BobWeight(Frozen, Shown):
             line.
         """
         given = TABULATED if factors is None else inputs.vector("factors", factors).tolist()
-        _check("factors", given)
+        check_factor("factors", given)
         words: dict[float, list[str]] = {float(factor): [] for factor in given}
         for factor, text in self._remarkable() if factors is None else ():
             # 0.5 comes out as 0.49999999999999994 at times.
@@ -352,9 +312,9 @@ class BobWeight(Frozen, Shown):
         quantities = [name for name in PLANE_VECTORS if any(self._parts(name))]
         header, columns = ["factor", ""], []
         for name in quantities or ["moment"]:
-            stays, unit = self.stays(name, listed), QUANTITIES[name].unit_over_square
+            left, unit = self.ellipse(name, listed), QUANTITIES[name].unit_over_square
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
-            columns += [stays.major, abs(stays.minor)]
+            columns += [left.major, abs(left.minor)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         title = "What stays of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
@@ -365,8 +325,8 @@ class BobWeight(Frozen, Shown):
         for name in PLANE_VECTORS:
             if (least := self.least(name)) is not None:
                 yield least, f"least {name}"
-            for line in self.straight(name):
-                yield line.factor, f"{name} along {line.direction_deg:.4g}°"
+            for factor, direction_deg in self.straight(name):
+                yield factor, f"{name} along {direction_deg:.4g}°"
 
     def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
         """Draw what stays of order 1 over the factor: longest and shortest vector; return the axes.
@@ -381,14 +341,6 @@ class BobWeight(Frozen, Shown):
             Keywords of the lines, such as ``color`` or ``linewidth``; ``label`` names the engine.
         """
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
-
-
-def _check(name: str, factor: ArrayLike) -> None:
-    """Raise an InputError unless factors are parts of the reciprocating mass."""
-    listed = np.asarray(factor)
-    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
-        remedy = f"give a part of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
-        raise InputError(f"{name} = {inputs.shorten(factor)}: {remedy}")
 
 
 def _ellipse(

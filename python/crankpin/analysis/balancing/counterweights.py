@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
-
-import numpy as np
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
-from crankpin._support.quantities import QUANTITIES
-from crankpin._support.tables import Shown, Table
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.first_order import (
-    BayLoad,
-    Ellipses,
-    ForwardPart,
-    bay_loads_of,
-    ellipses_of,
-    first_order,
-)
-from crankpin.analysis.balancing.fitting import Fit, external, internal
-from crankpin.analysis.balancing.planes import turning
+from crankpin.analysis.balancing.first_order import bay_loads
+from crankpin.analysis.balancing.fitting import Fit, external, internal, left_by
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
@@ -30,11 +22,12 @@ from crankpin.model.shafts import degrees
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import pandas as pd
+    import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Angles, Orders
+    from crankpin._support.inputs import Angles
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.balancing.correction_planes import Planes
     from crankpin.analysis.balancing.fitting import Minimise, Target
@@ -43,7 +36,7 @@ if TYPE_CHECKING:
 
 
 NOTICEABLE = 1e-6
-"""Part of what weights make that is beyond the errors of a fit."""
+"""Part of what weights exert that is beyond the errors of a fit."""
 
 
 def counterweights(
@@ -51,7 +44,7 @@ def counterweights(
     *,
     planes: Planes,
     target: Target = "external",
-    fraction: float | Mapping[str, float] = 1.0,
+    factor: float | Mapping[str, float] | None = None,
     minimise: Minimise = "squares",
     bound: float | Mapping[str, float] | None = None,
     angles_deg: Angles | Mapping[str, Angles] | None = None,
@@ -72,10 +65,12 @@ def counterweights(
         ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
         each throw brings upon its own two main bearings, by weights between these. That relieves
         bearings and crankshaft, and the engine as a whole too.
-    fraction
-        Part to remove, 1 for all: of both, or a mapping with ``"force"``, ``"moment"`` or both;
-        what it leaves out does not matter. A factor κ of the reciprocating mass, besides all
-        rotating mass, removes 2κ of what the pistons do: 52 % is ``fraction=1.04``.
+    factor
+        Share of the reciprocating mass that is balanced, besides all rotating mass, as by
+        :func:`crankpin.bob_weight`: 0.52 leaves 4 % of the pistons' forward part turned round. By
+        default all of the forward part is removed, as 0.5 does without pin offset. A number for
+        both, or a mapping with ``"force"``, ``"moment"`` or both; what it leaves out does not
+        matter.
     minimise
         Of weights that leave as little: ``"squares"`` for the least sum of squares of the planes'
         mass·radius, ``"largest"`` for the least largest.
@@ -120,15 +115,15 @@ def counterweights(
     (True, True)
     >>> [(name, round(weight.amount, 6)) for name, weight in v8.by_plane]
     [('front', 0.020397), ('rear', 0.020397)]
-    >>> [round(weight.angle_deg, 6) for weight in v8.unbalances]
+    >>> [round(weight.angle_deg, 6) for weight in v8.hardware]
     [333.434949, 153.434949]
-    >>> float(v8.balance(rpm=6000, orders=[1])[1].moment.peak)
+    >>> float(v8.fitted.balance(rpm=6000)[1].moment.peak)
     0.0
     """
     engine_core(engine)
     places = correction_planes.named(engine, planes)
     names = list(places)
-    fit = Fit.checked(target, fraction, minimise, length, reference_z)
+    fit = Fit.checked(target, factor, minimise, length, reference_z)
     found = (external if fit.target == "external" else internal)(
         engine,
         places,
@@ -139,25 +134,7 @@ def counterweights(
     return Counterweights(engine, tuple(places.items()), fit, *found)
 
 
-class PartVerdict(NamedTuple):
-    """Verdicts on the two parts of a quantity: "vanishes", "remains" or "undecided"."""
-
-    forward: str
-    """Part that turns with the crank."""
-    backward: str
-    """Part that turns against the crank."""
-
-
-class Remainder(NamedTuple):
-    """Verdicts on what stays at order 1."""
-
-    force: PartVerdict
-    """Shaking force."""
-    moment: PartVerdict
-    """Rocking moment."""
-
-
-class Counterweights(Frozen, Shown):
+class Counterweights(Tabled):
     """Counterweights fitted to an engine, and what they leave.
 
     Made by :func:`crankpin.counterweights`.
@@ -168,16 +145,12 @@ class Counterweights(Frozen, Shown):
     >>> i3 = cp.counterweights(cp.Engine.preset("i3"), planes="ends")
     >>> i3.exact, i3.vanishes  # the backward half stays
     (True, False)
-    >>> i3.verdicts.moment
-    PartVerdict(forward='vanishes', backward='remains')
+    >>> i3.verdicts["moment"]
+    {'forward': 'vanishes', 'backward': 'remains'}
     """
 
-    _fields: ClassVar[tuple[str, ...]] = (
-        "before", "places", "fit", "by_plane", "exact", "missing",
-    )  # fmt: skip
-
-    before: Engine
-    """The engine that was given."""
+    engine: Engine
+    """The engine that was asked about."""
     places: tuple[tuple[str, float], ...]
     """Planes in which weights could be: names and places, m."""
     fit: Fit
@@ -190,36 +163,19 @@ class Counterweights(Frozen, Shown):
     missing: float
     """Part of what was wanted that they do not remove; 0 where they are exact."""
 
-    def __init__(
-        self,
-        before: Engine,
-        places: tuple[tuple[str, float], ...],
-        fit: Fit,
-        by_plane: tuple[tuple[str, Unbalance], ...],
-        exact: bool,
-        missing: float,
-    ) -> None:
-        if not isinstance(fit, Fit):
-            raise InputError(f"fit = {inputs.shorten(fit)}: use crankpin.counterweights")
-        weights = (*before.counterweights, *(weight for _, weight in by_plane))
-        engine = before.with_counterweights(weights)
-        self._set(
-            before=before,
-            places=places,
-            fit=fit,
-            by_plane=by_plane,
-            exact=exact,
-            missing=missing,
-            engine=engine,
-        )
-
-    engine: Engine
-    """The engine with these weights in addition to those it had."""
+    def __post_init__(self) -> None:
+        if not isinstance(self.fit, Fit):
+            raise InputError(f"fit = {inputs.shorten(self.fit)}: use crankpin.counterweights")
 
     @property
-    def unbalances(self) -> tuple[Unbalance, ...]:
+    def hardware(self) -> tuple[Unbalance, ...]:
         """The weights fitted: kg·m, and angles at θ = 0."""
         return tuple(weight for _, weight in self.by_plane)
+
+    @cached_property
+    def fitted(self) -> Engine:
+        """The engine with these weights in addition to those it has."""
+        return self.engine.with_counterweights((*self.engine.counterweights, *self.hardware))
 
     @property
     def largest(self) -> float:
@@ -233,78 +189,64 @@ class Counterweights(Frozen, Shown):
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
         plane = self.fit.reference_z
-        return self.before.reference_z if plane is None else plane
+        return self.engine.reference_z if plane is None else plane
 
     # --- what stays -----------------------------------------------------------------------------
 
-    def balance(self, rpm: float, *, orders: Orders = "auto") -> Balance:
-        """Return the balance of the engine with its weights.
+    @cached_property
+    def residual(self) -> Balance:
+        """Order 1 of the engine with the weights, over ω²: at 1 rad/s, N are kg·m."""
+        return over_square(self.fitted, [1], self.reference_z)
 
-        Parameters
-        ----------
-        rpm
-            Crank speed.
-        orders
-            As in :meth:`Engine.balance`.
+    @cached_property
+    def verdicts(self) -> dict[str, dict[str, str]]:
+        """Quantity → part → verdict on what stays at order 1.
+
+        Verdicts are "vanishes", "remains" or "undecided", on the forward and the backward part of
+        ``"force"`` and ``"moment"``. Backward parts are those of the engine, which no counterweight
+        changes, decided by :meth:`Engine.vanishing_orders`. Forward parts vanish where the weights
+        are ``exact`` and were to remove all; where they are not, "remains" is a finding of floating
+        point: more than a millionth of what the weights exert.
         """
-        return self.engine.balance(rpm, orders=orders).about(self.reference_z)
-
-    @property
-    def residual(self) -> ForwardPart:
-        """What stays of the forward force and moment, over ω²."""
-        return ForwardPart(*turning(self.engine, 1, self.reference_z))
-
-    @property
-    def ellipses(self) -> Ellipses:
-        """Ellipses that stay at order 1, over ω²."""
-        return ellipses_of(self.engine, self.reference_z)
-
-    @property
-    def ellipses_before(self) -> Ellipses:
-        """Ellipses of order 1 without the weights, over ω²."""
-        return ellipses_of(self.before, self.reference_z)
-
-    @property
-    def verdicts(self) -> Remainder:
-        """Verdicts on what stays at order 1.
-
-        Backward parts are those of the engine before, which no counterweight changes, decided by
-        :meth:`Engine.vanishing_orders`. Forward parts vanish where the weights are ``exact`` and
-        were to remove all; where they are not, "remains" is a finding of floating point: more than
-        a millionth of what the weights make.
-        """
-        decided = self.before.vanishing_orders([1], reference_z=self.reference_z)[1]
-        now = first_order(self.engine, self.reference_z)
+        plane = self.reference_z
+        decided = self.engine.vanishing_orders([1], reference_z=plane)[1]
         found = {}
         for name in ("force", "moment"):
-            before, after = getattr(decided, name), getattr(now, name)
-            if self._scaled(name):
-                forward = "vanishes" if self.fit.parts[name] == 1.0 else before.forward
+            before = getattr(decided, name)
+            if self._meets(name):
+                factor = dict(self.fit.parts)[name]
+                forward = "vanishes"
+                if factor is not None:
+                    left = left_by(self.engine, factor).vanishing_orders([1], reference_z=plane)
+                    forward = getattr(left[1], name).forward
             elif not self.by_plane:
                 forward = before.forward
             else:
-                size = NOTICEABLE * sum(weight.amount for weight in self.unbalances)
+                size = NOTICEABLE * sum(weight.amount for weight in self.hardware)
                 if name == "moment":
-                    size *= max(abs(z - self.reference_z) for _, z in self.places)
-                forward = "remains" if abs(after.forward) > size else "undecided"
-            found[name] = PartVerdict(forward, before.backward)
-        return Remainder(**found)
+                    size *= max(abs(z - plane) for _, z in self.places)
+                stays = abs(complex(getattr(self.residual[1], name).forward))
+                forward = "remains" if stays > size else "undecided"
+            found[name] = {"forward": forward, "backward": before.backward}
+        return found
 
-    def _scaled(self, name: str) -> bool:
-        """Return whether the forward part is exactly 1 − fraction of what it was."""
-        parts = self.fit.parts
+    def _meets(self, name: str) -> bool:
+        """Return whether the forward part is exactly what was to stay."""
+        parts = dict(self.fit.parts)
         if not self.exact or name not in parts:
             return False
         if self.fit.target == "external":
             return True
         # The engine's parts are sums over its bays, if all that rotates is in one of them, and
         # forces of bays have moments about the engine's plane.
-        listed = bays(self.before)
+        listed = bays(self.engine)
         inside = all(
-            any(bay.holds(weight.z) for bay in listed) for weight in self.before.counterweights
+            any(bay.holds(weight.z) for bay in listed) for weight in self.engine.counterweights
         )
-        inside = inside and not self.before.shafts
-        return inside and (name == "force" or parts.get("force") == parts["moment"])
+        inside = inside and not self.engine.shafts
+        return inside and (
+            name == "force" or ("force" in parts and parts["force"] == parts["moment"])
+        )
 
     @property
     def vanishes(self) -> bool:
@@ -313,69 +255,61 @@ class Counterweights(Frozen, Shown):
         The forward parts by the rank of the equations, which the weights solve; the weights as
         rounded numbers leave :meth:`Engine.vanishing_orders` of the fitted engine undecided.
         """
-        return all(word == "vanishes" for parts in self.verdicts for word in parts)
+        return all(
+            word == "vanishes" for parts in self.verdicts.values() for word in parts.values()
+        )
 
     @property
-    def bay_loads(self) -> tuple[BayLoad, ...]:
-        """What each throw brings upon its main bearings with the weights, over ω²."""
-        return bay_loads_of(self.engine)
+    def bay_loads(self) -> NDArray[np.complex128]:
+        """Forward force (kg·m) and moment (kg·m²) of each throw on its main bearings, over ω².
 
-    @property
-    def bay_loads_before(self) -> tuple[BayLoad, ...]:
-        """What each throw brings upon its main bearings without the weights, over ω²."""
-        return bay_loads_of(self.before)
+        (n_throws, 2), from front to flywheel, with the weights; moments about the throw's place.
+        """
+        return bay_loads(self.fitted)
 
     # --- tables ---------------------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the weights as a tidy table, one row a weight (needs pandas).
-
-        Columns are plane, z (m), amount (kg·m) and angle_deg.
-        """
-        rows = [(name, *row) for (name, _), row in zip(self.by_plane, self._rows(), strict=True)]
-        columns = ["plane", "z", "amount", "angle_deg"]
-        return optional.data_frame(rows, columns=columns)
-
-    def _rows(self) -> list[tuple[float, float, float]]:
-        return [(weight.z, weight.amount, degrees(weight.angle_deg)) for weight in self.unbalances]
-
     @property
     def table(self) -> Table:
-        """Table of the weights."""
-        name = labels.name_of(self.before)
-        note = "" if self.by_plane else "No weights are needed in these planes, or none help."
-        names = [(plane,) for plane, _ in self.by_plane]
-        rows = np.array(self._rows()).reshape(-1, 3)
-        header = ["plane", "z m", "kg·m", "angle °"]
-        return Table.from_rows(
-            f"{name}: counterweights",
-            header,
-            names,
-            rows,
-            note=note,
-            below=self.table_of_order_1(),
+        """Table of the weights; below it what order 1 does before and after, over ω²."""
+        columns = (
+            Column("plane", tuple(plane for plane, _ in self.by_plane)),
+            Column("z", tuple(weight.z for weight in self.hardware), "m"),
+            Column("amount", tuple(weight.amount for weight in self.hardware), "kg·m"),
+            Column("angle", tuple(degrees(weight.angle_deg) for weight in self.hardware), "°"),
         )
+        note = "" if self.by_plane else "No weights are needed in these planes, or none help."
+        title = f"{labels.name_of(self.engine)}: counterweights"
+        return Table(title, columns, note, below=self._order_1())
 
-    def table_of_order_1(self) -> Table:
-        """Return the table of what order 1 does before and after: half axes over ω²."""
-        rows, names = [], []
-        verdicts = self.verdicts
-        for place, quantity in enumerate(("force", "moment")):
-            unit = QUANTITIES[quantity].unit_over_square
-            for state, ellipses in (("before", self.ellipses_before), ("after", self.ellipses)):
-                ellipse = ellipses[place]
-                names.append((f"{QUANTITIES[quantity].words}, {unit}", state))
-                rows.append([ellipse.major, abs(ellipse.minor)])
-        words = [
-            f"{part} {quantity} {getattr(getattr(verdicts, quantity), part)}"
-            for quantity in ("force", "moment")
-            for part in ("forward", "backward")
+    def _order_1(self) -> Table:
+        states = {
+            "before": over_square(self.engine, [1], self.reference_z), "after": self.residual,
+        }  # fmt: skip
+        ellipses = [
+            (name, state, getattr(found[1], name).ellipse)
+            for name in PLANE_VECTORS
+            for state, found in states.items()
         ]
-        header = ["order 1 over ω²", "", "longest", "shortest"]
+        words = [
+            f"{part} {quantity} {verdict}"
+            for quantity, parts in self.verdicts.items()
+            for part, verdict in parts.items()
+        ]
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
-        return Table.from_rows("What stays", header, names, np.array(rows), note=note)
+        kinds = [QUANTITIES[name] for name, _, _ in ellipses]
+        return Table(
+            "What stays of order 1, half axes over ω²",
+            (
+                Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
+                Column("state", tuple(state for _, state, _ in ellipses)),
+                Column("longest", tuple(ellipse.major for *_, ellipse in ellipses)),
+                Column("shortest", tuple(abs(ellipse.minor) for *_, ellipse in ellipses)),
+            ),
+            note,
+        )
 
     def plot(
         self,
@@ -383,7 +317,7 @@ class Counterweights(Frozen, Shown):
         *,
         figure: Figure | SubFigure | None = None,
         kind: str = "summary",
-        quantity: str | None = None,
+        quantity: str = "moment",
         **style: Any,  # noqa: ANN401 - of lines
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw the weights, and what order 1 does before and after; return the axes.
@@ -400,7 +334,7 @@ class Counterweights(Frozen, Shown):
             its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
             ``"ellipses"``: what order 1 traces before and after.
         quantity
-            ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the one that is not zero.
+            ``"force"`` or ``"moment"``, for ``"ellipses"``.
         **style
             ``label`` and properties of matplotlib lines.
         """

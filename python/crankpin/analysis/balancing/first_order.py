@@ -1,68 +1,56 @@
-"""Order 1 over ω² (kg·m, kg·m²) of an engine and of its bays."""
+"""Order 1 over ω² (kg·m, kg·m²): engines with bob weights, and the bays of engines."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from crankpin.analysis.balance import over_square
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.record import read_only
 from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
 from crankpin.model.shafts import Unbalance, degrees
 
 if TYPE_CHECKING:
-    from crankpin.analysis.by_order import Ellipse, OrderBalance
+    from numpy.typing import ArrayLike, NDArray
+
     from crankpin.model.crankpins import Bay
 
-
-class ForwardPart(NamedTuple):
-    """Forward part of order 1 over ω²: what weights on the crankshaft can change."""
-
-    force: complex
-    """Shaking force, x + iy at θ = 0, kg·m."""
-    moment: complex
-    """Rocking moment, x + iy at θ = 0, kg·m²."""
+LARGEST_FACTOR = 10.0
+SMALLEST = 1e-30
+"""Smallest unbalance that engines take, kg·m."""
 
 
-class Ellipses(NamedTuple):
-    """Ellipses that force and moment of order 1 trace, over ω²."""
-
-    force: Ellipse
-    """Shaking force, half axes in kg·m."""
-    moment: Ellipse
-    """Rocking moment, half axes in kg·m²."""
-
-
-class BayLoad(NamedTuple):
-    """What a throw brings upon its two main bearings: its forward part of order 1 over ω²."""
-
-    cylinders: tuple[int, ...]
-    """Numbers of the cylinders."""
-    z: float
-    """Place of the crankpins, about which the moment is taken, m."""
-    force: complex
-    """Force, x + iy at θ = 0, kg·m."""
-    moment: complex
-    """Moment, x + iy at θ = 0, kg·m²."""
+def check_factor(name: str, factor: ArrayLike) -> None:
+    """Raise an InputError unless factors are shares of the reciprocating mass."""
+    listed = np.asarray(factor)
+    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+        hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
+        raise InputError(f"{name} = {inputs.shorten(factor)}: {hint}")
 
 
-def first_order(engine: Engine, reference_z: float | None = None) -> OrderBalance:
-    """Return order 1 over ω²: force in kg·m and moment in kg·m²."""
-    return over_square(engine, [1], reference_z)[1]
+def with_bob_weights(engine: Engine, factor: float) -> Engine:
+    """Return the engine with counterweights that balance a bob weight at each crankpin.
+
+    They are opposite the crankpins, in place of the counterweights that it has: all of the rotating
+    and ``factor`` of the reciprocating mass.
+    """
+    masses = zip(engine.cylinders, engine.rotating_mass.tolist(), engine.z.tolist(), strict=True)
+    weights = []
+    for number, (parts, rotating, z) in enumerate(masses, start=1):
+        amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
+        if amount >= SMALLEST:
+            weights.append(Unbalance(amount, z, 180, pin=number))
+    return engine.with_counterweights(weights)
 
 
-def ellipses_of(engine: Engine, plane: float) -> Ellipses:
-    """Return the ellipses that force and moment trace."""
-    order_1 = first_order(engine, plane)
-    return Ellipses(order_1.force.ellipse, order_1.moment.ellipse)
-
-
-def bay_loads_of(engine: Engine) -> tuple[BayLoad, ...]:
-    """Return what each throw brings upon its main bearings."""
-    return tuple(
-        BayLoad(bay.cylinders, bay.z, *turning(bay_alone(engine, bay), 1, bay.z))
-        for bay in bays(engine)
-    )
+def bay_loads(engine: Engine) -> NDArray[np.complex128]:
+    """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
+    found = [turning(bay_alone(engine, bay), 1, bay.z) for bay in bays(engine)]
+    return read_only(np.array(found, dtype=np.complex128))  # type: ignore[no-any-return]
 
 
 def bay_alone(engine: Engine, bay: Bay) -> Engine:

@@ -5,93 +5,49 @@ from __future__ import annotations
 import itertools
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Listed
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.tables import Shown, Table, stacked
-from crankpin.analysis.balance import UNIT_RPM, Balance, balance, over_square
-from crankpin.analysis.balancing.fitted_shaft import FittedShaft
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import Listed, Tabled, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import UNIT_RPM, Balance, over_square
 from crankpin.analysis.drawing import draw
-from crankpin.model.shafts import degrees
+from crankpin.analysis.geometry import direction
+from crankpin.model.shafts import Shaft, degrees
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders
-    from crankpin._support.tables import Label
+    from crankpin.analysis.balancing.planes import Turning
     from crankpin.model.engine import Engine
 
-SHAKEN = (*PLANE_VECTORS, "torque")
+SHAKEN = ("force", "moment", "torque")
 """Quantities that shafts change."""
-
-
-PARTS = {
-    "force": (("forward", "forward"), ("backward", "backward")),
-    "moment": (("forward", "forward"), ("backward", "backward")),
-    "torque": (("", "phasor"),),
-}
-"""Quantity → name of each part and the attribute that reads it."""
-
-
-class PairHeights(NamedTuple):
-    """Places of a Lanchester pair that cancel the roll torque of its order.
-
-    Two shafts at +n and −n with equal forces push together along one line. With *up* along that
-    line and *right* to its right, their roll torque depends on how much higher the shaft that turns
-    with the crank stands, and on the sum of the two distances to the right, and on nothing else.
-    """
-
-    order: int
-    """Order of the pair."""
-    difference: float
-    """Height of the shaft that turns with the crank over the other, m."""
-    right_sum: float
-    """Sum of the distances of both to the right of the crank axis, m."""
-    up_deg: float
-    """Direction of *up*, degrees from +x in [0, 180): 90 for an upright inline engine."""
-
-
 EQUAL = 1e-9
 """Relative difference up to which the forces of a pair are equal."""
 
 
-def _is_a_pair(forces: Sequence[tuple[int, complex]]) -> bool:
-    """Return whether shafts, as ratio and force, are one pair of opposite ratio and equal force."""
-    if len(forces) != 2 or forces[0][0] != -forces[1][0]:
-        return False
-    sizes = [abs(force) for _, force in forces]
-    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL * max(sizes)
-
-
-class PartLeft(NamedTuple):
+class Part(NamedTuple):
     """A part of a quantity of one order before shafts are fitted and after, over ω²."""
 
     order: int
-    """Order."""
     quantity: str
-    """``"force"``, ``"moment"`` or ``"torque"``."""
     part: str
     """``"forward"`` or ``"backward"``; empty for torque."""
     before: float
-    """Size without the shafts, kg·m or kg·m²."""
     after: float
-    """Size with them, kg·m or kg·m²."""
 
 
-class BalanceShafts(Listed[FittedShaft], Shown):
-    """Balance shafts fitted to an engine, and the engine with them.
+class BalanceShafts(Listed[Shaft], Tabled):
+    """Balance shafts fitted to an engine.
 
-    A sequence of :class:`~crankpin.types.FittedShaft`, in the order of the ratios given. Made by
+    A sequence of :class:`~crankpin.Shaft`, in the order of the ratios given. Made by
     :func:`crankpin.balance_shafts`.
 
     Examples
@@ -99,119 +55,155 @@ class BalanceShafts(Listed[FittedShaft], Shown):
     >>> import crankpin as cp
     >>> v6 = cp.Engine.preset("v6-60")
     >>> fit = cp.balance_shafts(v6, -2, x=0.1, y=0.05)
-    >>> fit[0].order, fit[0].part, round(fit[0].removed_moment, 6)
-    (2, 'backward', 0.00088)
-    >>> float(fit.balance(rpm=6000, orders=[2])[2].moment.peak)
+    >>> fit[0].ratio, float(abs(fit.moment[0]).round(6))
+    (-2, 0.00088)
+    >>> float(fit.residual[2].moment.peak)
     0.0
-    >>> fit.engine.with_shafts(v6.shafts) == v6
+    >>> fit.fitted.with_shafts(v6.shafts) == v6
     True
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("before", "shafts", "plane", "extra_torque")
-    _items = "shafts"
+    _items = "hardware"
 
-    before: Engine
-    """The engine as it was given."""
-    shafts: tuple[FittedShaft, ...]
+    engine: Engine
+    """The engine that was asked about."""
+    hardware: tuple[Shaft, ...]
     """The shafts, in the order of the ratios given."""
+    exerts: tuple[Turning, ...]
+    """Force and moment of each shaft, over ω²."""
+    bearings: tuple[tuple[float, float] | None, ...]
+    """Places of the two bearings of each, front first, m; None if they are not known."""
     plane: float | None
     """The reference plane that was given, m, or None."""
     extra_torque: tuple[tuple[int, complex], ...]
-    """Order and peak phasor over ω², kg·m², of torques besides those of inertia."""
+    """Order and peak phasor, N·m, of given torques that are cancelled as well."""
+    rpm: float | None
+    """Crank speed at which they act: shafts' own torques scale with its square."""
 
-    def __init__(
-        self,
-        before: Engine,
-        shafts: tuple[FittedShaft, ...],
-        plane: float | None,
-        extra_torque: tuple[tuple[int, complex], ...],
-    ) -> None:
-        if not shafts or not all(isinstance(each, FittedShaft) for each in shafts):
-            raise InputError(f"shafts = {inputs.shorten(shafts)}: use crankpin.balance_shafts")
-        self._set(before=before, shafts=shafts, plane=plane, extra_torque=extra_torque)
+    def __post_init__(self) -> None:
+        if not self.hardware or not all(isinstance(each, Shaft) for each in self.hardware):
+            raise InputError(
+                f"hardware = {inputs.shorten(self.hardware)}: use crankpin.balance_shafts"
+            )
 
     @cached_property
-    def engine(self) -> Engine:
-        """The engine with the shafts, added to those that it had."""
-        return self.before.with_shafts([*self.before.shafts, *(each.shaft for each in self.shafts)])
+    def fitted(self) -> Engine:
+        """The engine with the shafts, added to those that it has."""
+        return self.engine.with_shafts([*self.engine.shafts, *self.hardware])
 
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        return self.before.reference_z if self.plane is None else self.plane
+        return self.engine.reference_z if self.plane is None else self.plane
 
     @property
     def orders(self) -> tuple[int, ...]:
         """Orders that the shafts act on, ascending."""
-        return tuple(sorted({each.order for each in self.shafts}))
+        return tuple(sorted({abs(each.ratio) for each in self.hardware}))
 
     @property
     def unbalance(self) -> float:
         """Sum of the amounts of all unbalances of the shafts, kg·m."""
-        return sum(each.unbalance for each in self.shafts)
+        return math.fsum(weight.amount for each in self.hardware for weight in each.unbalances)
+
+    @property
+    def force(self) -> NDArray[np.complex128]:
+        """Force that each shaft exerts, over ω²: x + iy at θ = 0, kg·m, (n_shafts,)."""
+        return read_only(np.array([each.force for each in self.exerts]))  # type: ignore[no-any-return]
+
+    @property
+    def moment(self) -> NDArray[np.complex128]:
+        """Moment that each shaft exerts, over ω²: x + iy at θ = 0, kg·m², (n_shafts,)."""
+        return read_only(np.array([each.moment for each in self.exerts]))  # type: ignore[no-any-return]
 
     @cached_property
-    def heights(self) -> tuple[PairHeights, ...]:
-        """Heights that cancel the roll torque of each order that has one pair: ±n, equal forces.
+    def residual(self) -> Balance:
+        """What stays of the shafts' orders, over ω²: at 1 rad/s, N are kg·m.
 
-        ``extra_torque`` is counted. They do not depend on where the shafts of the fit are; at free
-        places they are there.
+        It includes the roll torque that the shafts' places make, not ``extra_torque``.
+        """
+        return over_square(self.fitted, self.orders, self.plane, torque=True)
+
+    @cached_property
+    def heights(self) -> dict[int, dict[str, float]]:
+        """Order → places of its one pair, ±n with equal forces, that cancel its roll torque.
+
+        A pair pushes along one line. With *up* along that line, its roll torque depends on the
+        ``"difference"``, how much higher the shaft that turns with the crank stands than the other,
+        and on ``"right_sum"``, the sum of the distances of both to the right of the crank axis, m;
+        ``"up_deg"`` is the direction of *up* from +x in [0°, 180°). ``extra_torque`` is counted, at
+        its speed. They do not depend on where the shafts of the fit are; at free places they are
+        there.
 
         Examples
         --------
         >>> import crankpin as cp
-        >>> (pair,) = cp.balance_shafts(cp.Engine.preset("i4"), [2, -2], x=0, y=0).heights
-        >>> pair.order, round(pair.difference, 4), pair.right_sum, pair.up_deg
-        (2, 0.1418, 0.0, 90.0)
+        >>> pair = cp.balance_shafts(cp.Engine.preset("i4"), [2, -2], x=0, y=0).heights[2]
+        >>> round(pair["difference"], 4), pair["right_sum"], pair["up_deg"]
+        (0.1418, 0.0, 90.0)
         """
-        found = []
+        found = {}
         for order in self.orders:
-            pair = [(each.shaft.ratio, each.makes.force) for each in self._of(order)]
+            pair = [
+                (shaft.ratio, each.force)
+                for shaft, each in zip(self.hardware, self.exerts, strict=True)
+                if abs(shaft.ratio) == order
+            ]
             if _is_a_pair(pair):
                 forces = dict(pair)
-                torque = _core.roll_torque(self.before.core, order)
-                torque += dict(self.extra_torque).get(order, 0j)
-                *places, up = _core.pair_heights(forces[order], forces[-order], torque)
-                found.append(PairHeights(order, *places, round(math.degrees(up), 13)))
-        return tuple(found)
+                torque = _core.roll_torque(self.engine.core, order)
+                if self.rpm is not None:
+                    square = inputs.angular_speed(self.rpm) ** 2
+                    torque += dict(self.extra_torque).get(order, 0j) / square
+                difference, right, up = _core.pair_heights(forces[order], forces[-order], torque)
+                up_deg = round(math.degrees(up), 13)
+                found[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}
+        return found
 
-    def _of(self, order: int) -> list[FittedShaft]:
-        return [each for each in self.shafts if each.order == order]
+    def bearing_loads(self, rpm: float) -> NDArray[np.complex128]:
+        """Return the loads on the two bearings of each shaft at θ = 0, front first.
 
-    def balance(self, rpm: float, *, orders: Orders = "auto", rtol: float | None = None) -> Balance:
-        """Return what stays: the balance of the engine with the shafts.
-
-        It includes the roll torque that the shafts' places make, not ``extra_torque``.
+        Forces of the unbalances on the bearings, shared by the lever rule, without weight and
+        drive: each keeps its size and turns with the shaft.
 
         Parameters
         ----------
         rpm
             Crank speed.
-        orders, rtol
-            As in :meth:`Engine.balance`.
+
+        Returns
+        -------
+        numpy.ndarray
+            x + iy, N: (n_shafts, 2).
+
+        Raises
+        ------
+        InputError
+            If bearings are not known, or the speed is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> fit = cp.balance_shafts(cp.Engine.preset("i3"), -1, bearings=(0.0, 0.3))
+        >>> abs(fit.bearing_loads(rpm=6000)).round(1)
+        array([[2205.2, 2205.2]])
         """
-        found = balance(self.engine, rpm, orders=orders, rtol=rtol)
-        return found if self.plane is None else found.about(self.plane)
+        square = inputs.angular_speed(rpm) ** 2
+        loads = []
+        for shaft, bearings in zip(self.hardware, self.bearings, strict=True):
+            if bearings is None:
+                hint = "give bearings=(z_front, z_rear) to balance_shafts"
+                raise InputError(f"bearings = None: {hint}")
+            forces = [
+                (each.amount * complex(direction(degrees(each.angle_deg))), each.z)
+                for each in shaft.unbalances
+            ]
+            loads.append(np.array(_core.shared(forces, *bearings)) * shaft.ratio**2 * square)
+        return read_only(np.array(loads))  # type: ignore[no-any-return]
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a tidy table, one row an unbalance (needs pandas).
-
-        Columns are shaft (from 1), ratio, order, part, x, y, z (m), amount (kg·m) and angle_deg.
-        """
-        rows = [
-            (
-                number, each.shaft.ratio, each.order, each.part, each.shaft.x, each.shaft.y,
-                weight.z, weight.amount, degrees(weight.angle_deg),
-            )
-            for number, each in enumerate(self.shafts, start=1)
-            for weight in each.shaft.unbalances
-        ]  # fmt: skip
-        columns = ["shaft", "ratio", "order", "part", "x", "y", "z", "amount", "angle_deg"]
-        return optional.data_frame(rows, columns=columns)
-
-    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
+    def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.
 
         Parameters
@@ -219,8 +211,7 @@ class BalanceShafts(Listed[FittedShaft], Shown):
         ax
             Axes to draw on; by default new ones.
         quantity
-            ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
-            the first that is not zero.
+            ``"force"``, ``"moment"`` or ``"torque"``, all over ω².
         **style
             Passed on to the markers; ``label`` names the result in a legend.
         """
@@ -228,68 +219,82 @@ class BalanceShafts(Listed[FittedShaft], Shown):
 
     @property
     def table(self) -> Table:
-        """Tables that are shown: unbalances; below, shafts, and what stays of their orders."""
-        return stacked(self._unbalances(), self._shafts(), self._stays())
-
-    def _unbalances(self) -> Table:
-        engine = labels.name_of(self.before)
-        names: list[Label] = [
-            [str(number), f"{each.shaft.ratio:+d}"]
-            for number, each in enumerate(self.shafts, start=1)
-            for _ in each.shaft.unbalances
+        """Table of the unbalances; below it what each shaft exerts, and what stays."""
+        listed = [
+            (k, shaft, weight)
+            for k, shaft in enumerate(self.hardware, 1)
+            for weight in shaft.unbalances
         ]
-        rows = [
-            [each.shaft.x, each.shaft.y, weight.z, weight.amount, degrees(weight.angle_deg)]
-            for each in self.shafts
-            for weight in each.shaft.unbalances
-        ]
-        head = ["shaft", "ratio", "x m", "y m", "z m", "unbalance kg·m", "phase °"]
-        return Table.from_rows(
-            f"{labels.cut(engine)}: balance shafts", head, names, _array(rows, 5)
+        columns = (
+            Column("shaft", tuple(str(k) for k, _, _ in listed)),
+            Column("ratio", tuple(f"{shaft.ratio:+d}" for _, shaft, _ in listed)),
+            Column("x", tuple(shaft.x for _, shaft, _ in listed), "m"),
+            Column("y", tuple(shaft.y for _, shaft, _ in listed), "m"),
+            Column("z", tuple(weight.z for *_, weight in listed), "m"),
+            Column("unbalance", tuple(weight.amount for *_, weight in listed), "kg·m"),
+            Column("phase", tuple(degrees(weight.angle_deg) for *_, weight in listed), "°"),
         )
+        note = ""
+        if self.rpm is not None and self.extra_torque:
+            note = (
+                f"Places count extra_torque at {self.rpm:g} rpm: it does not scale with the square "
+                "of the speed as the shafts' torques do, so that they hold at this speed."
+            )
+        title = f"{labels.cut(labels.name_of(self.engine))}: balance shafts"
+        return Table(title, columns, note, below=self._loads())
 
-    def _shafts(self) -> Table:
-        names: list[Label] = [
-            [str(number), str(each.order), each.part] for number, each in enumerate(self.shafts, 1)
+    def _loads(self) -> Table:
+        columns = [
+            Column("shaft", tuple(str(k) for k in range(1, len(self) + 1))),
+            Column("order", tuple(str(abs(each.ratio)) for each in self.hardware)),
+            Column(
+                "part",
+                tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware),
+            ),
+            Column("force", tuple(abs(self.force).tolist()), "kg·m"),
+            Column("moment", tuple(abs(self.moment).tolist()), "kg·m²"),
         ]
-        head = ["shaft", "order", "part", "force kg·m", "moment kg·m²"]
-        rows = [[each.removed_force, each.removed_moment] for each in self.shafts]
-        if all(each.bearings is not None for each in self.shafts):
-            head += ["bearings m apart", "front load kg·m", "rear load kg·m"]
-            for row, each in zip(rows, self.shafts, strict=True):
-                assert each.length is not None  # noqa: S101 - its bearings are known
-                row += [each.length, *np.abs(each.bearing_loads(UNIT_RPM)).tolist()]
+        known = [each for each in self.bearings if each is not None]
+        if len(known) == len(self):
+            front, rear = abs(self.bearing_loads(UNIT_RPM)).T.tolist()
+            columns += [
+                Column("bearings", tuple(b - a for a, b in known), "m apart"),
+                Column("front load", tuple(front), "kg·m"),
+                Column("rear load", tuple(rear), "kg·m"),
+            ]
         title = "What each shaft removes, and its bearing loads, over ω²"
-        return Table.from_rows(title, head, names, _array(rows, len(head) - 3))
+        return Table(title, tuple(columns), below=self._stays())
 
     def _stays(self) -> Table:
         parts = self.parts()
-        names: list[Label] = [
-            [
-                str(each.order),
-                f"{QUANTITIES[each.quantity].words}, {QUANTITIES[each.quantity].unit_over_square}",
-                each.part,
-            ]
-            for each in parts
-        ]
-        rows = [[each.before, each.after] for each in parts]
-        head = ["order", "quantity", "part", "before", "after"]
-        return Table.from_rows("What stays, over ω²", head, names, _array(rows, 2))
-
-    def parts(self) -> tuple[PartLeft, ...]:
-        """Return the parts of force, moment and torque of the shafts' orders, before and after."""
-        before, after = (
-            over_square(each, self.orders, self.plane, torque=True)
-            for each in (self.before, self.engine)
+        kinds = [QUANTITIES[each.quantity] for each in parts]
+        return Table(
+            "What stays, over ω²",
+            (
+                Column("order", tuple(str(each.order) for each in parts)),
+                Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
+                Column("part", tuple(each.part for each in parts)),
+                Column("before", tuple(each.before for each in parts)),
+                Column("after", tuple(each.after for each in parts)),
+            ),
         )
+
+    def parts(self) -> tuple[Part, ...]:
+        """Return the parts of force, moment and torque of the shafts' orders, before and after."""
+        states = (over_square(self.engine, self.orders, self.plane, torque=True), self.residual)
         found = []
         for order, quantity in itertools.product(self.orders, SHAKEN):
-            pair = [getattr(each[order], quantity) for each in (before, after)]
-            for part, name in PARTS[quantity]:
-                sizes = [float(abs(getattr(each, name))) for each in pair]
-                found.append(PartLeft(order, quantity, part, *sizes))
+            pair = [getattr(each[order], quantity) for each in states]
+            planar = QUANTITIES[quantity].planar
+            for part in ("forward", "backward") if planar else ("",):
+                sizes = [float(abs(getattr(each, part or "phasor"))) for each in pair]
+                found.append(Part(order, quantity, part, *sizes))
         return tuple(found)
 
 
-def _array(rows: list[list[float]], width: int) -> NDArray[np.float64]:
-    return np.array(rows, dtype=np.float64).reshape(-1, width)
+def _is_a_pair(forces: list[tuple[int, complex]]) -> bool:
+    """Return whether shafts, as ratio and force, are one pair of opposite ratio and equal force."""
+    if len(forces) != 2 or forces[0][0] != -forces[1][0]:
+        return False
+    sizes = [abs(force) for _, force in forces]
+    return min(sizes) > 0.0 and max(sizes) - min(sizes) <= EQUAL * max(sizes)

@@ -6,6 +6,7 @@ Forces and moments of order 1 scale with ω², so that one fit serves every spee
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -13,19 +14,19 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing.first_order import bay_alone
+from crankpin.analysis.balancing.first_order import bay_alone, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.shafts import degrees, unbalance_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from crankpin.model.crankpins import Bay
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
 QUANTITIES = ("force", "moment")
+NOTHING = 1e-14
+"""Part of two figures below which their difference is rounding."""
 
 Target: TypeAlias = Literal["external", "internal"]
 Minimise: TypeAlias = Literal["squares", "largest"]
@@ -37,10 +38,8 @@ class Fit:
 
     target: Target
     """Whether the whole engine's force and moment are to go, or those of each bay."""
-    force: float | None
-    """Part of the forward force to remove; None if it does not matter."""
-    moment: float | None
-    """Part of the forward moment to remove; None if it does not matter."""
+    parts: tuple[tuple[str, float | None], ...]
+    """Quantities that matter, with the share of the reciprocating mass to balance; None for all."""
     minimise: Minimise
     """What is least of weights that do the same."""
     length: float | None
@@ -50,10 +49,9 @@ class Fit:
 
     @classmethod
     def checked(
-        cls, target: object, fraction: object, minimise: object, length: object, reference_z: object
+        cls, target: object, factor: object, minimise: object, length: object, reference_z: object
     ) -> Fit:
         """Return the options, or raise an InputError that names the argument at fault."""
-        parts = _parts(fraction)
         wanted = inputs.one_of("target", target, ["external", "internal"])
         plane = inputs.optional_number("reference_z", reference_z)
         if plane is not None and wanted == "internal":
@@ -64,34 +62,26 @@ class Fit:
             raise InputError(f"length = {comparing}: give a length in metres, 1e-6 to 1e6")
         return cls(
             wanted,  # type: ignore[arg-type]
-            parts.get("force"),
-            parts.get("moment"),
+            tuple(_parts(factor).items()),
             inputs.one_of("minimise", minimise, ["squares", "largest"]),  # type: ignore[arg-type]
             comparing,
             plane,
         )
 
-    @property
-    def parts(self) -> dict[str, float]:
-        """Parts to remove by quantity, without those that do not matter."""
-        both = {"force": self.force, "moment": self.moment}
-        return {name: part for name, part in both.items() if part is not None}
 
-
-def _parts(given: object) -> dict[str, float]:
-    by_name: Mapping[str, object]
-    if isinstance(given, dict):
-        by_name = given
-        for name in by_name:
-            inputs.one_of("fraction", name, QUANTITIES)
-        if not by_name:
-            raise InputError('fraction = {}: give a number, or {"force": 1, "moment": 1}')
-    else:
+def _parts(given: object) -> dict[str, float | None]:
+    if given is None or not isinstance(given, Mapping):
         by_name = dict.fromkeys(QUANTITIES, given)
-    parts = {name: inputs.number("fraction", part) for name, part in by_name.items()}
+    else:
+        by_name = dict(given)
+        for name in by_name:
+            inputs.one_of("factor", name, QUANTITIES)
+        if not by_name:
+            raise InputError('factor = {}: give a number, or {"force": 0.5, "moment": 0.5}')
+    parts = {name: inputs.optional_number("factor", part) for name, part in by_name.items()}
     for part in parts.values():
-        if not 0.0 <= part <= 10.0:
-            raise InputError(f"fraction = {part}: give 0 to 10; 1 removes all")
+        if part is not None:
+            check_factor("factor", part)
     return parts
 
 
@@ -120,17 +110,28 @@ def external(
     names, places = list(planes), list(planes.values())
     levers = np.append(places, engine.z) - plane
     length = fit.length or float(np.abs(levers).max()) or 1.0
-    there = turning(engine, 1, plane)
-    force, moment = (
-        None if part is None else -part * of
-        for part, of in zip((fit.force, fit.moment), there, strict=True)
-    )
+    there = turning(engine, 1, plane)._asdict()
+    wanted: dict[str, complex] = {}
+    for name, factor in fit.parts:
+        left = (
+            turning(left_by(engine, factor), 1, plane)._asdict()[name] if factor is not None else 0j
+        )
+        change = left - there[name]
+        # Two figures that agree leave their rounding, not a weight.
+        wanted[name] = 0j if abs(change) <= NOTHING * (abs(left) + abs(there[name])) else change
     allowed = None
     if angles is not None:
         allowed = [np.deg2rad([degrees(angle) for angle in angles[name]]) for name in names]
     limits = [bounds[name] for name in names]
     found, reached, missing = _core.least_weights(
-        places, plane, length, force, moment, limits, allowed, fit.minimise
+        places,
+        plane,
+        length,
+        wanted.get("force"),
+        wanted.get("moment"),
+        limits,
+        allowed,
+        fit.minimise,
     )
     unbalances = []
     for place, angle, each in found:
@@ -152,17 +153,32 @@ def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> b
     serves both if there is no forward moment about z itself, which is proved in integers.
     """
     different = sorted(set(places))
-    order_1 = engine.vanishing_orders([1], reference_z=plane)[1]
-    wanted = [name for name in fit.parts if getattr(order_1, name).forward != "vanishes"]
+    factors = dict(fit.parts)
+    engines = {
+        name: [engine] if factor is None else [engine, left_by(engine, factor)]
+        for name, factor in factors.items()
+    }
+    wanted = [name for name in factors if not all(_vanishes(e, name, plane) for e in engines[name])]
     if not wanted or len(different) >= 2:
         return True
     if not different:
         return False
     (z,) = different
-    if len(fit.parts) == 1:
+    if len(factors) == 1:
         return wanted == ["force"] or z != plane
-    about = engine.vanishing_orders([1], reference_z=z)[1]
-    return about.moment.forward == "vanishes" and (fit.force == fit.moment or z == plane)
+    beside = all(_vanishes(each, "moment", z) for each in engines["moment"])
+    return beside and (factors["force"] == factors["moment"] or z == plane)
+
+
+def left_by(engine: Engine, factor: float) -> Engine:
+    """Return the engine that bob weights leave, without shafts: its forward part is to stay."""
+    return with_bob_weights(engine, factor).with_shafts(())
+
+
+def _vanishes(engine: Engine, quantity: str, plane: float) -> bool:
+    """Return whether the forward part of order 1 is proved to vanish."""
+    found = engine.vanishing_orders([1], reference_z=plane)[1]
+    return bool(getattr(found, quantity).forward == "vanishes")
 
 
 # --- bay by bay -----------------------------------------------------------------------------------

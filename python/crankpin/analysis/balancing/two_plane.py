@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, optional
-from crankpin._support.frozen import Frozen, read_only
-from crankpin._support.tables import Shown, Table
+from crankpin._support import inputs
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Table
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import pandas as pd
     from numpy.typing import ArrayLike, NDArray
 
 G_MM = 1e-6
@@ -99,18 +96,11 @@ def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     return float(listed[0]), float(listed[1])
 
 
-class TwoPlaneCorrection(Frozen, Shown):
+class TwoPlaneCorrection(Tabled):
     """Corrections in two planes, and the imbalance that they correct.
 
     Made by :func:`crankpin.two_plane_correction`.
     """
-
-    _fields: ClassVar[tuple[str, ...]] = (
-        "measured_g_mm",
-        "measured_deg",
-        "measured_z",
-        "correction_z",
-    )
 
     measured_g_mm: tuple[float, float]
     """Unbalances measured, g·mm."""
@@ -121,19 +111,9 @@ class TwoPlaneCorrection(Frozen, Shown):
     correction_z: tuple[float, float]
     """Places of the planes of correction, m."""
 
-    def __init__(
-        self,
-        measured_g_mm: tuple[float, float],
-        measured_deg: tuple[float, float],
-        measured_z: tuple[float, float],
-        correction_z: tuple[float, float],
-    ) -> None:
-        self._set(
-            measured_g_mm=_pair("measured_g_mm", measured_g_mm),
-            measured_deg=_pair("measured_deg", measured_deg),
-            measured_z=_pair("measured_z", measured_z),
-            correction_z=_pair("correction_z", correction_z),
-        )
+    def __post_init__(self) -> None:
+        for name in ("measured_g_mm", "measured_deg", "measured_z", "correction_z"):
+            object.__setattr__(self, name, _pair(name, getattr(self, name)))
 
     @property
     def _weights(self) -> NDArray[np.complex128]:
@@ -168,7 +148,7 @@ class TwoPlaneCorrection(Frozen, Shown):
         )
 
     @property
-    def unbalances(self) -> tuple[Unbalance, ...]:
+    def hardware(self) -> tuple[Unbalance, ...]:
         """The corrections, as unbalances of a crankshaft, kg·m."""
         weights = zip(
             (self.amount_g_mm * G_MM).tolist(),
@@ -177,16 +157,6 @@ class TwoPlaneCorrection(Frozen, Shown):
             strict=True,
         )
         return tuple(Unbalance(amount, z, round(angle, 13)) for amount, z, angle in weights)
-
-    def to_pandas(self) -> pd.DataFrame:
-        """Return the corrections, one row a plane (needs pandas)."""
-        columns: dict[str, Sequence[float] | NDArray[np.float64]] = {
-            "z": self.correction_z,
-            "amount_g_mm": self.amount_g_mm,
-            "angle_deg": self.angle_deg,
-            "drill_deg": self.drill_deg,
-        }
-        return optional.data_frame(columns)
 
     @property
     def table(self) -> Table:

@@ -20,7 +20,7 @@ LARGEST = 1e20
 
 
 @dataclasses.dataclass(frozen=True)
-class Wish:
+class ShaftRequest:
     """A shaft that is asked for; None is free."""
 
     ratio: int
@@ -42,16 +42,16 @@ class Wish:
         return abs(self.ratio)
 
 
-def wishes(
+def shaft_requests(
     ratios: object, *, x: object, y: object, planes: object, bearings: object, remove: object
-) -> list[Wish]:
+) -> list[ShaftRequest]:
     """Return the shafts asked for; :func:`crankpin.balance_shafts` documents the arguments."""
     listed = _ratios(ratios)
     count = len(listed)
     removals = _removals(remove, listed)
     found = list(
         map(
-            Wish,
+            ShaftRequest,
             listed,
             _coordinates("x", x, count),
             _coordinates("y", y, count),
@@ -68,7 +68,7 @@ def wishes(
 
 
 def extra_torques(given: object, rpm: object, orders: set[int]) -> dict[int, complex]:
-    """Return order → torque over ω², kg·m², of torques in N·m at this speed.
+    """Return order → peak phasor, N·m, of torques at this speed.
 
     ``orders`` are those that shafts act on.
     """
@@ -101,7 +101,7 @@ def extra_torques(given: object, rpm: object, orders: set[int]) -> dict[int, com
             raise InputError(
                 f"extra_torque[{order}] = {phasor}: give at most {LARGEST:g} kg·m² over ω²"
             )
-        found[order] = phasor / over
+        found[order] = phasor
     return found
 
 
