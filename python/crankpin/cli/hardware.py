@@ -54,8 +54,8 @@ def add_counterweights(commands: Commands) -> None:
     )
     fits.add_argument(
         "--factor",
-        help="share of the reciprocating mass to balance, as of a bob weight: 0.5 or 50%% (default: "
-        "whatever removes all of the forward part)",
+        help="share of the reciprocating mass to balance, as of a bob weight, 0.5 or 50%% (default:"
+        " whatever removes all of the forward part)",
     )
     fits.add_argument(
         "--minimise",

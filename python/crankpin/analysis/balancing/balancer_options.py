@@ -133,9 +133,8 @@ def balancer_options(
     sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most, plane)
     engines = [each.fitted_to(engine) for each in sets]
     speed = inputs.number("rpm", rpm)
-    swept = sweep(engines, rpm=speed, orders=orders, rtol=rtol)
-    if plane is not None:
-        swept = swept.about(plane)
+    judged = engines if plane is None else [each.replace(reference_z=plane) for each in engines]
+    swept = sweep(judged, rpm=speed, orders=orders, rtol=rtol)
     values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
     slack = TIED * np.abs(values).max(axis=0)
     start = {each.label: value for each, value in zip(objectives, values[0].tolist(), strict=True)}
