@@ -53,6 +53,7 @@ class Engine(Builders):
     ... )
     >>> v6
     V6: 6 cylinders, bank angle 60°
+    stroke 0.09 m, rod 0.158 m, reciprocating mass 1.487 kg
     throws 0-120-240°, pins split by -60°
     4-stroke 1-2-3-4-5-6, even, 120°
     cylinder  bank   bore °  TDC °  crankpin °   z m
