@@ -251,7 +251,7 @@ class Firing(Frozen):
         timing: ValveTiming | PortTiming | None = None,
         **style: Any,  # noqa: ANN401 - of matplotlib's collections
     ) -> Axes:
-        """Draw strokes, and open valves or ports, over a cycle; return the axes.
+        """Draw strokes, and with a timing open valves or ports, over a cycle; return the axes.
 
         A row for each cylinder, bank by bank: its strokes with a mark where it fires, and below
         them intake valves (transfer ports) and exhausts. Exhausts that are open at one time in
@@ -262,8 +262,7 @@ class Firing(Frozen):
         ax
             Axes to draw on; by default new ones.
         timing
-            When valves open and close; by default ``ValveTiming()``, of a two-stroke
-            ``PortTiming()``.
+            When valves or ports open and close; by default they are not drawn.
         **style
             Passed on to the bars, such as ``edgecolor=``.
         """

@@ -54,7 +54,7 @@ def add_firing(commands: Commands) -> None:
     fires.add_argument("--all", action="store_true", help="list all orders that the crank allows")
     fires.add_argument("--strokes", choices=("4", "2"), help="default: the engine's own, or 4")
     shared(fires, "--csv")
-    shared(fires, "--plot", help="write the chart of valve periods (.pdf, .png, .svg)")
+    shared(fires, "--plot", help="write the chart of strokes (.pdf, .png, .svg)")
 
 
 def _firing(given: Given) -> str:
