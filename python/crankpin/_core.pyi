@@ -220,6 +220,7 @@ class Search:
         alternating: bool,
         phases: Sequence[str] | None,
         held: str,
+        shared: bool,
         progress: _Progress | None,
     ) -> Search: ...
     @property

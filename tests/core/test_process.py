@@ -157,16 +157,20 @@ except MemoryError as error:
         ),
         (
             250,
-            "ratios = np.linspace(0.1, 0.5, 16_384); several = [v6.replace(name=f'{k}') for k in "
-            "range(100)]",
+            (
+                "ratios = np.linspace(0.1, 0.5, 16_384); "
+                "several = [v6.replace(name=f'{k}') for k in range(100)]"
+            ),
             "cp.sweep(several, rpm=3000, rod_ratio=ratios, orders=[1, 2]).moment.xy",
         ),
         (
             8,
             # OpenBLAS ends the process where it has no memory for its first call.
-            "np.linalg.lstsq(np.eye(3), np.ones(3)); "
-            "question = {'layout': 'vee', 'cylinder': v6.cylinders[0], 'bank_angle_deg': 90, "
-            "'spacing': 0.1, 'rpm': 6000, 'by': 'total.moment.peak'}; cp.design(4, **question)",
+            (
+                "np.linalg.lstsq(np.eye(3), np.ones(3)); "
+                "question = {'layout': 'vee', 'cylinder': v6.cylinders[0], 'bank_angle_deg': 90, "
+                "'spacing': 0.1, 'rpm': 6000, 'by': 'total.moment.peak'}; cp.design(4, **question)"
+            ),
             "cp.design(16, **question)",
         ),
     ],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import sys
 import threading
 from operator import attrgetter
 from pathlib import Path
@@ -13,6 +14,8 @@ import numpy as np
 import pytest
 
 pytestmark = pytest.mark.slow
+
+PARTS = ("forward", "backward", "peak", "peak_xy", "xy", "zero_bound")
 
 
 def hashes(threads: str) -> str:
@@ -72,3 +75,33 @@ def test_what_progress_raises_stops_a_sweep() -> None:
     sweep = cp.sweep(cp.Engine.preset("v6-60"), rpm=range(1, 9000), progress=stop)
     with pytest.raises(LookupError):
         _ = sweep.force.xy
+
+
+def test_results_are_read_from_many_threads() -> None:
+    """A result computes what is read when it is first read: by many threads, at every moment."""
+    v6 = cp.Engine.preset("v6-60")
+    names = [f"{quantity}.{part}" for quantity in ("force", "moment") for part in PARTS]
+    switching = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for _ in range(150):
+            result = v6.balance(5000, orders=range(1, 9))
+            failures: list[BaseException] = []
+            together = threading.Barrier(8)
+
+            def read(first: int) -> None:
+                together.wait()  # noqa: B023 - joined below
+                try:
+                    for name in names[first:] + names[:first]:
+                        attrgetter(name)(result)  # noqa: B023
+                except BaseException as error:
+                    failures.append(error)  # noqa: B023
+
+            threads = [threading.Thread(target=read, args=(k,)) for k in range(8)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            assert not failures
+    finally:
+        sys.setswitchinterval(switching)

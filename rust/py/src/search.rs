@@ -1,8 +1,8 @@
 //! The search of arrangements.
 
 use crankpin_core as core;
-use crankpin_core::Error;
 use crankpin_core::search::{self, Angles};
+use crankpin_core::{Error, memory};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -12,7 +12,11 @@ use crate::interrupt;
 
 /// All arrangements of one bank, grouped by |Z|.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Search(search::Search);
+pub struct Search {
+    core: search::Search,
+    /// True if both banks share their pins.
+    shared: bool,
+}
 
 #[pymethods]
 impl Search {
@@ -23,6 +27,7 @@ impl Search {
         alternating: bool,
         phases: Option<Vec<Angle>>,
         held: &str,
+        shared: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let (phases, hold) = (phases.map(angles), hold(held)?);
@@ -30,28 +35,28 @@ impl Search {
         let search = interrupt::watched(py, progress.as_ref(), |cancel| {
             search::Search::new(bank, hold, cancel)
         })?;
-        Ok(Self(search))
+        Ok(Self { core: search, shared })
     }
 
     #[getter]
     fn candidates(&self) -> u128 {
-        self.0.candidates()
+        if self.shared { self.core.shared_candidates() } else { self.core.candidates() }
     }
 
     #[getter]
     fn qualifying(&self) -> u128 {
-        self.0.qualifying()
+        if self.shared { self.core.shared_candidates() } else { self.core.qualifying() }
     }
 
     #[getter]
     fn balanced(&self) -> u128 {
-        self.0.balanced()
+        if self.shared { self.core.shared_balanced() } else { self.core.balanced() }
     }
 
     /// Arrangements of one bank, turned, reversed and mirrored ones counted once.
     #[getter]
     fn distinct(&self) -> usize {
-        self.0.distinct()
+        self.core.distinct()
     }
 }
 
@@ -59,7 +64,13 @@ impl Search {
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct BankAngles {
     search: Py<Search>,
-    angles: Angles,
+    listed: Listed,
+}
+
+enum Listed {
+    Angles(Angles),
+    /// Places of arrangements on shared pins, each at 90°.
+    Shared(Vec<usize>),
 }
 
 /// Bank angle, phases of both banks in degrees, counterweight, second-order moments.
@@ -74,18 +85,32 @@ impl BankAngles {
         window: [f64; 2],
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let core = &search.get().0;
-        let angles =
-            interrupt::watched(py, progress.as_ref(), |cancel| core.angles(window, cancel))?;
-        Ok(Self { search, angles })
+        let Search { core, shared } = search.get();
+        let listed = interrupt::watched(py, progress.as_ref(), |cancel| {
+            Ok(match shared {
+                false => Listed::Angles(core.angles(window, cancel)?),
+                true if (window[0]..=window[1]).contains(&90.0) => {
+                    Listed::Shared(core.shared(cancel)?)
+                }
+                true => Listed::Shared(Vec::new()),
+            })
+        })?;
+        Ok(Self { search, listed })
     }
 
     fn __len__(&self) -> usize {
-        self.angles.count()
+        match &self.listed {
+            Listed::Angles(angles) => angles.count(),
+            Listed::Shared(places) => places.len(),
+        }
     }
 
     fn degrees<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(frozen(py, interrupt::run(py, |cancel| self.angles.degrees(cancel))?.into()))
+        let degrees = interrupt::run(py, |cancel| match &self.listed {
+            Listed::Angles(angles) => angles.degrees(cancel),
+            Listed::Shared(places) => memory::collected(places.iter().map(|_| 90.0)),
+        })?;
+        Ok(frozen(py, degrees.into()))
     }
 
     fn solution(&self, py: Python<'_>, k: usize) -> PyResult<Solution> {
@@ -104,7 +129,12 @@ impl BankAngles {
 impl BankAngles {
     fn found(&self, k: usize) -> core::Result<search::Solution> {
         let missing = || Error::value("index", k, "there are fewer bank angles than that");
-        self.search.get().0.solution(&self.angles, k).ok_or_else(missing)
+        let core = &self.search.get().core;
+        let found = match &self.listed {
+            Listed::Angles(angles) => core.solution(angles, k),
+            Listed::Shared(places) => places.get(k).and_then(|&place| core.shared_solution(place)),
+        };
+        found.ok_or_else(missing)
     }
 }
 

@@ -466,6 +466,19 @@ def test_arrangements_on_shared_pins_are_all_orders_at_90() -> None:
     assert best.first_deg == (0, 72, 288, 144, 216)
 
 
+def test_shared_pins_are_searched_with_progress() -> None:
+    told: list[tuple[int, int]] = []
+    search = cp.search_arrangements(
+        18, hold="pins", shared_pins=True, progress=lambda done, total: told.append((done, total))
+    )
+    # 8! cranks; 9 throws have turns and images, 10 176 up to these.
+    assert (search.candidates, len(search)) == (362_880, 10_176)
+    assert told
+    assert told[-1][0] == told[-1][1] > 1
+    with pytest.raises(cp.InputError, match="at most 1048576 are listed"):
+        len(cp.search_arrangements(24, hold="pins", shared_pins=True, phases_deg=range(0, 360, 30)))
+
+
 def test_shared_pins_among_all_pairs() -> None:
     # In the search of all pairs those with the same pins twice are 3! of the V6.
     shared = cp.search_arrangements(6, shared_pins=True, hold="pins")
@@ -485,11 +498,11 @@ def test_shared_pins_among_all_pairs() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"cylinders": 7}, "cylinders = 7: give an even number"),
+        ({"cylinders": 7}, "cylinders = 7: a vee has an even number"),
         ({"hold": "firing"}, 'give hold="pins"'),
         ({"alternating": True}, "leave out alternating"),
-        ({"phases_deg": [0, 120]}, "phases_deg has 2 phases: give 3"),
-        ({"cylinders": 30}, "more than 50000 cranks"),
+        ({"phases_deg": [0, 120]}, "phases_deg has 2"),
+        ({"cylinders": 30}, "ask for fewer cylinders"),
     ],
 )
 def test_what_shared_pins_cannot_be_searched_for(given: dict[str, object], message: str) -> None:

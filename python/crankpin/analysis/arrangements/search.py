@@ -15,7 +15,6 @@ from crankpin import _core
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.frozen import Frozen
-from crankpin.analysis.arrangements.shared_pins import SharedPinAngles, SharedPins
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -128,8 +127,8 @@ def search_arrangements(
         Hattori), or ``"pins"``, the crankpins, where 2α takes the place of α.
     shared_pins
         Only arrangements whose banks share their crankpins, with ``hold="pins"``: all are balanced
-        at 90°. Every order of the throws is enumerated, up to nine different ones; those that are
-        mirror images are listed once, so that the same bank angle is listed for each.
+        at 90°. Of those that are mirror images one is listed, so that the same bank angle is listed
+        for each; at most 2²⁰, a V-22's 907 200 among them.
     progress
         True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
         steps in all, some 50 times a second, while a long search runs.
@@ -160,8 +159,8 @@ def search_arrangements(
     try:
         count = operator.index(cylinders)
     except TypeError:
-        cure = "give a whole number, such as 14"
-        raise _core.InputError(f"cylinders = {inputs.shorten(cylinders)}: {cure}") from None
+        hint = "give a whole number, such as 14"
+        raise _core.InputError(f"cylinders = {inputs.shorten(cylinders)}: {hint}") from None
     if not 0 <= count < 2**32:
         raise _core.InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
     phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
@@ -169,16 +168,14 @@ def search_arrangements(
     shared = inputs.flag("shared_pins", shared_pins)
     held = inputs.text("hold", hold, 'give "firing" or "pins"')
     watched = progress_bar.checked(progress)
-    if shared:
-        if held != "pins" or rule:
-            raise _core.InputError(
-                'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
-                "centres held pins are split at all but one bank angle"
-            )
-        return ArrangementSearch(SharedPins(count, phases), count, rule, phases, hold)
+    if shared and (held != "pins" or rule):
+        raise _core.InputError(
+            'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
+            "centres held pins are split at all but one bank angle"
+        )
     with progress_bar.shown(watched, f"V{count}") as told:
-        core = _core.Search(count, rule, phases, held, told)
-    return ArrangementSearch(core, count, rule, phases, hold, progress=watched)
+        core = _core.Search(count, rule, phases, held, shared, told)
+    return ArrangementSearch(core, count, rule, phases, hold, shared, progress=watched)
 
 
 class ArrangementSearch(Frozen):
@@ -205,6 +202,9 @@ class ArrangementSearch(Frozen):
     hold: Hold
     """What is held as the bank angle changes: top dead centres or crankpins."""
 
+    shared_pins: bool
+    """True if both banks share their crankpins."""
+
     window_deg: tuple[float, float]
     """Range of the bank angles listed, degrees."""
 
@@ -215,23 +215,25 @@ class ArrangementSearch(Frozen):
         alternating: bool,
         phases: list[str] | None,
         hold: Hold,
+        shared_pins: bool = False,
         window_deg: tuple[float, float] = _WHOLE,
         progress: Progress = False,
     ) -> None:
-        if not isinstance(core, (_core.Search, SharedPins)):
-            cure = "use crankpin.search_arrangements"
-            raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {cure}")
+        if not isinstance(core, _core.Search):
+            hint = "use crankpin.search_arrangements"
+            raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
         self._set(
             _search=core,
             cylinders=cylinders,
             alternating=alternating,
             _phases=phases,
             hold=hold,
+            shared_pins=shared_pins,
             window_deg=window_deg,
             _progress=progress,
         )
 
-    _search: _core.Search | SharedPins
+    _search: _core.Search
     _phases: list[str] | None
     _progress: Progress
 
@@ -250,15 +252,8 @@ class ArrangementSearch(Frozen):
         """Pairs without any first-order moment, balanced at every bank angle."""
         return self._search.balanced
 
-    @property
-    def shared_pins(self) -> bool:
-        """True if both banks share their crankpins."""
-        return isinstance(self._search, SharedPins)
-
     @cached_property
-    def _angles(self) -> _core.BankAngles | SharedPinAngles:
-        if isinstance(self._search, SharedPins):
-            return SharedPinAngles(self._search, self.window_deg)
+    def _angles(self) -> _core.BankAngles:
         with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as told:
             return _core.BankAngles(self._search, self.window_deg, told)
 
@@ -281,7 +276,7 @@ class ArrangementSearch(Frozen):
         """
         ends = (_bank_angle("low", low), _bank_angle("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
-        rest = (self.cylinders, self.alternating, self._phases, self.hold, window)
+        rest = (self.cylinders, self.alternating, self._phases, self.hold, self.shared_pins, window)
         return ArrangementSearch(self._search, *rest, progress=self._progress)
 
     def __len__(self) -> int:
@@ -332,13 +327,13 @@ class ArrangementSearch(Frozen):
         9.13
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
-        cure = "give a whole number, 0 or more"
+        hint = "give a whole number, 0 or more"
         try:
             wanted = operator.index(count)
         except TypeError:
-            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}") from None
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {hint}") from None
         if wanted < 0:
-            raise _core.InputError(f"count = {inputs.shorten(count)}: {cure}")
+            raise _core.InputError(f"count = {inputs.shorten(count)}: {hint}")
         return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
@@ -428,10 +423,10 @@ def _again(
 
 
 def _window(within: object) -> tuple[float, float]:
-    cure = "give two bank angles, such as (45, 90)"
-    ends = inputs.items("within", within, cure)
+    hint = "give two bank angles, such as (45, 90)"
+    ends = inputs.items("within", within, hint)
     if len(ends) != 2:
-        raise _core.InputError(f"within = {inputs.shorten(within)}: {cure}")
+        raise _core.InputError(f"within = {inputs.shorten(within)}: {hint}")
     low, high = (_bank_angle("within", end) for end in ends)
     return low, high
 

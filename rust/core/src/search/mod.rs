@@ -15,6 +15,7 @@ mod magnitude;
 mod moments;
 mod packing;
 mod same;
+mod shared;
 mod throws;
 mod vee;
 mod window;
@@ -83,11 +84,16 @@ impl Search {
         })?
         .into_iter()
         .sum::<u128>();
+        let mut search = Self { moments, entries, qualifying, balanced: 0, hold };
+        search.balanced = pairs(search.zero_class());
+        Ok(search)
+    }
+
+    /// The arrangements without any first-order moment.
+    fn zero_class(&self) -> &[Entry] {
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
-        let first = classes(&entries.all).next();
-        let zero = first.filter(|class| moments.vanishes(packed(class[0])));
-        let balanced = zero.map_or(0, pairs);
-        Ok(Self { moments, entries, qualifying, balanced, hold })
+        let first = classes(&self.entries.all).next();
+        first.filter(|class| self.moments.vanishes(packed(class[0]))).unwrap_or_default()
     }
 
     /// One bank's throws.
@@ -138,13 +144,8 @@ impl Search {
         let parts = self.bank().parts;
         let part = Angle::from_turns(1, parts.into()).ok()?;
         let mut banks = self.banks(origin);
-        let weights = self.bank().weights();
-        let moment = |phases: &[u32], order: i64| -> Complex64 {
-            let unit = |p: u32| part.cis(i64::from(p) * order);
-            phases.iter().zip(&weights).map(|(&p, &w)| unit(p) * (0.5 * w as f64)).sum()
-        };
-        let mut orders = [1, 2].map(|order| banks.each_ref().map(|phases| moment(phases, order)));
-        let condition = (-orders[0][1] / orders[0][0]).arg();
+        let [z1, z2] = banks.each_ref().map(|phases| self.moment(part, phases, 1));
+        let condition = (-z2 / z1).arg();
         let angle = match self.hold {
             Hold::Firing => condition,
             // Of the two halves of an angle the one asked for.
@@ -154,30 +155,35 @@ impl Search {
         // Seen the other way round, the left bank is the first.
         if angle < 0.0 {
             banks.swap(0, 1);
-            for of_banks in &mut orders {
-                of_banks.swap(0, 1);
-            }
         }
-        let bank_angle = angles.degrees_at(k);
+        self.evaluated(self.hold, banks, angles.degrees_at(k))
+    }
+
+    /// Z of a bank at an order, `part` being one part of a turn.
+    fn moment(&self, part: Angle, phases: &[u32], order: i64) -> Complex64 {
+        let unit = |p: u32| part.cis(i64::from(p) * order);
+        let weights = self.bank().weights();
+        phases.iter().zip(weights).map(|(&p, w)| unit(p) * (0.5 * w as f64)).sum()
+    }
+
+    /// A pair of banks at a bank angle that leaves no backward moment.
+    fn evaluated(&self, hold: Hold, banks: [Arrangement; 2], bank_angle: f64) -> Option<Solution> {
+        let parts = self.bank().parts;
+        let part = Angle::from_turns(1, parts.into()).ok()?;
+        let orders =
+            [1, 2].map(|order| banks.each_ref().map(|phases| self.moment(part, phases, order)));
         let half = 0.5 * bank_angle.to_radians();
         // Bores at 90° ∓ α/2. With the pins held a cylinder's phase turns with its bore.
         let [[first, second], [z1, z2]] =
             [(1.0, orders[0]), (2.0, orders[1])].map(|(n, [a, b])| {
-                let turned = if self.hold == Hold::Pins { n * half } else { 0.0 };
+                let turned = if hold == Hold::Pins { n * half } else { 0.0 };
                 [a * Complex64::cis(turned), b * Complex64::cis(-turned)]
             });
         // F_y with cos α/2, F_x with ± sin α/2.
         let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin()];
         // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
-        Some(Solution {
-            hold: self.hold,
-            bank_angle,
-            banks,
-            parts,
-            counterweight: forward,
-            second_order,
-        })
+        Some(Solution { hold, bank_angle, banks, parts, counterweight: forward, second_order })
     }
 
     /// Phases of both banks: those of the family, the second turned by so many least turns that the
