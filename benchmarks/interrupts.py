@@ -47,7 +47,34 @@ CALLS = {
     "waveform, 299 orders": ("v6.waveform(1000, theta_deg=thetas, orders=range(1, 300)).moment"),
     "balance, 10 000 orders, λ = 0.999": "near.balance(1000, orders=range(1, 10_001))",
     "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",
+    "peaks of 10 000 orders, all large": "many_orders().total.force.peak",
+    "sweep, peaks of 3000 orders": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=ratios[::20_000], orders=range(1, 3001)).total.force.peak"
+    ),
+    "sweep, 10⁸ rod ratios, the last of which is wrong": (
+        "cp.sweep(v6, rpm=1000, rod_ratio=wrong_at_the_end, orders=[2])"
+    ),
+    "tolerances, 300 orders": (
+        "cp.tolerances(v6, rpm=5000, orders=range(1, 301), reciprocating_mass=1e-3, samples=2000)"
+    ),
+    "tolerances, 1 000 000 samples": (
+        "cp.tolerances(v6, rpm=5000, rod_length=1e-4, samples=1_000_000).total.force"
+    ),
+    "proofs, 1000 cylinders": "long.vanishing_orders([1])",
+    "closed forms, 1000 cylinders": "long.closed_form([1])",
+    "firing orders of a V16": "v16.firing_orders()",
+    "matching of 24 pistons": (
+        "cp.match_parts(v12, np.linspace(0.39, 0.41, 24), sets=2, orders=[1, 2])"
+    ),
+    "design of a V16": (
+        "cp.design(16, layout='vee', cylinder=v6.cylinders[0], bank_angle_deg=(45, 90), "
+        "spacing=0.1, rpm=6000, by='total.moment.peak')"
+    ),
     "search of a V-26": "cp.search_arrangements(26)",
+    "search of a V-22, its bank angles": "cp.search_arrangements(22).bank_angles_deg",
+    "search of a V-22 on shared pins": (
+        "len(cp.search_arrangements(22, hold='pins', shared_pins=True))"
+    ),
     "ranking, 10 million bank angles": (
         "cp.rank(v6, rpm=1000, by='total.moment.peak', bank_angle_deg=angles[::2], hold='pins')"
     ),
@@ -72,6 +99,15 @@ def unlike(rod_ratio, offset):
     tdcs, places = [7.3 * k for k in range(40)], [0.1 * k for k in range(40)]
     return cp.Engine.from_lists(cylinders, tdc_deg=tdcs, bank_deg=[0] * 40, z=places)
 near, nearer = unlike(0.999, 1e-6), unlike(0.99999, 1e-9)
+def many_orders():
+    spectrum = {{order: 1e-3 for order in range(1, 10_001)}}
+    return v6.balance(5000, spectrum=spectrum, orders=range(1, 10_001))
+v12 = cp.Engine.vee(v6.cylinders[0], bank_angle_deg=60, throws_deg=[0, 120, 240] * 2, spacing=0.1)
+v16 = cp.Engine.vee(
+    v6.cylinders[0], bank_angle_deg=45, throws_deg=[0, 90, 270, 180, 180, 270, 90, 0], spacing=0.1
+)
+long = cp.Engine.inline(v6.cylinders[0], throws_deg=[7.3 * k for k in range(1000)], spacing=0.1)
+wrong_at_the_end = np.append(np.full(10**8 - 1, 0.3), 1.5) if "wrong" in {call!r} else None
 listed = ratios.tolist() if "listed" in {call!r} else None
 for line in sys.stdin:
     try:

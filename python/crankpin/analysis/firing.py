@@ -13,8 +13,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional, tables
-from crankpin._support.frozen import Frozen
+from crankpin._support.record import Record
 from crankpin.analysis import gas_exchange
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
-    from crankpin.model.engine import Engine
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -39,7 +39,7 @@ class Gap(NamedTuple):
     """Crank angle between them, degrees."""
 
 
-class Firing(Frozen):
+class Firing(Record):
     """One way for an engine to fire.
 
     The crank determines when each piston is at the top, in a four-stroke twice a cycle; the
@@ -72,15 +72,22 @@ class Firing(Frozen):
     """The engine."""
     strokes: int
     """4 or 2."""
+    revolutions: tuple[int, ...]
+    """Turns of the crank from cylinder 1's firing to each cylinder's, by number: 0 or 1."""
 
-    def __init__(self, core: _core.Firing, engine: Engine) -> None:
-        if not isinstance(core, _core.Firing):
-            raise InputError(
-                f"Firing({inputs.shorten(core)}): use Engine.firing, .firings or .firing_orders"
-            )
-        self._set(_core=core, engine=engine, strokes=core.strokes)
+    @classmethod
+    def _of(cls, core: _core.Firing, engine: Engine) -> Firing:
+        return cls(engine, core.strokes, tuple(map(int, core.later)))
 
-    _core: _core.Firing
+    def __post_init__(self) -> None:
+        if not isinstance(self.engine, Engine):
+            hint = "use Engine.firing, .firings or .firing_orders"
+            raise InputError(f"engine = {inputs.shorten(self.engine)}: {hint}")
+
+    @cached_property
+    def _core(self) -> _core.Firing:
+        later = [bool(turn) for turn in self.revolutions]
+        return _core.Firing.with_later(self.engine.core, self.strokes, later)
 
     # --- when -----------------------------------------------------------------------------------
 
@@ -109,11 +116,6 @@ class Firing(Frozen):
         Of shape (n_cylinders,).
         """
         return self._core.intervals_deg
-
-    @cached_property
-    def revolutions(self) -> tuple[int, ...]:
-        """Turns of the crank from cylinder 1's firing to each cylinder's, by number: 0 or 1."""
-        return tuple(map(int, self._core.later))
 
     @property
     def even(self) -> bool:
@@ -302,22 +304,11 @@ class Firing(Frozen):
     def _repr_html_(self) -> str:
         return self.table.html()
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Firing):
-            return NotImplemented
-        return self._core == other._core
-
-    def __hash__(self) -> int:
-        return hash((self.engine, self.strokes, self.revolutions))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (_again, (self.engine, self.strokes, self.revolutions))
-
 
 def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None) -> Firing:
     """Return the most even way to fire in an order; see :meth:`Engine.firing`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
-    return Firing(_core.Firing.named(engine.core, text, count), engine)
+    return Firing._of(_core.Firing.named(engine.core, text, count), engine)
 
 
 def firings(
@@ -325,13 +316,15 @@ def firings(
 ) -> tuple[Firing, ...]:
     """Return every way to fire in an order; see :meth:`Engine.firings`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
-    return tuple(Firing(each, engine) for each in _core.Firing.all_named(engine.core, text, count))
+    return tuple(
+        Firing._of(each, engine) for each in _core.Firing.all_named(engine.core, text, count)
+    )
 
 
 def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
     """Return every way to fire; see :meth:`Engine.firing_orders`."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
-    return tuple(Firing(each, engine) for each in _core.Firing.all(engine.core, count))
+    return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine.core, count))
 
 
 def _order_and_strokes(
@@ -346,28 +339,23 @@ def _order_and_strokes(
     known = "the engine's firing order is not known"
     if engine.firing_order:
         known = f"the engine's firing order is that of a {engine.strokes}-stroke"
-    cure = "give one, such as '1-3-4-2', or list them by firing_orders()"
-    raise InputError(f"firing_order = None: {known}; {cure}")
-
-
-def _again(engine: Engine, strokes: int, revolutions: tuple[int, ...]) -> Firing:
-    later = [bool(turn) for turn in revolutions]
-    return Firing(_core.Firing.with_later(engine.core, strokes, later), engine)
+    hint = "give one, such as '1-3-4-2', or list them by firing_orders()"
+    raise InputError(f"firing_order = None: {known}; {hint}")
 
 
 def _groups(groups: Groups | None) -> list[list[int]] | None:
     if groups is None:
         return None
-    cure = "give lists of cylinder numbers, such as [[1, 4], [2, 3]]"
+    hint = "give lists of cylinder numbers, such as [[1, 4], [2, 3]]"
     listed = []
-    for k, group in enumerate(inputs.items("groups", groups, cure)):
+    for k, group in enumerate(inputs.items("groups", groups, hint)):
         name = f"groups[{k}]"
         try:
-            numbers = [operator.index(number) for number in inputs.items(name, group, cure)]
+            numbers = [operator.index(number) for number in inputs.items(name, group, hint)]
         except TypeError:
-            raise InputError(f"{name} = {inputs.shorten(group)}: {cure}") from None
+            raise InputError(f"{name} = {inputs.shorten(group)}: {hint}") from None
         for number in numbers:
             if not 1 <= number < 2**32:
-                raise InputError(f"{name} = {inputs.shorten(number)}: {cure}")
+                raise InputError(f"{name} = {inputs.shorten(number)}: {hint}")
         listed.append(numbers)
     return listed

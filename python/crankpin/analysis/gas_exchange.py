@@ -152,8 +152,8 @@ def valve_timing(timing: object) -> ValveTiming:
     if timing is None:
         return ValveTiming()
     if not isinstance(timing, ValveTiming):
-        cure = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
-        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
+        hint = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
+        raise InputError(f"timing = {inputs.shorten(timing)}: {hint}")
     return timing
 
 
@@ -162,8 +162,8 @@ def port_timing(timing: object) -> PortTiming:
     if timing is None:
         return PortTiming()
     if not isinstance(timing, PortTiming):
-        cure = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
-        raise InputError(f"timing = {inputs.shorten(timing)}: {cure}")
+        hint = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
+        raise InputError(f"timing = {inputs.shorten(timing)}: {hint}")
     return timing
 
 

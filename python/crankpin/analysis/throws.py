@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.frozen import Frozen
+from crankpin._support.record import Record, read_only
 from crankpin.model import checks
 from crankpin.model.builders import vee_layout
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from crankpin.model.builders import Numbering, Side
 
 
-class Throws(Frozen):
+class Throws(Record):
     """Crankpins that a firing order needs.
 
     Made by :func:`crankpin.throws`.
@@ -35,14 +35,12 @@ class Throws(Frozen):
     """Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,); empty without
     banks."""
 
-    def __init__(self, throws_deg: NDArray[np.float64], pin_split_deg: NDArray[np.float64]) -> None:
-        given = {"throws_deg": throws_deg, "pin_split_deg": pin_split_deg}
-        arrays = {name: inputs.vector(name, values).copy() for name, values in given.items()}
-        for name, array in arrays.items():
+    def __post_init__(self) -> None:
+        for name in ("throws_deg", "pin_split_deg"):
+            array = inputs.vector(name, getattr(self, name)).copy()
             if not np.isfinite(array).all():
                 raise InputError(f"{name} = {inputs.shorten(array)}: give finite degrees")
-            array.setflags(write=False)
-        self._set(**arrays)
+            object.__setattr__(self, name, read_only(array))
 
     @property
     def shared_pins(self) -> bool:
@@ -63,19 +61,6 @@ class Throws(Frozen):
         return f"<Throws {throws}, " + (
             "shared pins>" if self.shared_pins else f"pins split by {splits}>"
         )
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Throws):
-            return NotImplemented
-        return np.array_equal(self.throws_deg, other.throws_deg) and np.array_equal(
-            self.pin_split_deg, other.pin_split_deg
-        )
-
-    def __hash__(self) -> int:
-        return hash((*self.throws_deg.tolist(), *self.pin_split_deg.tolist()))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (Throws, (self.throws_deg, self.pin_split_deg))
 
 
 def throws(

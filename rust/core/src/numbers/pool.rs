@@ -35,6 +35,13 @@ thread_local! {
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
+/// True if so many numbers, each the result of some ten operations, are worth waking other threads for:
+/// that takes 30 µs, as long as one thread takes for these.
+#[must_use]
+pub const fn worth(numbers: usize) -> bool {
+    numbers >= 1 << 15
+}
+
 /// Run a parallel computation in a pool while the calling thread polls `cancel`. Inside a pool, or
 /// where no thread can be started, run it in the calling thread.
 ///

@@ -3,6 +3,7 @@
 use super::table::write_centred;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 
 /// Imaginary part of order n of the roll torque over m·r²·ω² for every rod ratio (rows) and order
 /// (columns), into memory that is there; the real part is zero, and the torque on the crank its
@@ -19,7 +20,7 @@ pub fn write_centred_roll(
         orders.iter().filter(|&&n| n % 2 == 1).flat_map(|&n| [n.max(3) - 1, n + 1]).collect();
     forces.sort_unstable();
     forces.dedup();
-    let mut table = vec![0.0; rod_ratios.len() * forces.len()];
+    let mut table = memory::zeros(rod_ratios.len() * forces.len())?;
     write_centred(rod_ratios, &forces, None, &mut table, cancel)?;
     for (column, &n) in orders.iter().enumerate() {
         let half = 0.5 * f64::from(n);

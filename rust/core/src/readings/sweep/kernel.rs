@@ -27,8 +27,6 @@ use crate::numbers::simd::vectorised;
 const SLAB: usize = 1 << 19;
 /// Most rows of a task.
 const PIECE: usize = 1024;
-/// A result of fewer numbers is not worth waking another thread for (some 30 µs).
-const WORTH_A_THREAD: usize = 1 << 16;
 
 /// What a result holds.
 pub(super) trait Number:
@@ -69,7 +67,7 @@ impl<F: Sync> Job<'_, F> {
             self.cancel.step()
         };
         let pieces = PIECE * self.width;
-        if out.len() >= WORTH_A_THREAD {
+        if pool::worth(out.len()) {
             let pieces = out.par_chunks_mut(pieces).enumerate();
             return pool::run(self.cancel, || pieces.try_for_each(write));
         }
@@ -86,7 +84,7 @@ impl<F: Sync> Job<'_, F> {
         let piece = if self.slow { 8 } else { PIECE };
         let slab = (SLAB / sweep.orders.len()).clamp(BLOCK, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
-        let large = out.len() * if self.slow { 256 } else { 1 } >= WORTH_A_THREAD;
+        let large = pool::worth(out.len() * if self.slow { 256 } else { 1 });
         let layout = |k: usize| {
             let loads = sweep.loads(k);
             let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;

@@ -23,8 +23,6 @@ use crate::readings::kinematics::{BLOCK, Kinematics};
 const ROWS: usize = 128;
 /// Crank angles of a task: a stretch of memory long enough that the processor foresees it.
 const SPAN: usize = 4 * TILE;
-/// A result of fewer numbers is not worth waking another thread for (some 30 µs).
-const WORTH_A_THREAD: usize = 1 << 15;
 
 impl Sweep {
     /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
@@ -194,7 +192,7 @@ impl Rows<'_> {
         if out.is_empty() {
             return Ok(());
         }
-        let large = out.len() >= WORTH_A_THREAD;
+        let large = pool::worth(out.len());
         let parts: Vec<Range<usize>> = parts(0..self.angles.len(), SPAN).collect();
         self.cancel.expect((out.len() / row).div_ceil(ROWS) * parts.len());
         let part = |prepared: &P, part: usize, outs: Vec<&mut [f64]>| -> Result<()> {

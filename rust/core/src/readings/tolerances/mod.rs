@@ -170,8 +170,6 @@ impl Tolerances {
 
     /// What remains of some samples. A sample is the same whichever others are evaluated with it.
     pub fn sample(&self, samples: Range<usize>, cancel: &Cancel) -> Result<Sampled> {
-        /// Chunks that are not worth waking another thread for.
-        const FEW: usize = 4;
         let (count, orders) = (samples.len(), self.nominal.orders.len());
         let cure = "ask for fewer samples or orders";
         limits::result_size("samples", &[count, orders, 10], size_of::<Complex64>(), cure)?;
@@ -198,10 +196,11 @@ impl Tolerances {
             cancel.step()
         };
         cancel.expect(tasks.len());
-        if tasks.len() < FEW {
-            tasks.into_iter().try_for_each(work)?;
-        } else {
+        // An order of a sample takes as long as some sixty numbers of a sweep.
+        if pool::worth(60 * count * orders) {
             pool::run(cancel, || tasks.into_par_iter().try_for_each(work))?;
+        } else {
+            tasks.into_iter().try_for_each(work)?;
         }
         Ok(sampled)
     }
