@@ -161,8 +161,8 @@ class VanishingOrders(Frozen):
     of another slider-crank) is treated as an independent symbol: where several such symbols remain,
     they may cancel or not, and the verdict is "undecided"; ``obstacles`` lists the reasons.
     The bank angle of an arrangement of :func:`crankpin.search_arrangements` is exact too: doubles
-    of it stand for the angle at which two sums of one size cancel. ``within_rounding`` is true where
-    floating point finds a sum below its rounding error, as in :class:`Balance`.
+    of it stand for the angle at which two sums of one size cancel. ``within_rounding`` is true
+    where floating point finds a sum below its rounding error, as in :class:`Balance`.
 
     Made by :meth:`Engine.vanishing_orders`.
 
