@@ -121,7 +121,9 @@ def external(
         wanted[name] = 0j if abs(change) <= NOTHING * (abs(left) + abs(there[name])) else change
     allowed = None
     if angles is not None:
-        allowed = [np.deg2rad([degrees(angle) for angle in angles[name]]) for name in names]
+        allowed = [
+            np.deg2rad([degrees(angle) for angle in angles[name]]).tolist() for name in names
+        ]
     limits = [bounds[name] for name in names]
     found, reached, missing = _core.least_weights(
         places,

@@ -50,7 +50,7 @@ def weights_in(
         Reference plane, m.
     """
     length = _core.half_length(engine.core)
-    found = _core.unbounded_weights(tuple(wanted), list(z), reference_z, length)
+    found = _core.unbounded_weights((wanted.force, wanted.moment), list(z), reference_z, length)
     return tuple(map(unbalance_of, found))
 
 
