@@ -30,7 +30,7 @@ impl Turning {
             // No bank turns: cosines of zero.
             let ones = [1.0, 0.0, 1.0, 0.0].map(|value| std::iter::repeat_n(value, count));
             let none: Vec<f64> = ones.into_iter().flatten().collect();
-            return Ok(Self(vec![none; sweep.orders.len()]));
+            return Ok(Self(vec![none; sweep.orders.len()])); // bounded: one bank angle, 10 000 orders
         };
         let of_order = |&order: &crate::Order| {
             let multiples = quantity.turn(order, *hold);
