@@ -162,7 +162,7 @@ class Engine:
 _Turning: TypeAlias = tuple[complex, complex]
 _FreeAxis: TypeAlias = tuple[float | None, float | None]
 
-def turning(engine: Engine, ratio: int, reference_z: float | None) -> _Turning: ...
+def turning(engine: Engine, ratio: int) -> _Turning: ...
 def roll_torque(engine: Engine, order: int) -> complex: ...
 def half_length(engine: Engine) -> float: ...
 def least_weights(
@@ -181,7 +181,6 @@ def unbounded_weights(
 def fit_shafts(
     engine: Engine,
     wanted: Sequence[tuple[int, _FreeAxis, Sequence[float] | None, str]],
-    reference_z: float | None,
     given: Sequence[tuple[int, complex]],
 ) -> tuple[list[tuple[tuple[float, float], list[_Weight], _Turning]], float | None]: ...
 def place_shafts(

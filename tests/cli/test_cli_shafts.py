@@ -38,8 +38,8 @@ def test_every_option_of_a_fit(capsys: CAPTURE) -> None:
         "--bearings", "0.1,0.2", "--remove", "moment", "--reference-z", "0.05",
     )  # fmt: skip
     fit = cp.balance_shafts(
-        V6, [-1, 2], x=0.1, y=[0.05, None], planes=(0, 0.3), bearings=(0.1, 0.2),
-        remove="moment", reference_z=0.05,
+        V6.replace(reference_z=0.05), [-1, 2], x=0.1, y=[0.05, None], planes=(0, 0.3),
+        bearings=(0.1, 0.2), remove="moment",
     )  # fmt: skip
     assert out == f"{fit!r}\n"
 
@@ -67,7 +67,7 @@ def test_compares_hardware(capsys: CAPTURE, tmp_path: Path) -> None:
     assert cp.Engine.load(file) == options.fitted
     by = ["total.moment.peak", "[2].moment.peak"]
     options = cp.balancer_options(
-        V6, rpm=4000, by=by, target={by[0]: 0.05}, relative=True, reference_z=0.2
+        V6.replace(reference_z=0.2), rpm=4000, by=by, target={by[0]: 0.05}, relative=True
     )
     out = printed(
         capsys, "v6-90", "--rpm", "4000", "--by", ",".join(by), "--target", f"{by[0]}=5%",

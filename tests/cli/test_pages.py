@@ -16,7 +16,7 @@ def test_view_writes_the_library_s_page(tmp_path: Path, capsys: pytest.CaptureFi
     ours, theirs = tmp_path / "ours.html", tmp_path / "v8.html"
     argv = ["view", "v8-crossplane", "--out", f"{theirs}", "--rpm", "4500", "--reference-z", "0.1"]
     assert main(argv) == 0
-    cp.Engine.preset("v8-crossplane").save_html(ours, rpm=4500, reference_z=0.1)
+    cp.Engine.preset("v8-crossplane").replace(reference_z=0.1).save_html(ours, rpm=4500)
     assert theirs.read_bytes() == ours.read_bytes()
     assert capsys.readouterr().out == f"{theirs}: {theirs.stat().st_size / 1e3:.0f} kB\n"
 

@@ -75,7 +75,7 @@ def test_options_of_counterweights_are_those_of_the_library(capsys: CAPTURE) -> 
     )
     assert fitted.table.text() in printed(capsys, "counterweights", "i4", *options)
     elsewhere = printed(capsys, "counterweights", "single", "--reference-z", "1", "--planes", "0.2")
-    one = cp.counterweights(cp.Engine.preset("single"), planes=[0.2], reference_z=1.0)
+    one = cp.counterweights(cp.Engine.preset("single").replace(reference_z=1.0), planes=[0.2])
     assert one.table.text() in elsewhere
 
 

@@ -79,7 +79,7 @@ def test_asks_the_network_for_nothing(open_engine: Open) -> None:
 def test_is_at_most_100_kb_beside_its_figures(name: str, tmp_path: Path) -> None:
     engine, file = cp.Engine.preset(name), tmp_path / "engine.html"
     engine.save_html(file, rpm=10)
-    known = figures(engine, 10, reference_z=None, spectrum=None)
+    known = figures(engine, 10, spectrum=None)
     own = len(json.dumps(known, ensure_ascii=False, separators=(",", ":")).encode())
     assert file.stat().st_size - own <= 100_000
 
@@ -95,7 +95,7 @@ def test_names_stay_text(open_engine: Open) -> None:
 
 
 def test_errors_name_what_is_wrong(tmp_path: Path) -> None:
-    for wrong in ({"rpm": -1}, {"rpm": float("nan")}, {"reference_z": "a"}, {"spectrum": {0: 1.0}}):
+    for wrong in ({"rpm": -1}, {"rpm": float("nan")}, {"spectrum": {0: 1.0}}):
         with pytest.raises(cp.InputError, match=f"^{next(iter(wrong))}"):
             V8.save_html(tmp_path / "v8.html", **wrong)  # type: ignore[arg-type]
     for path in ("v8.txt", None):

@@ -83,9 +83,10 @@ def test_traits_begin_as_the_engine() -> None:
 
 
 def test_core_computes_anew_when_a_setting_changes() -> None:
-    widget = V8.view(rpm=5000, reference_z=0.1)
+    engine = V8.replace(reference_z=0.1)
+    widget = engine.view(rpm=5000)
     widget.bank_angle_deg, widget.rod_ratio, widget.rpm = 60.0, 0.25, 6000
-    expected = V8.with_bank_angle(60, hold="pins")
+    expected = engine.with_bank_angle(60, hold="pins")
     cylinders = [c.replace(rod_length=c.crank_radius / 0.25) for c in V8.cylinders]
     expected = expected.replace(cylinder=cylinders)
     assert widget.engine == expected
@@ -95,12 +96,12 @@ def test_core_computes_anew_when_a_setting_changes() -> None:
         "rod_ratio": 0.25,
         "hold": "pins",
     }
-    balance = expected.replace(reference_z=0.1).balance(6000, orders=range(1, 25), torque=False)
+    balance = expected.balance(6000, orders=range(1, 25), torque=False)
     backward = [complex(*each["moment"]["backward"]) for each in widget.core["orders"]]
     np.testing.assert_array_equal(backward, balance.moment.backward)
     curve = widget.core["curve"]
     angles = np.linspace(0, 360, len(curve["moment"]))
-    wave = expected.replace(reference_z=0.1).waveform(6000, theta_deg=angles)
+    wave = expected.waveform(6000, theta_deg=angles)
     np.testing.assert_array_equal(curve["moment"], np.asarray(wave.moment))
     np.testing.assert_array_equal(curve["torque"], np.asarray(wave.torque))
     # An angle computes nothing.

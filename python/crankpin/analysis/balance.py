@@ -49,12 +49,9 @@ def balance(
     return found
 
 
-def over_square(
-    engine: Engine, orders: Sequence[int], reference_z: float | None = None, *, torque: bool = False
-) -> Balance:
+def over_square(engine: Engine, orders: Sequence[int], *, torque: bool = False) -> Balance:
     """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
-    found = balance(engine, UNIT_RPM, orders=orders, torque=torque)
-    return found if reference_z is None else found.about(reference_z)
+    return balance(engine, UNIT_RPM, orders=orders, torque=torque)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:

@@ -25,7 +25,7 @@ class Request(Record):
     rtol: float
     """Tolerance by which orders are chosen."""
     reference_z: float | None
-    """Plane about which moments are taken, m; None for midway between first and last cylinder."""
+    """Plane about which moments are taken, m; None for that of the engine."""
     pairs: tuple[tuple[int, complex], ...] | None
     """Spectrum as pairs of order and amplitude."""
     torque: bool
@@ -42,7 +42,6 @@ class Request(Record):
         spectrum: Spectrum | None,
         torque: bool,
         default_rtol: float = 1e-9,
-        reference_z: float | None = None,
     ) -> Request:
         """Return a request, or raise an InputError that names the argument at fault."""
         wanted = inputs.orders(orders)
@@ -54,7 +53,7 @@ class Request(Record):
         return cls(
             None if wanted is None else tuple(wanted),
             default_rtol if rtol is None else inputs.number("rtol", rtol),
-            inputs.optional_number("reference_z", reference_z),
+            None,
             None if pairs is None else tuple(pairs),
             inputs.flag("torque", torque),
         )

@@ -402,7 +402,6 @@ class Engine(Builders):
         self,
         rpm: float = 3000.0,
         *,
-        reference_z: float | None = None,
         spectrum: Spectrum | None = None,
     ) -> EngineWidget:
         """Return the engine turning, as a widget for notebooks (needs anywidget).
@@ -414,9 +413,6 @@ class Engine(Builders):
         ----------
         rpm
             Crank speed at first.
-        reference_z
-            Plane about which moments are taken, m; by default midway between the first and the last
-            cylinder.
         spectrum
             As in :meth:`balance`: order → amplitude of one cylinder's force over ω², in kg·m. The
             page has no torque then.
@@ -430,14 +426,13 @@ class Engine(Builders):
         """
         from crankpin.view.widget import EngineWidget
 
-        return EngineWidget(self, rpm, reference_z=reference_z, spectrum=spectrum)
+        return EngineWidget(self, rpm, spectrum=spectrum)
 
     def save_html(
         self,
         path: str | Path,
         *,
         rpm: float = 3000.0,
-        reference_z: float | None = None,
         spectrum: Spectrum | None = None,
     ) -> None:
         """Write the engine turning, as a page that needs a browser alone and loads nothing.
@@ -446,7 +441,7 @@ class Engine(Builders):
         ----------
         path
             Name of the file, which ends in ``.html``.
-        rpm, reference_z, spectrum
+        rpm, spectrum
             As in :meth:`view`.
 
         Raises
@@ -458,7 +453,7 @@ class Engine(Builders):
         """
         from crankpin.view.page import save_html
 
-        save_html(self, path, rpm=rpm, reference_z=reference_z, spectrum=spectrum)
+        save_html(self, path, rpm=rpm, spectrum=spectrum)
 
     # --- text and pictures ----------------------------------------------------------------------
 

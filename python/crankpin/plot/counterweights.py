@@ -80,14 +80,14 @@ def _counterweights(
 
 def _exists(result: Counterweights, name: str) -> bool:
     """Return whether order 1 has a force or moment before or after."""
-    found = (over_square(result.engine, [1], result.reference_z), result.residual)
+    found = (over_square(result.engine, [1]), result.residual)
     return any(getattr(each[1], name).peak > 0.0 for each in found)
 
 
 def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
-    before = over_square(result.engine, [1], result.reference_z)[1]
+    before = over_square(result.engine, [1])[1]
     shown = [name for name in PLANE_VECTORS if getattr(before, name).ellipse.major > 0.0]
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
@@ -183,7 +183,7 @@ def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]
     """Draw what order 1 traces before and after; return entries of a legend for both."""
     entries, states = [], {"before": result.engine, "after": result.fitted}
     for (state, engine), look in zip(states.items(), series(ax, 2, style), strict=True):
-        order = over_square(engine, [1], result.reference_z)[1]
+        order = over_square(engine, [1])[1]
         vanishes = getattr(order, name).ellipse.major == 0.0
         text = f"{state}: {'zero' if vanishes else direction(order, name)}"
         given = style.get("label")

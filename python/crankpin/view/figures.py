@@ -26,9 +26,7 @@ CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
 
 
-def figures(
-    engine: Engine, rpm: float, *, reference_z: float | None, spectrum: Spectrum | None
-) -> dict[str, Any]:
+def figures(engine: Engine, rpm: float, *, spectrum: Spectrum | None) -> dict[str, Any]:
     """Return an engine as plain lists and numbers: metres, kilograms, degrees.
 
     Raises
@@ -38,7 +36,6 @@ def figures(
     """
     Settings.of(engine, rpm).check(engine)
     inputs.warn_of_units(mean_piston_speed(engine, float(rpm)))
-    plane = inputs.optional_number("reference_z", reference_z)
     pairs = inputs.spectrum(spectrum)
     angle = getattr(engine, "bank_angle_deg", None)
     right = engine.bank_deg[next(iter(engine.banks.values()))[0] - 1]
@@ -46,7 +43,7 @@ def figures(
         "name": engine.name,
         "strokes": engine.strokes,
         "rpm": float(rpm),
-        "reference_z": engine.reference_z if plane is None else plane,
+        "reference_z": engine.reference_z,
         "highest_order": HIGHEST_ORDER,
         "bank_angle_deg": angle,
         "bisector_deg": None if angle is None else float(right) + 0.5 * angle,
@@ -67,7 +64,7 @@ def figures(
 
 
 def core_numbers(
-    engine: Engine, settings: Settings, *, reference_z: float | None, spectrum: Spectrum | None
+    engine: Engine, settings: Settings, *, spectrum: Spectrum | None
 ) -> dict[str, Any]:
     """Return the core's phasors by order and its curves over a turn, of an engine at settings.
 
@@ -76,8 +73,6 @@ def core_numbers(
     changed = settings.applied(engine)
     ratios = {abs(shaft.ratio) for shaft in engine.shafts}
     orders = sorted({*range(1, HIGHEST_ORDER + 1), *ratios, *(spectrum or ())})
-    if reference_z is not None:
-        changed = changed.replace(reference_z=reference_z)
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
     waveform = changed.waveform(
         settings.rpm,

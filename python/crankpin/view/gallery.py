@@ -35,7 +35,7 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
         listed.append(
             {
                 "href": file.name,
-                "figures": figures(engine, speed, reference_z=None, spectrum=None),
+                "figures": figures(engine, speed, spectrum=None),
                 "description": presets.presets().descriptions[name],
             }
         )

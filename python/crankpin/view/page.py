@@ -27,12 +27,11 @@ def save_html(
     path: str | Path,
     *,
     rpm: float = 3000.0,
-    reference_z: float | None = None,
     spectrum: Spectrum | None = None,
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = figures(engine, rpm, reference_z=reference_z, spectrum=spectrum)
+    known = figures(engine, rpm, spectrum=spectrum)
     text = document(engine.name or "Engine", "page.mjs", f"page({as_json(known)});")
     file.write_text(text, encoding="utf-8")
 

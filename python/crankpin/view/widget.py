@@ -52,11 +52,10 @@ class EngineWidget(anywidget.AnyWidget):
         engine: Engine,
         rpm: float = 3000.0,
         *,
-        reference_z: float | None = None,
         spectrum: Spectrum | None = None,
     ) -> None:
         self._engine = engine
-        self._loads: dict[str, Any] = {"reference_z": reference_z, "spectrum": spectrum}
+        self._loads: dict[str, Any] = {"spectrum": spectrum}
         known = figures(engine, rpm, **self._loads)
         super().__init__(**dataclasses.asdict(Settings.of(engine, rpm)))
         self.set_trait("figures", known)

@@ -23,9 +23,9 @@ type FittedShaft = ((f64, f64), Vec<Weight>, Pair);
 
 /// Part of force and moment that turns with a shaft of this ratio, over ω².
 #[pyfunction]
-pub fn turning(engine: &Bound<'_, Engine>, ratio: i32, reference_z: Option<f64>) -> PyResult<Pair> {
+pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
     let core = &engine.get().0;
-    let work = |cancel: &_| balancing::turning(core, ratio, reference_z, cancel);
+    let work = |cancel: &_| balancing::turning(core, ratio, cancel);
     let found = interrupt::run(engine.py(), work)?;
     Ok((found.force, found.moment))
 }
@@ -93,7 +93,6 @@ pub fn unbounded_weights(
 pub fn fit_shafts(
     engine: &Bound<'_, Engine>,
     wanted: Vec<WantedShaft>,
-    reference_z: Option<f64>,
     given: Vec<(u32, Complex64)>,
 ) -> PyResult<(Vec<FittedShaft>, Option<f64>)> {
     let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
@@ -103,9 +102,8 @@ pub fn fit_shafts(
     };
     let wanted = wanted.into_iter().map(request).collect::<PyResult<Vec<_>>>()?;
     let core = &engine.get().0;
-    let (found, beyond) = interrupt::run(engine.py(), |cancel| {
-        shafts::fit(core, &wanted, reference_z, &given, cancel)
-    })?;
+    let (found, beyond) =
+        interrupt::run(engine.py(), |cancel| shafts::fit(core, &wanted, &given, cancel))?;
     let each = found.iter().map(|each| {
         let unbalances = each.shaft.unbalances.iter().map(weight).collect();
         (each.shaft.axis.into(), unbalances, (each.exerts.force, each.exerts.moment))

@@ -194,11 +194,11 @@ def test_functions_and_reference_plane() -> None:
     def pitch(balance: cp.types.Balance) -> float:
         return float(balance.total.moment.peak_xy[0])
 
-    options = cp.balancer_options(HEAVIER, rpm=RPM, by=pitch, reference_z=0.4, shaft_orders=1)
+    engine = HEAVIER.replace(reference_z=0.4)
+    options = cp.balancer_options(engine, rpm=RPM, by=pitch, shaft_orders=1)
     assert options.by == ("pitch",)
-    assert options.reference_z == 0.4
     for each in options:
-        balance = each.fitted.replace(reference_z=0.4).balance(RPM)
+        balance = each.fitted.balance(RPM)
         assert each.values[0] == pytest.approx(balance.total.moment.peak_xy[0], rel=1e-6)
 
 
@@ -238,7 +238,7 @@ def test_result_is_frozen_and_copies() -> None:
             one.rpm = 3  # type: ignore[misc, union-attr]
     assert cp.balancer_options(V6_90, rpm=RPM) != OPTIONS
     with pytest.raises(cp.InputError, match=r"use crankpin\.balancer_options"):
-        cp.types.BalancerOptions(V6_90, RPM, None, (), (), ())
+        cp.types.BalancerOptions(V6_90, RPM, (), (), ())
 
 
 def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:

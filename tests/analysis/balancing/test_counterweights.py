@@ -222,9 +222,8 @@ def within(engine: cp.Engine) -> cp.Engine:
 @pytest.mark.parametrize("name", UNLIKE)
 @pytest.mark.parametrize("options", [{}, {"minimise": "largest"}, {"target": "internal"}])
 def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]) -> None:
-    engine, plane = UNLIKE[name], 0.123
-    if options.get("target") != "internal":
-        options = options | {"reference_z": plane}
+    plane = 0.123
+    engine = UNLIKE[name].replace(reference_z=plane)
     planes: Any = "webs" if "target" in options else [-1.0, 0.4, 0.7]
     fitted = cp.counterweights(engine, planes=planes, **options)
     assert fitted.exact
@@ -241,7 +240,7 @@ def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]
     assert abs(after.moment_forward) < 1e-11 * size
     assert abs(after.force_backward - before.force_backward) < 1e-11 * size
     assert abs(after.moment_backward - before.moment_backward) < 1e-11 * size
-    found = fitted.fitted.replace(reference_z=plane).balance(UNIT_SPEED, orders=[1])[1]
+    found = fitted.fitted.balance(UNIT_SPEED, orders=[1])[1]
     assert complex(found.force.backward) == pytest.approx(after.force_backward, abs=1e-11 * size)
     assert fitted.verdicts["force"]["forward"] == fitted.verdicts["moment"]["forward"] == "vanishes"
 
@@ -249,8 +248,8 @@ def test_turning_masses_leave_no_forward_part(name: str, options: dict[str, Any]
 @pytest.mark.parametrize("seed", range(6))
 def test_one_plane_leaves_the_least_of_both(seed: int) -> None:
     """No other weight in the plane leaves less of |force|² + |moment/length|²."""
-    engine, z, length = random_engine(seed), 0.9, 1.7
-    fitted = cp.counterweights(engine, planes=[z], length=length, reference_z=0.2)
+    engine, z, length = random_engine(seed).replace(reference_z=0.2), 0.9, 1.7
+    fitted = cp.counterweights(engine, planes=[z], length=length)
     assert not fitted.exact
     assert fitted.verdicts["moment"]["forward"] == "remains"
     (weight,) = fitted.hardware
@@ -354,7 +353,8 @@ def test_one_plane_is_exact_only_where_that_is_proved() -> None:
     unequal = {"force": 0.5, "moment": 0.25}
     # In the plane of the cylinder there is no moment, of which half is as good as all.
     assert cp.counterweights(single, planes=[0.0], factor=unequal).exact
-    assert not cp.counterweights(single, planes=[0.0], factor=unequal, reference_z=1.0).exact
+    beside = single.replace(reference_z=1.0)
+    assert not cp.counterweights(beside, planes=[0.0], factor=unequal).exact
     assert cp.counterweights(I4, planes=[0.7]).exact  # nothing to do
     assert cp.counterweights(I4, planes=[0.7]).by_plane == ()
 
@@ -416,21 +416,20 @@ def test_internal_weights_count_those_there_are() -> None:
 def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool) -> None:
     """SciPy's SLSQP on the same question, bounds included, and the bounds kept."""
     optimize = pytest.importorskip("scipy.optimize")
-    engine = random_engine(20 + seed)
+    engine = random_engine(20 + seed).replace(reference_z=0.0)
     places = np.sort(np.random.default_rng(seed).uniform(-2, 2, 5))
-    free = cp.counterweights(engine, planes=places, reference_z=0.0)
+    free = cp.counterweights(engine, planes=places)
     bound = {"plane 1": 0.6 * free.hardware[0].amount, "plane 5": 2.0 * free.largest}
     fitted = cp.counterweights(
         engine,
         planes=places,
-        reference_z=0.0,
         bound=bound,
         minimise="largest" if largest else "squares",
     )
     assert fitted.exact
     assert fitted.hardware[0].amount <= bound["plane 1"] * (1 + 1e-9)
     amounts = np.array([w.amount for w in fitted.hardware])
-    before = engine.replace(reference_z=0.0).balance(UNIT_SPEED, orders=[1])[1]
+    before = engine.balance(UNIT_SPEED, orders=[1])[1]
     wanted = -np.array([complex(before.force.forward), complex(before.moment.forward)])
     matrix = np.stack([np.ones(5), 1j * places])
 
@@ -743,8 +742,6 @@ def test_results_are_frozen_and_copied() -> None:
         ({"angles_deg": {"front": [1]}}, 'angles_deg has none for "rear"'),
         ({"angles_deg": ["x"]}, r"angles_deg\[0\] = x: give degrees"),
         ({"length": 0.0}, "length = 0.0: give a length in metres"),
-        ({"reference_z": "x"}, "reference_z = 'x': give a number"),
-        ({"target": "internal", "reference_z": 1}, "reference_z = 1: leave it out"),
         ({"target": "internal", "planes": {"fly": 9}}, r'planes\["fly"\] = 9: is beyond the main'),
     ],
 )

@@ -29,7 +29,6 @@ def balance_shafts(
     planes: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
     bearings: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
     remove: Remove | Sequence[Remove] = "both",
-    reference_z: float | None = None,
     extra_torque: Mapping[int, complex] | None = None,
     rpm: float | None = None,
 ) -> BalanceShafts:
@@ -61,11 +60,9 @@ def balance_shafts(
         Places of the two bearings along the crank, m, as ``planes``; by default the first and last
         cylinder.
     remove
-        ``"both"``, ``"force"`` (by an unbalance that makes no moment about the reference plane) or
-        ``"moment"`` (by a couple, without force): for all shafts, or a list with one for each.
-        Shafts of the same ratio have the same.
-    reference_z
-        Plane about which moments are taken, m; by default that of the engine.
+        ``"both"``, ``"force"`` (by an unbalance that makes no moment about the
+        engine's ``reference_z``) or ``"moment"`` (by a couple, without force): for all shafts, or a
+        list with one for each. Shafts of the same ratio have the same.
     extra_torque
         Order → peak phasor of a torque on the block about +z that is not of inertia, such as gas
         torque, N·m: free places cancel it together with the engine's roll torque.
@@ -113,13 +110,11 @@ def balance_shafts(
     (0.0, 0.0)
     """
     engine_core(engine)
-    plane = inputs.optional_number("reference_z", reference_z)
     asked = shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
     extra = extra_torques(extra_torque, rpm, {each.order for each in asked})
     found, beyond = _core.fit_shafts(
         engine_core(engine),
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
-        plane,
         [(order, torque / inputs.angular_speed(rpm) ** 2) for order, torque in extra.items()],
     )
     if beyond is not None:
@@ -137,7 +132,6 @@ def balance_shafts(
         ),
         tuple(Turning(*exerts) for _, _, exerts in found),
         tuple(each.bearings or supports for each in asked),
-        plane,
         tuple(extra.items()),
         None if rpm is None else inputs.number("rpm", rpm),
     )

@@ -46,7 +46,6 @@ def balancer_options(
     places: Mapping[int, tuple[float | None, float | None]] | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
 ) -> BalancerOptions:
     """Compare the hardware that an engine can be balanced with, and what each set leaves.
 
@@ -86,7 +85,7 @@ def balancer_options(
     places
         Ratio → x and y of a shaft's axis, m, None where free. Without them places are free: see
         :func:`crankpin.balance_shafts`.
-    orders, rtol, reference_z
+    orders, rtol
         As in :meth:`Engine.balance`.
 
     Returns
@@ -121,7 +120,6 @@ def balancer_options(
     engine_core(engine)
     is_relative = inputs.flag("relative", relative)
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
-    plane = inputs.optional_number("reference_z", reference_z)
     with_weights = inputs.flag("counterweights", counterweights)
     z = list(correction_planes.named(engine, planes).values())
     most = inputs.whole("most_shafts", most_shafts)
@@ -129,12 +127,11 @@ def balancer_options(
         raise InputError(f"most_shafts = {most}: give 0 or more")
     listed = inputs.explicit_orders(shaft_orders, "shaft_orders")
     ratios = _ratios(listed, with_weights=with_weights)
-    weights = counterweights_at(engine, z, plane) if with_weights else ()
-    sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most, plane)
+    weights = counterweights_at(engine, z) if with_weights else ()
+    sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most)
     engines = [each.fitted_to(engine) for each in sets]
     speed = inputs.number("rpm", rpm)
-    judged = engines if plane is None else [each.replace(reference_z=plane) for each in engines]
-    swept = sweep(judged, rpm=speed, orders=orders, rtol=rtol)
+    swept = sweep(engines, rpm=speed, orders=orders, rtol=rtol)
     values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
     slack = TIED * np.abs(values).max(axis=0)
     start = {each.label: value for each, value in zip(objectives, values[0].tolist(), strict=True)}
@@ -156,7 +153,7 @@ def balancer_options(
         )
     )
     bare = tuple(each.bare() for each in objectives)
-    return BalancerOptions(engine, speed, plane, bare, tuple(targets.items()), options)
+    return BalancerOptions(engine, speed, bare, tuple(targets.items()), options)
 
 
 def _ratios(orders: Sequence[int], *, with_weights: bool) -> list[int]:

@@ -57,13 +57,10 @@ class BalancerSet(NamedTuple):
         return with_weights.with_shafts([*engine.shafts, *self.shafts])
 
 
-def counterweights_at(
-    engine: Engine, z: Sequence[float], reference_z: float | None
-) -> tuple[Unbalance, ...]:
+def counterweights_at(engine: Engine, z: Sequence[float]) -> tuple[Unbalance, ...]:
     """Return counterweights at places z that remove the forward part of order 1."""
-    force, moment = turning(engine, 1, reference_z)
-    z0 = engine.reference_z if reference_z is None else reference_z
-    return weights_in(engine, Turning(-force, -moment), z, z0)
+    force, moment = turning(engine, 1)
+    return weights_in(engine, Turning(-force, -moment), z)
 
 
 def balancer_sets(
@@ -72,13 +69,12 @@ def balancer_sets(
     ratios: Sequence[int],
     places: Mapping[int, tuple[float | None, float | None]],
     most_shafts: int,
-    reference_z: float | None,
 ) -> list[BalancerSet]:
     """Return all sets with or without the counterweights and with a shaft of each ratio or none.
 
     Ratios that have nothing to remove are left out.
     """
-    removals = {ratio: _removals(turning(engine, ratio, reference_z)) for ratio in ratios}
+    removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
     count = math.prod(1 + len(each) for each in removals.values())
     if count > MOST_SETS:
         remedy = f"give fewer orders, for {MOST_SETS} at most"
@@ -86,7 +82,7 @@ def balancer_sets(
     choices: list[list[Part | None]] = [[None] for _ in ratios]
     for parts, ratio in zip(choices, ratios, strict=True):
         for what in removals[ratio]:
-            fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, reference_z=reference_z)
+            fit = balance_shafts(engine, ratio, x=0, y=0, remove=what)
             parts.append(Part(fit[0], fit.exerts[0].force, what))
     orders = dict.fromkeys(map(abs, ratios))
     torques = [(order, _core.roll_torque(engine.core, order)) for order in orders]

@@ -75,8 +75,6 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     """The engine that was asked about."""
     rpm: float
     """Crank speed, rpm."""
-    plane: float | None
-    """The reference plane that was given, m, or None."""
     objectives: tuple[Objective, ...]
     """What is left, to be small."""
     targets: tuple[tuple[str, float], ...]
@@ -89,11 +87,6 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
             raise InputError(
                 f"options = {inputs.shorten(self.options)}: use crankpin.balancer_options"
             )
-
-    @property
-    def reference_z(self) -> float:
-        """Plane about which moments are taken, m."""
-        return self.engine.reference_z if self.plane is None else self.plane
 
     @property
     def by(self) -> tuple[str, ...]:
@@ -129,8 +122,7 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     @property
     def residual(self) -> Balance:
         """What stays with the least hardware that reaches the target, at the crank speed."""
-        found = balance(self.fitted, self.rpm)
-        return found if self.plane is None else found.about(self.plane)
+        return balance(self.fitted, self.rpm)
 
     @property
     def _least(self) -> BalancerOption:

@@ -49,7 +49,6 @@ def counterweights(
     bound: float | Mapping[str, float] | None = None,
     angles_deg: Angles | Mapping[str, Angles] | None = None,
     length: float | None = None,
-    reference_z: float | None = None,
 ) -> Counterweights:
     """Return the counterweights that remove the most of the forward force and moment of order 1.
 
@@ -85,9 +84,6 @@ def counterweights(
         Where weights cannot remove both, they leave the least |force|² + |moment/length|², m. By
         default the longest lever of a plane or cylinder, or, for internal targets, half of the
         distance between main bearings: what stays is then the least sum of squares of their loads.
-    reference_z
-        Plane about which external moments are taken, m; by default midway between the first and the
-        last cylinder.
 
     Returns
     -------
@@ -123,7 +119,7 @@ def counterweights(
     engine_core(engine)
     places = correction_planes.named(engine, planes)
     names = list(places)
-    fit = Fit.checked(target, factor, minimise, length, reference_z)
+    fit = Fit.checked(target, factor, minimise, length)
     found = (external if fit.target == "external" else internal)(
         engine,
         places,
@@ -185,18 +181,12 @@ class Counterweights(Tabled):
             sums[name] = sums.get(name, 0.0) + weight.amount
         return max(sums.values(), default=0.0)
 
-    @property
-    def reference_z(self) -> float:
-        """Plane about which moments are taken, m."""
-        plane = self.fit.reference_z
-        return self.engine.reference_z if plane is None else plane
-
     # --- what stays -----------------------------------------------------------------------------
 
     @cached_property
     def residual(self) -> Balance:
         """Order 1 of the engine with the weights, over ω²: at 1 rad/s, N are kg·m."""
-        return over_square(self.fitted, [1], self.reference_z)
+        return over_square(self.fitted, [1])
 
     @cached_property
     def verdicts(self) -> dict[str, dict[str, str]]:
@@ -208,8 +198,7 @@ class Counterweights(Tabled):
         are ``exact`` and were to remove all; where they are not, "remains" is a finding of floating
         point: more than a millionth of what the weights exert.
         """
-        plane = self.reference_z
-        decided = self.engine.vanishing_orders([1], reference_z=plane)[1]
+        decided = self.engine.vanishing_orders([1])[1]
         found = {}
         for name in ("force", "moment"):
             before = getattr(decided, name)
@@ -217,14 +206,14 @@ class Counterweights(Tabled):
                 factor = dict(self.fit.parts)[name]
                 forward = "vanishes"
                 if factor is not None:
-                    left = left_by(self.engine, factor).vanishing_orders([1], reference_z=plane)
+                    left = left_by(self.engine, factor).vanishing_orders([1])
                     forward = getattr(left[1], name).forward
             elif not self.by_plane:
                 forward = before.forward
             else:
                 size = NOTICEABLE * sum(weight.amount for weight in self.hardware)
                 if name == "moment":
-                    size *= max(abs(z - plane) for _, z in self.places)
+                    size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
                 stays = abs(complex(getattr(self.residual[1], name).forward))
                 forward = "remains" if stays > size else "undecided"
             found[name] = {"forward": forward, "backward": before.backward}
@@ -284,7 +273,7 @@ class Counterweights(Tabled):
 
     def _order_1(self) -> Table:
         states = {
-            "before": over_square(self.engine, [1], self.reference_z), "after": self.residual,
+            "before": over_square(self.engine, [1]), "after": self.residual,
         }  # fmt: skip
         ellipses = [
             (name, state, getattr(found[1], name).ellipse)

@@ -49,12 +49,12 @@ def with_bob_weights(engine: Engine, factor: float) -> Engine:
 
 def bay_loads(engine: Engine) -> NDArray[np.complex128]:
     """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
-    found = [turning(bay_alone(engine, bay), 1, bay.z) for bay in bays(engine)]
+    found = [turning(bay_alone(engine, bay), 1) for bay in bays(engine)]
     return read_only(np.array(found, dtype=np.complex128))  # type: ignore[no-any-return]
 
 
 def bay_alone(engine: Engine, bay: Bay) -> Engine:
-    """Return the cylinders of a bay with what rotates there: an engine of one throw."""
+    """Return the cylinders of a bay with what rotates there: an engine of one throw, about it."""
     places = [number - 1 for number in bay.cylinders]
     tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine.core.exact_angles)
     return Engine.from_lists(
@@ -66,6 +66,7 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
         counterweights=[
             _in_bay(engine, weight) for weight in engine.counterweights if bay.holds(weight.z)
         ],
+        reference_z=bay.z,
     )
 
 

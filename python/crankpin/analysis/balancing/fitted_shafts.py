@@ -73,8 +73,6 @@ class BalanceShafts(Listed[Shaft], Tabled):
     """Force and moment of each shaft, over ω²."""
     bearings: tuple[tuple[float, float] | None, ...]
     """Places of the two bearings of each, front first, m; None if they are not known."""
-    plane: float | None
-    """The reference plane that was given, m, or None."""
     extra_torque: tuple[tuple[int, complex], ...]
     """Order and peak phasor, N·m, of given torques that are cancelled as well."""
     rpm: float | None
@@ -90,11 +88,6 @@ class BalanceShafts(Listed[Shaft], Tabled):
     def fitted(self) -> Engine:
         """The engine with the shafts, added to those that it has."""
         return self.engine.with_shafts([*self.engine.shafts, *self.hardware])
-
-    @property
-    def reference_z(self) -> float:
-        """Plane about which moments are taken, m."""
-        return self.engine.reference_z if self.plane is None else self.plane
 
     @property
     def orders(self) -> tuple[int, ...]:
@@ -122,7 +115,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
         It includes the roll torque that the shafts' places make, not ``extra_torque``.
         """
-        return over_square(self.fitted, self.orders, self.plane, torque=True)
+        return over_square(self.fitted, self.orders, torque=True)
 
     @cached_property
     def heights(self) -> dict[int, dict[str, float]]:
@@ -281,7 +274,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after."""
-        states = (over_square(self.engine, self.orders, self.plane, torque=True), self.residual)
+        states = (over_square(self.engine, self.orders, torque=True), self.residual)
         found = []
         for order, quantity in itertools.product(self.orders, SHAKEN):
             pair = [getattr(each[order], quantity) for each in states]

@@ -44,19 +44,11 @@ class Fit:
     """What is least of weights that do the same."""
     length: float | None
     """Length by which moments compare with forces, m; None for the longest lever."""
-    reference_z: float | None
-    """Plane about which moments are taken, m; None for midway between first and last cylinder."""
 
     @classmethod
-    def checked(
-        cls, target: object, factor: object, minimise: object, length: object, reference_z: object
-    ) -> Fit:
+    def checked(cls, target: object, factor: object, minimise: object, length: object) -> Fit:
         """Return the options, or raise an InputError that names the argument at fault."""
         wanted = inputs.one_of("target", target, ["external", "internal"])
-        plane = inputs.optional_number("reference_z", reference_z)
-        if plane is not None and wanted == "internal":
-            remedy = "leave it out: each bay has its own plane"
-            raise InputError(f"reference_z = {inputs.shorten(reference_z)}: {remedy}")
         comparing = inputs.optional_number("length", length)
         if comparing is not None and not 1e-6 <= comparing <= 1e6:
             raise InputError(f"length = {comparing}: give a length in metres, 1e-6 to 1e6")
@@ -65,7 +57,6 @@ class Fit:
             tuple(_parts(factor).items()),
             inputs.one_of("minimise", minimise, ["squares", "largest"]),  # type: ignore[arg-type]
             comparing,
-            plane,
         )
 
 
@@ -106,16 +97,14 @@ def external(
     fit: Fit,
 ) -> Fitted:
     """Return the weights that remove the most of an engine's forward force and moment."""
-    plane = engine.reference_z if fit.reference_z is None else fit.reference_z
+    plane = engine.reference_z
     names, places = list(planes), list(planes.values())
     levers = np.append(places, engine.z) - plane
     length = fit.length or float(np.abs(levers).max()) or 1.0
-    there = turning(engine, 1, plane)._asdict()
+    there = turning(engine, 1)._asdict()
     wanted: dict[str, complex] = {}
     for name, factor in fit.parts:
-        left = (
-            turning(left_by(engine, factor), 1, plane)._asdict()[name] if factor is not None else 0j
-        )
+        left = turning(left_by(engine, factor), 1)._asdict()[name] if factor is not None else 0j
         change = left - there[name]
         # Two figures that agree leave their rounding, not a weight.
         wanted[name] = 0j if abs(change) <= NOTHING * (abs(left) + abs(there[name])) else change
@@ -142,11 +131,11 @@ def external(
             weight = dataclasses.replace(weight, angle_deg=angles[names[place]][angle])
         unbalances.append((names[place], weight))
     usable = [z for name, z in planes.items() if bounds[name] > 0.0]
-    exact = reached and can_remove(engine, usable, fit, plane)
+    exact = reached and can_remove(engine, usable, fit)
     return Fitted(tuple(unbalances), exact, 0.0 if exact else missing)
 
 
-def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> bool:
+def can_remove(engine: Engine, places: list[float], fit: Fit) -> bool:
     """Return whether weights of any size at these places can do all that is wanted.
 
     Decided without floating-point sums. A weight u at z makes the force u and the moment
@@ -154,7 +143,7 @@ def can_remove(engine: Engine, places: list[float], fit: Fit, plane: float) -> b
     places serve any force and moment. One place z serves a force, or a moment if it is not z₀; it
     serves both if there is no forward moment about z itself, which is proved in integers.
     """
-    different = sorted(set(places))
+    different, plane = sorted(set(places)), engine.reference_z
     factors = dict(fit.parts)
     engines = {
         name: [engine] if factor is None else [engine, left_by(engine, factor)]
@@ -212,7 +201,6 @@ def internal(
             dataclasses.replace(
                 fit,
                 target="external",
-                reference_z=bay.z,
                 length=fit.length or (bay.bearings[1] - bay.bearings[0]) / 2.0,
             ),
         )

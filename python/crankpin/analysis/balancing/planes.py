@@ -24,14 +24,12 @@ class Turning(NamedTuple):
     """Moment about the reference plane, kg·m²."""
 
 
-def turning(engine: Engine, ratio: int, reference_z: float | None = None) -> Turning:
+def turning(engine: Engine, ratio: int) -> Turning:
     """Return the part of an engine's force and moment that turns with a shaft of this ratio."""
-    return Turning(*_core.turning(engine_core(engine), ratio, reference_z))
+    return Turning(*_core.turning(engine_core(engine), ratio))
 
 
-def weights_in(
-    engine: Engine, wanted: Turning, z: Sequence[float], reference_z: float
-) -> tuple[Unbalance, ...]:
+def weights_in(engine: Engine, wanted: Turning, z: Sequence[float]) -> tuple[Unbalance, ...]:
     """Return the weights in planes that exert a force and a moment, or come closest to them.
 
     From two different planes on both are exerted; of more planes the weights are those with the
@@ -46,11 +44,9 @@ def weights_in(
         Force, kg·m, and moment about the reference plane, kg·m².
     z
         Places of the planes, m.
-    reference_z
-        Reference plane, m.
     """
     length = _core.half_length(engine.core)
-    found = _core.unbounded_weights((wanted.force, wanted.moment), list(z), reference_z, length)
+    found = _core.unbounded_weights(wanted, list(z), engine.reference_z, length)
     return tuple(map(unbalance_of, found))
 
 

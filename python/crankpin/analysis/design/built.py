@@ -122,5 +122,5 @@ def _shaft(swept: Sweep, k: int, ratio: int) -> Shaft:
     part = "forward" if ratio > 0 else "backward"
     force, moment = (getattr(each, part)[k] / ratio**2 for each in (found.force, found.moment))
     wanted = Turning(-complex(force), -complex(moment))
-    needed = weights_in(engine, wanted, ends(engine), engine.reference_z)
+    needed = weights_in(engine, wanted, ends(engine))
     return Shaft(ratio, needed, name=f"of order {abs(ratio)}")

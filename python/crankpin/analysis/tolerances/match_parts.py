@@ -67,8 +67,6 @@ class MeasuredParts(Record):
     """Masses of the rods' small and big ends, kg: (n_rods, 2)."""
     orders: tuple[int, ...]
     """Orders of what remains."""
-    reference_z: float | None
-    """Plane about which moments are taken, m; None for the engine's own."""
 
     @cached_property
     def start(self) -> NDArray[np.float64]:
@@ -100,8 +98,7 @@ class MeasuredParts(Record):
         return self._vector(engine.replace(cylinder=cylinders)) - self.start
 
     def _vector(self, engine: Engine) -> NDArray[np.float64]:
-        plane = self.engine.reference_z if self.reference_z is None else self.reference_z
-        found = over_square(engine, self.orders, plane)
+        found = over_square(engine, self.orders)
         half = 0.5 * (self.engine.z.max() - self.engine.z.min())
         parts = [found.force.forward, found.force.backward]
         if half > 0.0:
@@ -157,7 +154,6 @@ def match_parts(
     objective: Objective = "balance",
     sets: int | None = None,
     orders: Orders = (1, 2),
-    reference_z: float | None = None,
     seed: int = 0,
     progress: Progress = False,
 ) -> Match:
@@ -187,9 +183,6 @@ def match_parts(
         engines the sum of the objective is minimised.
     orders
         With ``objective="balance"``: whole multiples of crank speed.
-    reference_z
-        Plane about which moments are taken, m; by default midway between the first and the last
-        cylinder.
     seed
         Seed of the random starts of the search where there are too many arrangements for all.
     progress
@@ -248,10 +241,9 @@ def match_parts(
     start = inputs.whole("seed", seed)
     if start < 0:
         raise InputError(f"seed = {start}: give zero or more")
-    plane = inputs.optional_number("reference_z", reference_z)
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
-    measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed), plane)
+    measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
     if objective == "spread":
         chosen, exact = _by_spread(measured, wanted)
         # Rods might make up for any difference of pistons.

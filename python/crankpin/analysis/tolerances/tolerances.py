@@ -47,7 +47,6 @@ def tolerances(
     by: str | Sequence[str] | None = None,
     orders: Orders = "auto",
     rtol: float | None = None,
-    reference_z: float | None = None,
     torque: bool = True,
     progress: Progress = False,
 ) -> Tolerances:
@@ -94,9 +93,6 @@ def tolerances(
     rtol
         For ``orders="auto"``: what omitted orders of one cylinder may add up to, relative to its
         m·r·ω². By default 1e-4.
-    reference_z
-        Plane about which moments are taken, m; by default midway between the first and the last
-        cylinder of the nominal engine.
     torque
         False to leave out torque.
     progress
@@ -142,8 +138,7 @@ def tolerances(
     if not 0 <= start < MOST_SEEDS:
         raise InputError(f"seed = {inputs.shorten(seed)}: give a whole number, 0 to 2**64 - 1")
     request = Request.checked(
-        orders=orders, rtol=rtol, reference_z=reference_z, spectrum=None, torque=torque,
-        default_rtol=1e-4,
+        orders=orders, rtol=rtol, spectrum=None, torque=torque, default_rtol=1e-4,
     )  # fmt: skip
     speed = inputs.number("rpm", rpm)
     kept, bound = _orders(engine, speed, request)
@@ -166,9 +161,7 @@ def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[int, ..
         return request.orders, ErrorBound(0.0, 0.0, 0.0 if request.torque else None)
     found = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
     force = moment = roll = 0.0
-    levers = abs(
-        engine.z - (engine.reference_z if request.reference_z is None else request.reference_z)
-    )
+    levers = abs(engine.z - engine.reference_z)
     bounds: dict[Cylinder, ErrorBound] = {}
     for cylinder, lever in zip(engine.cylinders, levers.tolist(), strict=True):
         if cylinder not in bounds:

@@ -26,13 +26,8 @@ pub struct Turning {
 }
 
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
-pub fn turning(
-    engine: &Engine,
-    ratio: i32,
-    reference_z: Option<f64>,
-    cancel: &Cancel,
-) -> Result<Turning> {
-    let wrench = over_square(engine, ratio.unsigned_abs(), reference_z, false, cancel)?;
+pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<Turning> {
+    let wrench = over_square(engine, ratio.unsigned_abs(), false, cancel)?;
     let [force, moment] = [wrench.force, wrench.moment]
         .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
     Ok(Turning { force, moment })
@@ -40,19 +35,13 @@ pub fn turning(
 
 /// Phasor of an order of the roll torque on the block, over ω².
 pub fn roll_torque(engine: &Engine, order: u32, cancel: &Cancel) -> Result<Complex64> {
-    Ok(over_square(engine, order, None, true, cancel)?.torque.roll)
+    Ok(over_square(engine, order, true, cancel)?.torque.roll)
 }
 
-fn over_square(
-    engine: &Engine,
-    order: u32,
-    reference_z: Option<f64>,
-    torque: bool,
-    cancel: &Cancel,
-) -> Result<Wrench> {
+fn over_square(engine: &Engine, order: u32, torque: bool, cancel: &Cancel) -> Result<Wrench> {
     // 1 rad/s
     let rpm = 30.0 / std::f64::consts::PI;
-    let request = Request { rpm, reference_z, spectrum: None, torque };
+    let request = Request { rpm, reference_z: None, spectrum: None, torque };
     let found = balance(engine, &request, &Orders::whole(&[order])?, cancel)?;
     Ok(found.wrenches[0])
 }

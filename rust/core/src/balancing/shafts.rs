@@ -67,14 +67,13 @@ const DECIMALS: f64 = 1e13;
 pub fn fit(
     engine: &Engine,
     wanted: &[Request],
-    reference_z: Option<f64>,
     given: &[(u32, Complex64)],
     cancel: &Cancel,
 ) -> Result<(Vec<Fitted>, Option<f64>)> {
-    let reference = engine.reference(reference_z)?;
+    let reference = engine.reference(None)?;
     let mut found = vec![None; wanted.len()];
     for ratio in distinct(wanted.iter().map(|each| each.ratio)) {
-        let there = turning(engine, ratio, reference_z, cancel)?;
+        let there = turning(engine, ratio, cancel)?;
         let same: Vec<usize> = (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
         let shafts: Vec<&Request> = same.iter().map(|&k| &wanted[k]).collect();
         for (k, unbalances) in same.iter().zip(unbalances(engine, &there, &shafts, reference)?) {
