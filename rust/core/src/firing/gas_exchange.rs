@@ -320,7 +320,7 @@ mod tests {
         assert_eq!(late, [(0, 2, 240.0, 60.0), (2, 0, 120.0, 180.0)]);
         // What rounding may be is none.
         assert_eq!(found([MOST_ROUNDING; 4], &[0, 3]), []);
-        let just = MOST_ROUNDING.next_up();
+        let just = 1.1e-9;
         assert_eq!(found([just; 4], &[0, 3]), [(0, 3, 0.0, just)]);
     }
 }
