@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, datacla
 
 import numpy as np
 
+from crankpin._core import InputError
+from crankpin._support import inputs
+
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
@@ -100,10 +103,21 @@ class Tabled(Record):
 
 
 class Listed(Generic[Item]):
-    """Mixin of records that are the sequence of the items of one field."""
+    """Mixin of records that are the sequence of the items of one field, a tuple."""
 
     _items: ClassVar[str]
     """Name of the field."""
+    _item: ClassVar[type] = object
+    """Class of the items."""
+    _maker: ClassVar[str] = ""
+    """Function that makes such records of one item or more; empty if anyone may, of any."""
+
+    def __post_init__(self) -> None:
+        listed = self._listed()
+        sound = isinstance(listed, tuple) and all(isinstance(each, self._item) for each in listed)
+        if self._maker and not (sound and listed):
+            raise InputError(f"{self._items} = {inputs.shorten(listed)}: use {self._maker}")
+        super().__post_init__()  # type: ignore[misc] # of the record that this is mixed into
 
     def _listed(self) -> tuple[Item, ...]:
         return getattr(self, self._items)  # type: ignore[no-any-return]

@@ -80,9 +80,10 @@ class Firing(Record):
         return cls(engine, core.strokes, tuple(map(int, core.later)))
 
     def __post_init__(self) -> None:
-        if not isinstance(self.engine, Engine):
-            hint = "use Engine.firing, .firings or .firing_orders"
-            raise InputError(f"engine = {inputs.shorten(self.engine)}: {hint}")
+        # The core checks the turns when they are first read: of thousands few are.
+        if not (isinstance(self.engine, Engine) and isinstance(self.revolutions, tuple)):
+            given = inputs.shorten((self.engine, self.strokes, self.revolutions))
+            raise InputError(f"Firing{given}: use Engine.firing, .firings or .firing_orders")
 
     @cached_property
     def _core(self) -> _core.Firing:

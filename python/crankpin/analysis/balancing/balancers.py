@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crankpin._core import InputError
-from crankpin._support import inputs, labels, optional
+from crankpin._support import labels, optional
 from crankpin._support.absent import AbsentError
 from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
@@ -69,7 +68,7 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     0.0
     """
 
-    _items = "options"
+    _items, _item, _maker = "options", BalancerOption, "crankpin.balancer_options"
 
     engine: Engine
     """The engine that was asked about."""
@@ -81,12 +80,6 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     """Objective and the value that it must not exceed, in its unit."""
     options: tuple[BalancerOption, ...]
     """All sets."""
-
-    def __post_init__(self) -> None:
-        if not self.options or not all(isinstance(each, BalancerOption) for each in self.options):
-            raise InputError(
-                f"options = {inputs.shorten(self.options)}: use crankpin.balancer_options"
-            )
 
     @property
     def by(self) -> tuple[str, ...]:

@@ -63,7 +63,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
     True
     """
 
-    _items = "hardware"
+    _items, _item, _maker = "hardware", Shaft, "crankpin.balance_shafts"
 
     engine: Engine
     """The engine that was asked about."""
@@ -77,12 +77,6 @@ class BalanceShafts(Listed[Shaft], Tabled):
     """Order and peak phasor, N·m, of given torques that are cancelled as well."""
     rpm: float | None
     """Crank speed at which they act: shafts' own torques scale with its square."""
-
-    def __post_init__(self) -> None:
-        if not self.hardware or not all(isinstance(each, Shaft) for each in self.hardware):
-            raise InputError(
-                f"hardware = {inputs.shorten(self.hardware)}: use crankpin.balance_shafts"
-            )
 
     @cached_property
     def fitted(self) -> Engine:

@@ -83,7 +83,7 @@ class Designs(Listed[Design], Tabled):
     A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
     """
 
-    _items = "designs"
+    _items, _item, _maker = "designs", Design, "crankpin.design"
 
     question: Question
     """What was asked."""

@@ -48,7 +48,7 @@ class Ranking(Listed[Choice], Tabled):
     array([[  0. , 459.4, 795.7]])
     """
 
-    _items = "choices"
+    _items, _item, _maker = "choices", Choice, "crankpin.rank"
 
     sweep: Sweep
     """The sweep of the engines over the bank angles."""

@@ -61,7 +61,7 @@ class SweepWaveform(OverAngle, Record):
     def __post_init__(self) -> None:
         if not hasattr(self.sweep, "core"):
             raise InputError(f"SweepWaveform({inputs.shorten(self.sweep)}): use Sweep.waveform")
-        theta = inputs.copied(self.theta_deg)
+        theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta), _kept={})
         super().__post_init__()
 
