@@ -298,13 +298,12 @@ class Tolerances:
         torque: bool,
         spreads: Sequence[Sequence[float]],
         distribution: str,
-        seed: int,
         pins: Sequence[int],
+        samples: int,
     ) -> Tolerances: ...
     def sample(
-        self, first: int, count: int, progress: _Progress | None
+        self, count: int, deviations: Sequence[_Real], progress: _Progress | None
     ) -> tuple[_Complex, _Complex, _Complex, _Real]: ...
-    def deviations(self, name: str, first: int, count: int) -> _Real: ...
 
 @final
 class Merit:

@@ -30,7 +30,6 @@ from crankpin.analysis.tolerances.samples import Shares, Tolerances
 from crankpin.analysis.vanishing import (
     OrderVerdicts,
     VanishingOrders,
-    VectorVerdict,
     VectorVerdicts,
     Verdicts,
 )
@@ -75,7 +74,6 @@ __all__ = [
     "ValveTiming",
     "Valves",
     "VanishingOrders",
-    "VectorVerdict",
     "VectorVerdicts",
     "Verdicts",
     "Waveform",

@@ -469,7 +469,8 @@ def test_an_offset_has_a_closed_form_of_its_own_unit() -> None:
 def test_latex_shows_the_sum_and_what_it_comes_to() -> None:
     latex = cp.Engine.preset("v8-crossplane").closed_form(1)._repr_latex_()
     assert latex.startswith("$\\displaystyle \\begin{aligned} M_x &=")
-    assert latex.endswith("\\max |M| &= \\sqrt{10} F a \\end{aligned}$")
+    assert "\\max |M| &= \\sqrt{10} F a \\\\" in latex
+    assert latex.endswith(" of cylinder 1, a = 100 mm} \\end{aligned}$")
     assert latex.count("\\cos{\\left(\\theta - \\frac{3 \\pi}{2} \\right)}") == 4
     zero = cp.Engine.preset("i4").closed_form(3)._repr_latex_()
     assert "M_x &= 0" in zero
@@ -485,6 +486,15 @@ def refusals() -> Sequence[tuple[dict[str, Any], str]]:
         ({"z": [0, 0.1, math.pi], "tdc_deg": [0] * 3, "bank_deg": [90] * 3}, "z ="),
         ({"cylinder": CYLINDER.replace(pin_offset=1e-3), "rotating_mass": 0.1}, "pin_offset"),
     ]
+
+
+def test_a_closed_form_says_what_its_symbols_are() -> None:
+    couple = cp.Engine.preset("v8-crossplane").closed_form(1)
+    cylinder = couple.engine.cylinders[0]
+    scale = cylinder.reciprocating_mass * cylinder.crank_radius
+    assert f"F = m·r·a₁·ω² = {scale:.6g} kg·m·ω² of cylinder 1" in repr(couple)
+    assert repr(couple).endswith(f", a = {1000 * couple.spacing:.6g} mm")
+    assert ", a" not in repr(couple.engine.closed_form(4, "force"))
 
 
 @pytest.mark.parametrize(("changes", "words"), refusals())

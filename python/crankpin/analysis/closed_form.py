@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import operator
+from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen
 from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import Record
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def closed_form(
     return ClosedForm(engine, _one_order(order), word, plane)
 
 
-class ClosedForm(Frozen):
+class ClosedForm(Record):
     """Force or moment of one order as SymPy expressions, exact.
 
     ``F`` stands for m·r·ω²·aₙ of the cylinder ``unit_cylinder`` (in magnitudes, for its size) and
@@ -56,8 +57,6 @@ class ClosedForm(Frozen):
     (sqrt(10)*F*a, atan(2))
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "order", "quantity", "plane")
-
     engine: Engine
     """The engine."""
     order: int
@@ -66,30 +65,31 @@ class ClosedForm(Frozen):
     """"force" or "moment"."""
     plane: float | None
     """The reference plane that was given, m, or None."""
-    unit_cylinder: int
+    unit_cylinder: int = field(init=False, compare=False)
     """Number of the cylinder whose force is F: the first that has reciprocating mass."""
-    spacing: float
+    spacing: float = field(init=False, compare=False)
     """Distance that ``a`` stands for, m; 0 where no lever enters."""
-    F: Expression
+    F: Expression = field(init=False, compare=False)
     """Symbol for m·r·ω²·aₙ of one cylinder."""
-    a: Expression
+    a: Expression = field(init=False, compare=False)
     """Symbol for the spacing."""
-    theta: Expression
+    theta: Expression = field(init=False, compare=False)
     """Symbol for the crank angle."""
+    _unit: Expression = field(init=False, compare=False)
+    _zero: bool = field(init=False, compare=False)
+    _parts: list[Any] = field(init=False, compare=False)
+    _period: int = field(init=False, compare=False)
+    _denominator: int = field(init=False, compare=False)
+    _phasors: dict[str, tuple[list[int], list[int], list[int]]] = field(init=False, compare=False)
 
-    def __init__(self, engine: Engine, order: int, quantity: str, plane: float | None) -> None:
-        core = engine_core(engine)
+    def __post_init__(self) -> None:
         sp = optional.sympy()
-        moment = quantity == "moment"
+        moment = self.quantity == "moment"
         unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
-            core, order, moment, plane
+            engine_core(self.engine), self.order, moment, self.plane
         )
         F, a = sp.Symbol("F", positive=True), sp.Symbol("a", positive=True)
-        self._set(
-            engine=engine,
-            order=order,
-            quantity=quantity,
-            plane=plane,
+        self.__dict__.update(
             unit_cylinder=unit + 1,
             spacing=spacing,
             F=F,
@@ -102,13 +102,6 @@ class ClosedForm(Frozen):
             _denominator=denominator,
             _phasors=dict(zip(COMPONENTS, phasors, strict=True)),
         )
-
-    _unit: Expression
-    _zero: bool
-    _parts: list[Any]
-    _period: int
-    _denominator: int
-    _phasors: dict[str, tuple[list[int], list[int], list[int]]]
 
     @property
     def reference_z(self) -> float:
@@ -291,11 +284,24 @@ class ClosedForm(Frozen):
 
     # --- text -----------------------------------------------------------------------------------
 
+    @property
+    def units_text(self) -> str:
+        """What F and a stand for: their figures of this engine."""
+        cylinder = self.engine.cylinders[self.unit_cylinder - 1]
+        scale = cylinder.reciprocating_mass * cylinder.crank_radius
+        factor = abs(scale * complex(cylinder.harmonics(self.order)[0]))
+        order = str(self.order).translate(SUBSCRIPTS)
+        found = f"F = m·r·a{order}·ω² = {factor:.6g} kg·m·ω² of cylinder {self.unit_cylinder}"
+        if self.quantity == "moment" and self.spacing:
+            found += f", a = {1e3 * self.spacing:.6g} mm"
+        return found
+
     def __repr__(self) -> str:
         name = labels.name_of(self.engine)
         lines = [f"{name}: {QUANTITIES[self.quantity].words} of order {self.order}"]
         lines += [f"{axis:>9} {getattr(self, axis)}" for axis in COMPONENTS]
         lines.append(f"{'longest':>9} {self.peak}")
+        lines.append(f"{'where':>9} {self.units_text}")
         return "\n".join(lines)
 
     def _repr_latex_(self) -> str:
@@ -308,9 +314,12 @@ class ClosedForm(Frozen):
             if terms:
                 rows.append(f"&= {sp.latex(getattr(self, f'{axis}_sum'))}")
         rows.append(rf"\max |{letter}| &= {sp.latex(self.peak)}")
+        rows.append(rf"&\text{{{self.units_text}}}")
         body = " \\\\ ".join(rows)
         return rf"$\displaystyle \begin{{aligned}} {body} \end{{aligned}}$"
 
+
+SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 PER_ROW = 4
 """Cylinders to a row of a derivation, so that rows fit a page."""
@@ -330,5 +339,5 @@ def _one_order(order: object) -> int:
     try:
         return inputs.explicit_orders([operator.index(order)], "order")[0]  # type: ignore[arg-type]
     except TypeError:
-        cure = "give one whole multiple of crank speed, such as 1"
-        raise InputError(f"order = {inputs.shorten(order)}: {cure}") from None
+        hint = "give one whole multiple of crank speed, such as 1"
+        raise InputError(f"order = {inputs.shorten(order)}: {hint}") from None

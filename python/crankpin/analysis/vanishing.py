@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import html
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from dataclasses import field
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.frozen import Frozen, Listed
+from crankpin._support.absent import AbsentError
+from crankpin._support.record import Listed, Record, Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.request import engine_core
 
@@ -48,13 +49,12 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
-class Verdicts(Listed[str]):
+class Verdicts(Listed[str], Record):
     """Verdicts on one sum, order by order: "vanishes", "remains" or "undecided".
 
     A read-only sequence, in the sequence of ``orders``; ``np.asarray`` makes an array of text.
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("orders", "words", "within_rounding")
     _items = "words"
 
     orders: tuple[int, ...]
@@ -63,11 +63,6 @@ class Verdicts(Listed[str]):
     """Verdicts: (n_orders,)."""
     within_rounding: tuple[bool, ...]
     """True where floating point finds the sum below its rounding error: (n_orders,)."""
-
-    def __init__(
-        self, orders: tuple[int, ...], words: tuple[str, ...], within_rounding: tuple[bool, ...]
-    ) -> None:
-        self._set(orders=orders, words=words, within_rounding=within_rounding)
 
     @property
     def vanishing(self) -> tuple[int, ...]:
@@ -95,43 +90,28 @@ class Verdicts(Listed[str]):
         return f"<Verdicts {', '.join(f'{order}: {word}' for order, word in pairs)}>"
 
 
-class VectorVerdicts(Frozen):
-    """Verdicts on a force or moment: along (about) x and y, and on its parts."""
+Decided = TypeVar("Decided")
 
-    _fields: ClassVar[tuple[str, ...]] = COMPONENTS
 
-    x: Verdicts
+class VectorVerdicts(NamedTuple, Generic[Decided]):
+    """Verdicts on a force or moment: :class:`Verdicts`, or the words of one order."""
+
+    x: Decided
     """Along (about) x."""
-    y: Verdicts
+    y: Decided
     """Along (about) y."""
-    forward: Verdicts
+    forward: Decided
     """Part that turns with the crank."""
-    backward: Verdicts
+    backward: Decided
     """Part that turns against the crank."""
-
-    def __init__(self, x: Verdicts, y: Verdicts, forward: Verdicts, backward: Verdicts) -> None:
-        self._set(x=x, y=y, forward=forward, backward=backward)
 
     @property
     def vanishing(self) -> tuple[int, ...]:
-        """Orders in which the whole vector is proved to vanish."""
-        return tuple(n for n in self.x.vanishing if n in self.y.vanishing)
-
-    def __repr__(self) -> str:
-        return "\n".join(f"{name:>8} {getattr(self, name)!r}" for name in COMPONENTS)
-
-
-class VectorVerdict(NamedTuple):
-    """Verdicts on a force or moment of one order: "vanishes", "remains" or "undecided"."""
-
-    x: str
-    """Along (about) x."""
-    y: str
-    """Along (about) y."""
-    forward: str
-    """Part that turns with the crank."""
-    backward: str
-    """Part that turns against the crank."""
+        """Orders in which the whole vector is proved to vanish; absent of one order."""
+        x, y = self.x, self.y
+        if not (isinstance(x, Verdicts) and isinstance(y, Verdicts)):
+            raise AbsentError("vanishing = of one order: read it of all orders, or x and y of this")
+        return tuple(n for n in x.vanishing if n in y.vanishing)
 
 
 class OrderVerdicts(NamedTuple):
@@ -139,15 +119,15 @@ class OrderVerdicts(NamedTuple):
 
     order: int
     """Multiple of crank speed."""
-    force: VectorVerdict
+    force: VectorVerdicts[str]
     """Shaking force."""
-    moment: VectorVerdict
+    moment: VectorVerdicts[str]
     """Rocking moment."""
     torque: str
     """Roll torque."""
 
 
-class VanishingOrders(Frozen):
+class VanishingOrders(Tabled):
     """Orders in which sums are exactly zero, decided in integers.
 
     Each order has nine sums: force and moment along (about) x and y, their parts that turn with the
@@ -178,43 +158,38 @@ class VanishingOrders(Frozen):
     False
     """
 
-    _fields: ClassVar[tuple[str, ...]] = ("engine", "orders", "plane")
-
     engine: Engine
     """The engine."""
     orders: tuple[int, ...]
     """Multiples of crank speed."""
     plane: float | None
     """The reference plane that was given, m, or None."""
-    sums: tuple[tuple[str, str], ...]
-    """Quantity and component of the nine sums, the columns of the tables below."""
-    vanishes: NDArray[np.bool_]
+    vanishes: NDArray[np.bool_] = field(init=False, compare=False)
     """True where a sum is proved to be zero: (n_orders, 9)."""
-    remains: NDArray[np.bool_]
+    remains: NDArray[np.bool_] = field(init=False, compare=False)
     """True where a sum is proved not to be zero: (n_orders, 9)."""
-    undecided: NDArray[np.bool_]
+    undecided: NDArray[np.bool_] = field(init=False, compare=False)
     """True where neither is proved: (n_orders, 9)."""
-    within_rounding: NDArray[np.bool_]
+    within_rounding: NDArray[np.bool_] = field(init=False, compare=False)
     """True where floating point finds a sum below its rounding error: (n_orders, 9)."""
-    obstacles: tuple[str, ...]
+    obstacles: tuple[str, ...] = field(init=False, compare=False)
     """Reasons why sums are undecided; empty where none is."""
 
-    def __init__(self, engine: Engine, orders: tuple[int, ...], plane: float | None) -> None:
-        core = engine_core(engine)
-        vanishes, remains, within_rounding, obstacles = _core.vanishing(core, list(orders), plane)
-        undecided = ~(vanishes | remains)
-        undecided.setflags(write=False)
-        self._set(
-            engine=engine,
-            orders=orders,
-            plane=plane,
-            sums=tuple(SUMS),
+    def __post_init__(self) -> None:
+        core = engine_core(self.engine)
+        vanishes, remains, within, obstacles = _core.vanishing(core, list(self.orders), self.plane)
+        self.__dict__.update(
             vanishes=vanishes,
             remains=remains,
-            undecided=undecided,
-            within_rounding=within_rounding,
+            undecided=read_only(~(vanishes | remains)),
+            within_rounding=within,
             obstacles=tuple(obstacles),
         )
+
+    @property
+    def sums(self) -> tuple[tuple[str, str], ...]:
+        """Quantity and component of the nine sums, the columns of the tables."""
+        return tuple(SUMS)
 
     @property
     def reference_z(self) -> float:
@@ -222,12 +197,12 @@ class VanishingOrders(Frozen):
         return self.engine.reference_z if self.plane is None else self.plane
 
     @property
-    def force(self) -> VectorVerdicts:
+    def force(self) -> VectorVerdicts[Verdicts]:
         """Shaking force: verdicts on x, y, forward and backward."""
         return VectorVerdicts(*(self._verdicts("force", each) for each in COMPONENTS))
 
     @property
-    def moment(self) -> VectorVerdicts:
+    def moment(self) -> VectorVerdicts[Verdicts]:
         """Rocking moment: verdicts on x (pitch), y (yaw), forward and backward."""
         return VectorVerdicts(*(self._verdicts("moment", each) for each in COMPONENTS))
 
@@ -256,7 +231,7 @@ class VanishingOrders(Frozen):
         k = self.orders.index(order)
         words = [self._word(k, column) for column in range(len(self.sums))]
         return OrderVerdicts(
-            self.orders[k], VectorVerdict(*words[:4]), VectorVerdict(*words[4:8]), words[8]
+            self.orders[k], VectorVerdicts(*words[:4]), VectorVerdicts(*words[4:8]), words[8]
         )
 
     def __iter__(self) -> Iterator[OrderVerdicts]:
@@ -297,11 +272,5 @@ class VanishingOrders(Frozen):
                 guess = "?0" if self.within_rounding[k, column] else "?≠0"
                 row.append(words.get(self._word(k, column), guess))
             cells.append(row)
-        return Table.from_rows(title, ["order", *SUMS.values()], cells, np.empty((len(cells), 0)))
-
-    def __repr__(self) -> str:
-        return "\n".join([self.table.text(), *self.obstacles])
-
-    def _repr_html_(self) -> str:
-        reasons = (f"<p>{html.escape(obstacle)}</p>" for obstacle in self.obstacles)
-        return "".join([self.table.html(), *reasons])
+        header, note = ["order", *SUMS.values()], "\n".join(self.obstacles)
+        return Table.from_rows(title, header, cells, np.empty((len(cells), 0)), note=note)

@@ -1,7 +1,7 @@
 //! Samples of an engine whose figures deviate.
 
 use crankpin_core as core;
-use crankpin_core::tolerances::{Distribution, FIGURES, Figure, largest_sums};
+use crankpin_core::tolerances::{Deviations, Distribution, FIGURES, largest_sums};
 use crankpin_core::{Complex64, Error, Order, Request};
 use ndarray::{Array, Array3, IntoDimension};
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
@@ -48,8 +48,8 @@ impl Tolerances {
         torque: bool,
         spreads: [Vec<f64>; FIGURES],
         distribution: &str,
-        seed: u64,
         pins: Vec<usize>,
+        samples: usize,
     ) -> PyResult<Self> {
         let distributions = [("normal", Distribution::Normal), ("uniform", Distribution::Uniform)];
         let distribution = choice("distribution", distribution, &distributions)?;
@@ -60,26 +60,30 @@ impl Tolerances {
                 engine,
                 &request,
                 &orders,
-                spreads,
-                (distribution, seed),
+                (&spreads, distribution),
                 &pins,
                 cancel,
             )
         })?;
+        plan.check_size(samples).or_raise()?;
         Ok(Self { plan, orders: orders.len(), torque })
     }
 
-    /// So many samples from one on.
+    /// Samples of which each figure deviates so from its value: (samples, cylinders or pins), or empty.
     fn sample<'py>(
         &self,
         py: Python<'py>,
-        first: usize,
         count: usize,
+        deviations: [PyReadonlyArray2<'py, f64>; FIGURES],
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Samples<'py>> {
-        let samples = first..first.saturating_add(count);
-        let found =
-            interrupt::watched(py, progress.as_ref(), |cancel| self.plan.sample(samples, cancel))?;
+        let mut slices: Deviations = [&[]; FIGURES];
+        for (slice, array) in slices.iter_mut().zip(&deviations) {
+            *slice = array.as_slice()?;
+        }
+        let found = interrupt::watched(py, progress.as_ref(), |cancel| {
+            self.plan.sample(count, &slices, cancel)
+        })?;
         let planar = |pairs: Vec<[Complex64; 4]>| -> PyResult<Array3<Complex64>> {
             shaped((count, self.orders, 4), pairs.into_flattened())
         };
@@ -91,20 +95,6 @@ impl Tolerances {
             frozen(py, torque),
             frozen(py, shaped((count, 4), found.peaks.into_flattened())?),
         ))
-    }
-
-    /// Deviations of a figure of each cylinder or pin, in so many samples from one on.
-    fn deviations<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        first: usize,
-        count: usize,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let figure = choice("name", name, &Figure::ALL.map(|figure| (figure.name(), figure)))?;
-        let samples = first..first.saturating_add(count);
-        let values = interrupt::run(py, |cancel| self.plan.deviations(figure, samples, cancel))?;
-        Ok(frozen(py, values))
     }
 }
 

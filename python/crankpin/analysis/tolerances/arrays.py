@@ -1,4 +1,4 @@
-"""Arrays of an engine's samples, drawn by the core."""
+"""Arrays of an engine's samples: deviations drawn by NumPy, evaluated by the core."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from crankpin._support.record import Record
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.request import engine_core
+from crankpin.analysis.tolerances.spreads import FIGURES, OF_PINS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,6 +23,35 @@ if TYPE_CHECKING:
     from crankpin.analysis.request import Request
     from crankpin.analysis.tolerances.spreads import Spreads
     from crankpin.model.engine import Engine
+
+
+PIECE = 2**20
+"""Random numbers drawn between two looks at Ctrl-C."""
+
+
+def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[np.float64]]:
+    """Return the deviations of each figure: (n_samples, n_items), empty where it does not spread.
+
+    Each figure has a generator of its own, spawned from the seed, that draws sample after sample:
+    a sample does not depend on how many follow, nor on what else spreads.
+    """
+    found = {}
+    for stream, (name, each) in enumerate(zip(FIGURES, spreads.values, strict=True)):
+        random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stream,)))
+        values = np.empty((samples if each else 0, len(each)))
+        rows = PIECE // max(len(each), 1)
+        for start in range(0, len(values), rows):
+            piece = values[start : start + rows]
+            if spreads.distribution == "normal":
+                random.standard_normal(out=piece)
+            else:
+                random.random(out=piece)
+                piece *= 2.0
+                piece -= 1.0
+            piece *= each
+        values.setflags(write=False)
+        found[name] = values
+    return found
 
 
 class ToleranceArrays(ByOrder, Record):
@@ -47,14 +77,20 @@ class ToleranceArrays(ByOrder, Record):
             self.request.torque,
             self.spreads.values,
             self.spreads.distribution,
-            self.seed,
             self.spreads.pin_of,
+            self.samples,
         )
+
+    @cached_property
+    def deviations(self) -> dict[str, NDArray[np.float64]]:
+        """Figure → its deviations: (n_samples, n_items); empty where it does not spread."""
+        return deviations(self.spreads, self.samples, self.seed)
 
     def draw(self, progress: Progress) -> None:
         """Evaluate the samples now."""
+        core, drawn = self.core, list(self.deviations.values())
         with progress_bar.shown(progress, "tolerances") as report:
-            force, moment, torques, peaks = self.core.sample(0, self.samples, report)
+            force, moment, torques, peaks = core.sample(self.samples, drawn, report)
         vars(self)["_drawn"] = {"force": force, "moment": moment}, torques, peaks
 
     @cached_property
@@ -84,6 +120,12 @@ class ToleranceArrays(ByOrder, Record):
     def nominal(self) -> Balance:
         """Balance of the engine without deviations, of the same orders."""
         return Balance(self.engine, self.rpm, self.request)
+
+    def spread_out(self, figure: str) -> NDArray[np.float64]:
+        """Return the deviations of a figure, zero where it does not spread."""
+        drawn = self.deviations[figure]
+        items = len(self.spreads.pins) if figure in OF_PINS else len(self.engine)
+        return drawn if drawn.size else np.broadcast_to(0.0, (self.samples, items))
 
     def only(self, name: str) -> ToleranceArrays:
         """Return the same samples with one figure alone deviating."""

@@ -263,7 +263,7 @@ class Tolerances(ByOrder, Tabled):
         (n_samples, n_cylinders) or (n_samples, n_pins), kg, m or degrees
         """
         figure = inputs.one_of("name", name, FIGURES)
-        return self.source.core.deviations(figure, 0, self.samples)
+        return self.source.spread_out(figure)
 
     def engine_of(self, sample: int) -> Engine:
         """Return the engine of a sample; moments of its own are about its own middle.
@@ -278,8 +278,8 @@ class Tolerances(ByOrder, Tabled):
         k = inputs.whole("sample", sample)
         if not 0 <= k < self.samples:
             raise InputError(f"sample = {k}: give a number from 0 to {self.samples - 1}")
-        core, pin_of = self.source.core, self.source.spreads.pin_of
-        by_name = {name: core.deviations(name, k, 1)[0] for name in FIGURES}
+        pin_of = self.source.spreads.pin_of
+        by_name = {name: self.source.spread_out(name)[k] for name in FIGURES}
         radius, turn = by_name["crank_radius"][pin_of], by_name["pin_deg"][pin_of]
         cylinders = [
             cylinder.replace(

@@ -1,19 +1,13 @@
-//! What remains of an engine's balance when its parts deviate from their figures: Monte Carlo samples.
+//! What remains of an engine's balance when its parts deviate from their figures, sample by sample.
 //!
-//! Imports run downwards: `random` → `draws`, `amplitudes` → `terms`, `totals` → here.
+//! Imports run downwards: `amplitudes` → `terms`, `totals` → here.
 
 mod amplitudes;
-mod draws;
-mod random;
 mod terms;
 mod totals;
 
-use std::ops::Range;
-
-use ndarray::Array2;
 use rayon::prelude::*;
 
-use self::draws::{CHUNK, Column, Draws};
 use self::terms::Terms;
 use self::totals::Totals;
 pub use self::totals::largest_sums;
@@ -79,6 +73,16 @@ impl Figure {
     }
 }
 
+/// Samples evaluated side by side.
+const CHUNK: usize = 128;
+
+/// One value for each sample of a chunk.
+type Column = [f64; CHUNK];
+
+/// Deviations of each of [`Figure::ALL`] in some samples, one row of cylinders or pins after the other;
+/// empty where none deviates.
+pub type Deviations<'a> = [&'a [f64]; FIGURES];
+
 /// How figures deviate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Distribution {
@@ -88,9 +92,21 @@ pub enum Distribution {
     Uniform,
 }
 
-/// An engine, the spreads of its figures, and what is asked of its samples; checked.
+impl Distribution {
+    /// Largest magnitude of a deviation of spread 1.
+    ///
+    /// The tail of `NumPy`'s ziggurat beyond r = 3.654 is x = −ln u/r where −2·ln v > x², for u and v of
+    /// 2⁻⁵³ at least: x² < 73.5.
+    fn largest(self) -> f64 {
+        match self {
+            Self::Normal => 12.3,
+            Self::Uniform => 1.0,
+        }
+    }
+}
+
+/// An engine whose figures may deviate, and what is asked of its samples; checked.
 pub struct Tolerances {
-    draws: Draws,
     terms: Terms,
     nominal: Balance,
     totals: Totals,
@@ -120,59 +136,52 @@ impl Tolerances {
         engine: &Engine,
         request: &Request,
         orders: &[u32],
-        mut spreads: [Vec<f64>; FIGURES],
-        (distribution, seed): (Distribution, u64),
+        (spreads, distribution): (&[Vec<f64>; FIGURES], Distribution),
         pin_of: &[usize],
         cancel: &Cancel,
     ) -> Result<Self> {
         engine.check_one_crank("tolerances")?;
         check_pins(engine, pin_of)?;
-        for (figure, spreads) in Figure::ALL.into_iter().zip(&mut spreads) {
+        for (figure, spreads) in Figure::ALL.into_iter().zip(spreads) {
             check_spreads(engine, pin_of, figure, spreads)?;
-            if spreads.iter().all(|&spread| spread == 0.0) {
-                spreads.clear();
-            }
         }
-        let draws = Draws { spreads, distribution, seed };
-        check_reach(engine, pin_of, &draws)?;
+        check_reach(engine, pin_of, spreads, distribution.largest())?;
         let nominal = balance(engine, request, &Orders::whole(orders)?, cancel)?;
         let reference = engine.reference(request.reference_z)?;
         let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
         let omega = angular_speed(request.rpm)?;
         let totals = Totals::new(&nominal, cancel)?;
-        Ok(Self { draws, terms, nominal, totals, square: omega * omega })
+        Ok(Self { terms, nominal, totals, square: omega * omega })
     }
 
-    /// Deviations of a figure in some samples: (samples, cylinders or pins); zero where it does not
-    /// spread.
-    pub fn deviations(
-        &self,
-        figure: Figure,
-        samples: Range<usize>,
-        cancel: &Cancel,
-    ) -> Result<Array2<f64>> {
-        let width = self.terms.count(figure);
-        let cure = "ask for fewer samples";
-        limits::result_size("samples", &[samples.len(), width], size_of::<f64>(), cure)?;
-        let mut values: Vec<f64> = memory::zeros(samples.len() * width)?;
-        let rows = values.chunks_mut((CHUNK * width).max(1)).enumerate();
-        for (k, rows) in rows {
-            cancel.check()?;
-            let Some(columns) = self.draws.chunk(figure, samples.start + k * CHUNK) else { break };
-            for (i, row) in rows.chunks_mut(width).enumerate() {
-                row.iter_mut().zip(&columns).for_each(|(value, column)| *value = column[i]);
-            }
-        }
-        let shape = (samples.len(), width);
-        Array2::from_shape_vec(shape, values)
-            .map_err(|error| Error::value("samples", format!("{shape:?}"), error.to_string()))
+    /// Rejects more samples than results may hold.
+    pub fn check_size(&self, count: usize) -> Result<()> {
+        let sizes = [count, self.nominal.orders.len(), 10];
+        let hint = "ask for fewer samples or orders";
+        limits::result_size("samples", &sizes, size_of::<Complex64>(), hint).map(drop)
     }
 
     /// What remains of some samples. A sample is the same whichever others are evaluated with it.
-    pub fn sample(&self, samples: Range<usize>, cancel: &Cancel) -> Result<Sampled> {
-        let (count, orders) = (samples.len(), self.nominal.orders.len());
-        let cure = "ask for fewer samples or orders";
-        limits::result_size("samples", &[count, orders, 10], size_of::<Complex64>(), cure)?;
+    pub fn sample(
+        &self,
+        count: usize,
+        deviations: &Deviations,
+        cancel: &Cancel,
+    ) -> Result<Sampled> {
+        let orders = self.nominal.orders.len();
+        self.check_size(count)?;
+        for (figure, values) in Figure::ALL.into_iter().zip(deviations) {
+            let expected = count * self.terms.count(figure);
+            if !values.is_empty() && values.len() != expected {
+                return Err(Error::Length {
+                    argument: figure.name().into(),
+                    found: values.len(),
+                    reference: "the samples".into(),
+                    expected,
+                    item: "deviation",
+                });
+            }
+        }
         let mut sampled = Sampled {
             force: memory::zeros(count * orders)?,
             moment: memory::zeros(count * orders)?,
@@ -186,13 +195,10 @@ impl Tolerances {
         let mut tasks = memory::room(count.div_ceil(CHUNK))?;
         for (k, ((force, moment), peaks)) in planar.zip(peaks.chunks_mut(CHUNK)).enumerate() {
             let torque = torque.next().unwrap_or_default();
-            tasks.push((
-                samples.start + k * CHUNK,
-                Chunk { planar: [force, moment], torque, peaks },
-            ));
+            tasks.push((k * CHUNK, Chunk { planar: [force, moment], torque, peaks }));
         }
         let work = |(first, out): (usize, Chunk)| {
-            self.write(first, &finder, out, cancel)?;
+            self.write((first, deviations), &finder, out, cancel)?;
             cancel.step()
         };
         cancel.expect(tasks.len());
@@ -206,9 +212,15 @@ impl Tolerances {
     }
 
     /// Writes the samples of a chunk.
-    fn write(&self, first: usize, finder: &PeakFinder, out: Chunk, cancel: &Cancel) -> Result<()> {
+    fn write(
+        &self,
+        (first, deviations): (usize, &Deviations),
+        finder: &PeakFinder,
+        out: Chunk,
+        cancel: &Cancel,
+    ) -> Result<()> {
         let orders = self.nominal.orders.len();
-        let sums = self.terms.sums(&self.draws, first, cancel)?;
+        let sums = self.terms.sums(deviations, first, cancel)?;
         let Chunk { planar: [force, moment], torque, peaks } = out;
         let mut by_component = vec![Complex64::default(); 6 * orders];
         for (i, peaks) in peaks.iter_mut().enumerate() {
@@ -278,8 +290,8 @@ fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
     }
     let pins = pins(pin_of);
     if pins > count || (0..pins).any(|pin| !pin_of.contains(&pin)) {
-        let cure = "count the pins from 0, each with a cylinder";
-        return Err(Error::value("pins", format!("{pin_of:?}"), cure));
+        let hint = "count the pins from 0, each with a cylinder";
+        return Err(Error::value("pins", format!("{pin_of:?}"), hint));
     }
     Ok(())
 }
@@ -311,20 +323,24 @@ fn check_spreads(engine: &Engine, pin_of: &[usize], figure: Figure, spreads: &[f
 /// Every sample is an engine: no draw takes more of a mass than there is, or keeps a crank from turning.
 ///
 /// A rotating mass may fall below zero: what deviates from a throw that is balanced is an unbalance.
-fn check_reach(engine: &Engine, pin_of: &[usize], draws: &Draws) -> Result<()> {
-    let largest = draws.distribution.largest();
-    let spread = |figure: Figure, k: usize| draws.spreads[figure as usize].get(k).copied();
+fn check_reach(
+    engine: &Engine,
+    pin_of: &[usize],
+    spreads: &[Vec<f64>; FIGURES],
+    largest: f64,
+) -> Result<()> {
+    let spread = |figure: Figure, k: usize| spreads[figure as usize].get(k).copied();
     let name = Figure::name;
     for (i, place) in engine.placements().iter().enumerate() {
         let (cylinder, number) = (place.cylinder, i + 1);
         let mass = spread(Figure::ReciprocatingMass, i).unwrap_or(0.0);
         if largest * mass > cylinder.reciprocating_mass() {
             let most = cylinder.reciprocating_mass() / largest;
-            let cure = format!(
+            let hint = format!(
                 "a draw may take more than the {} kg of cylinder {number}; give {most:.3e} at most",
                 cylinder.reciprocating_mass()
             );
-            return Err(Error::figure(name(Figure::ReciprocatingMass), mass, cure));
+            return Err(Error::figure(name(Figure::ReciprocatingMass), mass, hint));
         }
         let radius = spread(Figure::CrankRadius, pin_of[i]).unwrap_or(0.0);
         let rod = spread(Figure::RodLength, i).unwrap_or(0.0);
@@ -333,15 +349,15 @@ fn check_reach(engine: &Engine, pin_of: &[usize], draws: &Draws) -> Result<()> {
         let shrunk = largest * (radius + rod);
         if (radius > 0.0 && smallest < limits::SMALLEST) || (shrunk > 0.0 && shrunk >= slack) {
             let figure = if radius >= rod { Figure::CrankRadius } else { Figure::RodLength };
-            let cure =
+            let hint =
                 format!("a draw may keep the crank of cylinder {number} from turning; give less");
-            return Err(Error::figure(name(figure), radius.max(rod), cure));
+            return Err(Error::figure(name(figure), radius.max(rod), hint));
         }
     }
-    let turn = draws.spreads[Figure::Pin as usize].iter().copied().fold(0.0, f64::max);
+    let turn = spreads[Figure::Pin as usize].iter().copied().fold(0.0, f64::max);
     if largest * turn > 180.0 {
-        let cure = format!("a draw may exceed half a turn; give {:.3} at most", 180.0 / largest);
-        return Err(Error::figure(name(Figure::Pin), turn, cure));
+        let hint = format!("a draw may exceed half a turn; give {:.3} at most", 180.0 / largest);
+        return Err(Error::figure(name(Figure::Pin), turn, hint));
     }
     Ok(())
 }

@@ -4,9 +4,8 @@
 //! deviates what it makes less what it made. Without deviations that is nothing, to the last bit; and
 //! sums that the nominal engine cancels stay free of its rounding.
 
-use super::Figure;
 use super::amplitudes::{Amplitudes, Parts, Shape};
-use super::draws::{CHUNK, Column, Draws};
+use super::{CHUNK, Column, Deviations, Figure};
 use crate::Complex64;
 use crate::engine::{Engine, Placement};
 use crate::load::{Alike, Load, Loads, Wanted};
@@ -142,9 +141,14 @@ impl Terms {
     }
 
     /// Sums of every order, over ω², that the deviations of some samples add.
-    pub fn sums(&self, draws: &Draws, first: usize, cancel: &Cancel) -> Result<Vec<Sums>> {
-        let [masses, rotating, radii, angles, places, rods] =
-            Figure::ALL.map(|figure| draws.chunk(figure, first));
+    pub fn sums(
+        &self,
+        deviations: &Deviations,
+        first: usize,
+        cancel: &Cancel,
+    ) -> Result<Vec<Sums>> {
+        let [masses, rotating, radii, angles, places, rods] = Figure::ALL
+            .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
         let turns = angles.as_ref().map(|angles| self.turns(angles));
         let mut sums = vec![Sums::ZERO; self.orders.len()];
         for (i, part) in self.parts.iter().enumerate() {
@@ -264,6 +268,18 @@ impl Terms {
         );
         Ok(())
     }
+}
+
+/// Columns of the samples from `first` on, of rows of so many values; None where nothing deviates.
+fn columns(values: &[f64], width: usize, first: usize) -> Option<Vec<Column>> {
+    let rows = values.get(first * width..).filter(|rows| !rows.is_empty())?;
+    let mut columns = vec![[0.0; CHUNK]; width];
+    for (sample, row) in rows.chunks_exact(width).take(CHUNK).enumerate() {
+        for (column, &value) in columns.iter_mut().zip(row) {
+            column[sample] = value;
+        }
+    }
+    Some(columns)
 }
 
 /// Deviations of a cylinder's figures; None where they do not spread.

@@ -1,3 +1,5 @@
+use ndarray::Array2;
+
 use super::*;
 use crate::Order;
 use crate::engine::{Placement, Shaft, Unbalance};
@@ -59,13 +61,26 @@ fn spreads() -> [Vec<f64>; FIGURES] {
     ]
 }
 
-fn made(spreads: [Vec<f64>; FIGURES], distribution: Distribution, seed: u64) -> Tolerances {
-    let drawn = (distribution, seed);
-    Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, drawn, &PINS, &Cancel::new()).unwrap()
+fn made(spreads: &[Vec<f64>; FIGURES], distribution: Distribution) -> Result<Tolerances> {
+    let spreads = (spreads, distribution);
+    Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, &PINS, &Cancel::new())
 }
 
-fn sample(tolerances: &Tolerances, samples: Range<usize>) -> Sampled {
-    tolerances.sample(samples, &Cancel::new()).unwrap()
+/// Deviations between minus and plus each spread, by a low-discrepancy sequence.
+fn deviations(spreads: &[Vec<f64>; FIGURES], samples: usize) -> [Vec<f64>; FIGURES] {
+    let mut k = 0.0_f64;
+    spreads.each_ref().map(|spreads| {
+        let rows = (0..samples).flat_map(|_| spreads);
+        rows.map(|spread| {
+            k += 1.0;
+            spread * (2.0 * (k * 0.618_033_988_749_895).fract() - 1.0)
+        })
+        .collect()
+    })
+}
+
+fn sample(tolerances: &Tolerances, count: usize, deviations: &[Vec<f64>; FIGURES]) -> Sampled {
+    tolerances.sample(count, &deviations.each_ref().map(|d| &d[..]), &Cancel::new()).unwrap()
 }
 
 fn nominal(engine: &Engine) -> Balance {
@@ -74,10 +89,10 @@ fn nominal(engine: &Engine) -> Balance {
 
 #[test]
 fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
-    let zeros = spreads().map(|values| vec![0.0; values.len()]);
+    let zeros = spreads().map(|values| vec![0.0; 2 * values.len()]);
     let known = nominal(&engine());
-    for spreads in [NONE, zeros] {
-        let found = sample(&made(spreads, Distribution::Normal, 3), 7..9);
+    for deviations in [NONE, zeros] {
+        let found = sample(&made(&NONE, Distribution::Normal).unwrap(), 2, &deviations);
         for (i, row) in found.force.iter().zip(&found.moment).zip(&found.torque).enumerate() {
             let ((force, moment), torque) = row;
             let k = i % ORDERS.len();
@@ -97,11 +112,12 @@ fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
 
 #[test]
 fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
-    for distribution in [Distribution::Normal, Distribution::Uniform] {
-        let tolerances = made(spreads(), distribution, 11);
-        let found = sample(&tolerances, 0..40);
+    {
+        let tolerances = made(&spreads(), Distribution::Uniform).unwrap();
+        let drawn = deviations(&spreads(), 40);
+        let found = sample(&tolerances, 40, &drawn);
         let [masses, rotating, radii, angles, places, rods] =
-            Figure::ALL.map(|figure| tolerances.deviations(figure, 0..40, &Cancel::new()).unwrap());
+            drawn.map(|values| Array2::from_shape_vec((40, values.len() / 40), values).unwrap());
         for s in 0..40 {
             let engine = engine();
             let drawn = engine.placements().iter().enumerate().map(|(i, p)| {
@@ -175,11 +191,17 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
 
 #[test]
 fn a_sample_is_the_same_whichever_others_are_evaluated_with_it() {
-    let tolerances = made(spreads(), Distribution::Normal, 5);
+    let tolerances = made(&spreads(), Distribution::Uniform).unwrap();
+    let all = deviations(&spreads(), 1000);
     // By the pool; in pieces by the calling thread.
-    let whole = sample(&tolerances, 0..1000);
-    let pieces = [0..1, 1..130, 130..400, 400..750, 750..1000];
-    let pieces = pieces.map(|range| sample(&tolerances, range));
+    let whole = sample(&tolerances, 1000, &all);
+    let pieces = [0..1, 1..130, 130..400, 400..750, 750..1000].map(|range| {
+        let rows = |values: &Vec<f64>| {
+            let width = values.len() / 1000;
+            values[range.start * width..range.end * width].to_vec()
+        };
+        sample(&tolerances, range.len(), &all.each_ref().map(rows))
+    });
     assert_eq!(whole.force, pieces.each_ref().map(|p| p.force.clone()).concat());
     assert_eq!(whole.moment, pieces.each_ref().map(|p| p.moment.clone()).concat());
     assert_eq!(whole.torque, pieces.each_ref().map(|p| p.torque.clone()).concat());
@@ -187,43 +209,11 @@ fn a_sample_is_the_same_whichever_others_are_evaluated_with_it() {
 }
 
 #[test]
-fn draws_do_not_depend_on_what_else_spreads() {
-    let all = made(spreads(), Distribution::Normal, 5);
-    for figure in Figure::ALL {
-        let mut only = NONE;
-        only[figure as usize].clone_from(&spreads()[figure as usize]);
-        let alone = made(only, Distribution::Normal, 5);
-        let other_seed = made(spreads(), Distribution::Normal, 6);
-        let drawn = |of: &Tolerances| of.deviations(figure, 3..300, &Cancel::new()).unwrap();
-        assert_eq!(drawn(&all), drawn(&alone));
-        assert_ne!(drawn(&all), drawn(&other_seed));
-        let more = all.deviations(figure, 0..300, &Cancel::new()).unwrap();
-        assert_eq!(drawn(&all), more.view().split_at(ndarray::Axis(0), 3).1);
-    }
-    let none = made(NONE, Distribution::Normal, 5);
-    let zeros = none.deviations(Figure::Pin, 0..4, &Cancel::new()).unwrap();
-    assert_eq!(zeros, Array2::<f64>::zeros((4, 3)));
-}
-
-#[test]
-fn uniform_draws_fill_their_width_and_no_more() {
-    let tolerances = made(spreads(), Distribution::Uniform, 1);
-    let drawn = tolerances.deviations(Figure::Pin, 0..4000, &Cancel::new()).unwrap();
-    for (column, half) in drawn.columns().into_iter().zip(&spreads()[Figure::Pin as usize]) {
-        let largest = column.iter().map(|value| value.abs()).fold(0.0, f64::max);
-        assert!(largest <= *half && largest > 0.99 * half);
-    }
-}
-
-#[test]
 fn spreads_that_leave_no_engine_are_rejected() {
     let error = |figure: Figure, values: Vec<f64>, distribution| {
         let mut spreads = NONE;
         spreads[figure as usize] = values;
-        let drawn = (distribution, 0);
-        let made =
-            Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, drawn, &PINS, &Cancel::new());
-        made.err().map(|error| error.to_string()).unwrap_or_default()
+        made(&spreads, distribution).err().map(|error| error.to_string()).unwrap_or_default()
     };
     let normal = Distribution::Normal;
     let uniform = Distribution::Uniform;
@@ -241,8 +231,8 @@ fn spreads_that_leave_no_engine_are_rejected() {
     // Any deviation of a rotating mass is an unbalance.
     assert_eq!(error(Figure::RotatingMass, vec![9.0; 4], normal), "");
     for pins in [&[0, 0, 1][..], &[0, 0, 2, 2], &[0, 0, 0, 9]] {
-        let drawn = (normal, 0);
-        let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, NONE, drawn, pins, &Cancel::new());
+        let none = (&NONE, normal);
+        let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, none, pins, &Cancel::new());
         assert!(made.is_err(), "{pins:?}");
     }
 }
@@ -250,10 +240,12 @@ fn spreads_that_leave_no_engine_are_rejected() {
 #[test]
 fn a_request_to_stop_is_met() {
     let cancel = Cancel::new();
-    let tolerances = made(spreads(), Distribution::Normal, 5);
+    let tolerances = made(&spreads(), Distribution::Normal).unwrap();
     cancel.raise();
-    assert_eq!(tolerances.sample(0..10_000, &cancel), Err(Error::Cancelled));
-    assert_eq!(tolerances.deviations(Figure::Z, 0..10_000, &cancel), Err(Error::Cancelled));
+    assert_eq!(tolerances.sample(10_000, &[&[]; FIGURES], &cancel), Err(Error::Cancelled));
+    let short = [&[0.0; 7][..]; FIGURES];
+    let error = tolerances.sample(2, &short, &Cancel::new()).unwrap_err().to_string();
+    assert!(error.contains("reciprocating_mass has 7 entries"), "{error}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Peaks of all orders together, of samples and of any rows of phasors.
 
-use super::draws::CHUNK;
+use super::CHUNK;
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
