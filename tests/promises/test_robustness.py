@@ -1,4 +1,4 @@
-"""Does input that makes no engine give an error that names the argument, its value and a cure?"""
+"""Does input that makes no engine give an error that names the argument, its value and a hint?"""
 
 # ruff: noqa: ANN401 - arguments of any type are the point
 
@@ -312,8 +312,8 @@ def test_a_bad_argument_is_named_with_its_value_and_a_cure(
     message = str(caught.value)
     assert re.search(written(argument, shown), message), message
     assert len(message) < 500  # a huge value is cut
-    cure = max(message.rsplit(":", maxsplit=1)[-1], message.rsplit(";", maxsplit=1)[-1], key=len)
-    assert sum(letter.isalpha() for letter in cure) >= CURE
+    hint = max(message.rsplit(":", maxsplit=1)[-1], message.rsplit(";", maxsplit=1)[-1], key=len)
+    assert sum(letter.isalpha() for letter in hint) >= CURE
 
 
 @pytest.mark.parametrize("rpm", [NAN, INF, -1.0, None, 1e300])

@@ -47,5 +47,5 @@ def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may 
         return True
     if progress is False or callable(progress):
         return progress  # type: ignore[no-any-return] # callables return what they like
-    cure = "give True for a tqdm bar, or a function of (steps done, steps in all)"
-    raise InputError(f"progress = {inputs.shorten(progress)}: {cure}")
+    hint = "give True for a tqdm bar, or a function of (steps done, steps in all)"
+    raise InputError(f"progress = {inputs.shorten(progress)}: {hint}")

@@ -66,8 +66,8 @@ fn vector(quantity: &str) -> PyResult<Vector> {
         "force" => Ok(Vector::Force),
         "moment" => Ok(Vector::Moment),
         other => {
-            let cure = "give \"force\" or \"moment\"";
-            Err(python_error(Error::value("quantity", other, cure)))
+            let hint = "give \"force\" or \"moment\"";
+            Err(python_error(Error::value("quantity", other, hint)))
         }
     }
 }

@@ -34,8 +34,8 @@ where
         return Ok(*chosen);
     }
     let names: Vec<String> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-    let cure = format!("give {}", names.join(" or "));
-    Err(python_error(Error::value(argument, format!("\"{value}\""), cure)))
+    let hint = format!("give {}", names.join(" or "));
+    Err(python_error(Error::value(argument, format!("\"{value}\""), hint)))
 }
 
 /// Amount in kg·m, degrees as text that reads back exactly, z in m, index of the pin's cylinder.
@@ -68,15 +68,15 @@ pub fn firing_rule(
 ) -> PyResult<FiringRule> {
     let ijesc = choice("rule", rule, &[("even", false), ("ijesc", true)])?;
     let strokes = Strokes::from_number(strokes).or_raise()?;
-    let unsuited = |argument: &str, value: String, cure: &str| {
-        Err(python_error(Error::value(argument, value, cure)))
+    let unsuited = |argument: &str, value: String, hint: &str| {
+        Err(python_error(Error::value(argument, value, hint)))
     };
     match (ijesc, intervals, strokes) {
         (false, None, _) => Ok(FiringRule::Even(strokes)),
         (false, Some(intervals), _) => Ok(FiringRule::Intervals(strokes, angles(intervals))),
         (true, Some(intervals), _) => {
-            let cure = "the rule \"ijesc\" sets the intervals itself; leave them out";
-            unsuited("intervals_deg", format!("{} given", intervals.len()), cure)
+            let hint = "the rule \"ijesc\" sets the intervals itself; leave them out";
+            unsuited("intervals_deg", format!("{} given", intervals.len()), hint)
         }
         (true, None, Strokes::Two) => {
             unsuited("strokes", "2".into(), "the rule \"ijesc\" is that of a four-stroke; give 4")
@@ -231,8 +231,8 @@ impl Engine {
             }
             (tdcs, _) => {
                 let given = if tdcs.is_some() { "both given" } else { "neither given" };
-                let cure = "give either the crank angles of top dead centre or the pins' angles";
-                return Err(python_error(Error::value("tdc_deg and pin_deg", given, cure)));
+                let hint = "give either the crank angles of top dead centre or the pins' angles";
+                return Err(python_error(Error::value("tdc_deg and pin_deg", given, hint)));
             }
         };
         let mut placements = Vec::with_capacity(count);

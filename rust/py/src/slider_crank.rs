@@ -55,8 +55,8 @@ pub fn motion<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let cylinder = cylinder(parts)?;
     let thetas = theta_deg.as_slice()?;
-    let cure = "split theta_deg into parts";
-    limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), cure).or_raise()?;
+    let hint = "split theta_deg into parts";
+    limits::result_size("theta_deg", &[thetas.len(), 3], size_of::<f64>(), hint).or_raise()?;
     let rows = interrupt::run(py, |cancel| {
         crank_angles::check(thetas, cancel)?;
         let (proportions, radius) = (cylinder.proportions(), cylinder.crank_radius());

@@ -28,8 +28,8 @@ fn quantity(name: &str) -> PyResult<Quantity> {
         "torque" => Ok(Quantity::Torque),
         "crank_torque" => Ok(Quantity::CrankTorque),
         other => {
-            let cure = "give \"force\", \"moment\", \"torque\" or \"crank_torque\"";
-            Err(python_error(Error::value("quantity", other, cure)))
+            let hint = "give \"force\", \"moment\", \"torque\" or \"crank_torque\"";
+            Err(python_error(Error::value("quantity", other, hint)))
         }
     }
 }
@@ -42,9 +42,9 @@ fn figure(name: &str) -> PyResult<Figure> {
         "length of sum" => Ok(Figure::LengthOfSum),
         "zero bound" => Ok(Figure::ZeroBound),
         other => {
-            let cure =
+            let hint =
                 "give \"amplitude\", \"length\", \"sum\", \"length of sum\" or \"zero bound\"";
-            Err(python_error(Error::value("figure", other, cure)))
+            Err(python_error(Error::value("figure", other, hint)))
         }
     }
 }
@@ -100,13 +100,13 @@ impl Sweep {
             (Some(_), Some(held)) => Some(hold(held)?),
             (None, None) => None,
             (Some(_), None) => {
-                let cure = "give what is held as the bank angle changes: hold=\"pins\" (the crank; firing \
+                let hint = "give what is held as the bank angle changes: hold=\"pins\" (the crank; firing \
                             intervals change) or hold=\"firing\" (the TDCs; pins are split)";
-                return Err(python_error(Error::value("hold", "None", cure)));
+                return Err(python_error(Error::value("hold", "None", hint)));
             }
             (None, Some(held)) => {
-                let cure = "hold is of sweeps of bank_angle_deg: give both or neither";
-                return Err(python_error(Error::value("hold", held, cure)));
+                let hint = "hold is of sweeps of bank_angle_deg: give both or neither";
+                return Err(python_error(Error::value("hold", held, hint)));
             }
         };
         let engines: Vec<_> = engines.into_iter().map(|engine| engine.0).collect();

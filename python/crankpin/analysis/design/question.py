@@ -227,12 +227,12 @@ def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[E
 
 def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact]:  # noqa: ANN401
     ends = given if np.ndim(given) else (given, given)
-    cure = f"give an angle, or the lowest and the highest, {low} to {high}"
+    hint = f"give an angle, or the lowest and the highest, {low} to {high}"
     if len(ends) != 2:
-        raise InputError(f"{name} = {inputs.shorten(given)}: {cure}")
+        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
     first, last = (exact(inputs.angle(name, end)) for end in ends)
     if not low <= first <= last <= high:
-        raise InputError(f"{name} = {inputs.shorten(given)}: {cure}")
+        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
     return first, last
 
 
@@ -240,19 +240,19 @@ def _throws(count: int, given: Any) -> tuple[tuple[Exact, ...], ...]:  # noqa: A
     if given is None:
         # Over two turns an even number of throws comes to half as many directions, each twice.
         return tuple(_spread(count, turns * TURN) for turns in ((1,) if count % 2 else (1, 2)))
-    cure = f'give {count} angles to be put in order, or "free"'
+    hint = f'give {count} angles to be put in order, or "free"'
     if isinstance(given, str):
-        raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
+        raise InputError(f"throws_deg = {inputs.shorten(given)}: {hint}")
     listed = [exact(each) % TURN for each in inputs.angles("throws_deg", given)]
     if len(listed) != count:
-        raise InputError(f"throws_deg = {inputs.shorten(given)}: {cure}")
+        raise InputError(f"throws_deg = {inputs.shorten(given)}: {hint}")
     return (tuple(listed),)
 
 
 def _shafts(given: Iterable[int]) -> tuple[int, ...]:
-    cure = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
-    listed = inputs.items("shafts", given, cure)
+    hint = "give different speed ratios such as [-1] or [2, -2]; for 1 give counterweights=True"
+    listed = inputs.items("shafts", given, hint)
     ratios = [inputs.whole("shafts", each) for each in listed]
     if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
-        raise InputError(f"shafts = {inputs.shorten(listed)}: {cure}")
+        raise InputError(f"shafts = {inputs.shorten(listed)}: {hint}")
     return tuple(ratios)

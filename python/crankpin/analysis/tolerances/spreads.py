@@ -131,13 +131,13 @@ def deviating(
 
 
 def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
-    cure = "give the numbers of the cylinders on each crankpin, such as [[1, 2], [3, 4]]"
+    hint = "give the numbers of the cylinders on each crankpin, such as [[1, 2], [3, 4]]"
     pins = tuple(
-        tuple(inputs.whole("pins", number) for number in inputs.items("pins", pin, cure))
-        for pin in inputs.items("pins", given, cure)
+        tuple(inputs.whole("pins", number) for number in inputs.items("pins", pin, hint))
+        for pin in inputs.items("pins", given, hint)
     )
     if sorted(number for pin in pins for number in pin) != [*range(1, len(engine) + 1)]:
-        raise InputError(f"pins = {inputs.shorten(pins)}: name each cylinder once; {cure}")
+        raise InputError(f"pins = {inputs.shorten(pins)}: name each cylinder once; {hint}")
     directions = engine.pin_deg
     for pin in pins:
         angles = np.array([directions[number - 1] for number in pin])

@@ -276,8 +276,8 @@ impl EngineFile {
 
     fn engine(self) -> Result<Engine> {
         if self.schema != SCHEMA {
-            let cure = format!("this version reads schema = {SCHEMA}");
-            return Err(Error::value("schema", self.schema, cure));
+            let hint = format!("this version reads schema = {SCHEMA}");
+            return Err(Error::value("schema", self.schema, hint));
         }
         let shared = self.cylinder.map(|parts| parts.cylinder()).transpose();
         let shared = shared.map_err(|error| error.within("cylinder."))?;
@@ -286,8 +286,8 @@ impl EngineFile {
             let own = place.cylinder.map(|parts| parts.cylinder()).transpose();
             let own = own.map_err(|error| error.within(&format!("{at}cylinder.")))?;
             let cylinder = own.or(shared).ok_or_else(|| {
-                let cure = "give the engine a [cylinder], or each placement one of its own";
-                Error::value(format!("{at}cylinder"), "none", cure)
+                let hint = "give the engine a [cylinder], or each placement one of its own";
+                Error::value(format!("{at}cylinder"), "none", hint)
             })?;
             Ok(Placement {
                 cylinder,

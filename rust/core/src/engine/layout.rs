@@ -214,9 +214,9 @@ impl FiringOrder {
             || !sorted.into_iter().eq(1..=order.len())
         {
             let listed: Vec<String> = order.iter().map(ToString::to_string).collect();
-            let cure =
+            let hint =
                 "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
-            return Err(Error::value("firing_order", listed.join("-"), cure));
+            return Err(Error::value("firing_order", listed.join("-"), hint));
         }
         Ok(Self(order))
     }
@@ -252,8 +252,8 @@ impl FiringOrder {
         let mut times = vec![Angle::ZERO];
         for (k, &interval) in intervals.iter().enumerate() {
             if interval.degrees() <= 0.0 {
-                let cure = "give degrees above 0: cylinders of an order fire one after the other";
-                return Err(Error::value(format!("intervals_deg[{k}]"), interval, cure));
+                let hint = "give degrees above 0: cylinders of an order fire one after the other";
+                return Err(Error::value(format!("intervals_deg[{k}]"), interval, hint));
             }
             times.push(times[k] + interval);
         }
@@ -261,11 +261,11 @@ impl FiringOrder {
             (times.pop().unwrap_or(Angle::ZERO), Angle::whole_turns(strokes.turns() as i32));
         // Intervals that are no parts of a turn may have been rounded, once each.
         if (sum - cycle).degrees().abs() > MOST_ROUNDING {
-            let cure = format!(
+            let hint = format!(
                 "make them add up to {cycle}, the cycle of a {}-stroke",
                 if strokes == Strokes::Four { "four" } else { "two" }
             );
-            return Err(Error::value("sum of intervals_deg", sum, cure));
+            return Err(Error::value("sum of intervals_deg", sum, hint));
         }
         Ok(times)
     }
@@ -350,8 +350,8 @@ impl FromStr for FiringOrder {
         let order: std::result::Result<Vec<usize>, _> = parts.map(str::parse).collect();
         order.map_or_else(
             |_| {
-                let cure = "give cylinder numbers joined by '-', such as 1-3-4-2";
-                Err(Error::value("firing_order", text, cure))
+                let hint = "give cylinder numbers joined by '-', such as 1-3-4-2";
+                Err(Error::value("firing_order", text, hint))
             },
             Self::new,
         )

@@ -145,8 +145,8 @@ impl Engine {
     ) -> Result<Self> {
         let count = placements.len();
         if count == 0 || count > limits::MOST_CYLINDERS {
-            let cure = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
-            return Err(Error::value("number of cylinders", count, cure));
+            let hint = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
+            return Err(Error::value("number of cylinders", count, hint));
         }
         check_each_cylinder("bank", bank_keys.len(), count)?;
         let mut gears = Vec::new();
@@ -496,8 +496,8 @@ fn text(argument: &str, text: String) -> Result<String> {
     if text.len() <= limits::LONGEST_NAME {
         return Ok(text);
     }
-    let cure = format!("give {} bytes at most", limits::LONGEST_NAME);
-    Err(Error::value(argument, text, cure))
+    let hint = format!("give {} bytes at most", limits::LONGEST_NAME);
+    Err(Error::value(argument, text, hint))
 }
 
 /// Index of the first value equal to each.

@@ -23,9 +23,9 @@ impl FromStr for NamedOrder {
         let groups: std::result::Result<Vec<Vec<usize>>, _> =
             parts.map(|part| part.split('+').map(str::parse).collect()).collect();
         let Ok(mut groups) = groups else {
-            let cure = "give cylinder numbers joined by '-', such as 1-3-4-2, those that fire \
+            let hint = "give cylinder numbers joined by '-', such as 1-3-4-2, those that fire \
                         together by '+'";
-            return Err(Error::value("firing_order", text, cure));
+            return Err(Error::value("firing_order", text, hint));
         };
         let order = FiringOrder::new(groups.concat())?;
         // An order has no beginning: from cylinder 1, as is the custom.

@@ -45,8 +45,8 @@ impl ValveTiming {
         for (argument, angle) in given {
             let degrees = angle.degrees();
             if !(-90.0 < degrees && degrees <= 180.0) {
-                let cure = "give degrees above -90 and up to 180";
-                return Err(Error::value(argument, angle, cure));
+                let hint = "give degrees above -90 and up to 180";
+                return Err(Error::value(argument, angle, hint));
             }
         }
         Ok(Self { intake: [intake_opens, intake_closes], exhaust: [exhaust_opens, exhaust_closes] })
@@ -66,8 +66,8 @@ impl PortTiming {
         let given = [("transfer_opens_deg", transfer_opens), ("exhaust_opens_deg", exhaust_opens)];
         for (argument, angle) in given {
             if !(0.0 < angle.degrees() && angle.degrees() < 180.0) {
-                let cure = "give degrees above 0 and below 180";
-                return Err(Error::value(argument, angle, cure));
+                let hint = "give degrees above 0 and below 180";
+                return Err(Error::value(argument, angle, hint));
             }
         }
         Ok(Self { transfer: transfer_opens, exhaust: exhaust_opens })
@@ -107,14 +107,14 @@ fn open_for(valve: &str, i: usize, [opens, closes]: [Angle; 2], stroke: Angle) -
         return Ok(open);
     }
     let argument = format!("{valve}_opens_deg + {valve}_closes_deg");
-    let cure = format!(
+    let hint = format!(
         "the valve of cylinder {} would close before it opens, as its {valve} stroke takes {:.1}°; make \
          the sum greater than {:.1}",
         i + 1,
         stroke.degrees(),
         -stroke.degrees()
     );
-    Err(Error::value(argument, opens + closes, cure))
+    Err(Error::value(argument, opens + closes, hint))
 }
 
 impl Firing {
@@ -148,9 +148,9 @@ impl Firing {
     /// When valves are open; of a four-stroke.
     pub fn valves(&self, timing: &ValveTiming) -> Result<Valves> {
         if self.strokes() == Strokes::Two {
-            let cure = "valves are those of a four-stroke; a two-stroke breathes through ports: \
+            let hint = "valves are those of a four-stroke; a two-stroke breathes through ports: \
                         Firing.ports, PortTiming";
-            return Err(Error::value("strokes", 2, cure));
+            return Err(Error::value("strokes", 2, hint));
         }
         let mut valves = Valves { intake: Vec::new(), exhaust: Vec::new() };
         let angles = self.angles().into_iter().zip(self.engine().placements());
@@ -167,9 +167,9 @@ impl Firing {
     /// When ports are open; of a two-stroke.
     pub fn ports(&self, timing: &PortTiming) -> Result<Ports> {
         if self.strokes() == Strokes::Four {
-            let cure = "ports are those of a two-stroke; a four-stroke breathes through valves: \
+            let hint = "ports are those of a two-stroke; a four-stroke breathes through valves: \
                         Firing.valves, ValveTiming";
-            return Err(Error::value("strokes", 4, cure));
+            return Err(Error::value("strokes", 4, hint));
         }
         let open = |half: Angle| -> Periods {
             let tops = self.angles().into_iter().zip(self.engine().placements());

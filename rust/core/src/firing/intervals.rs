@@ -34,16 +34,16 @@ impl Firing {
         let mut seen = vec![false; self.order().len()];
         for (k, group) in given.iter().enumerate() {
             if group.is_empty() {
-                let cure = "name at least one cylinder in each group";
-                return Err(Error::value(format!("groups[{k}]"), "[]", cure));
+                let hint = "name at least one cylinder in each group";
+                return Err(Error::value(format!("groups[{k}]"), "[]", hint));
             }
             for &number in group {
                 match number.checked_sub(1).and_then(|i| seen.get_mut(i)) {
                     Some(seen) if !*seen => *seen = true,
                     _ => {
-                        let cure =
+                        let hint =
                             format!("name cylinders from 1 to {}, each once", self.order().len());
-                        return Err(Error::value(format!("groups[{k}]"), number, cure));
+                        return Err(Error::value(format!("groups[{k}]"), number, hint));
                     }
                 }
             }

@@ -27,8 +27,8 @@ impl Firing {
     pub fn with_later(engine: &Arc<Engine>, strokes: Strokes, later: &[bool]) -> Result<Self> {
         let count = engine.placements().len();
         if later.len() != count || later[0] || (strokes == Strokes::Two && later.contains(&true)) {
-            let cure = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
-            return Err(Error::value("revolutions", format!("{later:?}"), cure));
+            let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
+            return Err(Error::value("revolutions", format!("{later:?}"), hint));
         }
         Ok(Self::assemble(engine, &Tops::of(engine), strokes, later))
     }

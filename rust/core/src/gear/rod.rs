@@ -29,8 +29,8 @@ impl Rod {
             return Err(Error::figure("inertia", inertia, "give a number that is zero or more"));
         }
         if !(0.0..=length).contains(&to_crankpin) {
-            let cure = format!("give metres, 0 to length = {length:?}");
-            return Err(Error::figure("to_crankpin", to_crankpin, cure));
+            let hint = format!("give metres, 0 to length = {length:?}");
+            return Err(Error::figure("to_crankpin", to_crankpin, hint));
         }
         Ok(Self { mass, inertia, to_crankpin, to_piston_pin: length - to_crankpin })
     }

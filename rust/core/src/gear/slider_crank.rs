@@ -179,12 +179,12 @@ impl Proportions {
         let above = reach.plus(shift.high).plus(shift.low).over(rod_ratio);
         let below = reach.plus(-shift.high).plus(-shift.low).over(rod_ratio);
         if above.high.min(below.high) <= 0.0 {
-            let cure = format!(
+            let hint = format!(
                 "the crank cannot turn at rod_ratio = {rod_ratio:?}; make |pin_offset / crank_radius| \
                  less than 1/rod_ratio - 1 = {:?}",
                 reach.high / rod_ratio
             );
-            return Err(Error::figure("pin_offset_ratio", offset, cure));
+            return Err(Error::figure("pin_offset_ratio", offset, hint));
         }
         Ok(Self { rod: 1.0 / rod_ratio, offset, above, below })
     }
@@ -202,8 +202,8 @@ impl Proportions {
     #[cold]
     fn rod_ratio_out_of_range(rod_ratio: f64) -> Error {
         let least = limits::SMALLEST;
-        let cure = format!("give crank radius over rod length, at least {least:e} and less than 1");
-        Error::figure("rod_ratio", rod_ratio, cure)
+        let hint = format!("give crank radius over rod length, at least {least:e} and less than 1");
+        Error::figure("rod_ratio", rod_ratio, hint)
     }
 
     /// Position, velocity per ω and acceleration per ω² of the piston along its bore, in crank

@@ -80,8 +80,8 @@ pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
     for piece in theta_deg.chunks(PIECE) {
         cancel.check()?;
         if let Some(&θ) = piece.iter().find(|&&θ| !taken(θ)) {
-            let cure = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
-            return Err(Error::figure("theta_deg", θ, cure));
+            let hint = format!("give finite degrees of magnitude {LARGEST_ANGLE:e} at most");
+            return Err(Error::figure("theta_deg", θ, hint));
         }
     }
     Ok(())

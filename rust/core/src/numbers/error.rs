@@ -9,14 +9,14 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
     /// A figure that is not finite, of the wrong sign, or out of range.
-    #[error("{argument} = {value}: {cure}")]
+    #[error("{argument} = {value}: {hint}")]
     Value {
         /// Name of the argument as the caller typed it.
         argument: String,
         /// The value given.
         value: String,
         /// What would be right.
-        cure: String,
+        hint: String,
     },
     /// A crank that cannot turn: the rod does not reach.
     #[error(
@@ -71,7 +71,7 @@ pub enum Error {
     },
     /// A result that would not fit in memory.
     #[error(
-        "{argument}: the result would take {bytes} bytes, more than the limit of {limit}; {cure}"
+        "{argument}: the result would take {bytes} bytes, more than the limit of {limit}; {hint}"
     )]
     TooLarge {
         /// What made it large.
@@ -81,7 +81,7 @@ pub enum Error {
         /// Largest size allowed.
         limit: u128,
         /// How to ask for it in parts.
-        cure: &'static str,
+        hint: &'static str,
     },
     /// Memory that the system does not give.
     #[error("out of memory: {bytes} bytes more are needed; ask for the result in parts")]
@@ -103,30 +103,30 @@ pub enum Error {
 }
 
 impl Error {
-    /// A value that cannot be used, with the cure.
+    /// A value that cannot be used, with the hint.
     pub fn value(
         argument: impl Into<String>,
         value: impl std::fmt::Display,
-        cure: impl Into<String>,
+        hint: impl Into<String>,
     ) -> Self {
         Self::Value {
             argument: argument.into(),
             value: shorten(&value.to_string()),
-            cure: cure.into(),
+            hint: hint.into(),
         }
     }
 
-    /// A figure that cannot be used, with the cure; very large and small ones as powers of ten.
-    pub fn figure(argument: impl Into<String>, value: f64, cure: impl Into<String>) -> Self {
-        Self::value(argument, format!("{value:?}"), cure)
+    /// A figure that cannot be used, with the hint; very large and small ones as powers of ten.
+    pub fn figure(argument: impl Into<String>, value: f64, hint: impl Into<String>) -> Self {
+        Self::value(argument, format!("{value:?}"), hint)
     }
 
     /// The same error under the name by which the caller knows the argument.
     #[must_use]
     pub fn named(self, argument: &str) -> Self {
         match self {
-            Self::Value { value, cure, .. } => {
-                Self::Value { argument: argument.to_owned(), value, cure }
+            Self::Value { value, hint, .. } => {
+                Self::Value { argument: argument.to_owned(), value, hint }
             }
             other => other,
         }
@@ -136,15 +136,15 @@ impl Error {
     #[must_use]
     pub fn within(self, place: &str) -> Self {
         match self {
-            Self::Value { argument, value, cure } => {
-                Self::Value { argument: format!("{place}{argument}"), value, cure }
+            Self::Value { argument, value, hint } => {
+                Self::Value { argument: format!("{place}{argument}"), value, hint }
             }
             Self::CannotTurn { crank_radius, rod_length, pin_offset, reach } => Self::Value {
                 argument: format!("{place}crank_radius"),
                 value: format!(
                     "{crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}"
                 ),
-                cure: format!(
+                hint: format!(
                     "the crank cannot turn; make crank_radius less than rod_length - |pin_offset| \
                      = {reach:?}"
                 ),

@@ -39,8 +39,8 @@ pub fn finite(argument: &str, value: f64) -> Result<f64> {
 /// A mass or a speed: zero, or from [`SMALLEST`] to [`LARGEST`].
 pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
     if value > 0.0 && value < SMALLEST {
-        let cure = format!("give zero, or a number from {SMALLEST:e} to {LARGEST:e}");
-        return Err(Error::figure(argument, value, cure));
+        let hint = format!("give zero, or a number from {SMALLEST:e} to {LARGEST:e}");
+        return Err(Error::figure(argument, value, hint));
     }
     if value >= 0.0 {
         return finite(argument, value);
@@ -54,8 +54,8 @@ pub fn inertia(argument: &str, value: f64) -> Result<f64> {
     if value == 0.0 || (least..=most).contains(&value.abs()) {
         return Ok(value);
     }
-    let cure = format!("give zero, or a number of magnitude {least:.0e} to {most:.0e}");
-    Err(Error::figure(argument, value, cure))
+    let hint = format!("give zero, or a number of magnitude {least:.0e} to {most:.0e}");
+    Err(Error::figure(argument, value, hint))
 }
 
 /// A length that is more than zero.
@@ -63,8 +63,8 @@ pub fn length(argument: &str, value: f64) -> Result<f64> {
     if (SMALLEST..=LARGEST).contains(&value) {
         return Ok(value);
     }
-    let cure = format!("give metres, between {SMALLEST:e} and {LARGEST:e}");
-    Err(Error::figure(argument, value, cure))
+    let hint = format!("give metres, between {SMALLEST:e} and {LARGEST:e}");
+    Err(Error::figure(argument, value, hint))
 }
 
 /// A relative tolerance that can be reached.
@@ -80,14 +80,14 @@ pub fn result_size(
     argument: &str,
     lengths: &[usize],
     size: usize,
-    cure: &'static str,
+    hint: &'static str,
 ) -> Result<()> {
     let bytes =
         lengths.iter().fold(size as u128, |bytes, &length| bytes.saturating_mul(length as u128));
     if bytes <= LARGEST_RESULT {
         return Ok(());
     }
-    Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, cure })
+    Err(Error::TooLarge { argument: argument.to_owned(), bytes, limit: LARGEST_RESULT, hint })
 }
 
 /// An axis of at most [`LONGEST_AXIS`] values.

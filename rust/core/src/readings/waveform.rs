@@ -41,8 +41,8 @@ pub fn exact(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     if request.spectrum.is_some() {
-        let cure = "exact kinematics needs the slider-crank; give orders, or \"auto\"";
-        return Err(Error::value("spectrum", "given", cure));
+        let hint = "exact kinematics needs the slider-crank; give orders, or \"auto\"";
+        return Err(Error::value("spectrum", "given", hint));
     }
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
@@ -197,8 +197,8 @@ fn in_blocks(
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut Rows) -> Result<()> + Send + Sync,
 ) -> Result<Memory> {
-    let cure = "split theta_deg into parts";
-    limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), cure)?;
+    let hint = "split theta_deg into parts";
+    limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
     if theta_deg.len() <= 4 * BLOCK {
         return fill_blocks(theta_deg, torque, cancel, add);

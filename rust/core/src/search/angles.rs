@@ -78,8 +78,8 @@ impl Angles {
         };
         let start = beginning(&|degrees| degrees >= window[0]);
         angles.within = start..beginning(&|degrees| degrees > window[1]).max(start);
-        let cure = "ask for those within a narrower window, or for the counts alone";
-        limits::result_size("bank angles", &[angles.count()], size_of::<f64>(), cure)?;
+        let hint = "ask for those within a narrower window, or for the counts alone";
+        limits::result_size("bank angles", &[angles.count()], size_of::<f64>(), hint)?;
         Ok(angles)
     }
 

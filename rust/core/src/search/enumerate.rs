@@ -67,7 +67,7 @@ impl Entries {
                 argument: "cylinders".into(),
                 bytes,
                 limit: LARGEST_SEARCH,
-                cure: "ask for fewer cylinders",
+                hint: "ask for fewer cylinders",
             });
         }
         let walk = Walk::new(bank, magnitude, images);

@@ -265,7 +265,7 @@ fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
         argument: "bank angles".into(),
         bytes,
         limit: LARGEST_SEARCH,
-        cure: "ask for those within a narrower window, or for the counts alone",
+        hint: "ask for those within a narrower window, or for the counts alone",
     })
 }
 

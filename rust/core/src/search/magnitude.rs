@@ -83,9 +83,9 @@ impl Magnitude {
 /// Keys that do not fit.
 pub(super) fn too_rich(bank: &Bank) -> Error {
     let phases: Vec<String> = bank.phases.iter().map(|p| format!("{p}/{}", bank.parts)).collect();
-    let cure = "sums over these parts of a turn do not fit the integers of the search; give fewer \
+    let hint = "sums over these parts of a turn do not fit the integers of the search; give fewer \
                 throws, or phases that are multiples of a larger part of a turn";
-    Error::value("phases_deg", format!("turn × ({})", phases.join(", ")), cure)
+    Error::value("phases_deg", format!("turn × ({})", phases.join(", ")), hint)
 }
 
 #[cfg(test)]

@@ -40,13 +40,13 @@ impl Bank {
         let mut parts: i64 = 1;
         for phase in phases {
             let Some((_, denominator)) = phase.reduced().turns() else {
-                let cure = "give rational parts of a turn, such as 90 or \"360/7\"";
-                return Err(Error::value("phases_deg", phase, cure));
+                let hint = "give rational parts of a turn, such as 90 or \"360/7\"";
+                return Err(Error::value("phases_deg", phase, hint));
             };
             parts = parts / divisor(parts, denominator) * denominator;
             if parts > 360 {
-                let cure = "give phases that are multiples of one part of a turn, 1/360 or larger";
-                return Err(Error::value("phases_deg", phase, cure));
+                let hint = "give phases that are multiples of one part of a turn, 1/360 or larger";
+                return Err(Error::value("phases_deg", phase, hint));
             }
         }
         let mut multiples: Vec<u32> = phases
@@ -220,9 +220,9 @@ fn check_count(throws: usize) -> Result<()> {
     if (2..=MOST_THROWS).contains(&throws) {
         return Ok(());
     }
-    let cure =
+    let hint =
         format!("a bank has 2 to {MOST_THROWS} throws: give 4 to {} cylinders", 2 * MOST_THROWS);
-    Err(Error::value("cylinders", 2 * throws, cure))
+    Err(Error::value("cylinders", 2 * throws, hint))
 }
 
 #[cfg(test)]

@@ -71,8 +71,8 @@ pub fn write_offset(
 /// A table of numbers of type `T` is not too large.
 pub fn check_size<T>(rows: usize, orders: &[u32]) -> Result<()> {
     order::check_list(&Order::all_whole(orders)?)?;
-    let cure = "split rod_ratio into parts";
-    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), cure)
+    let hint = "split rod_ratio into parts";
+    limits::result_size("rod_ratio", &[rows, orders.len()], size_of::<T>(), hint)
 }
 
 /// Fill the rows of a table in parallel, chunk by chunk.

@@ -98,8 +98,8 @@ pub fn over_second_moment(
         return torque(&proportions, orders, cancel);
     }
     if masses == 0.0 {
-        let cure = "torques of rod inertia are over m·r² of a mass above zero";
-        return Err(Error::figure("reciprocating_mass", 0.0, cure));
+        let hint = "torques of rod inertia are over m·r² of a mass above zero";
+        return Err(Error::figure("reciprocating_mass", 0.0, hint));
     }
     let TorqueHarmonics { roll, crank } = of_cylinder(cylinder, &proportions, orders, cancel)?;
     let over = |values: Vec<Complex64>| values.into_iter().map(|value| value / masses).collect();
