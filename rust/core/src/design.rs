@@ -32,7 +32,7 @@ const CHUNK: usize = 16;
 
 /// Quantity of an objective.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ObjectiveQuantity {
     /// Shaking force.
     Force,
     /// Rocking moment.
@@ -60,7 +60,7 @@ pub enum Reading {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Objective {
     /// Quantity.
-    pub quantity: Quantity,
+    pub quantity: ObjectiveQuantity,
     /// Figure of it; peaks alone of torques and of all orders together.
     pub reading: Reading,
     /// None for the total.
@@ -129,12 +129,12 @@ impl Arithmetic for Rotors<'_> {
 
 /// Part of a quantity that turns at a multiple of crank speed, negative against the crank.
 #[derive(Debug, Clone)]
-struct Part {
+struct TurningPhasor {
     speed: i64,
     rotors: Vec<Rotor>,
 }
 
-impl Part {
+impl TurningPhasor {
     fn new(speed: i64) -> Self {
         Self { speed, rotors: Vec::new() }
     }
@@ -154,8 +154,8 @@ impl Part {
     }
 
     /// Phasor, and its derivatives.
-    fn at(&self, x: &[f64]) -> Vector {
-        let mut found = Vector::zero(x.len());
+    fn at(&self, x: &[f64]) -> WithSlopes {
+        let mut found = WithSlopes::zero(x.len());
         for each in &self.rotors {
             let turned = each.phasor * Complex64::cis(dot(&each.rates, x));
             found.value += turned;
@@ -173,12 +173,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// A vector in the plane, and its derivatives by the variables.
 #[derive(Debug, Clone)]
-struct Vector {
+struct WithSlopes {
     value: Complex64,
     slopes: Vec<Complex64>,
 }
 
-impl Vector {
+impl WithSlopes {
     fn zero(variables: usize) -> Self {
         Self { value: Complex64::default(), slopes: vec![Complex64::default(); variables] }
     }
@@ -195,7 +195,7 @@ impl Vector {
 #[derive(Debug, Clone)]
 struct Goal {
     objective: Objective,
-    parts: Vec<Part>,
+    parts: Vec<TurningPhasor>,
     /// Largest value that it could have: that of all phasors in phase.
     scale: f64,
     /// `e^{iθ}` at the crank angles of the samples.
@@ -203,7 +203,7 @@ struct Goal {
 }
 
 impl Goal {
-    fn new(objective: Objective, parts: Vec<Part>) -> Self {
+    fn new(objective: Objective, parts: Vec<TurningPhasor>) -> Self {
         let sizes = parts.iter().flat_map(|part| &part.rotors).map(|each| each.phasor.norm());
         let scale: f64 = sizes.sum();
         let highest = parts.iter().map(|part| part.speed.unsigned_abs() as usize).max();
@@ -229,10 +229,13 @@ impl Goal {
     }
 
     /// The sums of lengths of vectors of which the largest is the objective.
-    fn sums(&self, x: &[f64]) -> Vec<Vec<Vector>> {
-        let phasors: Vec<Vector> = self.parts.iter().map(|part| part.at(x)).collect();
+    fn sums(&self, x: &[f64]) -> Vec<Vec<WithSlopes>> {
+        let phasors: Vec<WithSlopes> = self.parts.iter().map(|part| part.at(x)).collect();
         if self.objective.order.is_none() {
-            let planar = matches!(self.objective.quantity, Quantity::Force | Quantity::Moment);
+            let planar = matches!(
+                self.objective.quantity,
+                ObjectiveQuantity::Force | ObjectiveQuantity::Moment
+            );
             let axes: &[Option<Complex64>] = match (planar, self.objective.reading) {
                 (true, Reading::PeakXy) => {
                     &[Some(Complex64::new(1.0, 0.0)), Some(Complex64::new(0.0, -1.0))]
@@ -258,10 +261,10 @@ impl Goal {
     /// of their projection on an axis.
     fn peaks(
         &self,
-        phasors: &[Vector],
+        phasors: &[WithSlopes],
         axis: Option<Complex64>,
         variables: usize,
-    ) -> Vec<Vec<Vector>> {
+    ) -> Vec<Vec<WithSlopes>> {
         let square = |vector: Complex64| match axis {
             Some(axis) => (axis * vector).re.powi(2),
             None => vector.norm_sqr(),
@@ -292,7 +295,7 @@ impl Goal {
         at.into_iter()
             .map(|k| {
                 let theta = self.polished(phasors, axis, k as f64 * step, step);
-                let mut sum = Vector::zero(variables);
+                let mut sum = WithSlopes::zero(variables);
                 for (part, phasor) in self.parts.iter().zip(phasors) {
                     let unit = Complex64::cis(part.speed as f64 * theta);
                     sum.add(phasor, |part| {
@@ -306,7 +309,13 @@ impl Goal {
 
     /// Crank angle of the peak beside one that is a step off at most: Newton's method on the slope of
     /// the square.
-    fn polished(&self, phasors: &[Vector], axis: Option<Complex64>, start: f64, step: f64) -> f64 {
+    fn polished(
+        &self,
+        phasors: &[WithSlopes],
+        axis: Option<Complex64>,
+        start: f64,
+        step: f64,
+    ) -> f64 {
         let mut theta = start;
         for _ in 0..8 {
             let mut jet = [Complex64::default(); 3];
@@ -335,7 +344,7 @@ impl Goal {
 
     /// The objective over its scale, and its derivatives.
     fn value(&self, x: &[f64]) -> Derived {
-        let lengths = |sum: &[Vector]| sum.iter().map(|each| each.value.norm()).sum::<f64>();
+        let lengths = |sum: &[WithSlopes]| sum.iter().map(|each| each.value.norm()).sum::<f64>();
         let sums = self.sums(x);
         let largest = sums.iter().max_by(|a, b| lengths(a).total_cmp(&lengths(b)));
         let largest = largest.map_or(&[][..], Vec::as_slice);
@@ -349,7 +358,7 @@ impl Goal {
     /// The smoothed objective over its scale, and its derivatives.
     fn smoothed(&self, x: &[f64], mu: f64) -> Derived {
         let sums = self.sums(x);
-        let length = |vector: &Vector| (vector.value.norm() / self.scale).hypot(mu);
+        let length = |vector: &WithSlopes| (vector.value.norm() / self.scale).hypot(mu);
         let totals: Vec<f64> = sums.iter().map(|sum| sum.iter().map(length).sum()).collect();
         let largest = totals.iter().copied().fold(0.0, f64::max);
         let shares: Vec<f64> = totals.iter().map(|total| ((total - largest) / mu).exp()).collect();
@@ -366,7 +375,7 @@ impl Goal {
 }
 
 /// Adds the derivatives of half the square of a length over a divisor.
-fn add_slopes(to: &mut [f64], vector: &Vector, divisor: f64, factor: f64) {
+fn add_slopes(to: &mut [f64], vector: &WithSlopes, divisor: f64, factor: f64) {
     for (sum, slope) in to.iter_mut().zip(&vector.slopes) {
         *sum += factor * (vector.value.conj() * slope).re / divisor;
     }
@@ -411,7 +420,7 @@ impl Merit {
         }
         let gears = GearHarmonics::new(&loads, true, &all, cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
-        let by_order: Vec<[Vec<Part>; 4]> = all
+        let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
             .iter()
             .enumerate()
             .map(|(k, &order)| {
@@ -424,7 +433,7 @@ impl Merit {
         let goal = |objective: &Objective| {
             let of_goal =
                 |order: &Order| objective.order.map_or(orders.contains(order), |own| own == *order);
-            let mut parts: Vec<Part> = Vec::new();
+            let mut parts: Vec<TurningPhasor> = Vec::new();
             for (_, found) in all.iter().zip(&by_order).filter(|(order, _)| of_goal(order)) {
                 parts.extend_from_slice(&found[objective.quantity as usize]);
             }
@@ -487,17 +496,17 @@ impl Merit {
     }
 }
 
-/// Parts of force, moment, roll torque and crank torque of one order, in the order of [`Quantity`].
+/// Parts of force, moment, roll torque and crank torque of one order, in the order of [`ObjectiveQuantity`].
 fn quantities(
     terms: &[Term<Vec<Rotor>>],
     order: i64,
     removed: &[i32],
     factors: impl Fn(&Term<Vec<Rotor>>) -> [Complex64; 3],
-) -> [Vec<Part>; 4] {
+) -> [Vec<TurningPhasor>; 4] {
     let kept = |speed: i64| !removed.iter().any(|&ratio| i64::from(ratio) == speed);
     let planar = |of: fn(&Term<Vec<Rotor>>) -> &[Vec<Rotor>; 2]| {
         let part = |side: usize, speed: i64| {
-            let mut part = Part::new(speed);
+            let mut part = TurningPhasor::new(speed);
             for term in terms.iter().filter(|_| kept(speed)) {
                 part.extend(&of(term)[side], factors(term)[0]);
             }
@@ -506,7 +515,7 @@ fn quantities(
         vec![part(0, order), part(1, -order).conjugate()]
     };
     let torque = |which: usize| {
-        let mut part = Part::new(order);
+        let mut part = TurningPhasor::new(order);
         for term in terms {
             part.extend(&term.roll, factors(term)[which]);
         }

@@ -28,7 +28,7 @@ const BETTER: f64 = 1e-12;
 
 /// Parts of one kind, such as pistons or rods, and their effects.
 #[derive(Debug, Clone)]
-pub struct Kind {
+pub struct PartKind {
     /// Number of parts.
     parts: usize,
     /// Deviations of each part, by figure: (figures, parts).
@@ -40,13 +40,13 @@ pub struct Kind {
 }
 
 /// A chosen part of each place of each set, by kind: set after set.
-pub type Chosen = Vec<Vec<usize>>;
+pub type Partition = Vec<Vec<usize>>;
 
 /// Parts to match, and what they are matched to.
 #[derive(Debug, Clone)]
-pub struct Problem {
+pub struct Matching {
     start: Vec<f64>,
-    kinds: Vec<Kind>,
+    kinds: Vec<PartKind>,
     places: usize,
     sets: usize,
 }
@@ -55,7 +55,7 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Match {
     /// The part in each place.
-    pub chosen: Chosen,
+    pub chosen: Partition,
     /// Sum of the lengths of the remainders.
     pub value: f64,
     /// A sum below which no matching comes.
@@ -64,7 +64,7 @@ pub struct Match {
     pub exact: bool,
 }
 
-impl Kind {
+impl PartKind {
     /// Parts from their deviations (figures, parts) and the effects of a unit of each figure
     /// (figures, places, dimensions).
     pub fn new(deviations: Vec<Vec<f64>>, influences: Vec<Vec<Vec<f64>>>) -> Result<Self> {
@@ -91,10 +91,10 @@ fn add(to: &mut [f64], sign: f64, vector: &[f64]) {
     to.iter_mut().zip(vector).for_each(|(sum, x)| *sum += sign * x);
 }
 
-impl Problem {
+impl Matching {
     /// So many sets of parts of each kind, of which there are enough.
     #[must_use]
-    pub fn new(start: Vec<f64>, kinds: Vec<Kind>, sets: usize) -> Self {
+    pub fn new(start: Vec<f64>, kinds: Vec<PartKind>, sets: usize) -> Self {
         let places = kinds[0].influences[0].len();
         Self { start, kinds, places, sets }
     }
@@ -103,7 +103,7 @@ impl Problem {
     /// one for each start and kind, with the number of steps as the progress.
     pub fn solve(&self, starts: &[Vec<Vec<usize>>], cancel: &Cancel) -> Result<Match> {
         cancel.expect(starts.len());
-        let mut best = (f64::INFINITY, Chosen::new());
+        let mut best = (f64::INFINITY, Partition::new());
         let mut compared = 0;
         for sequences in starts {
             if compared < MOST_EXCHANGES {
@@ -201,7 +201,7 @@ impl Problem {
         mut sequences: Vec<Vec<usize>>,
         compared: &mut usize,
         cancel: &Cancel,
-    ) -> Result<Chosen> {
+    ) -> Result<Partition> {
         let used = self.sets * self.places;
         let (mut first, mut second) = (Vec::new(), Vec::new());
         loop {
@@ -259,7 +259,7 @@ impl Problem {
 
     // --- all arrangements of one set ------------------------------------------------------------
 
-    /// Number of arrangements of halves of the places that [`Problem::arranged`] visits where so many
+    /// Number of arrangements of halves of the places that [`Matching::arranged`] visits where so many
     /// parts of each kind are available.
     fn half_arrangements(&self, available: &[usize]) -> f64 {
         let (first, second) = (self.places / 2, self.places - self.places / 2);
@@ -273,7 +273,7 @@ impl Problem {
 
     /// The best of all matchings of a single set, or the one that is known; None where there are too
     /// many to compare.
-    fn of_all(&self, known: &(f64, Chosen), cancel: &Cancel) -> Result<Option<Chosen>> {
+    fn of_all(&self, known: &(f64, Partition), cancel: &Cancel) -> Result<Option<Partition>> {
         let available: Vec<usize> = self.kinds.iter().map(|kind| kind.parts).collect();
         if self.half_arrangements(&available) > MOST_ARRANGEMENTS {
             return Ok(None);
@@ -292,8 +292,8 @@ impl Problem {
     }
 
     /// The best arrangement of one set of these parts, and the length of its remainder.
-    fn arranged(&self, available: &[Vec<usize>], cancel: &Cancel) -> Result<(f64, Chosen)> {
-        let mut best = (f64::INFINITY, Chosen::new());
+    fn arranged(&self, available: &[Vec<usize>], cancel: &Cancel) -> Result<(f64, Partition)> {
+        let mut best = (f64::INFINITY, Partition::new());
         for ours in choices(available, self.places / 2) {
             if let Some(better) = self.completed(available, &ours, best.0, cancel)? {
                 best = better;
@@ -313,7 +313,7 @@ impl Problem {
         ours: &[Vec<usize>],
         known: f64,
         cancel: &Cancel,
-    ) -> Result<Option<(f64, Chosen)>> {
+    ) -> Result<Option<(f64, Partition)>> {
         let half = self.places / 2;
         let pairs = available.iter().zip(ours);
         let left: Vec<Vec<usize>> = pairs
@@ -321,7 +321,7 @@ impl Problem {
             .collect();
         let first = self.arrangements(0..half, ours, &self.start)?;
         let zero = vec![0.0; self.start.len()];
-        let mut best: Option<(f64, Chosen)> = None;
+        let mut best: Option<(f64, Partition)> = None;
         for theirs in choices(&left, self.places - half) {
             cancel.check()?;
             let second = self.arrangements(half..self.places, &theirs, &zero)?;
@@ -384,7 +384,7 @@ impl Problem {
 
     /// The best partition of the parts into sets, or the one that is known; None where there are too
     /// many to compare.
-    fn partitioned(&self, known: &(f64, Chosen), cancel: &Cancel) -> Result<Option<Chosen>> {
+    fn partitioned(&self, known: &(f64, Partition), cancel: &Cancel) -> Result<Option<Partition>> {
         let sizes = self.kinds.iter().map(|kind| number_of_choices(kind.parts, self.places));
         let one = vec![self.places; self.kinds.len()];
         if self.kinds.iter().any(|kind| kind.parts > MOST_MASKED)
@@ -507,7 +507,7 @@ type Masks = [u32; KINDS];
 
 /// Partitions of parts into sets, by dynamic programming over the parts that are left.
 struct Partitions<'a> {
-    problem: &'a Problem,
+    problem: &'a Matching,
     cancel: &'a Cancel,
     /// Parts left and sets to fill → least sum, parts of the next set, parts left after it.
     best: HashMap<(Masks, usize), (f64, Masks, Masks)>,
@@ -658,20 +658,20 @@ mod tests {
             for distance in [0.0, 0.5, 20.0] {
                 let mut some =
                     |count: usize| -> Vec<f64> { (0..count).map(|_| number()).collect() };
-                let kinds: Vec<Kind> = parts
+                let kinds: Vec<PartKind> = parts
                     .iter()
                     .enumerate()
                     .map(|(figures, &parts)| {
                         let deviations = (0..=figures).map(|_| some(parts)).collect();
                         let places = |_| (0..places).map(|_| some(dimensions)).collect();
-                        Kind::new(deviations, (0..=figures).map(places).collect()).unwrap()
+                        PartKind::new(deviations, (0..=figures).map(places).collect()).unwrap()
                     })
                     .collect();
                 let start = some(dimensions).iter().map(|x| x * distance).collect();
-                let problem = Problem::new(start, kinds, sets);
+                let problem = Matching::new(start, kinds, sets);
                 let all: Vec<Vec<Vec<usize>>> =
                     parts.iter().map(|&parts| sequences(parts)).collect();
-                let both: Vec<Chosen> = match &all[..] {
+                let both: Vec<Partition> = match &all[..] {
                     [one] => one.iter().map(|each| vec![each.clone()]).collect(),
                     [one, other] => one
                         .iter()
@@ -698,8 +698,8 @@ mod tests {
         let mut number = numbers(3);
         let deviations = vec![(0..40).map(|_| number()).collect()];
         let influences = vec![(0..6).map(|_| vec![number(), number()]).collect()];
-        let kind = Kind::new(deviations, influences).unwrap();
-        let problem = Problem::new(vec![0.0; 2], vec![kind], 6);
+        let kind = PartKind::new(deviations, influences).unwrap();
+        let problem = Matching::new(vec![0.0; 2], vec![kind], 6);
         let start = vec![vec![(0..40).collect::<Vec<usize>>()]];
         let found = problem.solve(&start, &Cancel::new()).unwrap();
         assert!(!found.exact && found.value < 0.1 * problem.value(&start[0]));

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use common::random::{angles, engines, placements, vees, weighted};
 use common::{angle, by_orders, changed, kinematics, scales, turning, whole, xy};
 use crankpin_core::balance::{Vector, balance};
-use crankpin_core::exact::vanishing::{QUANTITIES, Quantity as Sum, Verdict, vanishing};
+use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::wrench::{Torque, Wrench};

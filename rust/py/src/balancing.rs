@@ -2,7 +2,7 @@
 
 use crankpin_core::balancing::shafts::{self, Remove};
 use crankpin_core::balancing::weights::{self, Minimise};
-use crankpin_core::balancing::{self, Turning};
+use crankpin_core::balancing::{self, TurningPart};
 use crankpin_core::{Complex64, Engine as CoreEngine};
 use pyo3::prelude::*;
 
@@ -63,8 +63,16 @@ pub fn least_weights(
     let found = interrupt::run(py, |cancel| {
         let angles = angles.as_deref();
         let (z, bounds) = (z.as_slice(), bounds.as_slice());
-        let request =
-            weights::Request { z, reference, length, force, moment, bounds, angles, minimise };
+        let request = weights::WeightRequest {
+            z,
+            reference,
+            length,
+            force,
+            moment,
+            bounds,
+            angles,
+            minimise,
+        };
         weights::least(&request, cancel)
     })?;
     let each = found.list.iter().map(|one| {
@@ -82,7 +90,7 @@ pub fn unbounded_weights(
     reference: f64,
     length: f64,
 ) -> PyResult<Vec<Weight>> {
-    let wanted = Turning { force: wanted.0, moment: wanted.1 };
+    let wanted = TurningPart { force: wanted.0, moment: wanted.1 };
     let (vectors, _) = weights::unbounded(&wanted, &z, reference, length);
     let found = vectors.into_iter().zip(z).filter(|(vector, _)| *vector != Complex64::default());
     found.map(|(vector, z)| Ok(weight(&shafts::unbalance(vector, z).or_raise()?))).collect()
@@ -98,7 +106,7 @@ pub fn fit_shafts(
     let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
     let request = |(ratio, (x, y), planes, remove): WantedShaft| {
         let remove = choice("remove", &remove, &words)?;
-        Ok(shafts::Request { ratio, axis: [x, y], planes, remove })
+        Ok(shafts::ShaftRequest { ratio, axis: [x, y], planes, remove })
     };
     let wanted = wanted.into_iter().map(request).collect::<PyResult<Vec<_>>>()?;
     let core = &engine.get().0;

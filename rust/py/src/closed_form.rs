@@ -1,6 +1,6 @@
 //! Force and moment in closed form.
 
-use crankpin_core::exact::closed_form::{self as core, ClosedForm, Motion, Part, Phasor};
+use crankpin_core::exact::closed_form::{self as core, ClosedForm, LoadMotion, LoadPart, Phasor};
 use crankpin_core::rational::Ratio;
 use pyo3::prelude::*;
 
@@ -31,12 +31,12 @@ pub fn closed_form(
     let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;
     let ratio = |r: Ratio| r.into_raw();
     let turns = |(numerator, denominator): (i64, i64)| (numerator.into(), denominator.into());
-    let sense = |motion: Motion| match motion {
-        Motion::Along => 0,
-        Motion::Forward => 1,
-        Motion::Backward => -1,
+    let sense = |motion: LoadMotion| match motion {
+        LoadMotion::Along => 0,
+        LoadMotion::Forward => 1,
+        LoadMotion::Backward => -1,
     };
-    let load = |p: Part| {
+    let load = |p: LoadPart| {
         (ratio(p.weight), ratio(p.lever), sense(p.motion), turns(p.direction), turns(p.phase))
     };
     let coefficients = |p: Phasor| (p.real, p.imaginary, p.square);

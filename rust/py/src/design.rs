@@ -1,7 +1,7 @@
 //! Objectives of engines whose angles vary.
 
 use crankpin_core as core;
-use crankpin_core::design::{Objective, Quantity, Reading, Variable};
+use crankpin_core::design::{Objective, ObjectiveQuantity, Reading, Variable};
 use crankpin_core::{Error, Order};
 use ndarray::Array;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
@@ -37,10 +37,10 @@ impl Merit {
             .iter()
             .map(|(quantity, reading, order)| {
                 let quantities = [
-                    ("force", Quantity::Force),
-                    ("moment", Quantity::Moment),
-                    ("torque", Quantity::Roll),
-                    ("crank_torque", Quantity::Crank),
+                    ("force", ObjectiveQuantity::Force),
+                    ("moment", ObjectiveQuantity::Moment),
+                    ("torque", ObjectiveQuantity::Roll),
+                    ("crank_torque", ObjectiveQuantity::Crank),
                 ];
                 let readings = [
                     ("peak", Reading::Peak),

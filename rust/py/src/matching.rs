@@ -1,6 +1,6 @@
 //! Matching of measured parts.
 
-use crankpin_core::matching::{Kind, Problem};
+use crankpin_core::matching::{Matching, PartKind};
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -23,11 +23,11 @@ pub fn matched(
     starts: Vec<Vec<Vec<usize>>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found> {
-    let kinds: crankpin_core::Result<Vec<Kind>> = kinds
+    let kinds: crankpin_core::Result<Vec<PartKind>> = kinds
         .into_iter()
-        .map(|(deviations, influences)| Kind::new(deviations, influences))
+        .map(|(deviations, influences)| PartKind::new(deviations, influences))
         .collect();
-    let problem = Problem::new(start, kinds.or_raise()?, sets);
+    let problem = Matching::new(start, kinds.or_raise()?, sets);
     let found = interrupt::watched(py, progress.as_ref(), |cancel| problem.solve(&starts, cancel))?;
     Ok((found.chosen, found.value, found.bound, found.exact))
 }

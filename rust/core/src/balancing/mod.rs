@@ -18,7 +18,7 @@ use crate::wrench::Wrench;
 
 /// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Turning {
+pub struct TurningPart {
     /// Force, kg·m.
     pub force: Complex64,
     /// Moment about the reference plane, kg·m².
@@ -26,11 +26,11 @@ pub struct Turning {
 }
 
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
-pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<Turning> {
+pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
     let wrench = over_square(engine, ratio.unsigned_abs(), false, cancel)?;
     let [force, moment] = [wrench.force, wrench.moment]
         .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
-    Ok(Turning { force, moment })
+    Ok(TurningPart { force, moment })
 }
 
 /// Phasor of an order of the roll torque on the block, over ω².

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::least_squares::least_squares;
-use super::{NEGLIGIBLE, Turning, ends, half_length, roll_torque, turning, weights};
+use super::{NEGLIGIBLE, TurningPart, ends, half_length, roll_torque, turning, weights};
 use crate::Complex64;
 use crate::engine::{Engine, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
@@ -23,7 +23,7 @@ pub enum Remove {
 
 /// A shaft that is wanted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Request {
+pub struct ShaftRequest {
     /// Speed over crank speed.
     pub ratio: i32,
     /// Axis, x and y from the crank axis, m; None where free.
@@ -40,12 +40,12 @@ pub struct Fitted {
     /// The shaft.
     pub shaft: Shaft,
     /// Its force and moment, over ω².
-    pub exerts: Turning,
+    pub exerts: TurningPart,
 }
 
 /// Places of the axes of shafts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axes {
+pub struct ShaftAxes {
     /// x and y of each, m.
     pub axes: Vec<[f64; 2]>,
     /// Distance, m, of a place further away than the reach that would cancel more roll torque.
@@ -66,7 +66,7 @@ const DECIMALS: f64 = 1e13;
 /// `given` are torques on the block, over ω² at one speed, by order, that are cancelled as well.
 pub fn fit(
     engine: &Engine,
-    wanted: &[Request],
+    wanted: &[ShaftRequest],
     given: &[(u32, Complex64)],
     cancel: &Cancel,
 ) -> Result<(Vec<Fitted>, Option<f64>)> {
@@ -75,7 +75,7 @@ pub fn fit(
     for ratio in distinct(wanted.iter().map(|each| each.ratio)) {
         let there = turning(engine, ratio, cancel)?;
         let same: Vec<usize> = (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
-        let shafts: Vec<&Request> = same.iter().map(|&k| &wanted[k]).collect();
+        let shafts: Vec<&ShaftRequest> = same.iter().map(|&k| &wanted[k]).collect();
         for (k, unbalances) in same.iter().zip(unbalances(engine, &there, &shafts, reference)?) {
             found[*k] = Some(fitted(ratio, unbalances, reference));
         }
@@ -105,8 +105,8 @@ pub fn place(
     torques: &[(u32, Complex64)],
     forces: &[(i32, Complex64)],
     axes: &[[Option<f64>; 2]],
-) -> Axes {
-    let mut found = Axes {
+) -> ShaftAxes {
+    let mut found = ShaftAxes {
         axes: axes.iter().map(|axis| axis.map(Option::unwrap_or_default)).collect(),
         beyond: None,
     };
@@ -172,14 +172,14 @@ fn roll_of(ratio: i32, force: Complex64) -> [Complex64; 2] {
 /// Unbalances of each of the shafts of one ratio, which share their task.
 fn unbalances(
     engine: &Engine,
-    there: &Turning,
-    wanted: &[&Request],
+    there: &TurningPart,
+    wanted: &[&ShaftRequest],
     reference: f64,
 ) -> Result<Vec<Vec<Unbalance>>> {
-    let [Request { ratio, remove, .. }, ..] = wanted else { return Ok(Vec::new()) };
+    let [ShaftRequest { ratio, remove, .. }, ..] = wanted else { return Ok(Vec::new()) };
     let of_shaft = |of_engine: Complex64| -of_engine / f64::from(ratio * ratio);
     let none = Complex64::default();
-    let target = Turning {
+    let target = TurningPart {
         force: if *remove == Remove::Moment { none } else { of_shaft(there.force) },
         moment: if *remove == Remove::Force { none } else { of_shaft(there.moment) },
     };
@@ -204,7 +204,7 @@ fn unbalances(
 }
 
 /// The single plane in which an unbalance makes this force and moment, or the first and last cylinder.
-fn free_planes(engine: &Engine, wanted: &Turning, reference: f64) -> Vec<f64> {
+fn free_planes(engine: &Engine, wanted: &TurningPart, reference: f64) -> Vec<f64> {
     let [first, last] = ends(engine);
     if last <= first {
         return vec![first];
@@ -229,22 +229,22 @@ pub fn unbalance(vector: Complex64, z: f64) -> Result<Unbalance> {
 /// A shaft on the crank axis.
 fn fitted(ratio: i32, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
     let square = f64::from(ratio * ratio);
-    let terms: Vec<Turning> = unbalances
+    let terms: Vec<TurningPart> = unbalances
         .iter()
         .map(|each| {
             let force = each.angle.cis(1) * (square * each.amount);
-            Turning { force, moment: Complex64::i() * force * (each.z - reference) }
+            TurningPart { force, moment: Complex64::i() * force * (each.z - reference) }
         })
         .collect();
     // Two opposite forces leave their rounding errors, not a force.
-    let sum = |of: fn(&Turning) -> Complex64| {
+    let sum = |of: fn(&TurningPart) -> Complex64| {
         let (sum, size) =
             terms.iter().map(of).fold((Complex64::default(), 0.0), |(sum, size), term| {
                 (sum + term, size + term.norm())
             });
         if sum.norm() <= NEGLIGIBLE * size { Complex64::default() } else { sum }
     };
-    let exerts = Turning { force: sum(|term| term.force), moment: sum(|term| term.moment) };
+    let exerts = TurningPart { force: sum(|term| term.force), moment: sum(|term| term.moment) };
     let shaft = Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances };
     Fitted { shaft, exerts }
 }

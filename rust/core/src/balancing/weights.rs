@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{RANK_TOLERANCE, least_squares};
 use super::nonnegative::{minimum, stack};
-use super::{NEGLIGIBLE, Turning, without_rounding};
+use super::{NEGLIGIBLE, TurningPart, without_rounding};
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -28,7 +28,7 @@ pub enum Minimise {
 
 /// Weights that are wanted in planes.
 #[derive(Debug, Clone)]
-pub struct Request<'a> {
+pub struct WeightRequest<'a> {
     /// Places of the planes, m.
     pub z: &'a [f64],
     /// Plane about which the moment is taken, m.
@@ -49,7 +49,7 @@ pub struct Request<'a> {
 
 /// A weight in a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weight {
+pub struct PlacedWeight {
     /// Index of the plane.
     pub plane: usize,
     /// Index among the angles allowed in the plane, 0 where any is.
@@ -60,9 +60,9 @@ pub struct Weight {
 
 /// Weights, and whether they exert what was wanted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Weights {
+pub struct FittedWeights {
     /// Those that are not zero, by plane and angle.
-    pub list: Vec<Weight>,
+    pub list: Vec<PlacedWeight>,
     /// Whether weights beside these, by no more than rounding, are proved to exert the target wherever
     /// weights of any size in these planes do.
     pub reached: bool,
@@ -83,7 +83,7 @@ const NOTHING: f64 = 1e-200;
 const UNBOUNDED: f64 = 1e9;
 
 /// The least of the weights that come nearest to the target.
-pub fn least(request: &Request, cancel: &Cancel) -> Result<Weights> {
+pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> {
     let moment = request.moment.map(|moment| -Complex64::i() * moment / request.length);
     let target: Vec<Complex64> = [request.force, moment].into_iter().flatten().collect();
     let scale = target.iter().map(|part| part.norm()).fold(0.0, f64::max);
@@ -92,7 +92,7 @@ pub fn least(request: &Request, cancel: &Cancel) -> Result<Weights> {
     if scale <= NOTHING || kept.is_empty() {
         let reached = scale <= NOTHING;
         let missing = if reached { 0.0 } else { 1.0 };
-        return Ok(Weights { list: Vec::new(), reached, missing });
+        return Ok(FittedWeights { list: Vec::new(), reached, missing });
     }
     let rows = DMatrix::from_fn(target.len(), kept.len(), |row, k| {
         let is_force = row == 0 && request.force.is_some();
@@ -116,9 +116,13 @@ pub fn least(request: &Request, cancel: &Cancel) -> Result<Weights> {
     let list = amounts
         .into_iter()
         .filter(|weight| weight.vector.norm() > 10.0 * NEGLIGIBLE * largest)
-        .map(|weight| Weight { plane: kept[weight.plane], vector: weight.vector * scale, ..weight })
+        .map(|weight| PlacedWeight {
+            plane: kept[weight.plane],
+            vector: weight.vector * scale,
+            ..weight
+        })
         .collect();
-    Ok(Weights { list, reached, missing })
+    Ok(FittedWeights { list, reached, missing })
 }
 
 /// Weights in planes, in any direction and of any size: force and moment are met by two planes, and
@@ -127,7 +131,7 @@ pub fn least(request: &Request, cancel: &Cancel) -> Result<Weights> {
 /// Returned with the number of planes that differ, up to two.
 #[must_use]
 pub fn unbounded(
-    wanted: &Turning,
+    wanted: &TurningPart,
     z: &[f64],
     reference: f64,
     length: f64,
@@ -167,7 +171,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    fn least(&self, minimise: Minimise) -> Result<Vec<Weight>> {
+    fn least(&self, minimise: Minimise) -> Result<Vec<PlacedWeight>> {
         if self.directions.is_none() && minimise == Minimise::Squares {
             let (found, _) = free_weights(&self.rows, &self.target);
             if found.iter().zip(&self.bounds).all(|(u, bound)| u.norm() <= *bound) {
@@ -197,7 +201,7 @@ impl Problem<'_> {
     }
 
     /// Sum of the weights in each plane.
-    fn resultants(&self, weights: &[Weight]) -> Vec<Complex64> {
+    fn resultants(&self, weights: &[PlacedWeight]) -> Vec<Complex64> {
         let mut sums = vec![Complex64::default(); self.bounds.len()];
         for weight in weights {
             sums[weight.plane] += weight.vector;
@@ -221,7 +225,7 @@ impl Problem<'_> {
     }
 
     /// Weights within bounds that come nearest to the target; at any angle, the least of them.
-    fn nearest(&self, bounds: &[f64]) -> Result<Vec<Weight>> {
+    fn nearest(&self, bounds: &[f64]) -> Result<Vec<PlacedWeight>> {
         let found = if self.directions.is_none() {
             each(self.within_discs(bounds)?)
         } else {
@@ -310,7 +314,7 @@ impl Problem<'_> {
     ///
     /// The weights with room exert whatever all of them can if their equations have the same rank. The
     /// change then exists, however small what is missing looks; otherwise it is the nearest.
-    fn made_up(&self, weights: &mut [Weight]) -> bool {
+    fn made_up(&self, weights: &mut [PlacedWeight]) -> bool {
         let mut sums = vec![0.0; self.bounds.len()];
         let mut counts = vec![0.0; self.bounds.len()];
         for weight in &*weights {
@@ -327,7 +331,7 @@ impl Problem<'_> {
         if norm(&missing) > REACHED {
             return false;
         }
-        let room = |weight: &Weight| {
+        let room = |weight: &PlacedWeight| {
             let left = (self.bounds[weight.plane] - sums[weight.plane]) / counts[weight.plane];
             if self.directions.is_some() { left.min(weight.vector.norm()) } else { left }
         };
@@ -357,7 +361,7 @@ impl Problem<'_> {
         rank == whole
     }
 
-    fn missing(&self, weights: &[Weight]) -> Vec<Complex64> {
+    fn missing(&self, weights: &[PlacedWeight]) -> Vec<Complex64> {
         let made = self.made(&self.resultants(weights));
         self.target.iter().zip(made).map(|(wanted, made)| wanted - made).collect()
     }
@@ -404,7 +408,7 @@ impl Problem<'_> {
     /// Of weights that come as near as those given, within bounds, those with the least sum of squares.
     ///
     /// A residual has planes that see it at their bounds: only the others have a choice.
-    fn least_squares(&self, bounds: &[f64], found: Vec<Weight>) -> Result<Vec<Weight>> {
+    fn least_squares(&self, bounds: &[f64], found: Vec<PlacedWeight>) -> Result<Vec<PlacedWeight>> {
         let residual = self.missing(&found);
         let Some(directions) = self.directions.as_ref().filter(|_| norm(&residual) > REACHED)
         else {
@@ -417,14 +421,16 @@ impl Problem<'_> {
             .filter(|(_, support)| **support <= 10.0 * REACHED)
             .map(|(plane, _)| plane)
             .collect();
-        let (moved, mut kept): (Vec<Weight>, Vec<Weight>) =
+        let (moved, mut kept): (Vec<PlacedWeight>, Vec<PlacedWeight>) =
             found.into_iter().partition(|weight| blind.contains(&weight.plane));
         if moved.is_empty() {
             return Ok(kept);
         }
         let index = |plane: usize| blind.iter().position(|&p| p == plane).unwrap_or_default();
-        let inside: Vec<Weight> =
-            moved.iter().map(|weight| Weight { plane: index(weight.plane), ..*weight }).collect();
+        let inside: Vec<PlacedWeight> = moved
+            .iter()
+            .map(|weight| PlacedWeight { plane: index(weight.plane), ..*weight })
+            .collect();
         let some = Problem {
             rows: self.rows.select_columns(&blind),
             target: self.made(&self.resultants(&moved)),
@@ -433,13 +439,15 @@ impl Problem<'_> {
             cancel: self.cancel,
         };
         let least = some.squares(&some.bounds, &inside)?;
-        kept.extend(least.into_iter().map(|each| Weight { plane: blind[each.plane], ..each }));
+        kept.extend(
+            least.into_iter().map(|each| PlacedWeight { plane: blind[each.plane], ..each }),
+        );
         kept.sort_by_key(|weight| (weight.plane, weight.angle));
         Ok(kept)
     }
 
     /// Of weights that do the same as those given, within bounds, those with the least sum of squares.
-    fn squares(&self, bounds: &[f64], found: &[Weight]) -> Result<Vec<Weight>> {
+    fn squares(&self, bounds: &[f64], found: &[PlacedWeight]) -> Result<Vec<PlacedWeight>> {
         let columns = self.columns(bounds);
         let planes = bounds.len();
         let mut sums = DMatrix::zeros(planes, columns.count());
@@ -468,7 +476,7 @@ impl Problem<'_> {
         }
     }
 
-    fn columns(&self, bounds: &[f64]) -> Columns {
+    fn columns(&self, bounds: &[f64]) -> AngleColumns {
         let units = self.directions.as_deref().unwrap_or_default();
         let places: Vec<(usize, usize)> = units
             .iter()
@@ -491,12 +499,12 @@ impl Problem<'_> {
             filled[(row, places.len() + row)] = 1.0;
         }
         let directions = places.iter().map(|&(plane, k)| units[plane][k]).collect();
-        Columns { places, directions, made, filled }
+        AngleColumns { places, directions, made, filled }
     }
 }
 
 /// Variables of planes with lists of angles: amounts, then the room that each bound leaves.
-struct Columns {
+struct AngleColumns {
     /// Plane and angle of each amount.
     places: Vec<(usize, usize)>,
     directions: Vec<Complex64>,
@@ -506,19 +514,23 @@ struct Columns {
     filled: DMatrix<f64>,
 }
 
-impl Columns {
+impl AngleColumns {
     fn count(&self) -> usize {
         self.made.ncols()
     }
 
-    fn weights(&self, x: &DVector<f64>) -> Vec<Weight> {
+    fn weights(&self, x: &DVector<f64>) -> Vec<PlacedWeight> {
         let each = self.places.iter().zip(&self.directions).zip(x.iter());
         each.filter(|(_, amount)| **amount > 0.0)
-            .map(|((&(plane, angle), unit), amount)| Weight { plane, angle, vector: unit * amount })
+            .map(|((&(plane, angle), unit), amount)| PlacedWeight {
+                plane,
+                angle,
+                vector: unit * amount,
+            })
             .collect()
     }
 
-    fn variables(&self, weights: &[Weight], bounds: &[f64]) -> DVector<f64> {
+    fn variables(&self, weights: &[PlacedWeight], bounds: &[f64]) -> DVector<f64> {
         let mut x = DVector::zeros(self.count());
         for weight in weights {
             let here = |place: &(usize, usize)| *place == (weight.plane, weight.angle);
@@ -665,8 +677,8 @@ fn finite(bounds: &[f64]) -> impl Iterator<Item = usize> {
     (0..bounds.len()).filter(|&p| bounds[p].is_finite())
 }
 
-fn each(found: Vec<Complex64>) -> Vec<Weight> {
-    let weight = |(plane, vector)| Weight { plane, angle: 0, vector };
+fn each(found: Vec<Complex64>) -> Vec<PlacedWeight> {
+    let weight = |(plane, vector)| PlacedWeight { plane, angle: 0, vector };
     found.into_iter().enumerate().map(weight).collect()
 }
 
@@ -697,10 +709,18 @@ mod tests {
         bounds: &[f64],
         angles: Option<&[Vec<f64>]>,
         minimise: Minimise,
-    ) -> Weights {
+    ) -> FittedWeights {
         let [force, moment] = wanted.map(Some);
-        let request =
-            Request { z, reference: 0.0, length: 1.0, force, moment, bounds, angles, minimise };
+        let request = WeightRequest {
+            z,
+            reference: 0.0,
+            length: 1.0,
+            force,
+            moment,
+            bounds,
+            angles,
+            minimise,
+        };
         least(&request, &Cancel::new()).unwrap()
     }
 

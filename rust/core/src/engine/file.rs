@@ -33,11 +33,11 @@ struct EngineFile {
     mains: Vec<f64>,
     /// Running gear of every placement that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    cylinder: Option<Parts>,
+    cylinder: Option<PartsEntry>,
     placements: Vec<Place>,
     /// On the crankshaft, besides the rotating masses.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    counterweights: Vec<Weight>,
+    counterweights: Vec<WeightEntry>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     shafts: Vec<BalanceShaft>,
     /// Cranks besides the main one.
@@ -55,7 +55,7 @@ struct OtherCrank {
 
 #[derive(Serialize, Deserialize, Clone, Copy, PartialEq)]
 #[serde(deny_unknown_fields)]
-struct Parts {
+struct PartsEntry {
     crank_radius: f64,
     rod_length: f64,
     reciprocating_mass: f64,
@@ -114,12 +114,12 @@ struct Place {
     #[serde(default, skip_serializing_if = "is_main")]
     crank: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    cylinder: Option<Parts>,
+    cylinder: Option<PartsEntry>,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Weight {
+struct WeightEntry {
     /// kg·m.
     amount: f64,
     angle_deg: Degrees,
@@ -139,10 +139,10 @@ struct BalanceShaft {
     x: f64,
     #[serde(default)]
     y: f64,
-    unbalances: Vec<Weight>,
+    unbalances: Vec<WeightEntry>,
 }
 
-impl Weight {
+impl WeightEntry {
     fn of(unbalance: &Unbalance) -> Self {
         Self {
             amount: unbalance.amount,
@@ -165,7 +165,7 @@ impl Weight {
 impl BalanceShaft {
     fn of(shaft: &Shaft) -> Self {
         let ([x, y], name) = (shaft.axis, shaft.name.clone());
-        let unbalances = shaft.unbalances.iter().map(Weight::of).collect();
+        let unbalances = shaft.unbalances.iter().map(WeightEntry::of).collect();
         Self { name, ratio: shaft.ratio, x, y, unbalances }
     }
 
@@ -175,7 +175,7 @@ impl BalanceShaft {
     }
 }
 
-fn unbalances(weights: &[Weight], list: &str) -> Result<Vec<Unbalance>> {
+fn unbalances(weights: &[WeightEntry], list: &str) -> Result<Vec<Unbalance>> {
     let each = weights.iter().enumerate();
     each.map(|(i, weight)| weight.unbalance(&format!("{list}[{i}]"))).collect()
 }
@@ -207,7 +207,7 @@ impl Degrees {
     }
 }
 
-impl Parts {
+impl PartsEntry {
     fn of(cylinder: &Cylinder, details: &Details) -> Self {
         Self {
             crank_radius: cylinder.crank_radius(),
@@ -239,7 +239,8 @@ impl Parts {
 impl EngineFile {
     fn of(engine: &Engine) -> Result<Self> {
         let each = engine.placements().iter().zip(engine.details());
-        let parts: Vec<Parts> = each.map(|(p, details)| Parts::of(&p.cylinder, details)).collect();
+        let parts: Vec<PartsEntry> =
+            each.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();
         let shared = parts.iter().all(|each| *each == parts[0]);
         // Directions distinguish banks but for some at 0° and 180°.
         let guessed = Engine::new("", "", engine.placements().to_vec())?;
@@ -265,7 +266,7 @@ impl EngineFile {
             mains: engine.mains().to_vec(),
             cylinder: shared.then_some(parts[0]),
             placements: engine.placements().iter().enumerate().map(place).collect(),
-            counterweights: engine.counterweights().iter().map(Weight::of).collect(),
+            counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
             cranks: engine.cranks()[1..]
                 .iter()

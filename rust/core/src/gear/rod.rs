@@ -5,7 +5,7 @@
 //! of two forces across the bore, at the crankpin and at the piston pin: none on the engine as a
 //! whole, a torque −J ω² φ''φ' on the crank, and J ω² φ''(1 + φ') on the block.
 
-use crate::gear::slider_crank::{Crank, Proportions};
+use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
@@ -86,9 +86,9 @@ pub(crate) struct Swing {
 impl Swing {
     /// Where the crank stands so.
     #[inline(always)]
-    pub fn new(proportions: &Proportions, crank: &Crank) -> Self {
+    pub fn new(proportions: &Proportions, crank: &CrankPosition) -> Self {
         let (above, below) = (proportions.above.high, proportions.below.high);
-        let Crank { sin, cos, to_above, to_below, .. } = *crank;
+        let CrankPosition { sin, cos, to_above, to_below, .. } = *crank;
         let height_squared = (above + to_above) * (below + to_below);
         let inverse = 1.0 / height_squared.sqrt();
         // h³φ'' = cos²θ(sin θ − e/r) − h² sin θ, in which 1 cancels out of l/r ± e/r.
@@ -120,7 +120,7 @@ mod tests {
         // Up to the reach: φ = θ between the points where it turns back.
         let swing = |θ: f64| {
             let proportions = Proportions::new(1.0 - 1e-12, 0.0).unwrap();
-            Swing::new(&proportions, &Crank::new(θ.sin(), θ.cos()))
+            Swing::new(&proportions, &CrankPosition::new(θ.sin(), θ.cos()))
         };
         assert_relative_eq!(swing(0.7).velocity, 1.0, max_relative = 1e-11);
         assert_relative_eq!(swing(4.0).velocity, -1.0, max_relative = 1e-11);
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn swing_changes_as_it_moves() {
         let proportions = Proportions::new(0.4, -0.6).unwrap();
-        let swing = |θ: f64| Swing::new(&proportions, &Crank::new(θ.sin(), θ.cos()));
+        let swing = |θ: f64| Swing::new(&proportions, &CrankPosition::new(θ.sin(), θ.cos()));
         for k in 0..24 {
             let θ = 0.25 * f64::from(k);
             let slope = (swing(θ + 1e-5).velocity - swing(θ - 1e-5).velocity) / 2e-5;

@@ -211,13 +211,13 @@ impl Proportions {
     #[must_use]
     #[inline]
     pub fn motion(&self, sin: f64, cos: f64) -> Motion {
-        self.motion_at(&Crank::new(sin, cos))
+        self.motion_at(&CrankPosition::new(sin, cos))
     }
 
     /// [`Self::motion`], where the crank stands so.
     #[inline(always)]
-    pub(crate) fn motion_at(&self, crank: &Crank) -> Motion {
-        let Crank { sin, cos, squared, to_above, to_below } = *crank;
+    pub(crate) fn motion_at(&self, crank: &CrankPosition) -> Motion {
+        let CrankPosition { sin, cos, squared, to_above, to_below } = *crank;
         let height_squared = (self.above.high + to_above) * (self.below.high + to_below);
         let height = height_squared.sqrt();
         let lateral = sin - self.offset;
@@ -236,7 +236,7 @@ impl Proportions {
 
 /// Where a crank stands, as far as nothing of the rod enters.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Crank {
+pub(crate) struct CrankPosition {
     pub sin: f64,
     pub cos: f64,
     /// cos²θ.
@@ -247,7 +247,7 @@ pub(crate) struct Crank {
     pub to_below: f64,
 }
 
-impl Crank {
+impl CrankPosition {
     #[inline(always)]
     pub fn new(sin: f64, cos: f64) -> Self {
         // (l + e − r sin θ)(l − e + r sin θ): with 1 ∓ sin θ = cos²θ/(1 ± sin θ) neither factor

@@ -3,7 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
-use crate::gear::slider_crank::{Crank, Cylinder};
+use crate::gear::slider_crank::{CrankPosition, Cylinder};
 use crate::load::{Loads, Source};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
@@ -15,13 +15,13 @@ pub(crate) const BLOCK: usize = 256;
 /// One value for each crank angle of a block; whole cache lines.
 #[derive(Clone)]
 #[repr(align(64))]
-pub(crate) struct Column([f64; BLOCK]);
+pub(crate) struct AngleColumn([f64; BLOCK]);
 
-impl Column {
+impl AngleColumn {
     pub const ZERO: Self = Self([0.0; BLOCK]);
 }
 
-impl Deref for Column {
+impl Deref for AngleColumn {
     type Target = [f64; BLOCK];
 
     #[inline(always)]
@@ -30,7 +30,7 @@ impl Deref for Column {
     }
 }
 
-impl DerefMut for Column {
+impl DerefMut for AngleColumn {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.0
@@ -135,15 +135,15 @@ impl Kinematics {
 /// `e^{iθ}` of a block of crank angles, or of a multiple of θ.
 #[derive(Clone)]
 pub(crate) struct Units {
-    pub cos: Column,
-    pub sin: Column,
+    pub cos: AngleColumn,
+    pub sin: AngleColumn,
 }
 
 impl Units {
     /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
     #[inline(always)]
     pub fn new(angles: &CrankAngles, range: std::ops::Range<usize>, order: Order) -> Self {
-        let mut units = Self { cos: Column([1.0; BLOCK]), sin: Column::ZERO };
+        let mut units = Self { cos: AngleColumn([1.0; BLOCK]), sin: AngleColumn::ZERO };
         angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
         units
     }
@@ -157,9 +157,9 @@ impl Units {
 
     /// Position of a crank that is `phase` ahead.
     #[inline(always)]
-    pub fn crank(&self, phase: Complex64, i: usize) -> Crank {
+    pub fn crank(&self, phase: Complex64, i: usize) -> CrankPosition {
         let (cos, sin) = (self.cos[i], self.sin[i]);
-        Crank::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
+        CrankPosition::new(sin * phase.re + cos * phase.im, cos * phase.re - sin * phase.im)
     }
 
     /// Adds real and imaginary part of a vector that turns from here at ±1 times these angles.

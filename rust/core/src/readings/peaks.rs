@@ -80,7 +80,7 @@ impl PeakFinder {
         }
         let in_range = (1e-60..1e60).contains(&largest);
         let scale = if in_range { 1.0 } else { largest.recip().min(1e300) };
-        let vector = Vector { finder: self, rows, scale };
+        let vector = VectorSum { finder: self, rows, scale };
         let heights =
             if self.table.is_empty() { vector.transformed(cancel)? } else { vector.sampled()? };
         Ok(self.peak(&vector, &heights, cancel)?.sqrt() / scale)
@@ -89,7 +89,7 @@ impl PeakFinder {
     /// Largest squared length over the circle, given its values at the points of the grid.
     fn peak<const N: usize>(
         &self,
-        vector: &Vector<N>,
+        vector: &VectorSum<N>,
         heights: &[f64],
         cancel: &Cancel,
     ) -> Result<f64> {
@@ -158,13 +158,13 @@ impl PeakFinder {
 type Jet = [f64; 3];
 
 /// A vector of sums of orders, times a scale at which squares are in range.
-struct Vector<'a, const N: usize> {
+struct VectorSum<'a, const N: usize> {
     finder: &'a PeakFinder,
     rows: [&'a [Complex64]; N],
     scale: f64,
 }
 
-impl<const N: usize> Vector<'_, N> {
+impl<const N: usize> VectorSum<'_, N> {
     /// The squared length where `e^{iθ}` is given, and its derivatives.
     fn squared(&self, unit: Complex64) -> Jet {
         let mut sums = [[0.0; 3]; N];

@@ -16,7 +16,7 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
-use crate::readings::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
+use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,11 +79,11 @@ pub fn from_orders(
 }
 
 /// Force x, y, moment x, y, roll and crank torque.
-struct Rows {
-    columns: [Column; 6],
+struct WaveformRows {
+    columns: [AngleColumn; 6],
 }
 
-impl Rows {
+impl WaveformRows {
     #[inline(always)]
     fn add_kinematics(
         &mut self,
@@ -110,7 +110,7 @@ impl Rows {
             units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
             units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
             if torque && unbalances.roll != Complex64::default() {
-                let mut real = Column::ZERO;
+                let mut real = AngleColumn::ZERO;
                 let at_start = unbalances.roll * square;
                 units.add_turning(at_start, unbalances.ratio, [&mut real[..], &mut roll[..]]);
             }
@@ -195,7 +195,7 @@ fn in_blocks(
     theta_deg: &[f64],
     torque: bool,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut Rows) -> Result<()> + Send + Sync,
+    add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Send + Sync,
 ) -> Result<Memory> {
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), hint)?;
@@ -212,7 +212,7 @@ fn fill_blocks(
     theta_deg: &[f64],
     torque: bool,
     cancel: &Cancel,
-    add: impl Fn(&CrankAngles, &mut Rows) -> Result<()> + Sync,
+    add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Sync,
 ) -> Result<Memory> {
     let (angles, torques) = (theta_deg.len(), if torque { theta_deg.len() } else { 0 });
     let mut memory = Memory {
@@ -231,7 +231,7 @@ fn fill_blocks(
     let tasks = listed;
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 2])| {
         cancel.check()?;
-        let mut rows = Rows { columns: [const { Column::ZERO }; 6] };
+        let mut rows = WaveformRows { columns: [const { AngleColumn::ZERO }; 6] };
         add(&CrankAngles::of_checked(thetas), &mut rows)?;
         let [force_x, force_y, moment_x, moment_y, roll, crank] = &rows.columns;
         for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {
@@ -294,7 +294,7 @@ mod tests {
         let thetas = [0.0; 4 * BLOCK];
         let run = |last: usize| {
             let (cancel, blocks) = (Cancel::new(), AtomicUsize::new(0));
-            let add = |_: &CrankAngles, _: &mut Rows| {
+            let add = |_: &CrankAngles, _: &mut WaveformRows| {
                 if blocks.fetch_add(1, Ordering::Relaxed) + 1 == last {
                     cancel.raise();
                 }

@@ -12,7 +12,7 @@ use super::family::{Families, Family};
 use super::images::Image;
 use super::moments::{NEAR, fold, near};
 use super::same::Same;
-use super::window::Wanted;
+use super::window::WindowTarget;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::memory;
@@ -38,7 +38,7 @@ struct Member {
 
 impl Families<'_> {
     /// Those whose folded angle is wanted, ascending, each once.
-    pub(super) fn all(self, wanted: &Wanted, cancel: &Cancel) -> Result<Vec<Family>> {
+    pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<Vec<Family>> {
         let entries = self.entries.all.len();
         refuse_too_many(least(entries, self.moments.images.mirror.is_some(), wanted), entries)?;
         let ranges = (entries / RANGE).clamp(1, MOST_RANGES);
@@ -51,7 +51,7 @@ impl Families<'_> {
         self,
         ranges: usize,
         per_radian: f64,
-        wanted: &Wanted,
+        wanted: &WindowTarget,
         cancel: &Cancel,
     ) -> Result<Vec<Family>> {
         cancel.expect(self.entries.ranges().len() + ranges);
@@ -251,7 +251,7 @@ impl Sorted {
 
 /// How many families are sure to come: half of what is to be expected where each arrangement and its
 /// mirror image make two.
-fn least(entries: usize, mirrored: bool, wanted: &Wanted) -> usize {
+fn least(entries: usize, mirrored: bool, wanted: &WindowTarget) -> usize {
     if mirrored { (entries as f64 * wanted.share()) as usize } else { 0 }
 }
 
@@ -390,7 +390,7 @@ mod tests {
             assert!(refuse_too_many(families, entries).is_ok());
             assert!(refuse_too_many(families, entries + 1).is_err());
         }
-        let quarter = Wanted::new([0.0, 45.0], Hold::Firing, TAU);
+        let quarter = WindowTarget::new([0.0, 45.0], Hold::Firing, TAU);
         assert_eq!((least(1000, true, &quarter), least(1000, false, &quarter)), (250, 0));
     }
 
@@ -511,7 +511,7 @@ mod tests {
         for bank in banks().into_iter().chain(small_banks()) {
             with_entries(bank, |moments, entries| {
                 let families = Families { moments, entries };
-                let wanted = Wanted::new([0.0, 180.0], Hold::Firing, moments.turn);
+                let wanted = WindowTarget::new([0.0, 180.0], Hold::Firing, moments.turn);
                 let all = families.all(&wanted, &Cancel::new()).unwrap();
                 let check = |ranges: usize, per_radian: f64| {
                     let cancel = Cancel::new();

@@ -32,7 +32,7 @@ use self::magnitude::Magnitude;
 use self::moments::Moments;
 pub use self::throws::{Arrangement, Bank};
 pub use self::vee::vee;
-use self::window::Wanted;
+use self::window::WindowTarget;
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
 use crate::gear::slider_crank::Cylinder;
@@ -132,7 +132,7 @@ impl Search {
 
     /// Every |α| within a window of [0°, 180°] at which some pair has no backward moment, ascending.
     pub fn angles(&self, window: [f64; 2], cancel: &Cancel) -> Result<Angles> {
-        let wanted = Wanted::new(window, self.hold, self.moments.turn);
+        let wanted = WindowTarget::new(window, self.hold, self.moments.turn);
         let families = self.families().all(&wanted, cancel)?;
         Angles::new(self.families(), families, self.hold, window)
     }

@@ -8,13 +8,13 @@ use crate::engine::Hold;
 const SLACK: f64 = 1e-9;
 
 /// Folded angles, in [0, turn/2], that are wanted.
-pub(super) struct Wanted {
+pub(super) struct WindowTarget {
     /// From, to; radians.
     intervals: Vec<[f64; 2]>,
     half: f64,
 }
 
-impl Wanted {
+impl WindowTarget {
     /// For a window of bank angles, degrees.
     pub(super) fn new(window: [f64; 2], hold: Hold, turn: f64) -> Self {
         let half = 0.5 * turn;
@@ -78,7 +78,7 @@ mod tests {
             for hold in [Hold::Firing, Hold::Pins] {
                 for window in [[0.0, 180.0], [20.0, 31.0], [0.0, 5.0], [88.0, 92.5], [170.0, 180.0]]
                 {
-                    let wanted = Wanted::new(window, hold, turn);
+                    let wanted = WindowTarget::new(window, hold, turn);
                     let mut count = 0;
                     for step in 0..STEPS {
                         // Halves, so that none is at the edge of a window.
@@ -107,6 +107,6 @@ mod tests {
                 }
             }
         }
-        assert!(!Wanted::new([50.0, 40.0], Hold::Firing, 1.0).has(0.3));
+        assert!(!WindowTarget::new([50.0, 40.0], Hold::Firing, 1.0).has(0.3));
     }
 }

@@ -31,7 +31,7 @@ pub fn torque(
     cancel: &Cancel,
 ) -> Result<TorqueHarmonics> {
     orders.iter().try_for_each(|&n| Order::whole(n).map(drop))?;
-    let swing = Swing::new(proportions);
+    let swing = SwingHarmonics::new(proportions);
     let velocities = swing.velocities(orders, cancel)?;
     let fractions = Fractions::new(proportions);
     let rod_squared = proportions.rod * proportions.rod;
@@ -61,12 +61,12 @@ pub fn tail_bound(proportions: &Proportions, highest: u32) -> Option<f64> {
 }
 
 /// Angular velocity φ' of a rod.
-struct Swing {
+struct SwingHarmonics {
     sides: Sides,
     roots: Roots,
 }
 
-impl Swing {
+impl SwingHarmonics {
     fn new(proportions: &Proportions) -> Self {
         let sides = Sides::new(proportions);
         let roots = Roots::new(&sides);
@@ -142,7 +142,7 @@ mod tests {
             let reach = Proportions::new(rod_ratio, 0.0).unwrap().above.high;
             let proportions = Proportions::new(rod_ratio, share * reach).unwrap();
             let orders: Vec<u32> = (1..40).collect();
-            let swing = Swing::new(&proportions);
+            let swing = SwingHarmonics::new(&proportions);
             for (&n, by_series) in
                 orders.iter().zip(swing.velocities(&orders, &Cancel::new()).unwrap())
             {

@@ -7,7 +7,7 @@
 
 use num_traits::{CheckedDiv, CheckedMul};
 
-use super::roots::{Roots, Share};
+use super::roots::{FormalSum, Share};
 use super::{Levers, too_long, whole};
 use crate::engine::Engine;
 use crate::load::{Load, Loads, Source, Wanted, superpose};
@@ -31,7 +31,7 @@ pub struct Phasor {
 
 /// How the force of a load moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
+pub enum LoadMotion {
     /// Along its direction.
     Along,
     /// Turning with the crank.
@@ -42,13 +42,13 @@ pub enum Motion {
 
 /// One load's part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
+pub struct LoadPart {
     /// m·r, or the unbalance times the square of its speed, in units of the unit cylinder's m·r.
     pub weight: Ratio,
     /// z − z₀ in units of the spacing.
     pub lever: Ratio,
     /// How its force moves.
-    pub motion: Motion,
+    pub motion: LoadMotion,
     /// Direction, as part of a turn.
     pub direction: (i64, i64),
     /// Crank angle at which the force points there, as part of a turn.
@@ -66,7 +66,7 @@ pub struct ClosedForm {
     /// Whether the harmonic aₙ is zero, and all with it.
     pub no_harmonic: bool,
     /// Load by load: the cylinders, then what rotates at this order.
-    pub parts: Vec<Part>,
+    pub parts: Vec<LoadPart>,
     /// N.
     pub period: i128,
     /// By which coefficients are divided.
@@ -179,14 +179,14 @@ pub fn closed_form(
     let mut parts = Vec::with_capacity(loads.list.len());
     for ((load, weight), lever) in loads.list.iter().zip(weights).zip(levers) {
         let (motion, square) = match load.source {
-            Source::Piston { .. } => (Motion::Along, 1),
-            Source::Unbalance if load.ratio > 0 => (Motion::Forward, load.ratio * load.ratio),
-            Source::Unbalance => (Motion::Backward, load.ratio * load.ratio),
+            Source::Piston { .. } => (LoadMotion::Along, 1),
+            Source::Unbalance if load.ratio > 0 => (LoadMotion::Forward, load.ratio * load.ratio),
+            Source::Unbalance => (LoadMotion::Backward, load.ratio * load.ratio),
         };
         let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
-        let argument = if motion == Motion::Along { "bank_deg" } else { "angle_deg" };
+        let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };
         let direction = part_of_turn(argument, load.direction)?;
-        parts.push(Part {
+        parts.push(LoadPart {
             weight,
             lever,
             motion,
@@ -224,7 +224,7 @@ fn sums(
 ) -> Result<(i128, [RootSum; 2])> {
     let (weights, measure) = whole(products)?;
     let wanted = Wanted { planar: true, roll: false, by_bank: false };
-    let terms = superpose(&Roots::new(loads, cancel)?, loads, order, wanted);
+    let terms = superpose(&FormalSum::new(loads, cancel)?, loads, order, wanted);
     let of = |side: usize| -> Result<Vec<(i128, i128, i128)>> {
         let shares =
             terms.iter().flat_map(|t| if moment { &t.moment[side] } else { &t.force[side] });

@@ -32,12 +32,12 @@ fn whole(weights: &[Ratio]) -> Result<(Vec<i128>, Ratio)> {
 
 /// Exact l/r and e/r where the lengths are decimals, else their doubles.
 #[derive(PartialEq)]
-enum Proportions {
+enum TypedProportions {
     Exact([Ratio; 2]),
     Nearest([f64; 2]),
 }
 
-impl Proportions {
+impl TypedProportions {
     fn of(gear: &Cylinder) -> Self {
         let over_radius =
             |length: f64| decimal(length)?.checked_div(&decimal(gear.crank_radius())?);
@@ -61,7 +61,7 @@ impl Proportions {
 fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
     engine.check_one_crank("an exact sum")?;
     let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
-    let same = first_equal(loads.cylinders().iter().map(Proportions::of));
+    let same = first_equal(loads.cylinders().iter().map(TypedProportions::of));
     for load in &mut loads.list {
         if let Source::Piston { gear, .. } = &mut load.source {
             *gear = same[*gear];

@@ -59,9 +59,9 @@ fn step(to: Angle, from: Angle) -> Option<Ratio> {
 
 /// How a direction that is no simple part of a turn enters a sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(super) enum Entry {
+pub(super) enum SymbolEntry {
     #[default]
-    Root,
+    UnityRoot,
     Conjugate,
     /// Cosine along x, sine along y; neither is zero.
     Component,
@@ -69,14 +69,14 @@ pub(super) enum Entry {
 
 /// A root of unity times symbols, by their indices, 0 for none.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Root {
+pub(super) struct UnityRoot {
     /// In [0, 1).
     pub turns: Ratio,
-    pub direction: (usize, Entry),
+    pub direction: (usize, SymbolEntry),
     pub phase: usize,
 }
 
-impl Root {
+impl UnityRoot {
     /// Turned by a part of a turn, whose denominator is below 10⁹ as that of the others.
     pub fn turned(self, by: Ratio) -> Self {
         let turns = self.turns + by;
@@ -89,17 +89,17 @@ impl Root {
 pub(super) struct Share {
     pub load: usize,
     pub weight: Weight,
-    pub root: Root,
+    pub root: UnityRoot,
     pub halves: i32,
 }
 
 /// Arithmetic of proofs and closed forms: sums are lists of what each load adds.
-pub(super) struct Roots {
+pub(super) struct FormalSum {
     pub directions: Vec<PartOfTurn>,
     pub phases: Vec<PartOfTurn>,
 }
 
-impl Roots {
+impl FormalSum {
     pub fn new(loads: &Loads, cancel: &Cancel) -> Result<Self> {
         let directions = loads.list.iter().map(|load| load.direction);
         let phases = loads.list.iter().map(|load| load.phase);
@@ -110,21 +110,23 @@ impl Roots {
     }
 }
 
-impl Arithmetic for Roots {
-    type Unit = Root;
+impl Arithmetic for FormalSum {
+    type Unit = UnityRoot;
     type Sum = Vec<Share>;
 
-    fn phase(&self, (i, _): (usize, &Load), times: i64) -> Root {
+    fn phase(&self, (i, _): (usize, &Load), times: i64) -> UnityRoot {
         let PartOfTurn { turns, symbol } = self.phases[i];
-        let none = Root { turns: Ratio::ZERO, direction: (0, Entry::Root), phase: symbol };
+        let none =
+            UnityRoot { turns: Ratio::ZERO, direction: (0, SymbolEntry::UnityRoot), phase: symbol };
         none.turned(turns * i128::from(times))
     }
 
-    fn toward(&self, (i, _): (usize, &Load), unit: &Root, conjugate: bool) -> Root {
+    fn toward(&self, (i, _): (usize, &Load), unit: &UnityRoot, conjugate: bool) -> UnityRoot {
         let PartOfTurn { turns, symbol } = self.directions[i];
-        let entry = if conjugate && symbol > 0 { Entry::Conjugate } else { Entry::Root };
+        let entry =
+            if conjugate && symbol > 0 { SymbolEntry::Conjugate } else { SymbolEntry::UnityRoot };
         let turned = unit.turned(if conjugate { -turns } else { turns });
-        Root { direction: (symbol, entry), ..turned }
+        UnityRoot { direction: (symbol, entry), ..turned }
     }
 
     fn add(
@@ -132,7 +134,7 @@ impl Arithmetic for Roots {
         sum: &mut Vec<Share>,
         (load, _): (usize, &Load),
         weight: Weight,
-        unit: &Root,
+        unit: &UnityRoot,
         Times { halves, quarters }: Times,
     ) {
         let root = unit.turned(Ratio::new(quarters.into(), 4));

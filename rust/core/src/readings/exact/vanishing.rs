@@ -31,8 +31,8 @@ mod terms;
 
 use std::collections::BTreeMap;
 
-use self::terms::{Channel, Proof, Sums, Symbol, Term, View};
-use super::roots::{Entry, PartOfTurn};
+use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
+use super::roots::{PartOfTurn, SymbolEntry};
 use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
@@ -62,7 +62,7 @@ pub enum Verdict {
 
 /// The sums of one order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
+pub enum ProofQuantity {
     /// Force along x.
     ForceX,
     /// Force along y.
@@ -84,16 +84,16 @@ pub enum Quantity {
 }
 
 /// All of them, in the order in which they are reported.
-pub const QUANTITIES: [Quantity; 9] = [
-    Quantity::ForceX,
-    Quantity::ForceY,
-    Quantity::ForceForward,
-    Quantity::ForceBackward,
-    Quantity::MomentX,
-    Quantity::MomentY,
-    Quantity::MomentForward,
-    Quantity::MomentBackward,
-    Quantity::Torque,
+pub const QUANTITIES: [ProofQuantity; 9] = [
+    ProofQuantity::ForceX,
+    ProofQuantity::ForceY,
+    ProofQuantity::ForceForward,
+    ProofQuantity::ForceBackward,
+    ProofQuantity::MomentX,
+    ProofQuantity::MomentY,
+    ProofQuantity::MomentForward,
+    ProofQuantity::MomentBackward,
+    ProofQuantity::Torque,
 ];
 
 /// What vanishes, order by order.
@@ -112,12 +112,12 @@ pub struct Vanishing {
 impl Proof {
     fn verdict(
         &self,
-        sums: &Sums,
-        quantity: Quantity,
+        sums: &SymbolSums,
+        quantity: ProofQuantity,
         order: u32,
         cancel: &Cancel,
     ) -> (Verdict, Option<Error>) {
-        let torque = quantity == Quantity::Torque;
+        let torque = quantity == ProofQuantity::Torque;
         let views = [(false, torque), (true, torque), (false, false), (true, false)];
         let views = views.into_iter().take(if torque { 4 } else { 2 });
         let mut obstacle = None;
@@ -137,13 +137,13 @@ impl Proof {
     /// The verdict on Σ symbol · weight · root.
     fn decided(
         &self,
-        terms: &[Term],
+        terms: &[SymbolTerm],
         order: u32,
         torque: bool,
         view: View,
         cancel: &Cancel,
     ) -> Result<Verdict> {
-        let mut sums: BTreeMap<Symbol, Vec<&Term>> = BTreeMap::new();
+        let mut sums: BTreeMap<Symbol, Vec<&SymbolTerm>> = BTreeMap::new();
         for term in terms {
             sums.entry(term.symbol).or_default().push(term);
         }
@@ -177,7 +177,7 @@ impl Proof {
     /// |A| = |B| is decided in integers. The angle between s and t at which they then cancel is in
     /// general no part of a turn; angles that are doubles and rounded from it stand for it, as those
     /// of 360/7 do.
-    fn balanced_angle(&self, left: &[(Symbol, Vec<&Term>)], order: u32) -> Result<bool> {
+    fn balanced_angle(&self, left: &[(Symbol, Vec<&SymbolTerm>)], order: u32) -> Result<bool> {
         let [(s, a), (t, b)] = left else { return Ok(false) };
         if (s.channel, s.weight, s.lever) != (t.channel, t.weight, t.lever) {
             return Ok(false);
@@ -215,9 +215,9 @@ impl Proof {
         let direction = first(&self.roots.directions, index, |load| load.direction)?;
         let phase = first(&self.roots.phases, symbol.phase, |load| load.phase)?;
         let sign = match entry {
-            Entry::Root => 1,
-            Entry::Conjugate => -1,
-            Entry::Component => return None,
+            SymbolEntry::UnityRoot => 1,
+            SymbolEntry::Conjugate => -1,
+            SymbolEntry::Component => return None,
         };
         Some(direction.cis(sign) * phase.cis(-i64::from(order)))
     }
@@ -334,9 +334,9 @@ impl Proof {
 }
 
 /// Numerators and denominators of parts of a turn, with weights as whole numbers.
-fn roots(terms: &[&Term]) -> Result<Vec<(i128, i128, i128)>> {
+fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
     let (weights, _) = whole(&terms.iter().map(|term| term.weight).collect::<Vec<_>>())?;
-    let root = |(t, weight): (&&Term, i128)| (*t.turns.numer(), *t.turns.denom(), weight);
+    let root = |(t, weight): (&&SymbolTerm, i128)| (*t.turns.numer(), *t.turns.denom(), weight);
     Ok(terms.iter().zip(weights).map(root).collect())
 }
 

@@ -85,7 +85,7 @@ fn derivatives_are_those_of_the_squared_length() {
         [1.0, 2.0, 3.0, 4.0].map(|k| Complex64::new((a * k).sin() + 0.1, (a + k * k).cos()))
     };
     let (x, y) = (phasors(0.7), phasors(1.9));
-    let vector = Vector { finder, rows: [&x, &y], scale: 1.0 };
+    let vector = VectorSum { finder, rows: [&x, &y], scale: 1.0 };
     for k in 0..10 {
         let θ = 0.6 * f64::from(k);
         let along = |phasors: &[Complex64]| -> f64 {
@@ -112,7 +112,7 @@ fn the_transform_gives_what_the_table_gives() {
     let part = |a: f64| move |&n: &u32| Complex64::new((a * f64::from(n)).sin(), a / f64::from(n));
     let [x, y] = [0.7, 1.9].map(|a| orders.iter().map(part(a)).collect::<Vec<_>>());
     let squares = |finder: &PeakFinder, transform: bool| {
-        let vector = Vector { finder, rows: [&x, &y], scale: 0.5 };
+        let vector = VectorSum { finder, rows: [&x, &y], scale: 0.5 };
         if transform { vector.transformed(&Cancel::new()) } else { vector.sampled() }.unwrap()
     };
     let (one, other) = (squares(&tabled, false), squares(&transformed, true));

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use super::Quantity;
 use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{Crank, Proportions};
+use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::crank_angles::CrankAngles;
-use crate::readings::kinematics::{BLOCK, Column, Kinematics, Pistons, Units};
+use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
@@ -28,7 +28,7 @@ impl Placed {
     ) {
         let cranks = |p: &Pistons| Cranks::new(p, &Units::at_speed(angles, range.clone(), p.ratio));
         let cranks: Vec<Cranks> = self.kinematics.pistons.iter().map(cranks).collect();
-        let [mut x, mut y] = [Column::ZERO, Column::ZERO];
+        let [mut x, mut y] = [AngleColumn::ZERO, AngleColumn::ZERO];
         for unbalances in &self.kinematics.unbalances {
             let units = Units::at_speed(angles, range.clone(), unbalances.ratio);
             let at_start = match quantity {
@@ -43,7 +43,7 @@ impl Placed {
             Quantity::Force => self.planar(0, &cranks, &[x, y], outs),
             Quantity::Moment => self.planar(1, &cranks, &[x, y], outs),
             Quantity::Torque => self.torque::<true>(&cranks, &y, outs),
-            Quantity::CrankTorque => self.torque::<false>(&cranks, &Column::ZERO, outs),
+            Quantity::CrankTorque => self.torque::<false>(&cranks, &AngleColumn::ZERO, outs),
         }
     }
 
@@ -53,7 +53,7 @@ impl Placed {
         &self,
         which: usize,
         cranks: &[Cranks],
-        unbalances: &[Column; 2],
+        unbalances: &[AngleColumn; 2],
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
@@ -78,7 +78,7 @@ impl Placed {
     fn torque<'o, const ROLL: bool>(
         &self,
         cranks: &[Cranks],
-        unbalances: &Column,
+        unbalances: &AngleColumn,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
@@ -114,22 +114,22 @@ impl Placed {
 
 /// Positions of the cranks of pistons that move together.
 struct Cranks {
-    sin: Column,
-    cos: Column,
-    squared: Column,
-    to_above: Column,
-    to_below: Column,
+    sin: AngleColumn,
+    cos: AngleColumn,
+    squared: AngleColumn,
+    to_above: AngleColumn,
+    to_below: AngleColumn,
 }
 
 impl Cranks {
     #[inline(always)]
     fn new(pistons: &Pistons, units: &Units) -> Self {
         let mut cranks = Self {
-            sin: Column::ZERO,
-            cos: Column::ZERO,
-            squared: Column::ZERO,
-            to_above: Column::ZERO,
-            to_below: Column::ZERO,
+            sin: AngleColumn::ZERO,
+            cos: AngleColumn::ZERO,
+            squared: AngleColumn::ZERO,
+            to_above: AngleColumn::ZERO,
+            to_below: AngleColumn::ZERO,
         };
         for i in 0..BLOCK {
             let crank = units.crank(pistons.phase, i);
@@ -143,8 +143,8 @@ impl Cranks {
     }
 
     #[inline(always)]
-    fn at(&self, i: usize) -> Crank {
-        Crank {
+    fn at(&self, i: usize) -> CrankPosition {
+        CrankPosition {
             sin: self.sin[i],
             cos: self.cos[i],
             squared: self.squared[i],
@@ -156,7 +156,7 @@ impl Cranks {
 
 /// x and y, times a factor, in turns.
 #[inline(always)]
-fn write_pairs(factor: f64, x: &Column, y: &Column, out: &mut [f64]) {
+fn write_pairs(factor: f64, x: &AngleColumn, y: &AngleColumn, out: &mut [f64]) {
     let (pairs, _) = out.as_chunks_mut::<2>();
     for (pair, (x, y)) in pairs.iter_mut().zip(x.iter().zip(&y[..])) {
         *pair = [factor * x, factor * y];

@@ -7,21 +7,21 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 
 /// Real and imaginary parts at some samples.
-pub(super) type Parts = [Vec<f64>; 2];
+pub(super) type ComplexColumns = [Vec<f64>; 2];
 
 /// Harmonics of a torque, by order.
 #[derive(Default)]
 pub(super) struct Torques {
     /// Over m·r²·ω².
-    pub masses: Vec<Parts>,
+    pub masses: Vec<ComplexColumns>,
     /// Over the rod's inertia and ω²; empty where it has none beyond its two masses.
-    pub rod: Vec<Parts>,
+    pub rod: Vec<ComplexColumns>,
 }
 
 /// Harmonics at some samples.
 pub(super) struct Amplitudes {
     /// By order.
-    pub force: Vec<Parts>,
+    pub force: Vec<ComplexColumns>,
     pub roll: Torques,
     pub crank: Torques,
 }
@@ -115,12 +115,12 @@ impl Shape {
     }
 }
 
-fn empty(orders: &[u32], samples: usize) -> Vec<Parts> {
+fn empty(orders: &[u32], samples: usize) -> Vec<ComplexColumns> {
     orders.iter().map(|_| [(); 2].map(|()| Vec::with_capacity(samples))).collect()
 }
 
 /// Appends the harmonics of one more sample.
-fn push(columns: &mut [Parts], harmonics: &[Complex64]) {
+fn push(columns: &mut [ComplexColumns], harmonics: &[Complex64]) {
     for ([re, im], value) in columns.iter_mut().zip(harmonics) {
         re.push(value.re);
         im.push(value.im);

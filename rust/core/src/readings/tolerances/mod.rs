@@ -24,7 +24,7 @@ use crate::wrench::Planar;
 
 /// A figure that may spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum Parameter {
     /// Mass that moves with the piston, of each cylinder, kg.
     ReciprocatingMass,
     /// Mass that turns at crank radius, of each cylinder, kg.
@@ -42,7 +42,7 @@ pub enum Figure {
 /// Number of figures.
 pub const FIGURES: usize = 6;
 
-impl Figure {
+impl Parameter {
     /// All figures, in the order of their random streams.
     pub const ALL: [Self; FIGURES] = [
         Self::ReciprocatingMass,
@@ -77,9 +77,9 @@ impl Figure {
 const CHUNK: usize = 128;
 
 /// One value for each sample of a chunk.
-type Column = [f64; CHUNK];
+type SampleColumn = [f64; CHUNK];
 
-/// Deviations of each of [`Figure::ALL`] in some samples, one row of cylinders or pins after the other;
+/// Deviations of each of [`Parameter::ALL`] in some samples, one row of cylinders or pins after the other;
 /// empty where none deviates.
 pub type Deviations<'a> = [&'a [f64]; FIGURES];
 
@@ -130,7 +130,7 @@ pub struct Sampled {
 impl Tolerances {
     /// Checks everything that can be wrong.
     ///
-    /// `spreads` has for each of [`Figure::ALL`] one of each cylinder or pin, or nothing; `pin_of` the
+    /// `spreads` has for each of [`Parameter::ALL`] one of each cylinder or pin, or nothing; `pin_of` the
     /// pin of each cylinder, counted from 0.
     pub fn new(
         engine: &Engine,
@@ -142,7 +142,7 @@ impl Tolerances {
     ) -> Result<Self> {
         engine.check_one_crank("tolerances")?;
         check_pins(engine, pin_of)?;
-        for (figure, spreads) in Figure::ALL.into_iter().zip(spreads) {
+        for (figure, spreads) in Parameter::ALL.into_iter().zip(spreads) {
             check_spreads(engine, pin_of, figure, spreads)?;
         }
         check_reach(engine, pin_of, spreads, distribution.largest())?;
@@ -170,7 +170,7 @@ impl Tolerances {
     ) -> Result<Sampled> {
         let orders = self.nominal.orders.len();
         self.check_size(count)?;
-        for (figure, values) in Figure::ALL.into_iter().zip(deviations) {
+        for (figure, values) in Parameter::ALL.into_iter().zip(deviations) {
             let expected = count * self.terms.count(figure);
             if !values.is_empty() && values.len() != expected {
                 return Err(Error::Length {
@@ -272,7 +272,7 @@ fn thirds<T>(values: &mut [T]) -> [&mut [T]; 3] {
 }
 
 /// The complex number of one sample.
-fn at([re, im]: &[Column; 2], sample: usize) -> Complex64 {
+fn at([re, im]: &[SampleColumn; 2], sample: usize) -> Complex64 {
     Complex64::new(re[sample], im[sample])
 }
 
@@ -302,7 +302,12 @@ fn pins(pin_of: &[usize]) -> usize {
 }
 
 /// As many spreads as cylinders or pins, each zero or more; or none.
-fn check_spreads(engine: &Engine, pin_of: &[usize], figure: Figure, spreads: &[f64]) -> Result<()> {
+fn check_spreads(
+    engine: &Engine,
+    pin_of: &[usize],
+    figure: Parameter,
+    spreads: &[f64],
+) -> Result<()> {
     let (expected, item) = if figure.of_pin() {
         (pins(pin_of), "crankpin")
     } else {
@@ -329,35 +334,35 @@ fn check_reach(
     spreads: &[Vec<f64>; FIGURES],
     largest: f64,
 ) -> Result<()> {
-    let spread = |figure: Figure, k: usize| spreads[figure as usize].get(k).copied();
-    let name = Figure::name;
+    let spread = |figure: Parameter, k: usize| spreads[figure as usize].get(k).copied();
+    let name = Parameter::name;
     for (i, place) in engine.placements().iter().enumerate() {
         let (cylinder, number) = (place.cylinder, i + 1);
-        let mass = spread(Figure::ReciprocatingMass, i).unwrap_or(0.0);
+        let mass = spread(Parameter::ReciprocatingMass, i).unwrap_or(0.0);
         if largest * mass > cylinder.reciprocating_mass() {
             let most = cylinder.reciprocating_mass() / largest;
             let hint = format!(
                 "a draw may take more than the {} kg of cylinder {number}; give {most:.3e} at most",
                 cylinder.reciprocating_mass()
             );
-            return Err(Error::figure(name(Figure::ReciprocatingMass), mass, hint));
+            return Err(Error::figure(name(Parameter::ReciprocatingMass), mass, hint));
         }
-        let radius = spread(Figure::CrankRadius, pin_of[i]).unwrap_or(0.0);
-        let rod = spread(Figure::RodLength, i).unwrap_or(0.0);
+        let radius = spread(Parameter::CrankRadius, pin_of[i]).unwrap_or(0.0);
+        let rod = spread(Parameter::RodLength, i).unwrap_or(0.0);
         let smallest = cylinder.crank_radius() - largest * radius;
         let slack = cylinder.rod_length() - cylinder.pin_offset().abs() - cylinder.crank_radius();
         let shrunk = largest * (radius + rod);
         if (radius > 0.0 && smallest < limits::SMALLEST) || (shrunk > 0.0 && shrunk >= slack) {
-            let figure = if radius >= rod { Figure::CrankRadius } else { Figure::RodLength };
+            let figure = if radius >= rod { Parameter::CrankRadius } else { Parameter::RodLength };
             let hint =
                 format!("a draw may keep the crank of cylinder {number} from turning; give less");
             return Err(Error::figure(name(figure), radius.max(rod), hint));
         }
     }
-    let turn = spreads[Figure::Pin as usize].iter().copied().fold(0.0, f64::max);
+    let turn = spreads[Parameter::Pin as usize].iter().copied().fold(0.0, f64::max);
     if largest * turn > 180.0 {
         let hint = format!("a draw may exceed half a turn; give {:.3} at most", 180.0 / largest);
-        return Err(Error::figure(name(Figure::Pin), turn, hint));
+        return Err(Error::figure(name(Parameter::Pin), turn, hint));
     }
     Ok(())
 }

@@ -4,8 +4,8 @@
 //! deviates what it makes less what it made. Without deviations that is nothing, to the last bit; and
 //! sums that the nominal engine cancels stay free of its rounding.
 
-use super::amplitudes::{Amplitudes, Parts, Shape};
-use super::{CHUNK, Column, Deviations, Figure};
+use super::amplitudes::{Amplitudes, ComplexColumns, Shape};
+use super::{CHUNK, Deviations, Parameter, SampleColumn};
 use crate::Complex64;
 use crate::engine::{Engine, Placement};
 use crate::load::{Alike, Load, Loads, Wanted};
@@ -17,15 +17,15 @@ use crate::wrench::Planar;
 
 /// Sums of one order over ω²: real and imaginary parts.
 #[derive(Clone)]
-pub(super) struct Sums {
+pub(super) struct SampleSums {
     /// Forward part, and conjugate of the backward part.
-    pub force: [[Column; 2]; 2],
-    pub moment: [[Column; 2]; 2],
+    pub force: [[SampleColumn; 2]; 2],
+    pub moment: [[SampleColumn; 2]; 2],
     /// On the block and on the crank.
-    pub torque: [[Column; 2]; 2],
+    pub torque: [[SampleColumn; 2]; 2],
 }
 
-impl Sums {
+impl SampleSums {
     pub const ZERO: Self = {
         let pairs = [[[0.0; CHUNK]; 2]; 2];
         Self { force: pairs, moment: pairs, torque: pairs }
@@ -51,7 +51,12 @@ impl Unit {
 
     /// Adds a load of these complex weights, and of these weights times levers.
     #[inline(always)]
-    fn add_planar(&self, sums: &mut Sums, weight: &[Column; 2], levered: &[Column; 2]) {
+    fn add_planar(
+        &self,
+        sums: &mut SampleSums,
+        weight: &[SampleColumn; 2],
+        levered: &[SampleColumn; 2],
+    ) {
         let turned = self.force.quarter_turned();
         add(&mut sums.force[0], self.force.forward, weight);
         add(&mut sums.force[1], self.force.backward_conj, weight);
@@ -61,7 +66,7 @@ impl Unit {
 }
 
 #[inline(always)]
-fn add(sum: &mut [Column; 2], unit: Complex64, values: &[Column; 2]) {
+fn add(sum: &mut [SampleColumn; 2], unit: Complex64, values: &[SampleColumn; 2]) {
     let ([sum_re, sum_im], [re, im]) = (sum, values);
     for i in 0..CHUNK {
         sum_re[i] += unit.re * re[i] - unit.im * im[i];
@@ -70,7 +75,7 @@ fn add(sum: &mut [Column; 2], unit: Complex64, values: &[Column; 2]) {
 }
 
 /// What of a cylinder may deviate.
-struct Part {
+struct UnitPart {
     place: Placement,
     pin: usize,
     /// Of its piston, by order.
@@ -81,7 +86,7 @@ struct Part {
 }
 
 /// A counterweight that follows a pin.
-struct Weight {
+struct LoadWeight {
     pin: usize,
     amount: f64,
     lever: f64,
@@ -93,13 +98,13 @@ pub(super) struct Terms {
     orders: Vec<u32>,
     torque: bool,
     reference: f64,
-    parts: Vec<Part>,
-    weights: Vec<Weight>,
+    parts: Vec<UnitPart>,
+    weights: Vec<LoadWeight>,
     pins: usize,
 }
 
 /// Unit phasors of pins, by pin and order: cosine and sine of n times the deviation.
-type Turns = Vec<Vec<[Column; 2]>>;
+type Turns = Vec<Vec<[SampleColumn; 2]>>;
 
 impl Terms {
     pub fn new(
@@ -123,12 +128,12 @@ impl Terms {
             let (radius, rod) = (place.cylinder.crank_radius(), place.cylinder.rod_length());
             let nominal = shape.amplitudes(&[radius], &[rod], orders, cancel)?;
             let (piston, rotating) = (by_order(&loads[i]), by_order(&loads[count + i]));
-            parts.push(Part { place, pin: pin_of[i], piston, rotating, nominal });
+            parts.push(UnitPart { place, pin: pin_of[i], piston, rotating, nominal });
         }
         let weights = engine.counterweights().iter().zip(&loads[2 * count..]);
         let weights = weights.filter_map(|(weight, load)| {
             let (pin, lever) = (pin_of[weight.pin?], weight.z - reference);
-            Some(Weight { pin, amount: weight.amount, lever, by_order: by_order(load) })
+            Some(LoadWeight { pin, amount: weight.amount, lever, by_order: by_order(load) })
         });
         let pins = pin_of.iter().max().map_or(0, |last| last + 1);
         let weights = weights.collect();
@@ -136,7 +141,7 @@ impl Terms {
     }
 
     /// Number of cylinders or pins that have a figure.
-    pub fn count(&self, figure: Figure) -> usize {
+    pub fn count(&self, figure: Parameter) -> usize {
         if figure.of_pin() { self.pins } else { self.parts.len() }
     }
 
@@ -146,11 +151,11 @@ impl Terms {
         deviations: &Deviations,
         first: usize,
         cancel: &Cancel,
-    ) -> Result<Vec<Sums>> {
-        let [masses, rotating, radii, angles, places, rods] = Figure::ALL
+    ) -> Result<Vec<SampleSums>> {
+        let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
         let turns = angles.as_ref().map(|angles| self.turns(angles));
-        let mut sums = vec![Sums::ZERO; self.orders.len()];
+        let mut sums = vec![SampleSums::ZERO; self.orders.len()];
         for (i, part) in self.parts.iter().enumerate() {
             cancel.check()?;
             let deviation = Deviation {
@@ -179,7 +184,7 @@ impl Terms {
         Ok(sums)
     }
 
-    fn turns(&self, angles: &[Column]) -> Turns {
+    fn turns(&self, angles: &[SampleColumn]) -> Turns {
         let mut turns: Turns = vec![vec![[[0.0; CHUNK]; 2]; self.orders.len()]; self.pins];
         vectorised(
             #[inline(always)]
@@ -200,9 +205,9 @@ impl Terms {
 
     fn add_part(
         &self,
-        part: &Part,
+        part: &UnitPart,
         deviation: &Deviation,
-        sums: &mut [Sums],
+        sums: &mut [SampleSums],
         cancel: &Cancel,
     ) -> Result<()> {
         let cylinder = &part.place.cylinder;
@@ -229,7 +234,10 @@ impl Terms {
                 let inertia = [cylinder.rod_inertia_excess(); CHUNK];
                 for (k, sums) in sums.iter_mut().enumerate() {
                     let turn = deviation.turns.map(|turns| &turns[k]);
-                    let change = |weight: &Column, nominal: f64, a: &Parts, a0: &Parts| {
+                    let change = |weight: &SampleColumn,
+                                  nominal: f64,
+                                  a: &ComplexColumns,
+                                  a0: &ComplexColumns| {
                         less(turned(weight, a, turn), at_rest(nominal, a0))
                     };
                     if let Some(unit) = &part.piston[k] {
@@ -271,7 +279,7 @@ impl Terms {
 }
 
 /// Columns of the samples from `first` on, of rows of so many values; None where nothing deviates.
-fn columns(values: &[f64], width: usize, first: usize) -> Option<Vec<Column>> {
+fn columns(values: &[f64], width: usize, first: usize) -> Option<Vec<SampleColumn>> {
     let rows = values.get(first * width..).filter(|rows| !rows.is_empty())?;
     let mut columns = vec![[0.0; CHUNK]; width];
     for (sample, row) in rows.chunks_exact(width).take(CHUNK).enumerate() {
@@ -284,13 +292,13 @@ fn columns(values: &[f64], width: usize, first: usize) -> Option<Vec<Column>> {
 
 /// Deviations of a cylinder's figures; None where they do not spread.
 struct Deviation<'a> {
-    mass: Option<&'a Column>,
-    rotating: Option<&'a Column>,
-    radius: Option<&'a Column>,
-    z: Option<&'a Column>,
-    rod: Option<&'a Column>,
+    mass: Option<&'a SampleColumn>,
+    rotating: Option<&'a SampleColumn>,
+    radius: Option<&'a SampleColumn>,
+    z: Option<&'a SampleColumn>,
+    rod: Option<&'a SampleColumn>,
     /// By order.
-    turns: Option<&'a [[Column; 2]]>,
+    turns: Option<&'a [[SampleColumn; 2]]>,
 }
 
 /// Weights and lever of a cylinder as it was drawn, by the operations that its samples take.
@@ -314,7 +322,7 @@ impl Nominal {
 
 /// A nominal value and its deviations.
 #[inline(always)]
-fn around(value: f64, deviation: Option<&Column>) -> Column {
+fn around(value: f64, deviation: Option<&SampleColumn>) -> SampleColumn {
     let mut values = [value; CHUNK];
     if let Some(deviation) = deviation {
         for i in 0..CHUNK {
@@ -325,7 +333,7 @@ fn around(value: f64, deviation: Option<&Column>) -> Column {
 }
 
 #[inline(always)]
-fn product(a: &Column, b: &Column) -> Column {
+fn product(a: &SampleColumn, b: &SampleColumn) -> SampleColumn {
     let mut values = *a;
     for i in 0..CHUNK {
         values[i] *= b[i];
@@ -335,7 +343,11 @@ fn product(a: &Column, b: &Column) -> Column {
 
 /// Weights times amplitudes, one for all samples or one for each, turned by `e^{inδ}`.
 #[inline(always)]
-fn turned(weight: &Column, amplitude: &Parts, turn: Option<&[Column; 2]>) -> [Column; 2] {
+fn turned(
+    weight: &SampleColumn,
+    amplitude: &ComplexColumns,
+    turn: Option<&[SampleColumn; 2]>,
+) -> [SampleColumn; 2] {
     let [mut re, mut im] = [*weight; 2];
     for (column, values) in [&mut re, &mut im].into_iter().zip(amplitude) {
         match values[..] {
@@ -357,12 +369,12 @@ fn turned(weight: &Column, amplitude: &Parts, turn: Option<&[Column; 2]>) -> [Co
 }
 
 /// A weight times the first of some amplitudes.
-fn at_rest(weight: f64, amplitude: &Parts) -> [f64; 2] {
+fn at_rest(weight: f64, amplitude: &ComplexColumns) -> [f64; 2] {
     amplitude.each_ref().map(|values| weight * values[0])
 }
 
 #[inline(always)]
-fn less(mut values: [Column; 2], base: [f64; 2]) -> [Column; 2] {
+fn less(mut values: [SampleColumn; 2], base: [f64; 2]) -> [SampleColumn; 2] {
     for (values, base) in values.iter_mut().zip(base) {
         for value in values.iter_mut() {
             *value -= base;
@@ -373,7 +385,12 @@ fn less(mut values: [Column; 2], base: [f64; 2]) -> [Column; 2] {
 
 /// Weights times levers, less what they were.
 #[inline(always)]
-fn levered(weight: &[Column; 2], lever: &Column, base: [f64; 2], nominal: f64) -> [Column; 2] {
+fn levered(
+    weight: &[SampleColumn; 2],
+    lever: &SampleColumn,
+    base: [f64; 2],
+    nominal: f64,
+) -> [SampleColumn; 2] {
     let mut values = *weight;
     for (values, base) in values.iter_mut().zip(base) {
         for i in 0..CHUNK {

@@ -210,26 +210,26 @@ fn a_sample_is_the_same_whichever_others_are_evaluated_with_it() {
 
 #[test]
 fn spreads_that_leave_no_engine_are_rejected() {
-    let error = |figure: Figure, values: Vec<f64>, distribution| {
+    let error = |figure: Parameter, values: Vec<f64>, distribution| {
         let mut spreads = NONE;
         spreads[figure as usize] = values;
         made(&spreads, distribution).err().map(|error| error.to_string()).unwrap_or_default()
     };
     let normal = Distribution::Normal;
     let uniform = Distribution::Uniform;
-    let masses = error(Figure::ReciprocatingMass, vec![0.0, 0.0, 0.4 / 8.0, 0.0], normal);
+    let masses = error(Parameter::ReciprocatingMass, vec![0.0, 0.0, 0.4 / 8.0, 0.0], normal);
     assert!(masses.starts_with("reciprocating_mass = 0.05: a draw may take more than"), "{masses}");
-    assert_eq!(error(Figure::ReciprocatingMass, vec![0.4; 4], uniform), "");
+    assert_eq!(error(Parameter::ReciprocatingMass, vec![0.4; 4], uniform), "");
     // The longest crank on the shortest rod: 0.05 and 0.15 m.
-    assert_eq!(error(Figure::CrankRadius, vec![0.0499, 0.0, 0.0], uniform), "");
-    assert!(error(Figure::CrankRadius, vec![0.0, 0.0, 0.051], uniform).contains("turning"));
-    assert!(error(Figure::RodLength, vec![0.0, 0.1, 0.0, 0.0], uniform).contains("cylinder 2"));
-    assert!(error(Figure::Pin, vec![30.0, 0.0, 0.0], normal).contains("half a turn"));
-    assert!(error(Figure::Pin, vec![1.0; 4], normal).contains("one for each crankpin"));
-    assert!(error(Figure::Z, vec![1.0, 1.0], normal).contains("one for each cylinder"));
-    assert!(error(Figure::Z, vec![1.0, -1.0, 0.0, 0.0], normal).starts_with("z = -1.0:"));
+    assert_eq!(error(Parameter::CrankRadius, vec![0.0499, 0.0, 0.0], uniform), "");
+    assert!(error(Parameter::CrankRadius, vec![0.0, 0.0, 0.051], uniform).contains("turning"));
+    assert!(error(Parameter::RodLength, vec![0.0, 0.1, 0.0, 0.0], uniform).contains("cylinder 2"));
+    assert!(error(Parameter::Pin, vec![30.0, 0.0, 0.0], normal).contains("half a turn"));
+    assert!(error(Parameter::Pin, vec![1.0; 4], normal).contains("one for each crankpin"));
+    assert!(error(Parameter::Z, vec![1.0, 1.0], normal).contains("one for each cylinder"));
+    assert!(error(Parameter::Z, vec![1.0, -1.0, 0.0, 0.0], normal).starts_with("z = -1.0:"));
     // Any deviation of a rotating mass is an unbalance.
-    assert_eq!(error(Figure::RotatingMass, vec![9.0; 4], normal), "");
+    assert_eq!(error(Parameter::RotatingMass, vec![9.0; 4], normal), "");
     for pins in [&[0, 0, 1][..], &[0, 0, 2, 2], &[0, 0, 0, 9]] {
         let none = (&NONE, normal);
         let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, none, pins, &Cancel::new());

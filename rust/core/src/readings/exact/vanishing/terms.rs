@@ -3,9 +3,9 @@
 
 use num_traits::CheckedMul;
 
-use super::super::roots::{Entry, PartOfTurn, Roots, Share, parts_of_turn};
-use super::super::{Levers, Proportions, too_long};
-use super::Quantity;
+use super::super::roots::{FormalSum, PartOfTurn, Share, SymbolEntry, parts_of_turn};
+use super::super::{Levers, TypedProportions, too_long};
+use super::ProofQuantity;
 use crate::engine::{Engine, first_equal};
 use crate::gear::slider_crank::Cylinder;
 use crate::load::{self, Harmonic, Load, Loads, Source, Wanted, superpose};
@@ -33,7 +33,7 @@ pub(super) enum Channel {
 
 /// Lists of weights that have no rational relation to each other's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(super) enum Weights {
+pub(super) enum SymbolWeights {
     /// m·r and unbalances, kg·m.
     #[default]
     Planar,
@@ -52,17 +52,17 @@ pub(super) enum Weights {
 pub(super) struct Symbol {
     pub channel: Channel,
     /// Unit of weight.
-    pub weight: (Weights, usize),
+    pub weight: (SymbolWeights, usize),
     /// Unit of length.
     pub lever: usize,
     /// Direction that is no simple part of a turn, 0 for others.
-    pub direction: (usize, Entry),
+    pub direction: (usize, SymbolEntry),
     /// Phase that is none.
     pub phase: usize,
 }
 
 /// A load's part of a sum: weight times the root of unity at `turns`.
-pub(super) struct Term {
+pub(super) struct SymbolTerm {
     pub symbol: Symbol,
     pub turns: Ratio,
     pub weight: Ratio,
@@ -80,17 +80,17 @@ pub(super) struct View {
 }
 
 /// Units of weight and of length, and how many of them.
-type Amount = ((Weights, usize), usize, Ratio);
+type Amount = ((SymbolWeights, usize), usize, Ratio);
 
 /// Sums of one order, by harmonic.
-pub(super) type Sums = Vec<load::Term<Vec<Share>>>;
+pub(super) type SymbolSums = Vec<load::Term<Vec<Share>>>;
 
 /// Everything about an engine that does not depend on the order.
 pub(super) struct Proof {
     pub loads: Loads,
     /// A slider-crank of each gear.
     pub motions: Vec<Cylinder>,
-    pub roots: Roots,
+    pub roots: FormalSum,
     /// Directions, equal ones by one symbol.
     bores: Vec<PartOfTurn>,
     /// For each list of weights, unit and multiple of every load; arms have two weights a load.
@@ -123,7 +123,7 @@ impl Proof {
         });
         let bores = loads.list.iter().map(|load| load.direction);
         let motions = loads.cylinders();
-        let sizes = motions.iter().map(|motion| Proportions::of(motion).mirrored());
+        let sizes = motions.iter().map(|motion| TypedProportions::of(motion).mirrored());
         let gears = engine.gears().to_vec();
         let of_gear = first_equal(gears.iter().map(|gear| {
             let inertia = gear.rod_inertia_excess();
@@ -135,7 +135,7 @@ impl Proof {
             (gear, of_gear[gear])
         });
         Ok(Self {
-            roots: Roots::new(&loads, cancel)?,
+            roots: FormalSum::new(&loads, cancel)?,
             bores: parts_of_turn(bores, false, cancel)?,
             planar: weights(&|load| load.weight)?,
             masses: weights(&|load| piston(load, |second_moment, _| second_moment))?,
@@ -150,7 +150,7 @@ impl Proof {
         })
     }
 
-    pub fn sums(&self, order: Order) -> Sums {
+    pub fn sums(&self, order: Order) -> SymbolSums {
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         superpose(&self.roots, &self.loads, order, wanted)
     }
@@ -222,12 +222,12 @@ impl Proof {
         use load::Weight;
         let i = share.load;
         let (list, (unit, weight)) = match share.weight {
-            Weight::Force | Weight::Moment => (Weights::Planar, self.planar.of[i]),
-            Weight::Torque if view.gears => (Weights::Gear, (0, Ratio::ONE)),
-            Weight::Torque => (Weights::Masses, self.masses.of[i]),
-            Weight::Rod => (Weights::Rod, self.rods.of[i]),
-            Weight::ArmX => (Weights::Arm, self.arms.of[2 * i]),
-            Weight::ArmY => (Weights::Arm, self.arms.of[2 * i + 1]),
+            Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar.of[i]),
+            Weight::Torque if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
+            Weight::Torque => (SymbolWeights::Masses, self.masses.of[i]),
+            Weight::Rod => (SymbolWeights::Rod, self.rods.of[i]),
+            Weight::ArmX => (SymbolWeights::Arm, self.arms.of[2 * i]),
+            Weight::ArmY => (SymbolWeights::Arm, self.arms.of[2 * i + 1]),
         };
         let weight = weight.checked_mul(&Ratio::from(i128::from(share.halves)));
         let weight = weight.ok_or_else(too_long)?;
@@ -243,11 +243,11 @@ impl Proof {
     /// The terms of a quantity, all times one number that is not zero.
     pub fn terms(
         &self,
-        sums: &Sums,
-        quantity: Quantity,
+        sums: &SymbolSums,
+        quantity: ProofQuantity,
         order: u32,
         view: View,
-    ) -> Result<Vec<Term>> {
+    ) -> Result<Vec<SymbolTerm>> {
         let mut terms = Vec::new();
         for sum in sums {
             for (shares, sign) in quantity.shares(sum) {
@@ -269,7 +269,7 @@ impl Proof {
                                 direction: root.direction,
                                 phase: root.phase,
                             };
-                            terms.push(Term { symbol, turns: root.turns, weight: amount });
+                            terms.push(SymbolTerm { symbol, turns: root.turns, weight: amount });
                         }
                     }
                 }
@@ -280,7 +280,7 @@ impl Proof {
 
     /// A share, in which the forward and the backward part of a piston along (about) x or y are one
     /// where its bore is a symbol.
-    fn component(&self, quantity: Quantity, share: &Share) -> Option<Share> {
+    fn component(&self, quantity: ProofQuantity, share: &Share) -> Option<Share> {
         let piston = self.loads.list[share.load].source != Source::Unbalance;
         let bore = self.bores[share.load];
         if !quantity.is_component() || !piston || bore.symbol == 0 {
@@ -288,12 +288,15 @@ impl Proof {
         }
         let step = self.roots.directions[share.load].turns;
         let root = share.root.turned(-step);
-        let root = super::super::roots::Root { direction: (bore.symbol, Entry::Component), ..root };
-        (share.root.direction.1 == Entry::Root).then_some(Share { root, ..*share })
+        let root = super::super::roots::UnityRoot {
+            direction: (bore.symbol, SymbolEntry::Component),
+            ..root
+        };
+        (share.root.direction.1 == SymbolEntry::UnityRoot).then_some(Share { root, ..*share })
     }
 }
 
-impl Quantity {
+impl ProofQuantity {
     /// Along (about) x or y.
     fn is_component(self) -> bool {
         matches!(self, Self::ForceX | Self::ForceY | Self::MomentX | Self::MomentY)
