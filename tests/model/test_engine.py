@@ -296,11 +296,9 @@ def test_a_swept_bank_angle_is_in_no_title() -> None:
 
 # --- mistakes -----------------------------------------------------------------------------------
 
-MILLIMETRES = cp.Cylinder(43, 145, 0.45)
-GRAMS = CYLINDER.replace(reciprocating_mass=450)
 MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "all lengths in mm": (
-        lambda: cp.Engine.inline(MILLIMETRES, throws_deg=[0], spacing=100),
+        lambda: cp.Engine.inline(cp.Cylinder(43, 145, 0.45), throws_deg=[0], spacing=100),
         "crank_radius = 43 m: was it given in millimetres",
     ),
     "spacing in mm": (
@@ -329,7 +327,15 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "weight in g·mm": (
         lambda: I4.with_counterweights([cp.Unbalance(8000, z=0.1)]),
-        "^amount = 8000 kg·m at a crank radius of 0.043 m: was it given in g·mm or g·m",
+        "^amount = 8000 kg·m: was it given in g·mm or g·m",
+    ),
+    "weight in g·mm, alone": (lambda: cp.Unbalance(8000, z=0), "^amount = 8000 kg·m: was it"),
+    "rod in mm, alone": (lambda: cp.Cylinder(0.043, 158, 0.5), "^rod_length = 158 m"),
+    "cylinder in mm, alone": (
+        lambda: cp.Cylinder.from_bore_stroke(
+            bore=86, stroke=86, rod_length=145, reciprocating_mass=0.5
+        ),
+        "^crank_radius = 43 m: was it given in millimetres",
     ),
     "shaft's weight in g·mm": (
         lambda: I4.with_shafts([cp.Shaft(2, [cp.Unbalance(3100, 0.15)])]),
@@ -341,7 +347,9 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         "^pistons = 405 kg at a crank radius of 0.043 m: was it given in grams",
     ),
     "grams": (
-        lambda: cp.Engine.inline(GRAMS, throws_deg=[0], spacing=0.1),
+        lambda: cp.Engine.inline(
+            CYLINDER.replace(reciprocating_mass=450), throws_deg=[0], spacing=0.1
+        ),
         "^reciprocating_mass = 450 kg .* was it given in grams",
     ),
     "rotating grams": (lambda: vee(rotating_mass=300), "^rotating_mass = 300 kg"),

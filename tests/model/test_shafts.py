@@ -105,6 +105,7 @@ def test_unbalances_and_shafts_of_the_wrong_kind_are_rejected_by_name(
         (lambda: Unbalance(1e31, 0), "amount = 1e31: give a finite number of magnitude 1e30"),
     ],
 )
+@pytest.mark.filterwarnings("ignore:amount = 1e.31 kg·m. was it given in g·mm")
 def test_an_engine_rejects_a_counterweight_out_of_range(
     weight: Callable[[], Unbalance], words: str
 ) -> None:

@@ -44,7 +44,18 @@ Cars have 4e3 to 2e4, large two-strokes 8e3, a Formula 1 V10 of 20 mm crank radi
 grams all but the largest engines are above 1e6.
 """
 
+LARGEST_UNBALANCE = 7e3
+"""Unbalance, kg·m, above which it is not in these units, whatever the engine.
+
+The largest first-order couples, of two-strokes, are 3 MN·m at 80 rpm: 5.3e3 kg·m at weights 8 m
+apart.
+"""
+
 MILLIMETRES = ": was it given in millimetres?"
+GRAMS_MILLIMETRES = ": was it given in g·mm or g·m?"
+
+LONGEST_ROD = 5.0
+"""Rod length, m, up to which it is in metres: the longest built have 3.5 m."""
 
 RODS_IN_MILLIMETRES = (1e3, 2e4)
 """Rod lengths, in crank radii, that are rods of 2.5 to 10 in millimetres; longer ones stand for
@@ -71,17 +82,21 @@ ROUNDED_RADIANS = 0.01
 four decimals are within 0.003°."""
 
 
-def units(core: _core.Engine) -> None:
-    """Warn of an engine's lengths in millimetres and masses in grams."""
-    cylinders = set(core.cylinders)
-    radius = core.largest_crank_radius
+def cylinder(radius: float, rod_length: float) -> None:
+    """Warn of a cylinder's lengths in millimetres; of its mass beside the largest crank radius."""
     found = []
     if radius > LARGEST_CRANK_RADIUS:
         found.append(f"crank_radius = {radius:g} m{MILLIMETRES}")
-    longest, its_radius = max((parts[1], parts[0]) for parts in cylinders)
     low, high = RODS_IN_MILLIMETRES
-    if low < longest / its_radius < high:
-        found.append(f"rod_length = {longest:g} m{_at(its_radius)}{MILLIMETRES}")
+    if rod_length > LONGEST_ROD and low < rod_length / radius < high:
+        found.append(f"rod_length = {rod_length:g} m{_at(radius)}{MILLIMETRES}")
+    _report(found)
+
+
+def units(core: _core.Engine) -> None:
+    """Warn of an engine's places in millimetres and masses in grams; cylinders are asked alone."""
+    radius = core.largest_crank_radius
+    found = []
     places = sorted(set(core.z.tolist()))
     spacing = max((after - before for before, after in pairwise(places)), default=0.0)
     if spacing > LARGEST_SPACING * radius:
@@ -89,10 +104,16 @@ def units(core: _core.Engine) -> None:
             f"z (or spacing, bank_stagger) = {spacing:g} m apart{_at(radius)}{MILLIMETRES}"
         )
     masses = {
-        "reciprocating_mass": max(parts[2] for parts in cylinders),
+        "reciprocating_mass": max(parts[2] for parts in core.cylinders),
         "rotating_mass": float(core.rotating_mass.max()),
     }
     _report([*found, *_grams(radius, masses)])
+
+
+def unbalance(amount: float) -> None:
+    """Warn of an unbalance that no engine has, kg·m; of smaller ones beside an engine."""
+    if amount > LARGEST_UNBALANCE:
+        _report([f"amount = {amount:g} kg·m{GRAMS_MILLIMETRES}"])
 
 
 def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[Shaft]) -> None:
@@ -101,8 +122,8 @@ def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[
     carried = [*weights, *(weight for shaft in shafts for weight in shaft.unbalances)]
     amount = max((weight.amount for weight in carried), default=0.0)
     found = []
-    if amount > LARGEST_DENSITY * radius**4:
-        found.append(f"amount = {amount:g} kg·m{_at(radius)}: was it given in g·mm or g·m?")
+    if LARGEST_DENSITY * radius**4 < amount <= LARGEST_UNBALANCE:
+        found.append(f"amount = {amount:g} kg·m{_at(radius)}{GRAMS_MILLIMETRES}")
     for weight in carried:
         found += _far(core, "z", weight.z)
     for shaft in shafts:

@@ -9,6 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -176,6 +177,7 @@ class Cylinder:
             if given is not None or field.default is not None:
                 object.__setattr__(self, field.name, inputs.number(field.name, given))
         _core.check_cylinder(self._parts)
+        checks.cylinder(self.crank_radius, self.rod_length)
         if self.bore is not None:
             if not 0.0 < self.bore <= LARGEST_LENGTH:
                 raise _core.InputError(f"bore = {self.bore!r}: give metres above zero")
@@ -196,13 +198,14 @@ class Cylinder:
 
     @classmethod
     def _of(cls, parts: _Parts, details: _Details) -> Cylinder:
-        """Return the cylinder of what the core has."""
+        """Return the cylinder of what the core has, without warnings: it was made before."""
         bore, piston_mass, figures = details
         rod = None
         if figures is not None:
             mass, inertia, to_crankpin = figures
             rod = Rod(mass, inertia, parts[1], to_crankpin)
-        return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod)
+        with suppressed():
+            return cls(*parts, bore=bore, piston_mass=piston_mass, rod=rod)
 
     @property
     def _details(self) -> _Details:

@@ -466,6 +466,8 @@ class EngineData:
             core = core.firing_as(order.text, core.strokes)
         read = cls(core)
         _ = read.cylinders  # rods that contradict their cylinders raise
+        for parts in set(core.cylinders):
+            checks.cylinder(*parts[:2])
         checks.units(core)
         return read
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ class Unbalance:
         object.__setattr__(self, "z", inputs.finite("z", self.z))
         if self.amount < 0.0:
             raise InputError(f"amount = {self.amount}: give zero or more; angle_deg turns it round")
+        checks.unbalance(self.amount)
         angle = inputs.angle("angle_deg", self.angle_deg)
         object.__setattr__(self, "angle_deg", _readable(angle))
         if self.pin is not None:
@@ -188,7 +190,8 @@ def _weight(unbalance: Unbalance) -> _Weight:
 def unbalance_of(weight: _Weight) -> Unbalance:
     """Return an unbalance of the core."""
     amount, angle, z, pin = weight
-    return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1)
+    with suppressed():  # Whoever gave it was warned.
+        return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1)
 
 
 def _readable(angle: str) -> float | str:
