@@ -151,29 +151,30 @@ impl Block {
     #[inline(always)]
     pub fn magnitudes(&self, components: usize, factor: f64, out: &mut [f64]) {
         let width = self.orders.len() * components;
+        let mut pairs = [[0.0; 2]; BLOCK];
         for (order, sums) in self.orders.iter().enumerate() {
-            let mut columns = [[0.0; BLOCK]; 2];
-            let [along, across] = &mut columns;
-            sums.magnitudes(factor, along, across, out.len() / width);
-            for (i, row) in out.chunks_exact_mut(width).enumerate().take(BLOCK) {
-                row[order * components] = along[i];
-                if components == 2 {
-                    row[2 * order + 1] = across[i];
-                }
+            sums.magnitudes(factor, &mut pairs[..(out.len() / width).min(BLOCK)]);
+            if components == 2 {
+                let (rows, _) = out.as_chunks_mut::<2>();
+                let rows = rows[order..].iter_mut().step_by(self.orders.len());
+                rows.zip(&pairs).for_each(|(out, pair)| *out = *pair);
+            } else {
+                let rows = out[order..].iter_mut().step_by(width);
+                rows.zip(&pairs).for_each(|(out, [along, _])| *out = *along);
             }
         }
     }
 }
 
 impl Sums {
-    /// Magnitudes along (about) x and y at `count` rows.
+    /// Magnitudes along (about) x and y at the first rows.
     #[inline(always)]
-    fn magnitudes(&self, factor: f64, along: &mut Column, across: &mut Column, count: usize) {
+    fn magnitudes(&self, factor: f64, pairs: &mut [[f64; 2]]) {
         let Self { forward: [f, g], backward_conj: [u, v], bound } = self;
-        for i in 0..count.min(BLOCK) {
+        for (i, pair) in pairs.iter_mut().enumerate().take(BLOCK) {
             let square = bound[i] * bound[i];
-            along[i] = factor * magnitude(f[i] + u[i], g[i] + v[i], square);
-            across[i] = factor * magnitude(f[i] - u[i], g[i] - v[i], square);
+            let along = magnitude(f[i] + u[i], g[i] + v[i], square);
+            *pair = [factor * along, factor * magnitude(f[i] - u[i], g[i] - v[i], square)];
         }
     }
 }

@@ -16,6 +16,7 @@
 //!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
 //!   Orders 1 and 2 of torques are kept where the layout has them.
 
+use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use super::harmonics::of;
@@ -23,6 +24,7 @@ use super::layout::{Layout, LayoutSum};
 use super::{Axes, Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::gear::harmonics::rod::TorqueHarmonics;
 use crate::gear::spectrum::Spectrum;
 use crate::gear::{Gear, GearKind};
 use crate::load::{Harmonic, Loads};
@@ -77,12 +79,13 @@ impl Sweep {
         // A sum for each engine and quantity, in the order of the engines.
         let mut sizes = vec![Vec::new(); sweep.orders.len()];
         let mut lost = Vec::new();
+        let mut known = Known::new();
         for (index, (loads, gears)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
             let rest = tail(loads, sweep.orders.last(), torque, gears);
             let layouts = sweep.layouts(&sweep.engines[index], loads, &quantities)?;
             for (&quantity, layout) in quantities.iter().zip(&layouts) {
-                let largest = sweep.largest(layout, gears, quantity, cancel)?;
+                let largest = sweep.largest(layout, gears, quantity, &mut known, cancel)?;
                 sizes.iter_mut().zip(largest).for_each(|(sizes, size)| sizes.push(size));
                 lost.push(rest[quantity.bound()]);
             }
@@ -112,18 +115,20 @@ impl Sweep {
         layout: &Layout,
         slowest: &[Gear],
         quantity: Quantity,
+        known: &mut Known,
         cancel: &Cancel,
     ) -> Result<Vec<f64>> {
-        let mut factors: Vec<(Harmonic, Vec<Factor>)> = Vec::new();
+        let mut factors: Vec<(Harmonic, usize)> = Vec::new();
         for sum in layout.iter().flatten() {
-            if factors.iter().all(|(known, _)| *known != sum.harmonic) {
-                let found = self.factors(slowest, sum.harmonic, quantity, cancel)?;
-                factors.push((sum.harmonic, found));
+            if factors.iter().all(|(harmonic, _)| *harmonic != sum.harmonic) {
+                factors.push((sum.harmonic, self.factors(slowest, sum.harmonic, known, cancel)?));
             }
         }
+        let known: &Known = known;
         let factor = |harmonic: Harmonic, order: usize| {
             let found = factors.iter().find(|(known, _)| *known == harmonic);
-            found.map_or(Factor::AtMost(0.0), |(_, factors)| factors[order])
+            let on_crank = usize::from(quantity == Quantity::CrankTorque);
+            found.map_or(Factor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
             let (mut size, mut fixed, mut rounding) = (0.0, [Complex64::default(); 6], 0.0);
@@ -144,24 +149,46 @@ impl Sweep {
         Ok(layout.iter().enumerate().map(size).collect())
     }
 
-    /// Harmonics of a gear by order, or their bounds over the axes.
+    /// Place among those known, evaluated if there are none yet, of the harmonics of a gear, or of
+    /// their bounds over the axes.
     fn factors(
         &self,
         slowest: &[Gear],
         harmonic: Harmonic,
-        quantity: Quantity,
+        known: &mut Known,
         cancel: &Cancel,
-    ) -> Result<Vec<Factor>> {
-        let orders = &self.orders;
+    ) -> Result<usize> {
         let gear = match harmonic {
-            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => &slowest[k],
-            Harmonic::One => {
-                return Ok(vec![Factor::Fixed(Complex64::new(1.0, 0.0)); orders.len()]);
-            }
+            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => slowest.get(k),
+            Harmonic::One => None,
+        };
+        let kind = discriminant(&harmonic);
+        let same = |(of, at, _): &(Option<Gear>, _, _)| of.as_ref() == gear && *at == kind;
+        if let Some(place) = known.iter().position(same) {
+            return Ok(place);
+        }
+        let found = self.evaluated(gear, harmonic, cancel)?;
+        known.push((gear.cloned(), kind, found));
+        Ok(known.len() - 1)
+    }
+
+    fn evaluated(
+        &self,
+        gear: Option<&Gear>,
+        harmonic: Harmonic,
+        cancel: &Cancel,
+    ) -> Result<[Vec<Factor>; 2]> {
+        let orders = &self.orders;
+        let values = |gear, factor: fn(Complex64) -> Factor| {
+            let TorqueHarmonics { roll, crank } = of(gear, harmonic, orders, cancel)?;
+            Ok([roll, crank].map(|values| values.into_iter().map(factor).collect()))
+        };
+        let Some(gear) = gear else {
+            let ones = vec![Factor::Fixed(Complex64::new(1.0, 0.0)); orders.len()];
+            return Ok([ones.clone(), ones]);
         };
         if self.points() == 1 {
-            let values = of(gear, harmonic, quantity, orders, cancel)?;
-            return Ok(values.into_iter().map(Factor::Fixed).collect());
+            return values(gear, Factor::Fixed);
         }
         let rod_ratio = match &gear.kind {
             GearKind::SliderCrank { proportions, .. } => 1.0 / proportions.rod,
@@ -172,8 +199,7 @@ impl Sweep {
             _ => matches!(harmonic, Harmonic::Force(_)),
         };
         if gear.is_centred() && grows {
-            let values = of(gear, harmonic, quantity, orders, cancel)?;
-            return Ok(values.into_iter().map(|value| Factor::AtMost(value.norm())).collect());
+            return values(gear, |value| Factor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {
             let own = order.halves() / 2 / gear.ratio.unsigned_abs();
@@ -185,9 +211,13 @@ impl Sweep {
                 _ => rod * f64::from(gear.ratio.abs()),
             })
         };
-        Ok(orders.iter().map(bound).collect())
+        let bounds: Vec<Factor> = orders.iter().map(bound).collect();
+        Ok([bounds.clone(), bounds])
     }
 }
+
+/// Factors by order, for the torque on the block and on the crank, of a gear's harmonics of a kind.
+type Known = Vec<(Option<Gear>, Discriminant<Harmonic>, [Vec<Factor>; 2])>;
 
 /// Harmonic of an order.
 #[derive(Debug, Clone, Copy)]

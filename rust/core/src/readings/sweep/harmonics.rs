@@ -6,6 +6,7 @@ use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::gear::Gear;
+use crate::gear::harmonics::rod::TorqueHarmonics;
 use crate::gear::harmonics::table;
 use crate::load::Harmonic;
 use crate::numbers::cancel::Cancel;
@@ -80,7 +81,7 @@ impl Sweep {
             return Ok(columns);
         }
         if ratios.is_none() && offsets.is_none() {
-            let values = of(gear, harmonic, quantity, &self.orders, cancel)?;
+            let values = quantity.among(of(gear, harmonic, &self.orders, cancel)?);
             for ([re, im], value) in columns.iter_mut().zip(values) {
                 re.fill(value.re);
                 im.fill(value.im);
@@ -93,7 +94,7 @@ impl Sweep {
             let ratio = ratios.as_ref().map(|ratios| ratios[point / in_a_row]);
             let offset = offsets.as_ref().map(|offsets| offsets[point % in_a_row]);
             let gear = gear.replaced(ratio, offset)?;
-            let values = of(&gear, harmonic, quantity, &self.orders, cancel)?;
+            let values = quantity.among(of(&gear, harmonic, &self.orders, cancel)?);
             for ([re, im], value) in columns.iter_mut().zip(values) {
                 (re[row], im[row]) = (value.re, value.im);
             }
@@ -102,19 +103,25 @@ impl Sweep {
     }
 }
 
-/// Harmonics of a gear for a quantity.
+impl Quantity {
+    /// Its own of two harmonics; those of forces are alike.
+    fn among(self, harmonics: TorqueHarmonics) -> Vec<Complex64> {
+        if self == Self::CrankTorque { harmonics.crank } else { harmonics.roll }
+    }
+}
+
+/// Harmonics of a gear, for the torque on the block and on the crank; those of forces twice.
 pub(super) fn of(
     gear: &Gear,
     harmonic: Harmonic,
-    quantity: Quantity,
     orders: &[Order],
     cancel: &Cancel,
-) -> Result<Vec<Complex64>> {
-    let torques = match harmonic {
-        Harmonic::Torque(_) => gear.torque(orders, cancel)?,
-        Harmonic::Rod(_) => gear.rod_torque(orders, cancel)?,
-        Harmonic::One => return Ok(vec![Complex64::new(1.0, 0.0); orders.len()]),
-        Harmonic::Force(_) => return gear.force(orders, cancel),
+) -> Result<TorqueHarmonics> {
+    let force = match harmonic {
+        Harmonic::Torque(_) => return gear.torque(orders, cancel),
+        Harmonic::Rod(_) => return gear.rod_torque(orders, cancel),
+        Harmonic::One => vec![Complex64::new(1.0, 0.0); orders.len()],
+        Harmonic::Force(_) => gear.force(orders, cancel)?,
     };
-    Ok(if quantity == Quantity::Torque { torques.roll } else { torques.crank })
+    Ok(TorqueHarmonics { roll: force.clone(), crank: force })
 }

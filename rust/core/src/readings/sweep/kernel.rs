@@ -86,6 +86,7 @@ impl<F: Sync> Job<'_, F> {
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let large = pool::worth(out.len() * if self.slow { 256 } else { 1 });
         let layout = |k: usize| {
+            self.cancel.check()?;
             let loads = sweep.loads(k);
             let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;
             Ok((loads.gears, layouts.into_iter().next().unwrap_or_default()))
