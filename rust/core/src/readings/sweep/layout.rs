@@ -30,7 +30,11 @@ impl Sweep {
         quantities: &[Quantity],
     ) -> Result<Vec<Layout>> {
         let vee = match &self.axes.bank_angle {
-            Some((_, hold)) => Some((engine.banks()?, *hold)),
+            Some((_, hold)) => {
+                let banks = engine.banks()?;
+                let bisector = banks.bisector();
+                Some((banks.right, banks.directions.map(|bore| bisector - bore), *hold))
+            }
             None => None,
         };
         let planar = |quantity: &Quantity| quantity.is_planar();
@@ -48,15 +52,17 @@ impl Sweep {
                 for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
                     let sum = sum_of(&mut sums, term.harmonic);
                     sum.bound += (parts[0].size + parts[1].size) * rounding;
-                    let Some((bank, (banks, hold))) = term.bank.zip(vee) else {
+                    let Some((bank, (right, to_bisector, hold))) = term.bank.zip(vee) else {
                         sum.constants[4] += parts[0].value;
                         sum.constants[5] += parts[1].value;
                         continue;
                     };
-                    let is_right = bank == banks.right;
-                    let bore = banks.directions[usize::from(!is_right)];
-                    let to_bisector = banks.bisector() - bore;
+                    let is_right = bank == right;
+                    let to_bisector = to_bisector[usize::from(!is_right)];
                     for (k, multiple) in quantity.turn(order, hold).into_iter().enumerate() {
+                        if parts[k].size == 0.0 {
+                            continue;
+                        }
                         let turned = parts[k].value * to_bisector.cis(multiple);
                         // e^{−imγ} of the right bank, e^{imγ} of the left.
                         let sine = Complex64::i() * turned;
@@ -96,6 +102,7 @@ impl Quantity {
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
         let own = matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_));
         match self {
+            Self::Force | Self::Moment if own => None,
             Self::Force => Some(term.force),
             Self::Moment => Some(term.moment),
             // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
