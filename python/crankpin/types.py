@@ -19,7 +19,7 @@ from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
-from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
+from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.ranking.choices import Choice
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.analysis.sweeps.sweep import Sweep
@@ -58,10 +58,8 @@ __all__ = [
     "Match",
     "OrderBalance",
     "OrderVerdicts",
-    "Overlap",
     "PlaneVector",
     "PortTiming",
-    "Ports",
     "Quantity",
     "Ranking",
     "Scalar",
@@ -72,7 +70,6 @@ __all__ = [
     "Tolerances",
     "TwoPlaneCorrection",
     "ValveTiming",
-    "Valves",
     "VanishingOrders",
     "VectorVerdicts",
     "Verdicts",

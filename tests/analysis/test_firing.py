@@ -135,7 +135,7 @@ def test_a_cylinder_alone_follows_itself() -> None:
 def test_cylinders_that_fire_together_overlap_once() -> None:
     fires = BOXER.firing("1+2-3+4")
     (overlaps,) = fires.exhaust_overlaps([[1, 2]])
-    assert overlaps == (cp.types.Overlap(1, 2, 0.0, 240.0),)
+    assert overlaps == (cp.types.Gap(1, 2, 0.0, 240.0),)
     assert fires.gaps([[1, 2]]) == ((cp.types.Gap(1, 2, 0.0), cp.types.Gap(2, 1, 720.0)),)
 
 
@@ -256,7 +256,7 @@ def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
     i3 = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
     timing = cp.types.PortTiming(transfer_opens_deg=62, exhaust_opens_deg="94.5")
     fires = i3.firing("1-3-2", strokes=2)
-    for periods, half in zip(fires.ports(timing), (62.0, 94.5), strict=True):
+    for periods, half in zip(fires.ports(timing).values(), (62.0, 94.5), strict=True):
         assert (periods[:, 1] - periods[:, 0]).tolist() == [2 * half] * 3
         assert ((periods[:, 0] >= 0) & (periods[:, 0] < 360)).all()
         for tdc, (opens, closes) in zip(fires.angles_deg, periods, strict=True):
@@ -266,7 +266,7 @@ def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
             assert up == pytest.approx(down, rel=1e-14)  # a few roundings of a cosine
     # With a pin offset they are timed from where the piston is lowest.
     single = inline([0]).replace(cylinder=OFFSET).firing("1", strokes=2)
-    (opens, closes) = single.ports(cp.types.PortTiming(40, 90)).exhaust[0]
+    (opens, closes) = single.ports(cp.types.PortTiming(40, 90))["exhaust"][0]
     assert 0.5 * (opens + closes) == pytest.approx(single.strokes_deg()["power"][0, 1], abs=1e-12)
 
 
@@ -289,7 +289,7 @@ def test_exhaust_overlaps_of_a_two_stroke(opens: int) -> None:
 
 def test_ports_that_fire_together_overlap_once() -> None:
     fires = BOXER.firing("1+2-3+4", strokes=2)
-    assert fires.exhaust_overlaps([[1, 2]]) == ((cp.types.Overlap(1, 2, 0.0, 170.0),),)
+    assert fires.exhaust_overlaps([[1, 2]]) == ((cp.types.Gap(1, 2, 0.0, 170.0),),)
     assert fires.exhaust_overlaps([[1, 3]]) == ((),)  # 85 + 85 degrees, half a turn apart
 
 
@@ -336,17 +336,17 @@ def test_valves_open_and_close_about_the_dead_centres() -> None:
     timing = cp.types.ValveTiming(
         intake_opens_deg=12, intake_closes_deg=48, exhaust_opens_deg="55", exhaust_closes_deg=7
     )
-    intake, exhaust = PAGE.valves(timing)
+    intake, exhaust = PAGE.valves(timing).values()
     strokes = PAGE.strokes_deg()
     assert (intake[:, 0] == (strokes["intake"][:, 0] - 12) % 720).all()
     assert (intake[:, 1] - intake[:, 0] == 12 + 180 + 48).all()
     assert (exhaust[:, 0] == (strokes["exhaust"][:, 0] - 55) % 720).all()
     assert (exhaust[:, 1] - exhaust[:, 0] == 55 + 180 + 7).all()
-    late = PAGE.valves(cp.types.ValveTiming(intake_opens_deg=-10)).intake
+    late = PAGE.valves(cp.types.ValveTiming(intake_opens_deg=-10))["intake"]
     assert (late[:, 0] == (strokes["intake"][:, 0] + 10) % 720).all()
     # Valves of an engine with offset pins are timed from where its pistons turn.
     single = inline([0]).replace(cylinder=OFFSET).firing("1")
-    opens, closes = single.valves(cp.types.ValveTiming(0, 0, 0, 0)).intake[0]
+    opens, closes = single.valves(cp.types.ValveTiming(0, 0, 0, 0))["intake"][0]
     assert [opens, closes] == single.strokes_deg()["intake"][0].tolist()
 
 
@@ -710,8 +710,8 @@ def test_firings_are_frozen_and_copied() -> None:
     arrays = (
         PAGE.angles_deg,
         PAGE.intervals_deg,
-        *PAGE.valves(),
-        *two.ports(),
+        *PAGE.valves().values(),
+        *two.ports().values(),
         *PAGE.strokes_deg().values(),
         throws.throws_deg,
         throws.pin_split_deg,

@@ -146,9 +146,6 @@ PLAIN = {
     "Gap",
     "InputError",
     "OrderBalance",
-    "Overlap",
-    "Ports",
-    "Valves",
 }  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {
     "Balance",

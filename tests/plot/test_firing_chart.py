@@ -62,8 +62,8 @@ def test_it_shows_strokes_and_open_valves() -> None:
     found = drawn(ax)
     for name, periods in V8.strokes_deg().items():
         assert found[name] == wrapped(periods, 720.0)
-    assert found["intake open"] == wrapped(V8.valves().intake, 720.0)
-    assert found["exhaust open"] == wrapped(V8.valves().exhaust, 720.0)
+    assert found["intake open"] == wrapped(V8.valves()["intake"], 720.0)
+    assert found["exhaust open"] == wrapped(V8.valves()["exhaust"], 720.0)
 
 
 @pytest.mark.slow
@@ -82,7 +82,7 @@ def test_cylinders_stand_bank_by_bank_and_fire_where_marked() -> None:
 
 def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
     found = drawn(V8.plot(timing=cp.types.ValveTiming()))["exhausts overlap"]
-    exhausts = V8.valves().exhaust
+    exhausts = V8.valves()["exhaust"]
     total = 0.0
     for bank in V8.exhaust_overlaps():
         for each in bank:
@@ -102,8 +102,8 @@ def test_a_two_stroke_has_two_strokes_and_ports() -> None:
     found = drawn(ax)
     assert ax.get_xlim() == (0.0, 360.0)
     assert list(found)[:4] == ["power", "compression", "transfer open", "exhaust open"]
-    assert found["exhaust open"] == wrapped(TWO.ports(timing).exhaust, 360.0)
-    assert found["transfer open"] == wrapped(TWO.ports(timing).transfer, 360.0)
+    assert found["exhaust open"] == wrapped(TWO.ports(timing)["exhaust"], 360.0)
+    assert found["transfer open"] == wrapped(TWO.ports(timing)["transfer"], 360.0)
     assert found["power"] == wrapped(TWO.strokes_deg()["power"], 360.0)
 
 

@@ -22,21 +22,23 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.gas_exchange import Overlap, Ports, PortTiming, Valves, ValveTiming
+    from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
 
 
 class Gap(NamedTuple):
-    """Gap between the firings of two successive cylinders of a group."""
+    """Gap between two cylinders of a group: their firings, or the openings of their exhausts."""
 
     before: int
-    """Number of the cylinder that fires first."""
+    """Number of the cylinder that fires, or opens its exhaust, first."""
     after: int
-    """Number of the next one; the same if a cylinder is alone."""
+    """Number of the other one; the same if a cylinder is alone."""
     gap_deg: float
     """Crank angle between them, degrees."""
+    overlap_deg: float | None = None
+    """Crank angle for which both exhausts are open, degrees; None of firings."""
 
 
 class Firing(Record):
@@ -60,12 +62,8 @@ class Firing(Record):
     >>> f.intervals_deg
     array([90., 90., 90., 90., 90., 90., 90., 90.])
     >>> left, right = f.gaps()  # within each bank
-    >>> for gap in left:
-    ...     print(gap)
-    Gap(before=1, after=3, gap_deg=270.0)
-    Gap(before=3, after=5, gap_deg=180.0)
-    Gap(before=5, after=7, gap_deg=90.0)
-    Gap(before=7, after=1, gap_deg=180.0)
+    >>> [(gap.before, gap.after, gap.gap_deg) for gap in left]
+    [(1, 3, 270.0), (3, 5, 180.0), (5, 7, 90.0), (7, 1, 180.0)]
     """
 
     engine: Engine
@@ -158,7 +156,7 @@ class Firing(Record):
 
     def exhaust_overlaps(
         self, groups: Groups | None = None, *, timing: ValveTiming | PortTiming | None = None
-    ) -> tuple[tuple[Overlap, ...], ...]:
+    ) -> tuple[tuple[Gap, ...], ...]:
         """Return the overlaps of exhaust valves, or ports, within groups of cylinders.
 
         Parameters
@@ -175,9 +173,10 @@ class Firing(Record):
         >>> f = cp.Engine.preset("v8-crossplane").firing("1-8-4-3-6-5-7-2")
         >>> left, right = f.exhaust_overlaps()
         >>> max(left, key=lambda each: each.overlap_deg)
-        Overlap(before=5, after=7, gap_deg=90.0, overlap_deg=150.0)
+        Gap(before=5, after=7, gap_deg=90.0, overlap_deg=150.0)
         """
-        return gas_exchange.overlaps(self._core, _groups(groups), timing)
+        found = gas_exchange.overlaps(self._core, _groups(groups), timing)
+        return tuple(tuple(Gap(*each) for each in group) for group in found)
 
     # --- strokes and valves ---------------------------------------------------------------------
 
@@ -200,8 +199,11 @@ class Firing(Record):
         """
         return MappingProxyType(dict(self._core.stroke_periods()))
 
-    def valves(self, timing: ValveTiming | None = None) -> Valves:
-        """Return when valves open and close; of a four-stroke.
+    def valves(self, timing: ValveTiming | None = None) -> Mapping[str, NDArray[np.float64]]:
+        """Return when valves open and close: name → (n_cylinders, 2), of a four-stroke.
+
+        ``"intake"`` and ``"exhaust"``, degrees by cylinder number. Opening is in [0, 720), closing
+        after it, up to 720 more.
 
         Parameters
         ----------
@@ -212,13 +214,16 @@ class Firing(Record):
         --------
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("single").firing("1")
-        >>> f.valves().exhaust  # opens 50° before bottom, closes 10° after top dead centre
+        >>> f.valves()["exhaust"]  # opens 50° before bottom, closes 10° after top dead centre
         array([[130., 370.]])
         """
         return gas_exchange.valves(self._core, timing)
 
-    def ports(self, timing: PortTiming | None = None) -> Ports:
-        """Return when ports open and close; of a two-stroke.
+    def ports(self, timing: PortTiming | None = None) -> Mapping[str, NDArray[np.float64]]:
+        """Return when ports open and close: name → (n_cylinders, 2), of a two-stroke.
+
+        ``"transfer"`` and ``"exhaust"``, degrees by cylinder number. Opening is in [0, 360),
+        closing after it, up to 360 more.
 
         Parameters
         ----------
@@ -229,7 +234,7 @@ class Firing(Record):
         --------
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("single").firing("1", strokes=2)
-        >>> f.ports().exhaust  # opens 85° before, closes 85° after bottom dead centre
+        >>> f.ports()["exhaust"]  # opens 85° before, closes 85° after bottom dead centre
         array([[ 95., 265.]])
         """
         return gas_exchange.ports(self._core, timing)

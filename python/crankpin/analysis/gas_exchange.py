@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -18,43 +21,6 @@ if TYPE_CHECKING:
 
 TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
 PORT_TIMES = ("transfer_opens_deg", "exhaust_opens_deg")
-
-
-class Overlap(NamedTuple):
-    """Overlap of the exhaust openings of two cylinders, valves or ports."""
-
-    before: int
-    """Number of the cylinder whose exhaust is open."""
-    after: int
-    """Number of the one that opens into it."""
-    gap_deg: float
-    """Crank angle from one opening to the other, degrees."""
-    overlap_deg: float
-    """Crank angle for which both are open, degrees."""
-
-
-class Valves(NamedTuple):
-    """Crank angles at which valves open and close, degrees, by cylinder number.
-
-    Opening is in [0, 720), closing after it, up to 720 more.
-    """
-
-    intake: NDArray[np.float64]
-    """Intake valves: (n_cylinders, 2)."""
-    exhaust: NDArray[np.float64]
-    """Exhaust valves: (n_cylinders, 2)."""
-
-
-class Ports(NamedTuple):
-    """Crank angles at which ports open and close, degrees, by cylinder number.
-
-    Opening is in [0, 360), closing after it, up to 360 more.
-    """
-
-    transfer: NDArray[np.float64]
-    """Transfer ports: (n_cylinders, 2)."""
-    exhaust: NDArray[np.float64]
-    """Exhaust ports: (n_cylinders, 2)."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -126,25 +92,25 @@ class PortTiming:
         _core.port_timing(_port_texts(self))
 
 
-def valves(core: _core.Firing, timing: ValveTiming | None) -> Valves:
+def valves(core: _core.Firing, timing: ValveTiming | None) -> Mapping[str, NDArray[np.float64]]:
     """Return when valves open and close; see :meth:`Firing.valves`."""
-    return Valves(*core.valves(_valve_texts(valve_timing(timing))))
+    intake, exhaust = core.valves(_valve_texts(valve_timing(timing)))
+    return MappingProxyType({"intake": intake, "exhaust": exhaust})
 
 
-def ports(core: _core.Firing, timing: PortTiming | None) -> Ports:
+def ports(core: _core.Firing, timing: PortTiming | None) -> Mapping[str, NDArray[np.float64]]:
     """Return when ports open and close; see :meth:`Firing.ports`."""
-    return Ports(*core.ports(_port_texts(port_timing(timing))))
+    transfer, exhaust = core.ports(_port_texts(port_timing(timing)))
+    return MappingProxyType({"transfer": transfer, "exhaust": exhaust})
 
 
 def overlaps(
     core: _core.Firing, groups: list[list[int]] | None, timing: ValveTiming | PortTiming | None
-) -> tuple[tuple[Overlap, ...], ...]:
+) -> list[list[tuple[int, int, float, float]]]:
     """Return the overlaps of exhausts in each group; see :meth:`Firing.exhaust_overlaps`."""
     if core.strokes == 2:
-        found = core.port_overlaps(groups, _port_texts(port_timing(timing)))
-    else:
-        found = core.valve_overlaps(groups, _valve_texts(valve_timing(timing)))
-    return tuple(tuple(Overlap(*each) for each in group) for group in found)
+        return core.port_overlaps(groups, _port_texts(port_timing(timing)))
+    return core.valve_overlaps(groups, _valve_texts(valve_timing(timing)))
 
 
 def valve_timing(timing: object) -> ValveTiming:

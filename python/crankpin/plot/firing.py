@@ -11,7 +11,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 
 from crankpin._support import labels
-from crankpin.analysis.firing import Firing
+from crankpin.analysis.firing import Firing, Gap
 from crankpin.plot import ticks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin.analysis.gas_exchange import Overlap, PortTiming, ValveTiming
+    from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 
 STROKES = (-0.44, 0.5)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
@@ -112,9 +112,9 @@ def _openings(
     """Return the name of the inlet, and the periods in which inlets and exhausts are open."""
     if result.strokes == 2:
         ports = result.ports(timing)  # type: ignore[arg-type]
-        return "transfer", ports.transfer, ports.exhaust
+        return "transfer", ports["transfer"], ports["exhaust"]
     valves = result.valves(timing)  # type: ignore[arg-type]
-    return "intake", valves.intake, valves.exhaust
+    return "intake", valves["intake"], valves["exhaust"]
 
 
 def _inks(ax: Axes) -> tuple[Any, Any, Any, Any]:
@@ -164,7 +164,7 @@ def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: 
 
 def _mark_overlaps(
     ax: Axes,
-    overlaps: Sequence[Sequence[Overlap]],
+    overlaps: Sequence[Sequence[Gap]],
     exhausts: NDArray[np.float64],
     rows: list[int],
     cycle: float,
