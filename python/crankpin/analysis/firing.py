@@ -79,7 +79,7 @@ class Firing(Record):
 
     def __post_init__(self) -> None:
         # The core checks the turns when they are first read: of thousands few are.
-        if not (isinstance(self.engine, Engine) and isinstance(self.revolutions, tuple)):
+        if not all(map(isinstance, (self.engine, self.revolutions), (Engine, tuple))):
             given = inputs.shorten((self.engine, self.strokes, self.revolutions))
             raise InputError(f"Firing{given}: use Engine.firing, .firings or .firing_orders")
 

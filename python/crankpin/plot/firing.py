@@ -174,10 +174,10 @@ def _mark_overlaps(
         "facecolor": "none", "edgecolor": foreground(ax), "hatch": "////", "linewidth": 0.6,
         "zorder": 3,
     }  # fmt: skip
-    found = [each for bank in overlaps for each in bank if each.overlap_deg > 0.0]
+    found = [each for bank in overlaps for each in bank if each.overlap_deg]
     for each in found:
         start = float(exhausts[each.after - 1, 0])
-        pieces = _pieces((start, start + each.overlap_deg), cycle)
+        pieces = _pieces((start, start + (each.overlap_deg or 0.0)), cycle)
         for cylinder in {each.before, each.after}:
             _bars(ax, pieces, rows.index(cylinder), EXHAUSTS, **looks)
     return [Patch(label="exhausts overlap", **looks)] if found else []

@@ -237,7 +237,7 @@ class _FittedText:
             return _extent(self.place, self.along)
         parent: Any = self.place.get_figure(root=False)
         # Axes of a given aspect are smaller than their place.
-        part = getattr(self.place.get_position(original=True), self.along)
+        part: float = getattr(self.place.get_position(original=True), self.along)
         return max(part * _extent(parent, self.along), LEAST_PART * _cell(self.place, self.along))
 
     @property
