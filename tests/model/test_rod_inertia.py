@@ -325,7 +325,8 @@ def test_a_sweep_by_tolerance_bounds_every_point() -> None:
         each = engine.replace(cylinder=cylinder.replace(rod_length=cylinder.crank_radius / ratio))
         exact = np.asarray(each.waveform(rpm=RPM, theta_deg=THETA_DEG).torque)
         worst = max(worst, np.abs(exact - (waves @ torque).real).max())
-    assert 0.1 * sweep.error_bound.torque <= worst <= sweep.error_bound.torque
+    # The bound takes the largest harmonic of the axis and adds orders as if they peaked together.
+    assert 0.02 * sweep.error_bound.torque <= worst <= sweep.error_bound.torque
 
 
 def test_what_vanishes_is_proved() -> None:

@@ -306,7 +306,7 @@ class Counterweights(Tabled):
         *,
         figure: Figure | SubFigure | None = None,
         kind: str = "summary",
-        quantity: str = "moment",
+        quantity: str | None = None,
         **style: Any,  # noqa: ANN401 - of lines
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw the weights, and what order 1 does before and after; return the axes.
@@ -323,7 +323,8 @@ class Counterweights(Tabled):
             its direction at θ = 0 seen from the flywheel, and below it arrows of the crankpins;
             ``"ellipses"``: what order 1 traces before and after.
         quantity
-            ``"force"`` or ``"moment"``, for ``"ellipses"``.
+            ``"force"`` or ``"moment"``, for ``"ellipses"``; by default the moment, or else the
+            force.
         **style
             ``label`` and properties of matplotlib lines.
         """

@@ -190,7 +190,9 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, *, quantity: str = "moment", **style: object) -> Axes:
+    def plot(
+        self, ax: Axes | None = None, *, quantity: str | None = None, **style: object
+    ) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.
 
         Parameters
@@ -198,7 +200,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
         ax
             Axes to draw on; by default new ones.
         quantity
-            ``"force"``, ``"moment"`` or ``"torque"``, all over ω².
+            ``"force"``, ``"moment"`` or ``"torque"``, all over ω²; by default the moment, or else
+            the first that there is.
         **style
             Passed on to the markers; ``label`` names the result in a legend.
         """
