@@ -190,9 +190,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     # --- tables and pictures --------------------------------------------------------------------
 
-    def plot(
-        self, ax: Axes | None = None, *, quantity: str | None = None, **style: object
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: object) -> Axes:
         """Draw a quantity with and without the shafts, part by part; return the axes.
 
         Parameters
