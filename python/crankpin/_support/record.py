@@ -82,7 +82,6 @@ class Tabled(Record):
     """Base class of records that are shown by their ``table``."""
 
     @property
-    @property
     def table(self) -> Table:
         """Table that is shown: columns of numbers with units."""
         raise NotImplementedError
