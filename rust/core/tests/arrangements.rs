@@ -250,7 +250,8 @@ fn what_is_no_bank_is_refused() {
     assert!(bank(6, false, Some(&three)).is_ok());
     assert!(said(bank(8, false, Some(&three))).contains('4'));
     assert!(said(bank(6, true, Some(&three))).contains("alternati"));
-    for (finer, hint) in [(0.5, "1/360"), (17.3, "1/360"), (17.123_456_789_123_4, "rational parts")] {
+    for (finer, hint) in [(0.5, "1/360"), (17.3, "1/360"), (17.123_456_789_123_4, "rational parts")]
+    {
         let phases = [0.0, finer].map(|d| Angle::from_degrees(d).unwrap());
         assert!(said(bank(4, false, Some(&phases))).contains(hint), "{finer}");
     }
