@@ -139,9 +139,8 @@ def largest_of_zeros(plain: bool) -> float:
     for name in BALANCED:
         engine = cp.Engine.preset(name).replace(rotating_mass=0.0)
         proof = engine.vanishing_orders(TWELVE)
-        found = (
-            plain_force(engine, RPM, TWELVE) if plain else engine.balance(RPM, orders=TWELVE).force
-        )
+        force = engine.balance(RPM, orders=TWELVE).force
+        found = plain_force(engine, RPM, TWELVE) if plain else force.xy
         for axis, verdicts in enumerate((proof.force.x, proof.force.y)):
             zero = [n in verdicts.vanishing for n in TWELVE]
             worst = max(worst, float(np.abs(found[zero, axis]).max()) / first_order(engine, RPM))
