@@ -158,6 +158,7 @@ class Balance(ByOrder, Tabled):
 
     def with_request(self, request: Request) -> Self:
         """Return the same balance by another request."""
+        check_request(request, "Balance.at_orders")
         within = self.within
         if within is not None:
             within = (within[0].with_request(request), within[1])
@@ -165,12 +166,14 @@ class Balance(ByOrder, Tabled):
 
     def proved_zero(self, quantity: str, order: int) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
+        inputs.one_of("quantity", quantity, QUANTITIES)
+        orders = inputs.orders([order]) or []
         if self.request.pairs is not None or quantity == "crank_torque":
             return False
         if quantity == "torque" and any(self.request.aside):
             return False
         core = engine_core(self.engine)
-        vanishes = _core.vanishing(core, [order], self.request.reference_z)[0][0]
+        vanishes = _core.vanishing(core, orders, self.request.reference_z)[0][0]
         at = {"force": slice(0, 2), "moment": slice(4, 6), "torque": slice(8, 9)}
         return bool(vanishes[at[quantity]].all())
 

@@ -519,13 +519,17 @@ class ByOrder(Quantities):
         return self.__dict__.setdefault("_cache", {})  # type: ignore[no-any-return]
 
     def read(self, quantity: str, what: str) -> NDArray[Any]:
-        """Return one of :func:`export.arrays_of` a quantity, read-only.
+        """Return one of the arrays of a quantity, read-only: ``"peak"``, ``"phasors"`` and others.
 
         Computed when it is first read, and kept; threads that read it at once get one array.
         """
         self.request.check(quantity)
+        if not isinstance(what, str):
+            raise InputError(f"what = {inputs.shorten(what)}: give the name of an array")
         found: NDArray[Any] | None = self._kept.get((quantity, what))
         if found is None:
+            there = [what for _, _, what, _ in export.variables([quantity])]
+            inputs.one_of("what", what, [*there, "turning"])
             found = read_only(np.asarray(self._about_point(quantity, what)))
             found = self._kept.setdefault((quantity, what), found)
         return found
@@ -549,7 +553,7 @@ class ByOrder(Quantities):
 
     def with_order(self, order: int) -> ByOrder:
         """Return this result if it has an order, else the same of that order alone."""
-        if order in self.orders:
+        if order_key(order) in (*self.orders, ALL):
             return self
         found: ByOrder | None = self._kept.get(order)
         if found is None:
@@ -562,11 +566,15 @@ class ByOrder(Quantities):
 
     def at_orders(self, orders: tuple[int, ...]) -> Self:
         """Return the same result at the orders given."""
-        return self.with_request(self.request.at_orders(orders))
+        wanted = inputs.orders(orders)
+        if wanted is None:
+            raise InputError(f"orders = {inputs.shorten(orders)}: give orders, such as (1, 2)")
+        return self.with_request(self.request.at_orders(tuple(wanted)))
 
     def proved_zero(self, quantity: str, order: int) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        raise AbsentError(f"{quantity}: proofs are those of a balance, not of a sweep")
+        name = inputs.one_of("quantity", quantity, QUANTITIES)
+        raise AbsentError(f"{name}: proofs are those of a balance, not of a sweep")
 
     # --- tables ---------------------------------------------------------------------------------
 

@@ -90,7 +90,7 @@ class Comparison(Tabled):
     ...     for ratio, x in [(2, 0.08), (-2, -0.08)]
     ... ]
     >>> cp.compare(i4, i4.with_shafts(shafts), rpm=6000, orders=[2, 4])
-    Inline-4 at 6000 rpm: peaks
+    Inline-4 → Inline-4 with 2 balance shafts at 6000 rpm: peaks
     quantity          order  before   after  change %
     shaking force, N      2  9269.4  110.41   -98.809
     shaking force, N      4  213.27  213.27         0

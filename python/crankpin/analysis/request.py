@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
@@ -86,9 +87,9 @@ class Request(Record):
 
     def check(self, quantity: str) -> None:
         """Raise an AbsentError if a quantity is not available."""
-        if quantity in self.quantities:
+        if isinstance(quantity, str) and quantity in self.quantities:
             return
-        name = quantity.replace("_", " ")
+        name = inputs.one_of("quantity", quantity, QUANTITIES).replace("_", " ")
         if self.pairs is not None:
             raise AbsentError(
                 f"{name} is not available: a force spectrum does not determine it; "

@@ -184,7 +184,9 @@ class Cylinder:
             checks.bore(self.bore, self.stroke)
         if self.rod is not None and not self._of_its_rod:
             hint = "make cylinders of a rod by Cylinder.from_rod, or leave it out"
-            raise _core.InputError(f"rod = {self.rod}: contradicts the cylinder's figures; {hint}")
+            raise _core.InputError(
+                f"rod = {inputs.shorten(self.rod)}: contradicts the cylinder's figures; {hint}"
+            )
 
     @property
     def _of_its_rod(self) -> bool:

@@ -94,9 +94,9 @@ def balance_shafts(
     >>> import crankpin as cp
     >>> i3 = cp.Engine.preset("i3")
     >>> fit = cp.balance_shafts(i3, -1)
-    >>> [round(each.amount, 6) for each in fit[0].shaft.unbalances]
+    >>> [round(each.amount, 6) for each in fit[0].unbalances]
     [0.008379, 0.008379]
-    >>> bool(fit.balance(rpm=3000)[1].moment.backward)
+    >>> bool(fit.fitted.balance(rpm=3000)[1].moment.backward)
     False
 
     A Lanchester pair, 160 mm apart, at the heights that cancel the second-order roll torque too:

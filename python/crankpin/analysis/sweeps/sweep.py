@@ -258,9 +258,14 @@ class Sweep(ByOrder, Tabled):
         """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
         return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A progress bar stays where it is shown; functions cannot be pickled.
+        made, (kind, fields) = super().__reduce__()
+        return made, (kind, fields | {"progress": False})
+
     def with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
-        return self.replace(request=request)
+        return self.replace(request=check_request(request, "Sweep.at_orders"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         if what in ("forward", "backward"):

@@ -14,6 +14,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
+from crankpin.analysis.request import check_request
 from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
 
 if TYPE_CHECKING:
@@ -130,8 +131,9 @@ class Tolerances(ByOrder, Tabled):
 
     def with_request(self, request: Request) -> Tolerances:
         """Raise an InputError: samples have the orders and the plane that were given."""
+        orders = check_request(request, "crankpin.tolerances").orders
         known = labels.orders_text(self.orders)
-        raise InputError(f"orders = {request.orders}: is not among those of the samples ({known})")
+        raise InputError(f"orders = {orders}: is not among those of the samples ({known})")
 
     @property
     def engine(self) -> Engine:
