@@ -97,7 +97,7 @@ class DegreeLocator(RoundLocator):
             if 2 * step <= high - low <= self.most * step:
                 first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
                 yield (step * np.arange(int(first), int(last) + 1)).tolist()
-                outermost.append([step * float(first), step * float(last)])
+                outermost.append([float(step * int(first)), float(step * int(last))])
         yield from outermost[:1]
         for count in range(self.most, 0, -1):
             yield MaxNLocator(count, steps=[1, 2, 5, 10], min_n_ticks=1).tick_values(low, high)
