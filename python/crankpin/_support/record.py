@@ -131,7 +131,7 @@ class Listed(Generic[Item]):
         return iter(self._listed())
 
 
-def read_only(values: Any) -> Any:  # noqa: ANN401 - as given
+def read_only(values: Item) -> Item:
     """Make an array, or the arrays of a tuple or mapping, read-only in place; return it."""
     if isinstance(values, np.ndarray):
         values.setflags(write=False)

@@ -132,7 +132,7 @@ class Comparison(Tabled):
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
         """
-        return read_only(_change(*self._peaks(quantity)))  # type: ignore[no-any-return]
+        return read_only(_change(*self._peaks(quantity)))
 
     def plot(
         self,

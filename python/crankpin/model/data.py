@@ -12,7 +12,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
-from crankpin._support.frozen import read_only
+from crankpin._support.record import read_only
 from crankpin.model import checks, crankpins
 from crankpin.model import shafts as rotating
 from crankpin.model.cylinder import Cylinder

@@ -14,7 +14,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
-from crankpin._support.frozen import Frozen
+from crankpin._support.record import Record
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -178,7 +178,7 @@ def search_arrangements(
     return ArrangementSearch(core, count, rule, phases, hold, shared, progress=watched)
 
 
-class ArrangementSearch(Frozen):
+class ArrangementSearch(Record):
     """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
     A sequence of :class:`Arrangement`, one for each bank angle, ascending. Made by
@@ -195,67 +195,48 @@ class ArrangementSearch(Frozen):
     array([0.])
     """
 
+    core: _core.Search
+    """Compiled counterpart."""
     cylinders: int
     """Number of cylinders of the vee."""
     alternating: bool
     """True if front and rear halves take turns to fire."""
+    phases: list[str] | None
+    """Phases of a bank's throws where they were given, degrees."""
     hold: Hold
     """What is held as the bank angle changes: top dead centres or crankpins."""
-
-    shared_pins: bool
+    shared_pins: bool = False
     """True if both banks share their crankpins."""
-
-    window_deg: tuple[float, float]
+    window_deg: tuple[float, float] = _WHOLE
     """Range of the bank angles listed, degrees."""
+    progress: Progress = False
+    """The progress bar, as given."""
 
-    def __init__(
-        self,
-        core: object,
-        cylinders: int,
-        alternating: bool,
-        phases: list[str] | None,
-        hold: Hold,
-        shared_pins: bool = False,
-        window_deg: tuple[float, float] = _WHOLE,
-        progress: Progress = False,
-    ) -> None:
+    def __post_init__(self) -> None:
+        core: object = self.core
         if not isinstance(core, _core.Search):
             hint = "use crankpin.search_arrangements"
             raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
-        self._set(
-            _search=core,
-            cylinders=cylinders,
-            alternating=alternating,
-            _phases=phases,
-            hold=hold,
-            shared_pins=shared_pins,
-            window_deg=window_deg,
-            _progress=progress,
-        )
-
-    _search: _core.Search
-    _phases: list[str] | None
-    _progress: Progress
 
     @property
     def candidates(self) -> int:
         """Pairs of bank arrangements that were searched."""
-        return self._search.candidates
+        return self.core.candidates
 
     @property
     def qualifying(self) -> int:
         """Pairs with a balanced bank angle, a bank with itself included; at any bank angle."""
-        return self._search.qualifying
+        return self.core.qualifying
 
     @property
     def balanced(self) -> int:
         """Pairs without any first-order moment, balanced at every bank angle."""
-        return self._search.balanced
+        return self.core.balanced
 
     @cached_property
     def _angles(self) -> _core.BankAngles:
-        with progress_bar.shown(self._progress, f"V{self.cylinders} bank angles") as told:
-            return _core.BankAngles(self._search, self.window_deg, told)
+        with progress_bar.shown(self.progress, f"V{self.cylinders} bank angles") as told:
+            return _core.BankAngles(self.core, self.window_deg, told)
 
     @cached_property
     def bank_angles_deg(self) -> NDArray[np.float64]:
@@ -276,8 +257,8 @@ class ArrangementSearch(Frozen):
         """
         ends = (_bank_angle("low", low), _bank_angle("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
-        rest = (self.cylinders, self.alternating, self._phases, self.hold, self.shared_pins, window)
-        return ArrangementSearch(self._search, *rest, progress=self._progress)
+        rest = (self.cylinders, self.alternating, self.phases, self.hold, self.shared_pins, window)
+        return ArrangementSearch(self.core, *rest, progress=self.progress)
 
     def __len__(self) -> int:
         return len(self._angles)
@@ -366,7 +347,7 @@ class ArrangementSearch(Frozen):
 
     def _from(self, low: float, high: float) -> Iterator[Arrangement]:
         """Yield the arrangements in a window; of a large search nothing else is computed."""
-        if self._search.distinct > _LARGE and "_angles" not in self.__dict__:
+        if self.core.distinct > _LARGE and "_angles" not in self.__dict__:
             yield from self.within(low, high)
             return
         first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
@@ -400,7 +381,7 @@ class ArrangementSearch(Frozen):
         return hash((self.cylinders, self.alternating))
 
     def _key(self) -> tuple[Any, ...]:
-        phases = None if self._phases is None else tuple(self._phases)
+        phases = None if self.phases is None else tuple(self.phases)
         given = (self.cylinders, self.alternating, phases, self.hold)
         return (*given, self.shared_pins, self.window_deg)
 

@@ -138,17 +138,17 @@ class BobWeight(Tabled):
     def _of_pins(self, masses: ArrayLike) -> NDArray[np.float64]:
         listed = np.asarray(masses)
         pins = [[number - 1 for number in pin.cylinders] for pin in self.crankpins]
-        return read_only(np.array([listed[members].sum() for members in pins]))  # type: ignore[no-any-return]
+        return read_only(np.array([listed[members].sum() for members in pins]))
 
     @property
     def mass(self) -> NDArray[np.float64]:
         """Bob weight of each crankpin, at the crank radius, kg: (n_crankpins,)."""
-        return read_only(self.rotating + self.factor * self.reciprocating + self.oil)  # type: ignore[no-any-return]
+        return read_only(self.rotating + self.factor * self.reciprocating + self.oil)
 
     @property
     def grams(self) -> NDArray[np.float64]:
         """Bob weight of each crankpin, g: (n_crankpins,)."""
-        return read_only((1e3 * self.mass).round(9))  # type: ignore[no-any-return]
+        return read_only((1e3 * self.mass).round(9))
 
     @cached_property
     def fitted(self) -> Engine:

@@ -50,7 +50,7 @@ def with_bob_weights(engine: Engine, factor: float) -> Engine:
 def bay_loads(engine: Engine) -> NDArray[np.complex128]:
     """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
     found = [turning(bay_alone(engine, bay), 1) for bay in bays(engine)]
-    return read_only(np.array(found, dtype=np.complex128))  # type: ignore[no-any-return]
+    return read_only(np.array(found, dtype=np.complex128))
 
 
 def bay_alone(engine: Engine, bay: Bay) -> Engine:

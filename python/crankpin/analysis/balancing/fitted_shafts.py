@@ -96,12 +96,12 @@ class BalanceShafts(Listed[Shaft], Tabled):
     @property
     def force(self) -> NDArray[np.complex128]:
         """Force that each shaft exerts, over ω²: x + iy at θ = 0, kg·m, (n_shafts,)."""
-        return read_only(np.array([each.force for each in self.exerts]))  # type: ignore[no-any-return]
+        return read_only(np.array([each.force for each in self.exerts]))
 
     @property
     def moment(self) -> NDArray[np.complex128]:
         """Moment that each shaft exerts, over ω²: x + iy at θ = 0, kg·m², (n_shafts,)."""
-        return read_only(np.array([each.moment for each in self.exerts]))  # type: ignore[no-any-return]
+        return read_only(np.array([each.moment for each in self.exerts]))
 
     @cached_property
     def residual(self) -> Balance:
@@ -186,7 +186,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 for each in shaft.unbalances
             ]
             loads.append(np.array(_core.shared(forces, *bearings)) * shaft.ratio**2 * square)
-        return read_only(np.array(loads))  # type: ignore[no-any-return]
+        return read_only(np.array(loads))
 
     # --- tables and pictures --------------------------------------------------------------------
 

@@ -125,17 +125,17 @@ class TwoPlaneCorrection(Tabled):
     @property
     def amount_g_mm(self) -> NDArray[np.float64]:
         """Corrections, g·mm: (2,)."""
-        return read_only(np.abs(self._weights))  # type: ignore[no-any-return]
+        return read_only(np.abs(self._weights))
 
     @property
     def angle_deg(self) -> NDArray[np.float64]:
         """Directions in which weight is added, degrees in [0, 360): (2,)."""
-        return read_only(np.angle(self._weights, deg=True) % 360.0)  # type: ignore[no-any-return]
+        return read_only(np.angle(self._weights, deg=True) % 360.0)
 
     @property
     def drill_deg(self) -> NDArray[np.float64]:
         """Directions in which as much is drilled away instead, degrees in [0, 360): (2,)."""
-        return read_only(np.angle(-self._weights, deg=True) % 360.0)  # type: ignore[no-any-return]
+        return read_only(np.angle(-self._weights, deg=True) % 360.0)
 
     @property
     def measured(self) -> tuple[Unbalance, ...]:

@@ -388,7 +388,7 @@ class Shares(Tabled):
         Near zero where what remains is linear in the deviations, or grows as their root of squares.
         """
         sums = self.values.sum(axis=1)
-        return read_only(np.where(self.values.any(axis=1), 1.0 - sums, 0.0))  # type: ignore[no-any-return]
+        return read_only(np.where(self.values.any(axis=1), 1.0 - sums, 0.0))
 
     @property
     def table(self) -> Table:
