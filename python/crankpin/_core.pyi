@@ -206,7 +206,7 @@ def shared(forces: Sequence[tuple[complex, float]], front: float, rear: float) -
 @final
 class Balance:
     @property
-    def orders(self) -> list[int]: ...
+    def orders(self) -> list[float]: ...
     @property
     def omitted(self) -> list[int]: ...
     def xy(self, quantity: str) -> _Complex: ...
@@ -267,7 +267,7 @@ class Sweep:
         rod_ratio: _Real | None,
         pin_offset: _Real | None,
         rpm: _Real,
-        orders: Sequence[int] | None,
+        orders: Sequence[float] | None,
         rtol: float,
         reference_z: float | None,
         spectrum: _Pairs | None,
@@ -277,7 +277,7 @@ class Sweep:
     @property
     def shape(self) -> list[int]: ...
     @property
-    def orders(self) -> list[int]: ...
+    def orders(self) -> list[float]: ...
     @property
     def omitted(self) -> list[int]: ...
     @property
@@ -304,7 +304,7 @@ class Tolerances:
         cls,
         engine: Engine,
         rpm: float,
-        orders: Sequence[int],
+        orders: Sequence[float],
         reference_z: float | None,
         torque: bool,
         spreads: Sequence[Sequence[float]],
@@ -323,7 +323,7 @@ class Merit:
         engine: Engine,
         variables: Sequence[tuple[Sequence[float], Sequence[float]]],
         objectives: Sequence[tuple[str, str, int | None]],
-        orders: Sequence[int],
+        orders: Sequence[float],
         removed: Sequence[int],
     ) -> Merit: ...
     @property
@@ -344,7 +344,7 @@ def matched(
     starts: Sequence[Sequence[Sequence[int]]],
     progress: _Progress | None,
 ) -> tuple[list[list[int]], float, float, bool]: ...
-def peaks_of_sums(orders: Sequence[int], phasors: _Complex) -> _Real: ...
+def peaks_of_sums(orders: Sequence[float], phasors: _Complex) -> _Real: ...
 
 _Timing: TypeAlias = tuple[str, str, str, str]
 _PortOpenings: TypeAlias = tuple[str, str]
@@ -422,7 +422,7 @@ def offset_table(
 def balance(
     engine: Engine,
     rpm: float,
-    orders: Sequence[int] | None,
+    orders: Sequence[float] | None,
     rtol: float,
     reference_z: float | None,
     spectrum: _Pairs | None,
@@ -445,7 +445,7 @@ def waveform(
     rpm: float,
     theta_deg: _Real,
     summed: bool,
-    orders: Sequence[int] | None,
+    orders: Sequence[float] | None,
     rtol: float,
     reference_z: float | None,
     spectrum: _Pairs | None,

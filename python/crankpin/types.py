@@ -7,19 +7,13 @@ from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
-from crankpin.analysis.by_order import (
-    Ellipse,
-    ErrorBound,
-    OrderBalance,
-    PlaneVector,
-    Quantity,
-    Scalar,
-)
+from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
 from crankpin.analysis.ranking.choices import Choice
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.analysis.sweeps.sweep import Sweep
@@ -34,7 +28,6 @@ from crankpin.analysis.vanishing import (
     Verdicts,
 )
 from crankpin.analysis.waveform import Waveform
-from crankpin.model.crankpins import Crankpin
 
 __all__ = [
     "Arrangement",
@@ -48,7 +41,6 @@ __all__ = [
     "ClosedForm",
     "Comparison",
     "Counterweights",
-    "Crankpin",
     "Design",
     "Designs",
     "Ellipse",
@@ -58,11 +50,9 @@ __all__ = [
     "Match",
     "OrderBalance",
     "OrderVerdicts",
-    "PlaneVector",
     "PortTiming",
     "Quantity",
     "Ranking",
-    "Scalar",
     "Shares",
     "Sweep",
     "SweepWaveform",

@@ -9,6 +9,7 @@ import io
 import pickle
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -155,11 +156,29 @@ def test_an_order_says_why_it_is_zero_or_not_in_the_total() -> None:
             wrong()
 
 
-@pytest.mark.parametrize("order", [0, -1, 1.5, True, None, "2", slice(None), (0, 1), ...])
+def test_a_whole_order_is_an_int_and_a_half_order_a_float() -> None:
+    for given in (2, 2.0, np.float64(2.0), np.int64(2), Fraction(4, 2)):
+        assert repr(V6.balance(5000).moment[given].order) == "2"
+    for given in (0.5, np.float32(0.5), Fraction(1, 2)):
+        assert repr(V6.balance(5000).moment[given].order) == "0.5"
+
+
+def test_a_torque_has_no_parts_of_a_vector() -> None:
+    for result in (V6.balance(5000), cp.sweep(V6, rpm=[1.0])):
+        for name in ("xy", "x", "y", "forward", "backward", "peak_xy", "ellipse"):
+            assert hasattr(result.moment, name)
+            assert not hasattr(result.torque, name)
+        assert not hasattr(result.force, "phasor")
+        assert result.torque.dims == (*result.dims, "order")
+
+
+@pytest.mark.parametrize(
+    "order", [0, -1, 1.25, np.nan, 1e9, True, None, "2", slice(None), (0, 1), ...]
+)
 def test_a_key_that_is_no_order_is_named(order: Any) -> None:
     b = V6.balance(5000)
     for result in (b, b.moment, cp.sweep(V6, rpm=5000)):
-        with pytest.raises(cp.InputError, match=r"^order = .*: the key is an order, a whole mult"):
+        with pytest.raises(cp.InputError, match=r"^order = .*: the key is an order, a multiple"):
             result[order]
 
 

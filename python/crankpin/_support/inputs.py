@@ -7,11 +7,11 @@ import itertools
 import math
 import operator
 import reprlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -26,9 +26,13 @@ Angle: TypeAlias = float | Decimal | Fraction | str
 """Degrees: a number, a ``Decimal``, a ``Fraction``, or a string such as ``"360/7"``."""
 
 Angles: TypeAlias = "Sequence[Angle] | NDArray[np.float64]"
-Orders: TypeAlias = "int | Iterable[int] | Literal['auto']"
+Order: TypeAlias = int | float
+"""Multiple of crank speed: an int where it is whole, a float such as 0.5 where it is a half."""
+Orders: TypeAlias = "Order | Iterable[Order] | Literal['auto']"
 Spectrum: TypeAlias = Mapping[int, complex]
 """Order → amplitude of one cylinder's force over ω², kg·m."""
+
+Number = TypeVar("Number", int, Order)
 
 FASTEST_PISTON = 60.0
 """Mean piston speed, m/s, above which no engine runs: Formula 1 stays below 30."""
@@ -311,31 +315,61 @@ def firing_order(name: str, values: object) -> str:
     return "-".join(shorten(number) for number in items(name, values, hint))
 
 
+def order(value: Any) -> Order:  # noqa: ANN401 - anything that float() takes
+    """Return an order, an int or a half as a float; a TypeError or ValueError for anything else."""
+    if type(value) is int:
+        return value
+    halves = 2.0 * _real(value)
+    if not halves.is_integer():
+        raise ValueError("it is no multiple of 0.5")
+    return int(halves) // 2 if halves % 2.0 == 0.0 else halves / 2.0
+
+
 def orders(values: object, name: str = "orders") -> list[int] | None:
-    """Return a list of orders, or None for ``"auto"``."""
+    """Return a list of whole orders, or None for ``"auto"``."""
     hint = "orders are whole multiples of crank speed, such as [1, 2]"
+    return _orders(values, name, _index, hint)
+
+
+def half_orders(values: object, name: str = "orders") -> list[Order] | None:
+    """Return a list of orders, halves among them, or None for ``"auto"``."""
+    hint = "orders are multiples of crank speed, whole or half, such as [0.5, 1, 2]"
+    return _orders(values, name, order, hint)
+
+
+def _orders(
+    values: object, name: str, one: Callable[[Any], Number], hint: str
+) -> list[Number] | None:
     if isinstance(values, str):
         if values == "auto":
             return None
         raise InputError(f'{name} = {shorten(values)}: {hint}, or "auto"')
     listed = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
     try:
-        result = [_index(order) for order in listed]
-    except TypeError:
-        if any(isinstance(order, float) and order % 1.0 for order in listed):
+        result = [one(each) for each in listed]
+    except (TypeError, ValueError, OverflowError):
+        if any(isinstance(each, float) and each % 1.0 for each in listed) and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
         raise InputError(f"{name} = {shorten(values)}: {hint}") from None
-    for order in result:
-        if not 1 <= order <= HIGHEST_ORDER:
-            raise InputError(f"{name} = {shorten(order)}: {hint}, 1 to {HIGHEST_ORDER}")
+    for each in result:
+        if not 0 < each <= HIGHEST_ORDER:
+            raise InputError(f"{name} = {shorten(each)}: {hint}, up to {HIGHEST_ORDER}")
     return result
 
 
 def explicit_orders(values: object, name: str = "orders") -> list[int]:
-    """Return a list of orders where none can be chosen."""
-    listed = orders(values, name)
+    """Return a list of whole orders where none can be chosen."""
+    return _given(orders(values, name), name, "whole numbers")
+
+
+def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
+    """Return a list of orders, halves among them, where none can be chosen."""
+    return _given(half_orders(values, name), name, "numbers")
+
+
+def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:
     if listed is None:
-        raise InputError(f'{name} = "auto": give whole numbers here, such as [1, 2]')
+        raise InputError(f'{name} = "auto": give {what} here, such as [1, 2]')
     return listed
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
+    from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
 
 TURNING = {"forward": "with the crank", "backward": "against the crank"}
@@ -76,13 +77,13 @@ def printable(text: str) -> str:
     return " ".join(text.split())
 
 
-def orders_text(orders: tuple[int, ...]) -> str:
+def orders_text(orders: Sequence[Order]) -> str:
     """Return ``order 2`` or ``orders 2, 4``."""
     word = "order" if len(orders) == 1 else "orders"
-    return f"{word} {', '.join(map(str, orders)) or 'none'}"
+    return f"{word} {', '.join(f'{n:g}' for n in orders) or 'none'}"
 
 
-def not_shown(orders: tuple[int, ...]) -> str:
+def not_shown(orders: Sequence[Order]) -> str:
     """Return the line under a table or picture that leaves these orders out; empty for none."""
     if not orders:
         return ""

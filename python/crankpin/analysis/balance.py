@@ -12,8 +12,9 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.by_order import ALL, ByOrder, ErrorBound, shown_orders
+from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.quantity import ALL
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.inputs import Order, Orders, Spectrum
     from crankpin.model.engine import Engine
 
 
@@ -49,7 +50,7 @@ def balance(
     return found
 
 
-def over_square(engine: Engine, orders: Sequence[int], *, torque: bool = False) -> Balance:
+def over_square(engine: Engine, orders: Sequence[Order], *, torque: bool = False) -> Balance:
     """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
     return balance(engine, UNIT_RPM, orders=orders, torque=torque)
 
@@ -68,10 +69,10 @@ def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
 class Balance(ByOrder, Tabled):
     """Force, moment and torque of an engine at one speed, order by order.
 
-    ``force`` and ``moment`` are :class:`~crankpin.types.PlaneVector`, ``torque`` and
-    ``crank_torque`` :class:`~crankpin.types.Scalar`: complex peak phasors. An order is a key:
-    ``balance[2].force`` and ``balance.force[2]`` are order 2, also if it is not among ``orders``;
-    ``balance.total`` is all orders together. Sums that vanish are exactly zero: a phasor below its
+    ``force``, ``moment``, ``torque`` and ``crank_torque`` are complex peak phasors, each a
+    :class:`~crankpin.types.Quantity`. An order is a key: ``balance[2].force`` and
+    ``balance.force[2]`` are order 2, also if it is not among ``orders``; ``balance.total`` is all
+    orders together. Sums that vanish are exactly zero: a phasor below its
     ``zero_bound``, the largest rounding error of such a sum, is reported as zero.
 
     Made by :meth:`Engine.balance` and :meth:`Sweep.sel`.
@@ -119,12 +120,12 @@ class Balance(ByOrder, Tabled):
         )
 
     @property
-    def orders(self) -> tuple[int, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed, ascending where they were chosen."""
         return self.__dict__["_orders"]  # type: ignore[no-any-return]
 
     @property
-    def omitted(self) -> tuple[int, ...]:
+    def omitted(self) -> tuple[Order, ...]:
         """With ``orders="auto"``: orders that were left out although they are not zero.
 
         All orders above add less than 1e-17 of the quantity that ``rtol`` is relative to;
@@ -164,7 +165,7 @@ class Balance(ByOrder, Tabled):
             within = (within[0].with_request(request), within[1])
         return self.replace(request=request, within=within)
 
-    def proved_zero(self, quantity: str, order: int) -> bool:
+    def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         inputs.one_of("quantity", quantity, QUANTITIES)
         orders = inputs.orders([order]) or []
@@ -266,7 +267,7 @@ class Balance(ByOrder, Tabled):
     def table(self) -> Table:
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
-        shown, left_out = shown_orders(self, *names)
+        shown, left_out = self.shown_orders(*names)
         columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
         for name in names:
             kind = QUANTITIES[name]

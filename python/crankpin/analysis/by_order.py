@@ -1,21 +1,20 @@
-"""Results order by order: force, moment and torques as phasors, an order as a key, totals."""
+"""Results order by order: arrays computed when they are read, an order as a key, totals, tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 
 import numpy as np
-from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import QUANTITIES, Kind
-from crankpin._support.record import Record, read_only
-from crankpin._support.tables import Column, Table
+from crankpin._support.quantities import QUANTITIES
+from crankpin._support.record import read_only
 from crankpin.analysis import export
+from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
 from crankpin.analysis.request import check_quantities
 
 if TYPE_CHECKING:
@@ -23,13 +22,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Spectrum
+    from crankpin._support.inputs import Order, Spectrum
     from crankpin.analysis.request import Request
-
-ALL: Literal["all"] = "all"
-"""Key of all orders together."""
-Key: TypeAlias = 'int | Literal["all"] | None'
-"""An order, ``"all"`` for all orders together, None for arrays of every order."""
 
 
 class ErrorBound(NamedTuple):
@@ -43,394 +37,17 @@ class ErrorBound(NamedTuple):
     """Of roll and crank torque, N·m; None where torque is not available."""
 
 
-class Ellipse(NamedTuple):
-    """Ellipse that a force or moment traces in one order, or ellipses as arrays."""
-
-    major: Any
-    """Longest half axis, N or N·m."""
-    minor: Any
-    """Shortest half axis, N or N·m; negative where the vector turns against the crank."""
-    tilt_deg: Any
-    """Direction of the long axis from +x, degrees in (−90, 90]; 0 for a circle."""
-
-
-def order_key(order: object) -> int | Literal["all"]:
-    """Return a key that was given, or raise an InputError."""
-    if isinstance(order, str) and order == ALL:
-        return ALL
-    if isinstance(order, (int, np.integer)) and not isinstance(order, bool) and order > 0:
-        return int(order)
-    hint = 'the key is an order, a whole multiple of crank speed such as 2, or "all"'
-    if isinstance(order, (slice, tuple)) or order is ... or order is None:
-        hint += "; arrays of all orders are in xy, forward, backward and peak"
-    raise InputError(f"order = {inputs.shorten(order)}: {hint}")
-
-
-# --- quantities ---------------------------------------------------------------------------------
-
-
-class Quantity(NDArrayOperatorsMixin, Record):
-    """Peak phasors of a quantity: of every order as an array, of one order, or of all together.
-
-    ``moment[2]`` is order 2, ``2 in moment`` says whether it is among ``orders``. In arithmetic and
-    for NumPy a quantity is the array of its phasors, orders after the swept dimensions.
-    """
-
-    result: ByOrder
-    """Balance or sweep that the quantity belongs to."""
-    name: str
-    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``."""
-    order: Key = None
-    """The order; ``"all"`` for all orders together, None for every order."""
-
-    _components: ClassVar[tuple[str, ...]] = ()
-    """Dimensions after the orders."""
-
-    def __post_init__(self) -> None:
-        self.result.request.check(self.name)
-
-    @property
-    def kind(self) -> Kind:
-        """Entry of the registry: name, symbols, unit and components."""
-        return QUANTITIES[self.name]
-
-    @property
-    def unit(self) -> str:
-        """Unit: N for a force, N·m for a moment or a torque."""
-        return self.kind.unit
-
-    @property
-    def orders(self) -> tuple[int, ...]:
-        """Multiples of crank speed."""
-        return (self.order,) if isinstance(self.order, int) else self.result.orders
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the array's dimensions."""
-        order = ("order",) if self.order is None else ()
-        return (*self.result.dims, *order, *self._components)
-
-    @property
-    def peak(self) -> Any:  # noqa: ANN401 - a number of one order of a balance
-        """Largest magnitude, N or N·m: (…, n_orders); of all orders together over θ: (…)."""
-        return self._read("peak")
-
-    @property
-    def zero_bound(self) -> Any:  # noqa: ANN401 - as above
-        """Largest rounding error of a sum that vanishes, N or N·m: (…, n_orders).
-
-        Phasors below it are reported as exactly zero.
-        """
-        return self._read("zero_bound")
-
-    @property
-    def error_bound(self) -> float:
-        """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
-        bound = float(getattr(self.result.error_bound, self.kind.bound))
-        lever = sum(map(abs, self.result.request.aside)) if self.name == "torque" else 0.0
-        return bound + lever * self.result.error_bound.force
-
-    @property
-    def status(self) -> str:
-        """Whether one order of a balance counts in the total, and why it is zero.
-
-        ``"summed"``; ``"omitted"``: not zero, left out of the total within its ``error_bound``, or
-        because ``orders=`` was given without it; ``"zero, proved"``: decided in integers, as by
-        :meth:`Engine.vanishing_orders`; ``"zero within rounding"``: below its ``zero_bound``.
-        """
-        if not isinstance(self.order, int):
-            raise AbsentError(
-                'status is that of one order: give an order, as in "moment[2].status"'
-            )
-        if np.any(self._read("phasors")):
-            return "summed" if self.order in self.result.orders else "omitted"
-        proved = self.result.proved_zero(self.name, self.order)
-        return "zero, proved" if proved else "zero within rounding"
-
-    def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
-        if self.order is None:
-            return self.result.read(self.name, what)
-        if self.order != ALL:
-            one = self.result.with_order(self.order)
-            at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
-            return one.read(self.name, what)[at]
-        if what not in ("peak", "peak_xy"):
-            raise AbsentError(
-                "all orders together have peaks alone; give an order, as in b[2], or read the "
-                f"arrays of a balance, as in b.{self.name}"
-            )
-        values = self.result.read(self.name, f"total_{what}")
-        return values if values.ndim else float(values)
-
-    def __getitem__(self, order: int | Literal["all"]) -> Self:
-        """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
-        return self.replace(order=order_key(order))
-
-    def __contains__(self, order: object) -> bool:
-        return order in self.orders
-
-    def __iter__(self) -> Iterator[int]:
-        return iter(self.orders)
-
-    def __len__(self) -> int:
-        return len(self.orders)
-
-    # --- an array of phasors --------------------------------------------------------------------
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
-        return np.array(self._read("phasors"), dtype=dtype, copy=copy)
-
-    def __array_ufunc__(
-        self,
-        ufunc: np.ufunc,
-        method: Any,  # noqa: ANN401 - as NumPy calls it
-        *arguments: Any,  # noqa: ANN401
-        **keywords: Any,  # noqa: ANN401
-    ) -> Any:  # noqa: ANN401
-        if any(isinstance(out, Quantity) for out in keywords.get("out", ())):
-            return NotImplemented
-        plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
-        return getattr(ufunc, method)(*plain, **keywords)
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Lengths of the dimensions."""
-        return np.shape(self._read("phasors"))
-
-    @property
-    def ndim(self) -> int:
-        """Number of dimensions."""
-        return len(self.shape)
-
-    def any(self) -> bool:
-        """Return True if any phasor is not zero."""
-        return bool(np.any(np.asarray(self)))
-
-    # --- text -----------------------------------------------------------------------------------
-
-    def _columns(self) -> dict[str, str]:
-        """Head of each column of the table → array that it shows."""
-        return dict(zip(self.kind.symbols, ["peak"], strict=True))
-
-    @property
-    def table(self) -> Table:
-        """Table that a quantity of a balance shows: peaks by order, and of all orders together."""
-        if self.result.dims or self.order is not None:
-            raise AbsentError("table is that of a balance's orders: use the table of the result")
-        shown, left_out = shown_orders(self.result, self.name)
-        columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
-        total = self[ALL]
-        for head, what in self._columns().items():
-            name, _, axis = what.partition(".")
-            values = np.abs(self._read(name))[list(shown)]
-            whole = getattr(total, name) if name.startswith("peak") else None
-            if axis:
-                values, whole = values[:, int(axis)], float(total._read(name)[int(axis)])
-            columns.append(Column(head, (*values.tolist(), whole)))
-        title = f"{self.kind.words}, {self.unit}"
-        return Table(title, tuple(columns), labels.not_shown(left_out))
-
-    def __repr__(self) -> str:
-        kind, name = type(self).__name__, self.kind.words
-        which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
-        if self.result.dims:
-            dims, shape = self.result.dims, self.peak.shape
-            if self.order is None:
-                dims, shape, which = self.dims, self.shape, ""
-            over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
-            return f"<{kind} {name}{which}, {self.unit}, over ({over})>"
-        if self.order is not None:
-            return f"<{kind} {name}{which}: peak {self.peak:.5g} {self.unit}>"
-        return repr(self.table)
-
-    def _repr_html_(self) -> str | None:
-        plain = self.result.dims or self.order is not None
-        return None if plain else self.table._repr_html_()
-
-
-class PlaneVector(Quantity):
-    """Force or moment in the cross-section plane: peak phasors along (about) x and y.
-
-    Order n is ``Re(P exp(inθ))``, and ``x + iy = forward exp(inθ) + backward exp(−inθ)``:
-    ``forward`` turns with the crank, so that a counterweight can cancel it at order 1; ``backward``
-    turns against it. ``moment.peak`` is an array in the sequence of ``orders``,
-    ``moment[2].peak`` that of order 2, ``total.moment.peak`` that of all orders together.
-
-    Examples
-    --------
-    >>> import crankpin as cp
-    >>> moment = cp.Engine.preset("v8-crossplane").balance(rpm=6000, orders=[1, 2]).moment
-    >>> moment.shape, moment.unit
-    ((2, 2), 'N·m')
-    >>> moment[2].status
-    'zero, proved'
-    """
-
-    _components = ("axis",)
-
-    @property
-    def xy(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) x and y, N or N·m: (…, n_orders, 2)."""
-        return self._read("phasors")  # type: ignore[no-any-return]
-
-    @property
-    def x(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) x, N or N·m: (…, n_orders)."""
-        return self.xy[..., 0]
-
-    @property
-    def y(self) -> NDArray[np.complex128]:
-        """Peak phasors along (about) y, N or N·m: (…, n_orders)."""
-        return self.xy[..., 1]
-
-    @property
-    def forward(self) -> NDArray[np.complex128]:
-        """Part that turns with the crank, N or N·m: (…, n_orders)."""
-        return self._read("forward")  # type: ignore[no-any-return]
-
-    @property
-    def backward(self) -> NDArray[np.complex128]:
-        """Part that turns against the crank, N or N·m: (…, n_orders)."""
-        return self._read("backward")  # type: ignore[no-any-return]
-
-    @property
-    def peak(self) -> Any:  # noqa: ANN401 - a number of one order of a balance
-        """Length of the longest vector, N or N·m: (…, n_orders); of all orders together: (…)."""
-        return self._read("peak")
-
-    @property
-    def peak_xy(self) -> NDArray[np.float64]:
-        """Peaks along (about) x and y, N or N·m: (…, n_orders, 2); of all together: (…, 2)."""
-        return self._read("peak_xy")  # type: ignore[no-any-return]
-
-    @property
-    def ellipse(self) -> Ellipse:
-        """Ellipses that the vector traces, each field (…, n_orders)."""
-        forward, backward = self.forward, self.backward
-        f, b = np.abs(forward), np.abs(backward)
-        directed = (f != 0.0) & (b != 0.0)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            # Half the sum of the phases; of the two directions of the axis the upper one.
-            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
-        tilt = np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0))
-        parts = (f + b, f - b, tilt)
-        if self.order is not None and not self.result.dims:
-            return Ellipse(*map(float, parts))
-        return Ellipse(*read_only(parts))
-
-    def _columns(self) -> dict[str, str]:
-        along_x, along_y = self.kind.symbols
-        return {
-            along_x: "peak_xy.0",
-            along_y: "peak_xy.1",
-            self.kind.vector_symbol: "peak",
-            "forward": "forward",
-            "backward": "backward",
-        }
-
-
-class Scalar(Quantity):
-    """Torque about z: peak phasors, (…, n_orders).
-
-    Order n is ``Re(P exp(inθ))``.
-
-    Examples
-    --------
-    >>> import crankpin as cp
-    >>> torque = cp.Engine.preset("i4").balance(rpm=6000, orders=[2, 4]).torque
-    >>> torque.shape, torque.unit
-    ((2,), 'N·m')
-    """
-
-    @property
-    def phasor(self) -> NDArray[np.complex128]:
-        """Peak phasors, N·m: (…, n_orders)."""
-        return self._read("phasors")  # type: ignore[no-any-return]
-
-
-class Quantities:
-    """Mixin of what has force, moment and torques."""
-
-    def _quantity(self, name: str) -> Any:  # noqa: ANN401 - a vector or a scalar
-        raise NotImplementedError
-
-    @property
-    def force(self) -> PlaneVector:
-        """Shaking force along x and y, N."""
-        return self._quantity("force")  # type: ignore[no-any-return]
-
-    @property
-    def moment(self) -> PlaneVector:
-        """Rocking moment about x (pitch) and y (yaw), N·m."""
-        return self._quantity("moment")  # type: ignore[no-any-return]
-
-    @property
-    def torque(self) -> Scalar:
-        """Roll torque of the inertia forces on the block about +z, N·m.
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._quantity("torque")  # type: ignore[no-any-return]
-
-    @property
-    def crank_torque(self) -> Scalar:
-        """Torque of the inertia forces on the crank about +z, N·m.
-
-        An AttributeError where it was not requested, or a force spectrum does not determine it.
-        """
-        return self._quantity("crank_torque")  # type: ignore[no-any-return]
-
-
-class OrderBalance(Quantities, Record):
-    """One order of a balance or sweep, or all orders together: the quantities without orders.
-
-    Examples
-    --------
-    >>> import crankpin as cp
-    >>> b = cp.Engine.preset("i4").balance(rpm=6000)
-    >>> b[2].order, b[2].force.shape, float(b[2].force.x.real)
-    (2, (2,), 0.0)
-    >>> b["all"] == b.total
-    True
-    """
-
-    result: ByOrder
-    """Balance or sweep that it belongs to."""
-    order: int | Literal["all"]
-    """Multiple of crank speed, or ``"all"``."""
-
-    def _quantity(self, name: str) -> Quantity:
-        return CLASSES[name](self.result, name, self.order)
-
-    def __repr__(self) -> str:
-        names = self.result.request.quantities
-        lines = (f"  {getattr(self, name)!r}" for name in names)
-        what = "all orders" if self.order == ALL else f"order {self.order}"
-        return "\n".join([f"<OrderBalance of {what}>", *lines])
-
-
-CLASSES: dict[str, type[Quantity]] = {
-    name: PlaneVector if kind.planar else Scalar for name, kind in QUANTITIES.items()
-}
-"""Quantity → class of its phasors."""
-
-
 # --- results ------------------------------------------------------------------------------------
 
 
-class ByOrder(Quantities):
+class ByOrder(Keyed, Quantities):
     """Mixin of balances and sweeps: arrays computed when they are first read, orders as keys."""
 
     request: Request
     """The options of the result, checked."""
 
     @property
-    def orders(self) -> tuple[int, ...]:
-        """Multiples of crank speed."""
-        raise NotImplementedError
-
-    @property
-    def omitted(self) -> tuple[int, ...]:
+    def omitted(self) -> tuple[Order, ...]:
         """With ``orders="auto"``: orders that were left out although they are not zero."""
         raise NotImplementedError
 
@@ -468,31 +85,22 @@ class ByOrder(Quantities):
         """All orders together, as in ``total.force.peak`` and ``total.moment.peak_xy``."""
         return OrderBalance(self, ALL)
 
-    def __getitem__(self, order: int | Literal["all"]) -> OrderBalance:
+    def __getitem__(self, order: Order | Literal["all"]) -> OrderBalance:
         """Return one order, or with ``"all"`` all of ``orders`` together.
 
         An order that is not among ``orders`` is computed when it is read: zero where the layout
         cancels it, and else what it is, though it does not count in the total;
-        :attr:`PlaneVector.status` says which.
+        :attr:`Quantity.status` says which.
 
         Raises
         ------
         InputError
-            If the key is no whole order.
+            If the key is no order.
         """
         return OrderBalance(self, order_key(order))
 
-    def __contains__(self, order: object) -> bool:
-        return order in self.orders
-
-    def __iter__(self) -> Iterator[int]:
-        return iter(self.orders)
-
-    def __len__(self) -> int:
-        return len(self.orders)
-
     def _quantity(self, name: str) -> Quantity:
-        return CLASSES[name](self, name)
+        return Quantity(self, name)
 
     def about(self, point: float | Sequence[float]) -> Self:
         """Return the same result with moments and roll torque about another point.
@@ -551,7 +159,7 @@ class ByOrder(Quantities):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
 
-    def with_order(self, order: int) -> ByOrder:
+    def with_order(self, order: Order) -> ByOrder:
         """Return this result if it has an order, else the same of that order alone."""
         if order_key(order) in (*self.orders, ALL):
             return self
@@ -564,19 +172,43 @@ class ByOrder(Quantities):
         """Return the same result by another request."""
         raise NotImplementedError
 
-    def at_orders(self, orders: tuple[int, ...]) -> Self:
+    def at_orders(self, orders: tuple[Order, ...]) -> Self:
         """Return the same result at the orders given."""
         wanted = inputs.orders(orders)
         if wanted is None:
             raise InputError(f"orders = {inputs.shorten(orders)}: give orders, such as (1, 2)")
         return self.with_request(self.request.at_orders(tuple(wanted)))
 
-    def proved_zero(self, quantity: str, order: int) -> bool:
+    def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         name = inputs.one_of("quantity", quantity, QUANTITIES)
         raise AbsentError(f"{name}: proofs are those of a balance, not of a sweep")
 
-    # --- tables ---------------------------------------------------------------------------------
+    # --- tables -----------------------------------------------------------------------------------
+
+    def shown_orders(self, *names: str) -> tuple[tuple[int, ...], tuple[Order, ...]]:
+        """Return places of the orders that tables and pictures show, and the orders they leave out.
+
+        Orders chosen automatically are left out where every peak is below
+        :data:`labels.NEGLIGIBLE` of the largest peak of its quantity; orders given are all shown.
+
+        Parameters
+        ----------
+        *names
+            The quantities that are shown.
+        """
+        places = tuple(range(len(self.orders)))
+        if self.request.orders is not None:
+            return places, ()
+        swept = tuple(range(len(self.dims)))
+        kept = np.zeros(len(places), dtype=bool)
+        for name in names:
+            peaks = self.read(name, "peak").max(axis=swept, initial=0.0)
+            kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
+        if not kept.any():
+            return places, ()
+        shown = tuple(place for place in places if kept[place])
+        return shown, tuple(self.orders[place] for place in places if not kept[place])
 
     def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is named."""
@@ -623,33 +255,7 @@ class ByOrder(Quantities):
         return export.to_xarray(self, self.named(quantities), split_complex=split_complex)
 
 
-def total_peaks(orders: tuple[int, ...], phasors: NDArray[np.complex128]) -> NDArray[np.float64]:
+def total_peaks(orders: tuple[Order, ...], phasors: NDArray[np.complex128]) -> NDArray[np.float64]:
     """Return the largest magnitude over θ of the sum of all orders: (…), of (…, n_orders)."""
     flat = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
     return _core.peaks_of_sums(list(orders), flat).reshape(phasors.shape[:-1])
-
-
-def largest_peaks(result: ByOrder, name: str) -> NDArray[np.float64]:
-    """Return the largest peak of each order at any point: (n_orders,)."""
-    axes = tuple(range(len(result.dims)))
-    found: NDArray[np.float64] = result.read(name, "peak").max(axis=axes, initial=0.0)
-    return found
-
-
-def shown_orders(result: ByOrder, *names: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Return places of the orders that tables and pictures show, and the orders they leave out.
-
-    Orders chosen automatically are left out where every peak is below :data:`labels.NEGLIGIBLE`
-    of the largest peak of its quantity; orders that were given are all shown.
-    """
-    places = tuple(range(len(result.orders)))
-    if result.request.orders is not None:
-        return places, ()
-    kept = np.zeros(len(places), dtype=bool)
-    for name in names:
-        peaks = largest_peaks(result, name)
-        kept |= peaks > labels.NEGLIGIBLE * peaks.max(initial=0.0)
-    if not kept.any():
-        return places, ()
-    shown = tuple(place for place in places if kept[place])
-    return shown, tuple(result.orders[place] for place in places if not kept[place])

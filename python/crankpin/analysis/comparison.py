@@ -12,8 +12,8 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.by_order import ALL
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.quantity import ALL
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.inputs import Order, Orders, Spectrum
     from crankpin.model.engine import Engine
 
 
@@ -118,7 +118,7 @@ class Comparison(Tabled):
         return self.before.rpm
 
     @property
-    def orders(self) -> tuple[int, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed."""
         return self.before.orders
 
@@ -186,7 +186,7 @@ class Comparison(Tabled):
     @property
     def table(self) -> Table:
         """Table that is shown: the peak of each quantity and order before and after, and of all."""
-        texts: list[tuple[str, int | str]] = []
+        texts: list[tuple[str, Order | str]] = []
         rows = []
         for name in self.before.request.quantities:
             if name == "crank_torque":

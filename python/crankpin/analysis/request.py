@@ -15,13 +15,13 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
-    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.inputs import Order, Orders, Spectrum
 
 
 class Request(Record):
     """Orders, tolerance, reference plane, spectrum and whether torque is computed; checked."""
 
-    orders: tuple[int, ...] | None
+    orders: tuple[Order, ...] | None
     """The orders given, or None for ``"auto"``."""
     rtol: float
     """Tolerance by which orders are chosen."""
@@ -70,7 +70,7 @@ class Request(Record):
         x, y, z = listed
         return self.replace(reference_z=z, aside=(x, y))
 
-    def at_orders(self, orders: tuple[int, ...]) -> Request:
+    def at_orders(self, orders: tuple[Order, ...]) -> Request:
         """Return the same request of the orders given."""
         return self.replace(orders=orders)
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Orders, Spectrum
+    from crankpin._support.inputs import Order, Orders, Spectrum
     from crankpin.model.engine import Engine
 
 
@@ -199,12 +199,12 @@ class Waveform(OverAngle, Tabled):
         return self.__dict__["_balance"]  # type: ignore[no-any-return]
 
     @property
-    def orders(self) -> tuple[int, ...] | None:
+    def orders(self) -> tuple[Order, ...] | None:
         """Orders that were summed; None for exact kinematics."""
         return None if self._summed is None else tuple(self._summed.orders)
 
     @property
-    def omitted(self) -> tuple[int, ...]:
+    def omitted(self) -> tuple[Order, ...]:
         """With ``orders="auto"``: orders that were left out; see :attr:`Balance.omitted`."""
         return () if self._summed is None else tuple(self._summed.omitted)
 

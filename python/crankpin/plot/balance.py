@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
     from numpy.typing import NDArray
 
-    from crankpin.analysis.by_order import OrderBalance
+    from crankpin.analysis.quantity import OrderBalance
 
 
 MARKERS = "os^Dv"

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from crankpin.analysis.by_order import PlaneVector
+    from crankpin.analysis.quantity import Quantity
     from crankpin.analysis.sweeps.sweep import Sweep
 
 WIDE = 1.6
@@ -121,7 +121,7 @@ def _panels(
 def _draw(
     ax: Axes,
     sweep: Sweep,
-    vector: PlaneVector,
+    vector: Quantity,
     along: str,
     style: dict[str, Any],
     column: int = 0,

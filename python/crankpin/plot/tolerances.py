@@ -65,7 +65,7 @@ def _tolerances(
 def _words(result: Tolerances, words: str) -> str:
     """Return what is drawn, of which orders."""
     first, last = result.orders[0], result.orders[-1]
-    whole = result.orders == tuple(range(first, last + 1)) and last > first + 1
+    whole = result.orders == tuple(range(int(first), int(last) + 1)) and last > first + 1
     orders = f"orders {first} to {last}" if whole else labels.orders_text(result.orders)
     return f"{words.replace('all orders', orders)}, {labels.value_text('rpm', result.rpm)}"
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from crankpin._support.inputs import Spectrum
-    from crankpin.analysis.by_order import PlaneVector
+    from crankpin.analysis.quantity import Quantity
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 
@@ -139,7 +139,7 @@ def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:
     ]
 
 
-def _phasors(vector: PlaneVector, k: int) -> dict[str, list[float]]:
+def _phasors(vector: Quantity, k: int) -> dict[str, list[float]]:
     return {"forward": _pair(vector.forward[k]), "backward": _pair(vector.backward[k])}
 
 

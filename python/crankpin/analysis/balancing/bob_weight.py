@@ -20,8 +20,8 @@ from crankpin.analysis.balancing.first_order import (
     with_bob_weights,
 )
 from crankpin.analysis.balancing.planes import Turning, turning
-from crankpin.analysis.by_order import Ellipse
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.quantity import Ellipse
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins

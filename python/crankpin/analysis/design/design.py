@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Angles, Orders
+    from crankpin._support.inputs import Angles, Order, Orders
     from crankpin._support.progress import Progress
     from crankpin.analysis.arrangements.cranks import Crank
     from crankpin.analysis.design.families import Family
@@ -216,14 +216,14 @@ class Search:
         question: Question,
         objectives: Sequence[Objective],
         rpm: float,
-        orders: list[int] | None,
+        orders: Sequence[Order] | None,
     ) -> None:
         self._question, self._objectives = question, objectives
         self._rpm, self._orders = rpm, orders
         self._families, self.cranks = families(question)
         if orders is None:
             # Totals guide the optimiser; those of the result have all orders.
-            orders = list(balance(built.one_cylinder(question), rpm, rtol=GUIDING).orders)
+            orders = balance(built.one_cylinder(question), rpm, rtol=GUIDING).orders
         self._totals = orders
         self._smooth = [
             (each.quantity, each.what, each.order) for each in objectives if each.quantity

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
     from crankpin.analysis.request import Request
     from crankpin.analysis.sweeps.sweep import Sweep
@@ -71,12 +72,12 @@ class SweepWaveform(OverAngle, Record):
         return self.sweep.request
 
     @property
-    def orders(self) -> tuple[int, ...] | None:
+    def orders(self) -> tuple[Order, ...] | None:
         """Orders that are summed; None for exact kinematics."""
         return None if self.exact else self.sweep.orders
 
     @property
-    def omitted(self) -> tuple[int, ...]:
+    def omitted(self) -> tuple[Order, ...]:
         """As :attr:`Sweep.omitted`; empty for exact kinematics."""
         return () if self.exact else self.sweep.omitted
 

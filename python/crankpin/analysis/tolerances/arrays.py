@@ -19,6 +19,7 @@ from crankpin.analysis.tolerances.spreads import FIGURES, OF_PINS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
     from crankpin.analysis.request import Request
     from crankpin.analysis.tolerances.spreads import Spreads
@@ -102,7 +103,7 @@ class ToleranceArrays(ByOrder, Record):
         return vars(self)["_drawn"]  # type: ignore[no-any-return]
 
     @property
-    def orders(self) -> tuple[int, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed."""
         return self.request.orders or ()
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.request import Request
@@ -98,7 +99,7 @@ class Tolerances(ByOrder, Tabled):
         return self.source.request
 
     @property
-    def orders(self) -> tuple[int, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed."""
         return self.source.orders
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from crankpin._support.inputs import Orders
+    from crankpin._support.inputs import Order, Orders
     from crankpin._support.progress import Progress
     from crankpin.model.cylinder import Cylinder
 
@@ -165,7 +165,7 @@ def _seed(seed: object) -> int:
     return found
 
 
-def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[int, ...], ErrorBound]:
+def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[Order, ...], ErrorBound]:
     """Return the orders of samples, and a bound on what others add to the nominal engine.
 
     Each cylinder is asked by itself, so that nothing cancels; balance shafts and counterweights
@@ -173,7 +173,7 @@ def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[int, ..
     """
     if request.orders is not None:
         return request.orders, ErrorBound(0.0, 0.0, 0.0 if request.torque else None)
-    found = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
+    found: set[Order] = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
     force = moment = roll = 0.0
     levers = abs(engine.z - engine.reference_z)
     bounds: dict[Cylinder, ErrorBound] = {}

@@ -1,0 +1,382 @@
+"""Force, moment or torque of a balance or sweep: an order is a key, the phasors are an array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, TypeAlias
+
+import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.absent import AbsentError
+from crankpin._support.quantities import QUANTITIES, Kind
+from crankpin._support.record import Record, read_only
+from crankpin._support.tables import Column, Table
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Order
+    from crankpin.analysis.by_order import ByOrder
+
+ALL: Literal["all"] = "all"
+"""Key of all orders together."""
+Key: TypeAlias = 'Order | Literal["all"] | None'
+"""An order, ``"all"`` for all orders together, None for arrays of every order."""
+
+
+class Ellipse(NamedTuple):
+    """Ellipse that a force or moment traces in one order, or ellipses as arrays."""
+
+    major: Any
+    """Longest half axis, N or N·m."""
+    minor: Any
+    """Shortest half axis, N or N·m; negative where the vector turns against the crank."""
+    tilt_deg: Any
+    """Direction of the long axis from +x, degrees in (−90, 90]; 0 for a circle."""
+
+
+def order_key(order: object) -> Order | Literal["all"]:
+    """Return a key that was given, or raise an InputError."""
+    if isinstance(order, str) and order == ALL:
+        return ALL
+    try:
+        if 0 < (found := inputs.order(order)) <= inputs.HIGHEST_ORDER:
+            return found
+    except (TypeError, ValueError, OverflowError):
+        pass
+    hint = 'the key is an order, a multiple of crank speed such as 2 or 0.5, or "all"'
+    if isinstance(order, (slice, tuple)) or order is ... or order is None:
+        hint += "; arrays of all orders are in xy, forward, backward and peak"
+    raise InputError(f"order = {inputs.shorten(order)}: {hint}")
+
+
+class Keyed:
+    """Mixin of what has orders as keys."""
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """Multiples of crank speed: ints, and floats for halves."""
+        raise NotImplementedError
+
+    def __contains__(self, order: object) -> bool:
+        return order in self.orders
+
+    def __iter__(self) -> Iterator[Order]:
+        return iter(self.orders)
+
+    def __len__(self) -> int:
+        return len(self.orders)
+
+
+# --- quantities ---------------------------------------------------------------------------------
+
+
+class Quantity(Keyed, NDArrayOperatorsMixin, Record):
+    """Peak phasors of a quantity: of every order as an array, of one order, or of all together.
+
+    Order n is ``Re(P exp(inθ))``. ``moment[2]`` is order 2, ``2 in moment`` says whether it is
+    among ``orders``; ``moment.peak`` is an array in the sequence of ``orders``, ``moment[2].peak``
+    that of order 2, ``total.moment.peak`` that of all orders together. In arithmetic and for NumPy
+    a quantity is the array of its phasors, orders after the swept dimensions.
+
+    Force and moment are vectors in the cross-section plane with phasors along (about) x and y, and
+    ``x + iy = forward exp(inθ) + backward exp(−inθ)``: ``forward`` turns with the crank, so that a
+    counterweight can cancel it at order 1; ``backward`` turns against it. A torque has one phasor
+    an order, about z; :class:`AttributeError` for what only a vector has.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> b = cp.Engine.preset("v8-crossplane").balance(rpm=6000, orders=[1, 2])
+    >>> b.moment.shape, b.moment.unit, b.torque.shape
+    ((2, 2), 'N·m', (2,))
+    >>> b.moment[2].status
+    'zero, proved'
+    """
+
+    result: ByOrder
+    """Balance or sweep that the quantity belongs to."""
+    name: str
+    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``."""
+    order: Key = None
+    """The order; ``"all"`` for all orders together, None for every order."""
+
+    def __post_init__(self) -> None:
+        self.result.request.check(self.name)
+
+    @property
+    def kind(self) -> Kind:
+        """Entry of the registry: name, symbols, unit and components."""
+        return QUANTITIES[self.name]
+
+    @property
+    def unit(self) -> str:
+        """Unit: N for a force, N·m for a moment or a torque."""
+        return self.kind.unit
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        """Multiples of crank speed."""
+        return self.result.orders if self.order is None or self.order == ALL else (self.order,)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the array's dimensions."""
+        order = ("order",) if self.order is None else ()
+        axis = ("axis",) if self.kind.planar else ()
+        return (*self.result.dims, *order, *axis)
+
+    @property
+    def peak(self) -> Any:  # noqa: ANN401 - a number of one order of a balance
+        """Largest magnitude, N or N·m: (…, n_orders); of all orders together over θ: (…).
+
+        Of a vector the length of the longest.
+        """
+        return self._read("peak")
+
+    @property
+    def xy(self) -> NDArray[np.complex128]:
+        """Peak phasors along (about) x and y, N or N·m: (…, n_orders, 2)."""
+        return self._planar("phasors")  # type: ignore[no-any-return]
+
+    @property
+    def x(self) -> NDArray[np.complex128]:
+        """Peak phasors along (about) x, N or N·m: (…, n_orders)."""
+        return self.xy[..., 0]
+
+    @property
+    def y(self) -> NDArray[np.complex128]:
+        """Peak phasors along (about) y, N or N·m: (…, n_orders)."""
+        return self.xy[..., 1]
+
+    @property
+    def forward(self) -> NDArray[np.complex128]:
+        """Part that turns with the crank, N or N·m: (…, n_orders)."""
+        return self._planar("forward")  # type: ignore[no-any-return]
+
+    @property
+    def backward(self) -> NDArray[np.complex128]:
+        """Part that turns against the crank, N or N·m: (…, n_orders)."""
+        return self._planar("backward")  # type: ignore[no-any-return]
+
+    @property
+    def peak_xy(self) -> NDArray[np.float64]:
+        """Peaks along (about) x and y, N or N·m: (…, n_orders, 2); of all together: (…, 2)."""
+        return self._planar("peak_xy")  # type: ignore[no-any-return]
+
+    @property
+    def ellipse(self) -> Ellipse:
+        """Ellipses that the vector traces, each field (…, n_orders)."""
+        forward, backward = self.forward, self.backward
+        f, b = np.abs(forward), np.abs(backward)
+        directed = (f != 0.0) & (b != 0.0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            # Half the sum of the phases; of the two directions of the axis the upper one.
+            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
+        tilt = np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0))
+        parts = (f + b, f - b, tilt)
+        if self.order is not None and not self.result.dims:
+            return Ellipse(*map(float, parts))
+        return Ellipse(*read_only(parts))
+
+    @property
+    def phasor(self) -> NDArray[np.complex128]:
+        """Peak phasors of a torque, N·m: (…, n_orders)."""
+        if self.kind.planar:
+            raise AbsentError(f"{self.name} has no single phasor an order: use xy, x or y")
+        return self._read("phasors")  # type: ignore[no-any-return]
+
+    @property
+    def zero_bound(self) -> Any:  # noqa: ANN401 - as above
+        """Largest rounding error of a sum that vanishes, N or N·m: (…, n_orders).
+
+        Phasors below it are reported as exactly zero.
+        """
+        return self._read("zero_bound")
+
+    @property
+    def error_bound(self) -> float:
+        """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
+        bound = float(getattr(self.result.error_bound, self.kind.bound))
+        lever = sum(map(abs, self.result.request.aside)) if self.name == "torque" else 0.0
+        return bound + lever * self.result.error_bound.force
+
+    @property
+    def status(self) -> str:
+        """Whether one order of a balance counts in the total, and why it is zero.
+
+        ``"summed"``; ``"omitted"``: not zero, left out of the total within its ``error_bound``, or
+        because ``orders=`` was given without it; ``"zero, proved"``: decided in integers, as by
+        :meth:`Engine.vanishing_orders`; ``"zero within rounding"``: below its ``zero_bound``.
+        """
+        if self.order is None or self.order == ALL:
+            raise AbsentError(
+                'status is that of one order: give an order, as in "moment[2].status"'
+            )
+        if np.any(self._read("phasors")):
+            return "summed" if self.order in self.result.orders else "omitted"
+        proved = self.result.proved_zero(self.name, self.order)
+        return "zero, proved" if proved else "zero within rounding"
+
+    def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
+        if self.order is None:
+            return self.result.read(self.name, what)
+        if self.order != ALL:
+            one = self.result.with_order(self.order)
+            at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
+            return one.read(self.name, what)[at]
+        if what not in ("peak", "peak_xy"):
+            raise AbsentError(
+                "all orders together have peaks alone; give an order, as in b[2], or read the "
+                f"arrays of a balance, as in b.{self.name}"
+            )
+        values = self.result.read(self.name, f"total_{what}")
+        return values if values.ndim else float(values)
+
+    def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
+        if not self.kind.planar:
+            raise AbsentError(f"{what} is that of a vector; {self.name} is about z alone")
+        return self._read(what)
+
+    def __getitem__(self, order: Order | Literal["all"]) -> Self:
+        """Return the quantity at one order, or at ``"all"``, of the orders that it has."""
+        return self.replace(order=order_key(order))
+
+    # --- an array of phasors --------------------------------------------------------------------
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
+        return np.array(self._read("phasors"), dtype=dtype, copy=copy)
+
+    def __array_ufunc__(
+        self,
+        ufunc: np.ufunc,
+        method: Any,  # noqa: ANN401 - as NumPy calls it
+        *arguments: Any,  # noqa: ANN401
+        **keywords: Any,  # noqa: ANN401
+    ) -> Any:  # noqa: ANN401
+        if any(isinstance(out, Quantity) for out in keywords.get("out", ())):
+            return NotImplemented
+        plain = [np.asarray(a) if isinstance(a, Quantity) else a for a in arguments]
+        return getattr(ufunc, method)(*plain, **keywords)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the dimensions."""
+        return np.shape(self._read("phasors"))
+
+    @property
+    def ndim(self) -> int:
+        """Number of dimensions."""
+        return len(self.shape)
+
+    def any(self) -> bool:
+        """Return True if any phasor is not zero."""
+        return bool(np.any(np.asarray(self)))
+
+    # --- text -----------------------------------------------------------------------------------
+
+    def _columns(self) -> dict[str, str]:
+        """Head of each column of the table → array that it shows."""
+        if not self.kind.planar:
+            return {self.kind.symbols[0]: "peak"}
+        parts = {self.kind.vector_symbol: "peak", "forward": "forward", "backward": "backward"}
+        return {head: f"peak_xy.{k}" for k, head in enumerate(self.kind.symbols)} | parts
+
+    @property
+    def table(self) -> Table:
+        """Table that a quantity of a balance shows: peaks by order, and of all orders together."""
+        if self.result.dims or self.order is not None:
+            raise AbsentError("table is that of a balance's orders: use the table of the result")
+        shown, left_out = self.result.shown_orders(self.name)
+        columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
+        total = self[ALL]
+        for head, what in self._columns().items():
+            name, _, axis = what.partition(".")
+            values = np.abs(self._read(name))[list(shown)]
+            whole = getattr(total, name) if name.startswith("peak") else None
+            if axis:
+                values, whole = values[:, int(axis)], float(total._read(name)[int(axis)])
+            columns.append(Column(head, (*values.tolist(), whole)))
+        title = f"{self.kind.words}, {self.unit}"
+        return Table(title, tuple(columns), labels.not_shown(left_out))
+
+    def __repr__(self) -> str:
+        name = self.kind.words
+        which = f" of {'all orders' if self.order == ALL else f'order {self.order}'}"
+        if self.result.dims:
+            dims, shape = self.result.dims, self.peak.shape
+            if self.order is None:
+                dims, shape, which = self.dims, self.shape, ""
+            over = ", ".join(f"{d}: {n}" for d, n in zip(dims, shape, strict=True))
+            return f"<Quantity {name}{which}, {self.unit}, over ({over})>"
+        if self.order is not None:
+            return f"<Quantity {name}{which}: peak {self.peak:.5g} {self.unit}>"
+        return repr(self.table)
+
+    def _repr_html_(self) -> str | None:
+        plain = self.result.dims or self.order is not None
+        return None if plain else self.table._repr_html_()
+
+
+class Quantities:
+    """Mixin of what has force, moment and torques."""
+
+    def _quantity(self, name: str) -> Any:  # noqa: ANN401 - a vector or a scalar
+        raise NotImplementedError
+
+    @property
+    def force(self) -> Quantity:
+        """Shaking force along x and y, N."""
+        return self._quantity("force")  # type: ignore[no-any-return]
+
+    @property
+    def moment(self) -> Quantity:
+        """Rocking moment about x (pitch) and y (yaw), N·m."""
+        return self._quantity("moment")  # type: ignore[no-any-return]
+
+    @property
+    def torque(self) -> Quantity:
+        """Roll torque of the inertia forces on the block about +z, N·m.
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self._quantity("torque")  # type: ignore[no-any-return]
+
+    @property
+    def crank_torque(self) -> Quantity:
+        """Torque of the inertia forces on the crank about +z, N·m.
+
+        An AttributeError where it was not requested, or a force spectrum does not determine it.
+        """
+        return self._quantity("crank_torque")  # type: ignore[no-any-return]
+
+
+class OrderBalance(Quantities, Record):
+    """One order of a balance or sweep, or all orders together: the quantities without orders.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> b = cp.Engine.preset("i4").balance(rpm=6000)
+    >>> b[2].order, b[2].force.shape, float(b[2].force.x.real)
+    (2, (2,), 0.0)
+    >>> b["all"] == b.total
+    True
+    """
+
+    result: ByOrder
+    """Balance or sweep that it belongs to."""
+    order: Order | Literal["all"]
+    """Multiple of crank speed, or ``"all"``."""
+
+    def _quantity(self, name: str) -> Quantity:
+        return Quantity(self.result, name, self.order)
+
+    def __repr__(self) -> str:
+        names = self.result.request.quantities
+        lines = (f"  {getattr(self, name)!r}" for name in names)
+        what = "all orders" if self.order == ALL else f"order {self.order}"
+        return "\n".join([f"<OrderBalance of {what}>", *lines])
