@@ -242,8 +242,9 @@ class ByOrder(Keyed, Quantities):
         *quantities
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         split_complex
-            Store complex arrays as real ones with a dimension ``part`` of "re" and "im". netCDF
-            needs it: ``balance.to_xarray(split_complex=True).to_netcdf(path)``.
+            Store complex arrays as real ones with a dimension ``part`` of "re" and "im", for
+            ``to_netcdf(path)``: netCDF has no complex numbers. With the package netCDF4,
+            ``to_netcdf(path, auto_complex=True)`` writes complex arrays too.
 
         Examples
         --------

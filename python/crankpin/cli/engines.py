@@ -13,7 +13,7 @@ from crankpin._support.tables import Table
 from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, printed
 from crankpin.model.presets import Presets
-from crankpin.view.gallery import save_gallery
+from crankpin.view.page import save_gallery
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Commands, Given

@@ -1,4 +1,4 @@
-"""Files that need a browser alone: modules, style and figures put together into one page."""
+"""Pages that need a browser alone, of an engine or of every preset: modules, style and figures."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from string import Template
 from typing import TYPE_CHECKING, Any
 
 from crankpin._support import inputs
+from crankpin.model import presets
 from crankpin.view.figures import figures
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
 EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
+GALLERY_HEAD = "<div class='crankpin'><header><h1>Engines</h1></header></div>"
+EBOOK_RPM = 10.0
+"""Speed of the presets with a crank radius of one metre, as in their source."""
 
 
 def save_html(
@@ -34,6 +38,38 @@ def save_html(
     known = figures(engine, rpm, spectrum=spectrum)
     text = document(engine.name or "Engine", "page.mjs", f"page({as_json(known)});")
     file.write_text(text, encoding="utf-8")
+
+
+def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
+    """Write a page of each preset and ``index.html``; return the files.
+
+    Parameters
+    ----------
+    folder
+        Where to write them; it is made if need be.
+    rpm
+        Crank speed of the pages; engines of the e-book, of one metre crank radius, run at 10.
+    """
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    listed: list[dict[str, Any]] = []
+    files = []
+    for name, engine in presets.presets().items():
+        speed = EBOOK_RPM if name.endswith(presets.OWN_PARTS) else rpm
+        file = place / f"{name}.html"
+        save_html(engine, file, rpm=speed)
+        listed.append(
+            {
+                "href": file.name,
+                "figures": figures(engine, speed, spectrum=None),
+                "description": presets.presets().descriptions[name],
+            }
+        )
+        files.append(file)
+    index = place / "index.html"
+    call = f"gallery({as_json(listed)});"
+    index.write_text(document("Engines", "gallery.mjs", call, GALLERY_HEAD), encoding="utf-8")
+    return [index, *files]
 
 
 def document(title: str, entry: str, call: str, body: str = "") -> str:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._support import optional
 from crankpin.view import page
-from crankpin.view.figures import core_numbers, figures
-from crankpin.view.settings import Settings
+from crankpin.view.figures import Settings, core_numbers, figures
 
 if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
