@@ -56,7 +56,8 @@ def to_xarray(
             name: ((*result.dims, *dims), result.read(quantity, what), units(quantity))
             for name, quantity, what, dims in variables(quantities)
         }
-    orders = np.array(result.orders, dtype=np.int64)
+    whole = all(isinstance(order, int) for order in result.orders)
+    orders = np.array(result.orders, dtype=np.int64 if whole else np.float64)
     coords = _labelled(result.coords, quantities)
     coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
     bounds = {

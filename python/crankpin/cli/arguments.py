@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import labels
+from crankpin._support import inputs, labels
 from crankpin.model import presets
 from crankpin.model.engine import Engine
 
@@ -90,7 +90,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--orders": {
         "default": "auto",
-        "help": "such as 1,2,4, or auto for all that matter (default: %(default)s)",
+        "help": "such as 1,2,4 or 0.5,1,1.5, or auto for all that matter (default: %(default)s)",
     },
     "--rtol": {
         "help": "with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
@@ -288,7 +288,11 @@ class Given:
         """Return the orders of ``--orders``, or "auto"."""
         if self.text("--orders") == "auto":
             return "auto"
-        return self.whole_numbers("--orders", "give whole numbers, such as 1,2,4, or auto")
+        try:
+            return [inputs.order(Decimal(part)) for part in self.text("--orders").split(",")]
+        except (InvalidOperation, ValueError, OverflowError):
+            hint = "give multiples of crank speed, such as 1,2,4 or 0.5,1,1.5, or auto"
+            raise InputError(f"--orders = {labels.cut(self.text('--orders'))}: {hint}") from None
 
     def chosen(self) -> dict[str, Any]:
         """Return orders, or "auto", and the tolerance by which they are chosen, if it is given."""

@@ -141,7 +141,7 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     heads = [SWEPT[dim][-1] for dim in dims]
     heads += [
         f"{symbol} order {order} {QUANTITIES[quantity].unit}"
-        for order in np.array(result.orders)[shown].tolist()
+        for order in itertools.compress(result.orders, shown)
         for symbol in symbols
     ]
     how = _how(result, given)

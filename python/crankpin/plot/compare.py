@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH = 0.36
-"""Width of a bar, in orders."""
+"""Width of a bar, as a part of the least distance between orders."""
 SIDE_BY_SIDE = 5.0
 """Inches that two panels beside each other need."""
 TURN = np.arange(361.0)
@@ -106,6 +106,7 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     top = float(pairs.max(initial=0.0))
     shown = [k for k in range(len(result.orders)) if pairs[:, k].max() > MATTERS * top]
     orders = np.array(result.orders, dtype=np.float64)[shown]
+    width = WIDTH * float(np.diff(orders).min(initial=1.0))
     looks = series(ax, 2)
     hatches = ("////", None)  # for print without colour
     for k, (peaks, text) in enumerate(zip(pairs[:, shown], result.names, strict=True)):
@@ -113,7 +114,7 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
             "color": looks[k]["color"], "hatch": hatches[k], "edgecolor": background(ax),
             "linewidth": 0.0,
         }  # fmt: skip
-        ax.bar(orders + (k - 0.5) * WIDTH, peaks, 0.96 * WIDTH, label=text, **(fill | style))
+        ax.bar(orders + (k - 0.5) * width, peaks, 0.96 * width, label=text, **(fill | style))
     if not shown:
         note_zero(ax)
     last = float(orders.max(initial=0.0)) + 1.0

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.sweeps.sweep import Sweep
 
 MOST_ENGINES = 4
@@ -179,22 +180,25 @@ def _heat(
 def _cells(
     panels: Sequence[Axes] | NDArray[Any],
     x: NDArray[np.float64],
-    orders: Sequence[int],
+    orders: Sequence[Order],
     peaks: NDArray[np.float64],
     quantity: str,
     style: dict[str, Any],
 ) -> None:
     """Draw a row of cells for each order; those of an order that is zero stay empty."""
-    in_order, highest = np.argsort(x, kind="stable"), max(orders)
+    in_order = np.argsort(x, kind="stable")
+    step = 1.0 if all(isinstance(order, int) for order in orders) else 0.5
+    rows = np.arange(step, max(orders) + step, step)
     nonzero = peaks[peaks > 0.0]
     largest = float(nonzero.max(initial=1.0))
     smallest = max(RANGE * largest, float(nonzero.min(initial=largest)))
     norm = LogNorm(min(smallest, 0.1 * largest), largest)
     for k, panel in enumerate(panels):
-        cells = np.full((highest, len(x)), np.nan)
+        cells = np.full((len(rows), len(x)), np.nan)
         for place, order in enumerate(orders):
-            cells[order - 1] = peaks[in_order, place, k]
-            if not cells[order - 1].any():
+            row = round(order / step) - 1
+            cells[row] = peaks[in_order, place, k]
+            if not cells[row].any():
                 middle = float(np.mean([x.min(), x.max()]))
                 panel.text(
                     middle,
@@ -207,8 +211,8 @@ def _cells(
                 )
         cells[cells == 0.0] = np.nan
         options = {"shading": "nearest", "norm": norm, "rasterized": True} | style
-        mesh = panel.pcolormesh(x[in_order], np.arange(1, highest + 1), cells, **options)
-        panel.set_ylim(0.5, highest + 0.5)
+        mesh = panel.pcolormesh(x[in_order], rows, cells, **options)
+        panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not nonzero.size:
             note_zero(panel)
     if nonzero.size:

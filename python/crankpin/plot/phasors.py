@@ -67,7 +67,7 @@ def phasors(
         raise InputError('ax: kind="phasors" has several panels; give figure=')
     kind = drawn_quantity(quantity, lambda name: bool(np.any(getattr(result, name).peak)))
     result.request.check(kind)
-    shown = inputs.explicit_orders(
+    shown = inputs.explicit_half_orders(
         orders if orders is not None else result.request.orders or ORDERS
     )
     whole = result.at_orders(tuple(shown))

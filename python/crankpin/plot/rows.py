@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.by_order import ByOrder
     from crankpin.analysis.sweeps.sweep import Sweep
 
@@ -26,9 +27,9 @@ MATTERS = 1e-3
 """Orders whose peaks are all below this part of the largest are left out."""
 
 
-def given_orders(orders: object) -> list[int]:
+def given_orders(orders: object) -> list[Order]:
     """Return orders that are to be drawn, one at least."""
-    if found := inputs.explicit_orders(orders):
+    if found := inputs.explicit_half_orders(orders):
         return found
     raise InputError("orders = []: give at least one order, such as [1, 2]")
 
@@ -84,7 +85,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     planar = quantity in PLANE_VECTORS and not single
     what = "peak_xy" if planar else "peak"
 
-    def one(order: int) -> Row:
+    def one(order: Order) -> Row:
         values = getattr(getattr(sweep[order], quantity), what)
         return Row(f"order {order}", values if planar else values[..., np.newaxis])
 

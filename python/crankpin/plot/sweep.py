@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
 
 SUMMARY = 4
 """The highest order by which engines are classed, and drawn by default."""
@@ -76,7 +77,7 @@ def bars(
     return made.drawn
 
 
-def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[int]:
+def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[Order]:
     """Return the orders asked for, by default those of the summary, or else the largest."""
     if orders is not None:
         return given_orders(orders)
@@ -87,7 +88,7 @@ def _orders(sweep: Sweep, names: Sequence[str], orders: object) -> list[int]:
     return [sweep.orders[place] for place in places] or [*sweep.orders[:1], 1][:1]
 
 
-def _classes(sweep: Sweep, orders: Sequence[int]) -> list[str]:
+def _classes(sweep: Sweep, orders: Sequence[Order]) -> list[str]:
     """Return whether each engine shakes or rocks in these orders."""
     force = np.stack([sweep[order].force.peak for order in orders], axis=-1)
     moment = np.stack([sweep[order].moment.peak for order in orders], axis=-1)
@@ -95,7 +96,7 @@ def _classes(sweep: Sweep, orders: Sequence[int]) -> list[str]:
     return [CLASSES[bool(shakes), bool(rocks)] for shakes, rocks in pairs]
 
 
-def _note(sweep: Sweep, orders: Sequence[int]) -> str:
+def _note(sweep: Sweep, orders: Sequence[Order]) -> str:
     engines = len(sweep.coords["engine"])
     rest = f"; {engines - MOST_ENGINES} more engines not shown" if engines > MOST_ENGINES else ""
     return f"balanced: no force and no moment in {labels.orders_text(tuple(orders))}{rest}"
@@ -105,7 +106,7 @@ def _panel(
     ax: Axes,
     names: Sequence[str],
     peaks: NDArray[np.float64],
-    orders: Sequence[int],
+    orders: Sequence[Order],
     quantity: str,
     style: dict[str, Any],
 ) -> None:
