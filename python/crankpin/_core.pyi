@@ -34,7 +34,6 @@ __all__ = [
     "estimated_rod_inertia",
     "exact_angle",
     "fit_shafts",
-    "half_length",
     "inline_throws",
     "least_weights",
     "matched",
@@ -43,13 +42,11 @@ __all__ = [
     "offset_table",
     "pair_heights",
     "peaks_of_sums",
-    "place_shafts",
     "port_timing",
     "rod_parts",
     "roll_torque",
     "shared",
     "turning",
-    "unbounded_weights",
     "valve_timing",
     "vanishing",
     "vee_throws",
@@ -175,7 +172,6 @@ _FreeAxis: TypeAlias = tuple[float | None, float | None]
 
 def turning(engine: Engine, ratio: int) -> _Turning: ...
 def roll_torque(engine: Engine, order: int) -> complex: ...
-def half_length(engine: Engine) -> float: ...
 def least_weights(
     z: Sequence[float],
     reference: float,
@@ -186,20 +182,11 @@ def least_weights(
     angles: Sequence[Sequence[float]] | None,
     minimise: str,
 ) -> tuple[list[tuple[int, int, _Weight]], bool, float]: ...
-def unbounded_weights(
-    wanted: _Turning, z: Sequence[float], reference: float, length: float
-) -> list[_Weight]: ...
 def fit_shafts(
     engine: Engine,
     wanted: Sequence[tuple[int, _FreeAxis, Sequence[float] | None, str]],
     given: Sequence[tuple[int, complex]],
 ) -> tuple[list[tuple[tuple[float, float], list[_Weight], _Turning]], float | None]: ...
-def place_shafts(
-    engine: Engine,
-    torques: Sequence[tuple[int, complex]],
-    forces: Sequence[tuple[int, complex]],
-    axes: Sequence[_FreeAxis],
-) -> list[tuple[float, float]]: ...
 def pair_heights(forward: complex, backward: complex, torque: complex) -> list[float]: ...
 def shared(forces: Sequence[tuple[complex, float]], front: float, rear: float) -> list[complex]: ...
 

@@ -14,8 +14,7 @@ from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
-from crankpin.analysis.ranking.choices import Choice
-from crankpin.analysis.ranking.ranking import Ranking
+from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws

@@ -340,7 +340,8 @@ def test_rank_csv_is_the_library_s_choice(capsys: CAPTURE) -> None:
         ranking = cp.rank(engines, rpm=5000, by=by, **how)
         out = printed(capsys, *argv, "--hold", hold, "--csv")
         head, labels, values = numbers(out, labels=3)
-        assert head == ["place", "engine", "bank angle °", *(f"{name} N·m" for name in by)]
+        words = ["order-1 rocking moment, backward N·m", "order-2 rocking moment N·m"]
+        assert head == ["place", "engine", "bank angle °", *words]
         np.testing.assert_array_equal(values, [choice.values for choice in ranking])
         assert [(int(place), name) for place, name, _ in labels] == [
             (choice.place, choice.name) for choice in ranking

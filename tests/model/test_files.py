@@ -13,7 +13,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import CYLINDER, I4
-from crankpin.analysis.balancing import correction_planes
+from crankpin.analysis.balancing import planes
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
@@ -173,7 +173,7 @@ def test_bays_are_between_the_main_bearings() -> None:
     np.testing.assert_allclose(front.webs, [-0.025, 0.05, 0.125], rtol=1e-15)
     assert (rear.cylinders, rear.bearings) == ((3, 4), (0.15, 0.35))
     assert len(bays(I4)) == 4
-    webs = correction_planes.named(three, "webs")
+    webs = planes.named(three, "webs")
     assert list(webs)[:3] == ["bay 1 web 1", "bay 1 web 2", "bay 1 web 3"]
     spaced = I4.replace(mains=[-0.05, 0.05, 0.06, 0.15, 0.35])  # two side by side
     assert [bay.cylinders for bay in bays(spaced)] == [(1,), (2,), (3, 4)]

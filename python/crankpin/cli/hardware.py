@@ -17,7 +17,7 @@ from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, printed
 
 if TYPE_CHECKING:
-    from crankpin.analysis.balancing.correction_planes import Planes
+    from crankpin.analysis.balancing.planes import Planes
     from crankpin.cli.arguments import Commands, Given
     from crankpin.model.engine import Engine
 

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.arrangements.search import ArrangementSearch
-from crankpin.analysis.design.built import turned
 from crankpin.analysis.design.designs import Designs, bank_angle_range
+from crankpin.analysis.design.families import turned
 from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import engine_looks
 from crankpin.plot.dispatch import picture
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin.analysis.design.designs import Design
-    from crankpin.analysis.ranking.choices import Choice
+    from crankpin.analysis.ranking.ranking import Choice
 
 MOST_ENGINES = 24
 """Engines shown below each other, the best ones."""

@@ -169,21 +169,14 @@ impl Matching {
                         .iter()
                         .flat_map(|place| std::iter::repeat_n(place[k], self.sets))
                         .collect();
+                    // Parts that are not used have no influence.
+                    falling.resize(rising.len(), 0.0);
                     falling.sort_by(|a, b| b.total_cmp(a));
-                    // Positive influences take parts from one end, negative ones from the other.
-                    let positive = falling.iter().filter(|each| **each > 0.0);
                     for (influence, (few, many)) in
-                        positive.zip(rising.iter().zip(rising.iter().rev()))
+                        falling.iter().zip(rising.iter().zip(rising.iter().rev()))
                     {
                         low += influence * few;
                         high += influence * many;
-                    }
-                    let negative = falling.iter().rev().filter(|each| **each < 0.0);
-                    for (influence, (few, many)) in
-                        negative.zip(rising.iter().zip(rising.iter().rev()))
-                    {
-                        low += influence * many;
-                        high += influence * few;
                     }
                 }
             }
@@ -203,44 +196,34 @@ impl Matching {
         cancel: &Cancel,
     ) -> Result<Partition> {
         let used = self.sets * self.places;
-        let (mut first, mut second) = (Vec::new(), Vec::new());
+        let mut trials = [Vec::new(), Vec::new()];
         loop {
             let mut better = false;
             // Anew in each round: rounding of sums that are updated grows.
             let mut remainders = self.remainders(&sequences);
-            let mut lengths: Vec<f64> = remainders.iter().map(|each| length(each)).collect();
             for (kind, parts) in sequences.iter_mut().enumerate() {
                 for i in 0..used {
                     cancel.check()?;
                     for j in i + 1..parts.len() {
-                        let (one, other) = (i / self.places, j / self.places);
-                        let (p, q) = (parts[i], parts[j]);
-                        first.clone_from(&remainders[one]);
-                        let place = i % self.places;
-                        add(&mut first, -1.0, self.added(kind, place, p));
-                        add(&mut first, 1.0, self.added(kind, place, q));
-                        let between = j < used && one != other;
-                        let mut before = lengths[one];
-                        if between {
-                            second.clone_from(&remainders[other]);
-                            before += lengths[other];
-                        } else {
-                            second.clear();
+                        let (slots, moved) = ([i, j], [parts[i], parts[j]]);
+                        let sets = slots.map(|slot| slot / self.places);
+                        let changed = if j < used && sets[0] != sets[1] { 2 } else { 1 };
+                        let mut before = 0.0;
+                        for (trial, &set) in trials.iter_mut().zip(&sets[..changed]) {
+                            trial.clone_from(&remainders[set]);
+                            before += length(trial);
                         }
-                        if j < used {
-                            let of = if between { &mut second } else { &mut first };
-                            let place = j % self.places;
-                            add(of, -1.0, self.added(kind, place, q));
-                            add(of, 1.0, self.added(kind, place, p));
+                        for k in (0..2).filter(|&k| slots[k] < used) {
+                            let (trial, place) =
+                                (&mut trials[k.min(changed - 1)], slots[k] % self.places);
+                            add(trial, -1.0, self.added(kind, place, moved[k]));
+                            add(trial, 1.0, self.added(kind, place, moved[1 - k]));
                         }
-                        let after = [length(&first), length(&second)];
-                        if after[0] + after[1] < before * (1.0 - BETTER) {
+                        let after: f64 = trials[..changed].iter().map(|each| length(each)).sum();
+                        if after < before * (1.0 - BETTER) {
                             parts.swap(i, j);
-                            mem::swap(&mut remainders[one], &mut first);
-                            lengths[one] = after[0];
-                            if between {
-                                mem::swap(&mut remainders[other], &mut second);
-                                lengths[other] = after[1];
+                            for (trial, set) in trials.iter_mut().zip(sets).take(changed) {
+                                mem::swap(&mut remainders[set], trial);
                             }
                             better = true;
                         }

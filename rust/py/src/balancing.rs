@@ -1,9 +1,9 @@
 //! Counterweights and balance shafts.
 
+use crankpin_core::Complex64;
+use crankpin_core::balancing;
 use crankpin_core::balancing::shafts::{self, Remove};
 use crankpin_core::balancing::weights::{self, Minimise};
-use crankpin_core::balancing::{self, TurningPart};
-use crankpin_core::{Complex64, Engine as CoreEngine};
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -35,12 +35,6 @@ pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
 pub fn roll_torque(engine: &Bound<'_, Engine>, order: u32) -> PyResult<Complex64> {
     let core = &engine.get().0;
     interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, cancel))
-}
-
-/// Length over which a moment counts as much as a force, m.
-#[pyfunction]
-pub fn half_length(engine: &Bound<'_, Engine>) -> f64 {
-    balancing::half_length(&engine.get().0)
 }
 
 /// Plane, place among its angles and weight of each, whether they are proved to exert what was wanted,
@@ -82,20 +76,6 @@ pub fn least_weights(
     Ok((each.collect::<PyResult<_>>()?, found.reached, found.missing))
 }
 
-/// Weights in planes, of any size and direction, that exert a force and moment or come closest to it.
-#[pyfunction]
-pub fn unbounded_weights(
-    wanted: Pair,
-    z: Vec<f64>,
-    reference: f64,
-    length: f64,
-) -> PyResult<Vec<Weight>> {
-    let wanted = TurningPart { force: wanted.0, moment: wanted.1 };
-    let (vectors, _) = weights::unbounded(&wanted, &z, reference, length);
-    let found = vectors.into_iter().zip(z).filter(|(vector, _)| *vector != Complex64::default());
-    found.map(|(vector, z)| Ok(weight(&shafts::unbalance(vector, z).or_raise()?))).collect()
-}
-
 /// Shafts that remove their parts of orders, and the distance of places beyond reach, m.
 #[pyfunction]
 pub fn fit_shafts(
@@ -117,19 +97,6 @@ pub fn fit_shafts(
         (each.shaft.axis.into(), unbalances, (each.exerts.force, each.exerts.moment))
     });
     Ok((each.collect(), beyond))
-}
-
-/// Axes of shafts, free coordinates where they cancel roll torques.
-#[pyfunction]
-pub fn place_shafts(
-    engine: &Bound<'_, Engine>,
-    torques: Vec<(u32, Complex64)>,
-    forces: Vec<(i32, Complex64)>,
-    axes: Vec<FreeAxis>,
-) -> Vec<(f64, f64)> {
-    let core: &CoreEngine = &engine.get().0;
-    let axes: Vec<_> = axes.into_iter().map(|(x, y)| [x, y]).collect();
-    shafts::place(core, &torques, &forces, &axes).axes.into_iter().map(Into::into).collect()
 }
 
 /// Difference and sum of the places of a pair that cancels a roll torque, m, and its line, radians.

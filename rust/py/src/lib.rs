@@ -60,11 +60,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::turning, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::roll_torque, module)?)?;
-    module.add_function(wrap_pyfunction!(balancing::half_length, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::least_weights, module)?)?;
-    module.add_function(wrap_pyfunction!(balancing::unbounded_weights, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::fit_shafts, module)?)?;
-    module.add_function(wrap_pyfunction!(balancing::place_shafts, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::pair_heights, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::shared, module)?)?;
     module.add_function(wrap_pyfunction!(firing::valve_timing, module)?)?;

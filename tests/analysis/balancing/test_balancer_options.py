@@ -250,7 +250,7 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     ]
     assert list(zip(*(column.values for column in table.columns), strict=True)) == expected
     last = repr(OPTIONS).splitlines()[-1]
-    assert last == "Target: [1].moment.peak ≤ 0 N·m; least counterweights + shaft −1."
+    assert last == "Target: order-1 rocking moment ≤ 0 N·m; least counterweights + shaft −1."
     assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
     assert OPTIONS._repr_html_().startswith("<table>")
     assert "no set reaches it" in repr(

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from conftest import CYLINDER, OFFSET
 from crankpin.analysis.arrangements.cranks import Crank, Symmetries
-from crankpin.analysis.design import built
+from crankpin.analysis.design.families import engines_of
 from designing import A2, RPM, SPACING, UNIT, design, question
 from rederivation import design as brute
 
@@ -243,7 +243,7 @@ def test_images_shake_alike(cylinder: cp.Cylinder, stagger: float, angle: int, c
     crank = Crank.of([0, 80, Fraction(360, 7), 200], [10, -20, 30, 170], angle)
     images = dict(Symmetries(offset=cylinder is OFFSET, staggered=stagger > 0).images(crank))
     assert len(images) == count
-    own, *others = built.engines(asked, [crank, *images.values()])
+    own, *others = engines_of(asked, [crank, *images.values()])
     for other in others:
         for n in (1, 2, 3, 4):
             a, b = (each.balance(RPM, orders=[n])[n] for each in (own, other))
@@ -255,7 +255,7 @@ def test_images_shake_alike(cylinder: cp.Cylinder, stagger: float, angle: int, c
         # What is left out does not shake alike.
         every = dict(Symmetries().images(crank))
         for change in every.keys() - images.keys():
-            (other,) = built.engines(asked, [every[change]])
+            (other,) = engines_of(asked, [every[change]])
             a, b = (each.balance(RPM).total for each in (own, other))
             assert not np.allclose(a.moment.peak_xy, b.moment.peak_xy, rtol=1e-6)
 
@@ -387,7 +387,7 @@ def test_the_result_is_a_table() -> None:
     assert lines[2].split()[:4] == ["1", "0-180-90-270", "90", "2"]
     assert "<table>" in found._repr_html_()
     table = found.to_pandas()
-    assert table["[2].moment.peak N·m"].tolist() == [each.values[1] for each in found]
+    assert table["order-2 rocking moment N·m"].tolist() == [each.values[1] for each in found]
     assert table["throws °"].tolist() == [each.crank.text for each in found]
     assert "Engine" not in repr(found[0])
     again = pickle.loads(pickle.dumps(found))  # noqa: S301 - our own

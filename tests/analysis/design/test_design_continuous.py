@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from conftest import OFFSET
 from crankpin import _core
-from crankpin.analysis.design import built
-from crankpin.analysis.design.families import Family, families
+from crankpin.analysis.design.families import Family, engines_of, families
 from crankpin.analysis.ranking import objectives
 from designing import A2, RPM, UNIT, design, question
 from rederivation import design as brute
@@ -56,7 +55,7 @@ QUESTIONS: dict[str, Any] = {
 def merit(asked: Question, by: str) -> tuple[Family, _core.Merit]:
     candidates, _ = families(asked)
     family = candidates[len(candidates) // 2]
-    (base,) = built.engines(dataclasses.replace(asked, shafts=()), [family.base])
+    (base,) = engines_of(dataclasses.replace(asked, shafts=()), [family.base])
     turns = [each.turns(asked.banks, asked.count) for each in family.variables]
     listed = [(each.quantity, each.what, each.order) for each in objectives.listed(by)]
     return family, _core.Merit(base.core, turns, listed, list(range(1, 13)), asked.shafts)
@@ -78,7 +77,7 @@ def points(family: Any, count: int) -> list[list[Fraction]]:  # noqa: ANN401
 def test_its_objectives_are_the_library_s(asked: Any, by: str) -> None:  # noqa: ANN401
     family, found = merit(asked, by)
     listed = points(family, 3)
-    engines = built.engines(asked, [family.crank(each) for each in listed])
+    engines = engines_of(asked, [family.crank(each) for each in listed])
     swept = cp.sweep(engines, rpm=RPM, orders=range(1, 13))
     expected = objectives.named(by).values(swept)[:, 0]
     radians = np.radians(np.array(listed, dtype=np.float64))

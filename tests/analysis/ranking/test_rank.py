@@ -451,7 +451,7 @@ def test_the_table_is_exported() -> None:
     assert frame.parts_left.tolist() == [each.value for each in ranking]
     assert ranking.to_xarray()["parts_left"].dims == ("row",)
     by_name = cp.rank([SHARED, I4], rpm=3000, by="total.moment.peak")
-    assert by_name.to_xarray()["total.moment.peak"].attrs["units"] == "N·m"
+    assert by_name.to_xarray()["total rocking moment"].attrs["units"] == "N·m"
 
 
 # --- the rest -----------------------------------------------------------------------------------

@@ -2,28 +2,41 @@
 
 from __future__ import annotations
 
+import dataclasses
+import itertools
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.balancer_sets import balancer_sets, counterweights_at
+from crankpin.analysis.balancing import planes as correction_planes
+from crankpin.analysis.balancing.balance_shafts import balance_shafts
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
+from crankpin.analysis.balancing.planes import turning
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.sweeps.sweep import sweep
+from crankpin.model.shafts import unbalance_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders
-    from crankpin.analysis.balancing.correction_planes import Planes
+    from crankpin.analysis.balancing.planes import Planes, Turning
+    from crankpin.analysis.balancing.shaft_requests import Remove
     from crankpin.analysis.ranking.objectives import Measure, Objective
     from crankpin.model.engine import Engine
+    from crankpin.model.shafts import Shaft, Unbalance
+
+Axis: TypeAlias = tuple[float | None, float | None]
+"""x and y of a shaft, m, None where it is placed so that it cancels roll torque."""
+
+MOST_SETS = 10_000
+"""Largest number of sets."""
 
 TIED = 1e-9
 """Difference, relative to the largest value of an objective, up to which values are equal."""
@@ -121,17 +134,17 @@ def balancer_options(
     is_relative = inputs.flag("relative", relative)
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
     with_weights = inputs.flag("counterweights", counterweights)
-    z = list(correction_planes.named(engine, planes).values())
     most = inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise InputError(f"most_shafts = {most}: give 0 or more")
-    listed = inputs.explicit_orders(shaft_orders, "shaft_orders")
-    ratios = _ratios(listed, with_weights=with_weights)
-    weights = counterweights_at(engine, z) if with_weights else ()
-    sets = balancer_sets(engine, weights, ratios, _checked(places, ratios), most)
-    engines = [each.fitted_to(engine) for each in sets]
+    z = tuple(correction_planes.named(engine, planes).values())
+    ratios = _ratios(
+        inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
+    )
+    weights = _counterweights(engine, z) if with_weights else ()
+    sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most)
     speed = inputs.number("rpm", rpm)
-    swept = sweep(engines, rpm=speed, orders=orders, rtol=rtol)
+    swept = sweep([each.fitted for each in sets], rpm=speed, orders=orders, rtol=rtol)
     values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
     slack = TIED * np.abs(values).max(axis=0)
     start = {each.label: value for each, value in zip(objectives, values[0].tolist(), strict=True)}
@@ -144,13 +157,10 @@ def balancer_options(
     front = _front(
         np.hstack([hardware, values]), np.append([0.0, TIED * hardware[:, 1].max()], slack)
     )
+    found = zip(sets, values.tolist(), front.tolist(), reaches.tolist(), strict=True)
     options = tuple(
-        BalancerOption(
-            each.name, each.counterweights, each.shafts, fitted, each.unbalance, tuple(row), *flags
-        )
-        for each, fitted, row, *flags in zip(
-            sets, engines, values.tolist(), front.tolist(), reaches.tolist(), strict=True
-        )
+        each.replace(values=tuple(row), on_front=best, reaches=enough)
+        for each, row, best, enough in found
     )
     bare = tuple(each.bare() for each in objectives)
     return BalancerOptions(engine, speed, bare, tuple(targets.items()), options)
@@ -169,6 +179,84 @@ def _front(criteria: NDArray[np.float64], slack: NDArray[np.float64]) -> NDArray
         as_good = (criteria <= row + slack).all(axis=1)
         found[k] = not (as_good & (criteria < row - slack).any(axis=1)).any()
     return found
+
+
+# --- sets of hardware ---------------------------------------------------------------------------
+
+
+class Part(NamedTuple):
+    """A shaft that may be in a set, on the crank axis."""
+
+    shaft: Shaft
+    remove: Remove
+
+
+def _counterweights(engine: Engine, z: tuple[float, ...]) -> tuple[Unbalance, ...]:
+    """Return counterweights at places z that remove the forward part of order 1."""
+    # As a shaft that turns with the crank, on its axis.
+    ((_, weights, _),), _ = _core.fit_shafts(engine.core, [(1, (0.0, 0.0), z, "both")], [])
+    return tuple(map(unbalance_of, weights))
+
+
+def balancer_sets(
+    engine: Engine,
+    counterweights: tuple[Unbalance, ...],
+    ratios: Sequence[int],
+    places: Mapping[int, Axis],
+    most_shafts: int,
+) -> list[BalancerOption]:
+    """Return all sets with or without the counterweights and with a shaft of each ratio or none.
+
+    Ratios that have nothing to remove are left out.
+    """
+    removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
+    count = math.prod(1 + len(each) for each in removals.values())
+    if count > MOST_SETS:
+        remedy = f"give fewer orders, for {MOST_SETS} at most"
+        raise InputError(f"shaft_orders make {count} sets of shafts: {remedy}")
+    choices = [
+        [None, *(Part(balance_shafts(engine, r, x=0, y=0, remove=what)[0], what) for what in all_)]
+        for r, all_ in removals.items()
+    ]
+    weighted = {
+        weights: engine.with_counterweights([*engine.counterweights, *weights])
+        for weights in dict.fromkeys([(), counterweights])
+    }
+    found = []
+    for choice in itertools.product(*choices):
+        chosen = [each for each in choice if each is not None]
+        if len(chosen) > most_shafts:
+            continue
+        wanted = [
+            (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
+            for each in chosen
+        ]
+        fitted, _ = _core.fit_shafts(engine.core, wanted, [])
+        shafts = tuple(
+            dataclasses.replace(each.shaft, x=x, y=y)
+            for each, ((x, y), *_) in zip(chosen, fitted, strict=True)
+        )
+        for weights, other in weighted.items():
+            with_shafts = other.with_shafts([*engine.shafts, *shafts])
+            found.append(BalancerOption(_name(chosen, weights), weights, shafts, with_shafts))
+    return sorted(found, key=lambda each: (len(each.shafts), each.unbalance))
+
+
+def _removals(there: Turning) -> tuple[Remove, ...]:
+    """Return what a shaft can remove, each another way."""
+    if there.force and there.moment:
+        return ("both", "force", "moment")
+    return ("both",) if there.force or there.moment else ()
+
+
+def _name(parts: Sequence[Part], weights: tuple[Unbalance, ...]) -> str:
+    words = [
+        f"{each.shaft.ratio:+d}".replace("-", "−")
+        + ("" if each.remove == "both" else f" ({each.remove} alone)")
+        for each in parts
+    ]
+    shafts = f"shaft{'s' * (len(words) > 1)} {', '.join(words)}" if words else ""
+    return " + ".join(filter(None, ["counterweights" if weights else "", shafts])) or "nothing"
 
 
 # --- arguments ----------------------------------------------------------------------------------
@@ -199,9 +287,7 @@ def _limit(name: str, value: object) -> float:
     return number
 
 
-def _checked(
-    places: object, ratios: Sequence[int]
-) -> Mapping[int, tuple[float | None, float | None]]:
+def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
     """Return ratio → x and y."""
     remedy = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,14 +38,18 @@ class BalancerOption(Record):
     """Shafts that were added."""
     fitted: Engine
     """The engine with them."""
-    unbalance: float
-    """Sum of the amounts of all unbalances that were added, kg·m."""
-    values: tuple[float, ...]
+    values: tuple[float, ...] = ()
     """What stays: the value of each objective, in its unit."""
-    on_front: bool
+    on_front: bool = False
     """True if no other set has as few shafts, as little unbalance and as little left."""
-    reaches: bool
+    reaches: bool = False
     """True if the target is reached; False without one."""
+
+    @cached_property
+    def unbalance(self) -> float:
+        """Sum of the amounts of all unbalances that were added, kg·m."""
+        on_shafts = (weight for each in self.shafts for weight in each.unbalances)
+        return sum(each.amount for each in (*self.counterweights, *on_shafts))
 
     @property
     def hardware(self) -> tuple[Unbalance | Shaft, ...]:
@@ -167,11 +172,11 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
         }
         if self.targets:
             columns["target"] = ["reached" if each.reaches else "missed" for each in front]
-        heads = [f"{each.label} {each.unit}".strip() for each in self.objectives]
+        heads = [(each.head, each.unit) for each in self.objectives]
         return Table.from_rows(
             f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, "
             f"{len(self.front)} of {len(self)} sets on the Pareto front",
-            [*columns, "unbalance kg·m", *heads],
+            [*columns, ("unbalance", "kg·m"), *heads],
             list(zip(*columns.values(), strict=True)),
             np.array([(each.unbalance, *each.values) for each in front]),
             note=self._note(),
@@ -180,9 +185,10 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     def _note(self) -> str:
         if not self.targets:
             return ""
-        units = {each.label: each.unit for each in self.objectives}
+        by_label = {each.label: each for each in self.objectives}
         wanted = ", ".join(
-            f"{label} ≤ {value:.5g} {units[label]}".strip() for label, value in self.targets
+            f"{by_label[label].head} ≤ {value:.5g} {by_label[label].unit}".strip()
+            for label, value in self.targets
         )
         found = "no set reaches it" if self.least is None else f"least {self.least.name}"
         return f"Target: {wanted}; {found}."

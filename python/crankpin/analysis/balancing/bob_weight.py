@@ -14,11 +14,7 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import over_square
-from crankpin.analysis.balancing.first_order import (
-    LARGEST_FACTOR,
-    check_factor,
-    with_bob_weights,
-)
+from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantity import Ellipse

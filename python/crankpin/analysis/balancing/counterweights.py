@@ -11,9 +11,8 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import over_square
-from crankpin.analysis.balancing import correction_planes
-from crankpin.analysis.balancing.first_order import bay_loads
-from crankpin.analysis.balancing.fitting import Fit, external, internal, left_by
+from crankpin.analysis.balancing import planes as correction_planes
+from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
@@ -29,8 +28,8 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Angles
     from crankpin.analysis.balance import Balance
-    from crankpin.analysis.balancing.correction_planes import Planes
     from crankpin.analysis.balancing.fitting import Minimise, Target
+    from crankpin.analysis.balancing.planes import Planes
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Unbalance
 

@@ -1,6 +1,6 @@
-"""Counterweights fitted to what turns with the crankshaft at order 1, in kg·m and kg·m².
+"""Bob weights, and counterweights fitted to what turns with the crankshaft, of engines and bays.
 
-Forces and moments of order 1 scale with ω², so that one fit serves every speed.
+Forces and moments of order 1 over ω², in kg·m and kg·m²: one fit serves every speed.
 """
 
 from __future__ import annotations
@@ -14,17 +14,21 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.analysis.balancing.first_order import bay_alone, check_factor, with_bob_weights
+from crankpin._support.quantities import PLANE_VECTORS
+from crankpin._support.record import read_only
 from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
-from crankpin.model.shafts import degrees, unbalance_of
+from crankpin.model.engine import Engine
+from crankpin.model.shafts import Unbalance, degrees, unbalance_of
 
 if TYPE_CHECKING:
-    from crankpin.model.crankpins import Bay
-    from crankpin.model.engine import Engine
-    from crankpin.model.shafts import Unbalance
+    from numpy.typing import ArrayLike, NDArray
 
-QUANTITIES = ("force", "moment")
+    from crankpin.model.crankpins import Bay
+
+LARGEST_FACTOR = 10.0
+SMALLEST = 1e-30
+"""Smallest unbalance that engines take, kg·m."""
 NOTHING = 1e-14
 """Part of two figures below which their difference is rounding."""
 
@@ -62,11 +66,11 @@ class Fit:
 
 def _parts(given: object) -> dict[str, float | None]:
     if given is None or not isinstance(given, Mapping):
-        by_name = dict.fromkeys(QUANTITIES, given)
+        by_name = dict.fromkeys(PLANE_VECTORS, given)
     else:
         by_name = dict(given)
         for name in by_name:
-            inputs.one_of("factor", name, QUANTITIES)
+            inputs.one_of("factor", name, PLANE_VECTORS)
         if not by_name:
             raise InputError('factor = {}: give a number, or {"force": 0.5, "moment": 0.5}')
     parts = {name: inputs.optional_number("factor", part) for name, part in by_name.items()}
@@ -84,6 +88,32 @@ class Fitted(NamedTuple):
     """True if they are proved to do all that was wanted."""
     missing: float
     """Part of what was wanted that they do not do, but for rounding."""
+
+
+# --- bob weights ----------------------------------------------------------------------------------
+
+
+def check_factor(name: str, factor: ArrayLike) -> None:
+    """Raise an InputError unless factors are shares of the reciprocating mass."""
+    listed = np.asarray(factor)
+    if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
+        hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
+        raise InputError(f"{name} = {inputs.shorten(factor)}: {hint}")
+
+
+def with_bob_weights(engine: Engine, factor: float) -> Engine:
+    """Return the engine with counterweights that balance a bob weight at each crankpin.
+
+    They are opposite the crankpins, in place of the counterweights that it has: all of the rotating
+    and ``factor`` of the reciprocating mass.
+    """
+    masses = zip(engine.cylinders, engine.rotating_mass.tolist(), engine.z.tolist(), strict=True)
+    weights = []
+    for number, (parts, rotating, z) in enumerate(masses, start=1):
+        amount = (rotating + factor * parts.reciprocating_mass) * parts.crank_radius
+        if amount >= SMALLEST:
+            weights.append(Unbalance(amount, z, 180, pin=number))
+    return engine.with_counterweights(weights)
 
 
 # --- the whole engine ---------------------------------------------------------------------------
@@ -217,3 +247,32 @@ def internal(
 
 def _between(bay: Bay, planes: Mapping[str, float]) -> dict[str, float]:
     return {name: z for name, z in planes.items() if bay.holds(z)}
+
+
+def bay_loads(engine: Engine) -> NDArray[np.complex128]:
+    """Return what each throw exerts on its main bearings: forward force and moment, (n_bays, 2)."""
+    found = [turning(bay_alone(engine, bay), 1) for bay in bays(engine)]
+    return read_only(np.array(found, dtype=np.complex128))
+
+
+def bay_alone(engine: Engine, bay: Bay) -> Engine:
+    """Return the cylinders of a bay with what rotates there: an engine of one throw, about it."""
+    places = [number - 1 for number in bay.cylinders]
+    tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine.core.exact_angles)
+    return Engine.from_lists(
+        [engine.cylinders[k] for k in places],
+        tdc_deg=tdc_deg,
+        bank_deg=bank_deg,
+        z=engine.z[places],
+        rotating_mass=engine.rotating_mass[places],
+        counterweights=[
+            _in_bay(engine, weight) for weight in engine.counterweights if bay.holds(weight.z)
+        ],
+        reference_z=bay.z,
+    )
+
+
+def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
+    """Return a weight at its own angle: its pin has another number in a bay, or none."""
+    start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
+    return Unbalance(weight.amount, weight.z, start + degrees(weight.angle_deg))

@@ -1,18 +1,95 @@
-"""Parts of an engine that turn with a shaft, and weights in planes that exert such parts."""
+"""Planes for counterweights as people name them; parts of an engine that turn with a shaft."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
-from crankpin.model.shafts import unbalance_of
+from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from crankpin.model.engine import Engine
-    from crankpin.model.shafts import Unbalance
+
+Planes: TypeAlias = "str | Sequence[float] | Mapping[str, float]"
+HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
+MOST = 200
+"""Largest number of planes."""
+
+
+def named(engine: Engine, given: Planes) -> dict[str, float]:
+    """Return places of planes, m, by name, from front to flywheel or as given."""
+    if isinstance(given, str):
+        if inputs.one_of("planes", given, ["ends", "webs"]) == "ends":
+            front, rear = float(engine.z.min()), float(engine.z.max())
+            return {"front": front, "rear": rear} if front < rear else {"crankpin": front}
+        return {
+            f"throw {number} {side}" if len(bay.webs) == 2 else f"bay {number} web {k}": z
+            for number, bay in enumerate(bays(engine), start=1)
+            for k, (side, z) in enumerate(zip_longest(("front", "rear"), bay.webs), start=1)
+        }
+    if isinstance(given, Mapping):
+        places = {inputs.text("planes", name): _place(name, z) for name, z in given.items()}
+    else:
+        listed = inputs.items("planes", given, HINT)
+        places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
+    if not 1 <= len(places) <= MOST:
+        raise InputError(f"planes has {len(places)} places: give 1 to {MOST}")
+    return places
+
+
+def _place(key: object, value: object) -> float:
+    place = inputs.number(f"planes[{inputs.shorten(key)}]", value)
+    if not abs(place) <= 1e30:
+        raise InputError(f"planes[{inputs.shorten(key)}] = {place}: give a finite place in metres")
+    return place
+
+
+def bounds(names: Sequence[str], given: object) -> dict[str, float]:
+    """Return the largest mass·radius in each plane, kg·m; infinite where there is no bound."""
+    by_name = _by_name("bound", names, given)
+    found = {}
+    for name in names:
+        bound = by_name.get(name)
+        found[name] = math.inf if bound is None else inputs.number("bound", bound)
+        if not found[name] >= 0.0:
+            raise InputError(f"bound = {found[name]}: give a mass·radius of 0 kg·m or more")
+    return found
+
+
+def angles(names: Sequence[str], given: object) -> dict[str, tuple[str, ...]] | None:
+    """Return the angles allowed in each plane as text, or None where all are."""
+    if given is None:
+        return None
+    by_name = _by_name("angles_deg", names, given)
+    found = {}
+    for name in names:
+        if by_name.get(name) is None:
+            raise InputError(f'angles_deg has none for "{name}": give angles for every plane')
+        listed = inputs.angles("angles_deg", by_name[name])
+        if not 1 <= len(listed) <= 360:
+            raise InputError(f"angles_deg has {len(listed)} angles: give 1 to 360")
+        found[name] = tuple(dict.fromkeys(listed))
+    return found
+
+
+def _by_name(what: str, names: Sequence[str], given: object) -> Mapping[str, Any]:
+    """Return values by name: of a mapping, or one value for all."""
+    if not isinstance(given, Mapping):
+        return dict.fromkeys(names, given)
+    for name in given:
+        if name not in names:
+            listed = inputs.shorten(list(names))
+            raise InputError(f"{what}[{inputs.shorten(name)}]: is no plane; they are {listed}")
+    return given
+
+
+# --- parts that turn with a shaft ----------------------------------------------------------------
 
 
 class Turning(NamedTuple):
@@ -27,27 +104,6 @@ class Turning(NamedTuple):
 def turning(engine: Engine, ratio: int) -> Turning:
     """Return the part of an engine's force and moment that turns with a shaft of this ratio."""
     return Turning(*_core.turning(engine_core(engine), ratio))
-
-
-def weights_in(engine: Engine, wanted: Turning, z: Sequence[float]) -> tuple[Unbalance, ...]:
-    """Return the weights in planes that exert a force and a moment, or come closest to them.
-
-    From two different planes on both are exerted; of more planes the weights are those with the
-    smallest sum of squares. In a single plane the sum of the squares of what is missed is least,
-    moments counted over half the engine's length.
-
-    Parameters
-    ----------
-    engine
-        The engine.
-    wanted
-        Force, kg·m, and moment about the reference plane, kg·m².
-    z
-        Places of the planes, m.
-    """
-    length = _core.half_length(engine.core)
-    found = _core.unbounded_weights(wanted, list(z), engine.reference_z, length)
-    return tuple(map(unbalance_of, found))
 
 
 def ends(engine: Engine) -> tuple[float, ...]:

@@ -1,6 +1,5 @@
 """Inverse design: cranks, pin splits, bank angles and balancers that minimise objectives.
 
-``question`` what is asked → ``families`` all candidates → ``optima`` the angles that vary, by the
-core's objectives with derivatives → ``built`` engines, with counterweights and shafts → ``designs``
-the result.
+``question`` what is asked → ``families`` all candidates and their engines → ``optima`` angles that
+vary, by the core's objectives with derivatives → ``designs`` the result.
 """

@@ -13,13 +13,13 @@ from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance
-from crankpin.analysis.design import built, optima
+from crankpin.analysis.design import optima
 from crankpin.analysis.design.designs import Design, Designs
-from crankpin.analysis.design.families import families
+from crankpin.analysis.design.families import engines_of, families, one_cylinder, warn_of_units
 from crankpin.analysis.design.question import checked
-from crankpin.analysis.ranking.choices import groups
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.ranking.objectives import tie_tolerance
+from crankpin.analysis.ranking.ranking import groups
 from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
@@ -186,7 +186,7 @@ def design(
         shafts=shafts,
     )
     with suppressed("mean piston speed"):
-        built.warn_of_units(asked)
+        warn_of_units(asked)
         search = Search(asked, objectives, speed, summed)
         found = search.optima(wanted, start, watched)
         designs, swept = search.best(found, wanted, tolerance)
@@ -223,7 +223,7 @@ class Search:
         self._families, self.cranks = families(question)
         if orders is None:
             # Totals guide the optimiser; those of the result have all orders.
-            orders = balance(built.one_cylinder(question), rpm, rtol=GUIDING).orders
+            orders = balance(one_cylinder(question), rpm, rtol=GUIDING).orders
         self._totals = orders
         self._smooth = [
             (each.quantity, each.what, each.order) for each in objectives if each.quantity
@@ -292,7 +292,7 @@ class Search:
     def _values(self, cranks: Sequence[Crank]) -> tuple[Sweep, NDArray[np.float64]]:
         """Return the sweep of the engines, and their objectives: (n_cranks, n_objectives)."""
         swept = sweep(
-            built.engines(self._question, cranks),
+            engines_of(self._question, cranks),
             rpm=self._rpm,
             orders="auto" if self._orders is None else self._orders,
         )
@@ -300,7 +300,7 @@ class Search:
 
     def _merit(self, family: Family) -> _core.Merit:
         question = dataclasses.replace(self._question, shafts=())
-        (engine,) = built.engines(question, [family.base])
+        (engine,) = engines_of(question, [family.base])
         turns = [each.turns(question.banks, question.count) for each in family.variables]
         removed = self._question.shafts
         return _core.Merit(engine.core, turns, self._smooth, self._totals, removed)

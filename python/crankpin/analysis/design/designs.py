@@ -14,7 +14,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
-from crankpin.analysis.design import built
+from crankpin.analysis.design.families import engines_of, turned
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import named
 from crankpin.analysis.sweeps.sweep import sweep
@@ -147,8 +147,8 @@ class Designs(Listed[Design], Tabled):
         }
         if self.question.shafts:
             pairs = itertools.product(designs, angles.tolist())
-            cranks = [built.turned(self.question, each.crank, angle) for each, angle in pairs]
-            swept = sweep(built.engines(self.question, cranks), **chosen)
+            cranks = [turned(self.question, each.crank, angle) for each, angle in pairs]
+            swept = sweep(engines_of(self.question, cranks), **chosen)
         else:
             engines = [each.engine for each in designs]
             swept = sweep(engines, bank_angle_deg=angles, hold=self.question.hold, **chosen)
@@ -196,7 +196,7 @@ class Designs(Listed[Design], Tabled):
         heads: list[str | tuple[str, str]] = ["place", ("throws", "°")]
         heads += [("pin split", "°")] if split else []
         heads += [("bank angle", "°")] if vee else []
-        heads += ["alike", *((each.label, each.unit) for each in self.objectives)]
+        heads += ["alike", *((each.head, each.unit) for each in self.objectives)]
         rows = []
         for each in designs:
             mark = "" if each.isolated else NEARBY

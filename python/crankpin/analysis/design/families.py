@@ -1,22 +1,32 @@
-"""All candidates: the finite choices, each with the angles that may still vary."""
+"""All candidates: the finite choices, each with the angles that may still vary; their engines."""
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
+import math
 from collections import Counter
+from fractions import Fraction
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from crankpin import _core
 from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.cranks import (
     MOST_CRANKS,
     TURN,
     Crank,
     Exact,
+    exact,
     permutations,
     throw_orders,
     too_many,
 )
+from crankpin.analysis.balancing.planes import ends
+from crankpin.model.engine import Engine
+from crankpin.model.shafts import Shaft, Unbalance, unbalance_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -239,3 +249,99 @@ def _plus(angles: list[Exact], which: tuple[int, ...], value: Exact) -> list[Exa
     if not which:
         return angles
     return [angle + each * value for angle, each in zip(angles, which, strict=True)]
+
+
+# --- their engines --------------------------------------------------------------------------------
+
+
+def engines_of(question: Question, cranks: Sequence[Crank]) -> list[Engine]:
+    """Return the engine of each crank."""
+    found = []
+    with suppressed():
+        # Of units once for the whole call; pins may be split to any side here.
+        for crank in cranks:
+            engine = _bare(question, crank)
+            if question.counterweights:
+                weight = _bob_weight(question)
+                pins = enumerate(engine.z.tolist(), start=1)
+                engine = engine.with_counterweights(
+                    [dataclasses.replace(weight, z=z, pin=pin) for pin, z in pins]
+                )
+            found.append(_with_shafts(engine, question.shafts) if question.shafts else engine)
+    return found
+
+
+def turned(question: Question, crank: Crank, bank_angle_deg: float) -> Crank:
+    """Return a crank at another bank angle: pins held, or top dead centres."""
+    angle = exact(inputs.angle("bank_angle_deg", bank_angle_deg))
+    assert crank.bank_angle is not None  # noqa: S101 - two banks
+    more = angle - crank.bank_angle if question.hold == "firing" else 0
+    return Crank.of(crank.throws, [split + more for split in crank.splits], angle)
+
+
+def one_cylinder(question: Question) -> Engine:
+    """Return an upright engine of one cylinder, with what follows its crankpin."""
+    single = dataclasses.replace(question, cylinders=1, banks=1, shafts=())
+    return engines_of(single, [Crank.of([0])])[0]
+
+
+def warn_of_units(question: Question) -> None:
+    """Warn, as builders do, of lengths in millimetres and masses in grams."""
+    zeros = [0] * question.count
+    _bare(question, Crank.of(zeros) if question.banks == 1 else Crank.of(zeros, zeros, 90))
+
+
+def _bare(question: Question, crank: Crank) -> Engine:
+    given: dict[str, Any] = {
+        "spacing": question.spacing,
+        "rotating_mass": question.rotating_mass,
+        "throws_deg": crank.throws,
+    }
+    if crank.bank_angle is None:
+        name = f"I{question.cylinders} {crank.text}"
+        return Engine.inline(question.cylinder, **given, name=name)
+    alike = len(set(crank.splits)) == 1
+    split = f", split {crank.splits_text}" if crank.splits_text else ""
+    engine = Engine.vee(
+        question.cylinder,
+        bank_angle_deg=crank.bank_angle,
+        pin_split_deg=crank.splits[0] if alike else 0,
+        bank_stagger=question.bank_stagger,
+        **given,
+        name=f"V{question.cylinders} {float(crank.bank_angle):.6g}°, {crank.text}{split}",
+    )
+    if alike:
+        return engine
+    pins = []
+    for throw, left in zip(crank.throws, crank.left, strict=True):
+        # The builder has cylinder 1, in the right bank, at top dead centre.
+        bore = 90 - Fraction(crank.bank_angle) / 2
+        pins += [bore + throw, bore + left]
+    return engine.replace(pin_deg=pins)
+
+
+def _bob_weight(question: Question) -> Unbalance:
+    """Return the weight at a pin that removes the forward part of its cylinder's first order.
+
+    Half the reciprocating mass, whatever the bank (all of it forward); with an offset piston pin
+    the first harmonic is a complex number, and the weight stands beside the opposite of the pin.
+    """
+    cylinder = question.cylinder
+    (first,) = cylinder.harmonics([1])
+    mass = 0.5 * cylinder.reciprocating_mass * complex(first) + question.rotating_mass
+    vector = -mass * cylinder.crank_radius
+    return Unbalance(abs(vector), 0.0, round(math.degrees(cmath.phase(vector)), 13))
+
+
+def _with_shafts(engine: Engine, ratios: tuple[int, ...]) -> Engine:
+    """Return an engine with shafts that remove all of their part of an order.
+
+    Each stands on the crank axis, so that it adds no roll torque, and has two unbalances at the
+    first and the last throw: force and moment determine them.
+    """
+    wanted = [(ratio, (0.0, 0.0), ends(engine), "both") for ratio in ratios]
+    found, _ = _core.fit_shafts(engine.core, wanted, [])
+    return engine.with_shafts(
+        Shaft(ratio, tuple(map(unbalance_of, weights)), name=f"of order {abs(ratio)}")
+        for ratio, (_, weights, _) in zip(ratios, found, strict=True)
+    )

@@ -31,7 +31,9 @@ class Objective(NamedTuple):
     """A number for an engine at a bank angle; the smallest is best."""
 
     label: str
-    """Name, and head of its column."""
+    """Name, as given."""
+    head: str
+    """Head of its column."""
     words: str
     """Description."""
     unit: str
@@ -150,7 +152,7 @@ def named(label: str) -> Objective:
     """Return the objective of this name."""
     if label == "unevenness_deg":
         words = "root mean square difference of the firing intervals from equal ones"
-        return Objective(label, words, "°", of_balance=_unevenness)
+        return Objective(label, "firing unevenness", words, "°", of_balance=_unevenness)
     found = _PATH.fullmatch(label)
     if not found or (found[1] is None and found[3] in ("forward", "backward")):
         inputs.one_of("by", label, COMMON)
@@ -158,6 +160,8 @@ def named(label: str) -> Objective:
     order = None if found[1] is None else int(found[1])
     quantity, what = found[2] or found[4], found[3] or found[5]
     name = QUANTITIES[quantity].words
+    head = f"{'total' if order is None else f'order-{order}'} {name}"
+    head += {"peak": "", "peak_xy": " along x or y"}.get(what, f", {what}")
     sort = {
         "peak": "longest" if QUANTITIES[quantity].planar else "largest",
         "peak_xy": "larger peak along (about) x and y of",
@@ -173,7 +177,8 @@ def named(label: str) -> Objective:
         values = np.abs(getattr(getattr(source, quantity), what))
         return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
 
-    return Objective(label, words, QUANTITIES[quantity].unit, of_sweep, None, order, quantity, what)
+    kind = QUANTITIES[quantity]
+    return Objective(label, head, words, kind.unit, of_sweep, None, order, quantity, what)
 
 
 def of_table(swept: Sweep) -> list[Objective]:
@@ -218,7 +223,7 @@ def listed(by: object) -> list[Objective]:
         elif callable(each):
             label = _free(each, found)
             words = f"{label}, a function given"
-            found.append(Objective(label, words, "", of_balance=each))
+            found.append(Objective(label, label, words, "", of_balance=each))
         else:
             raise InputError(f"by = {inputs.shorten(each)}: {remedy}")
     if not found:

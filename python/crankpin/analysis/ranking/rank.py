@@ -9,10 +9,9 @@ from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
-from crankpin.analysis.ranking.choices import chosen
 from crankpin.analysis.ranking.objectives import listed as listed_objectives
 from crankpin.analysis.ranking.objectives import tie_tolerance
-from crankpin.analysis.ranking.ranking import Ranking
+from crankpin.analysis.ranking.ranking import Ranking, chosen
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.model.engine import Engine
 

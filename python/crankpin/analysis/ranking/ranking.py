@@ -1,23 +1,24 @@
-"""Engines ranked by objectives, each at its best bank angles."""
+"""Engines ranked by objectives, each at its best bank angles, with ties."""
 
 from __future__ import annotations
 
+import contextlib
+import dataclasses
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Listed, Tabled
+from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.ranking.choices import Choice, angles_of, own_angles
-from crankpin.analysis.ranking.objectives import of_table
+from crankpin.analysis.ranking.objectives import again, of_table
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
@@ -28,6 +29,27 @@ if TYPE_CHECKING:
 
 MOST_ANGLES = 6
 """Bank angles shown in a cell."""
+
+
+class Choice(Record):
+    """An engine of a :class:`Ranking` at its best bank angles."""
+
+    place: int
+    """1 for the best; engines whose values are equal within the tolerance share a place."""
+    name: str
+    """Name of the engine."""
+    engine: Engine = dataclasses.field(repr=False)
+    """The engine at the first of these bank angles."""
+    bank_angles_deg: tuple[float, ...]
+    """All bank angles that tie for the smallest value, degrees, ascending; empty where no value is
+    finite, or where the engine does not have two banks and was taken unchanged."""
+    values: tuple[float, ...]
+    """Value of each objective there, in the objective's unit; inf where none is finite."""
+
+    @property
+    def value(self) -> float:
+        """Value of the first objective, in its unit."""
+        return self.values[0]
 
 
 class Ranking(Listed[Choice], Tabled):
@@ -160,7 +182,7 @@ class Ranking(Listed[Choice], Tabled):
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)
-        heads = [(each.label, each.unit) for each in self.objectives]
+        heads = [(each.head, each.unit) for each in self.objectives]
         rows_of = [(each.place, each.name, _several(each.bank_angles_deg)) for each in choices]
         rows = np.array([each.values for each in choices]).reshape(-1, len(heads))
         return Table.from_rows(
@@ -173,3 +195,168 @@ def _several(angles: tuple[float, ...]) -> str:
     shown = ", ".join(f"{angle:.8g}" for angle in angles[:MOST_ANGLES])
     rest = len(angles) - MOST_ANGLES
     return f"{shown} and {rest} more" if rest > 0 else shown or "–"
+
+
+# --- the best of a sweep --------------------------------------------------------------------------
+
+
+def chosen(
+    swept: Sweep,
+    objectives: Sequence[Objective],
+    values: Sequence[NDArray[np.float64]],
+    rtol: float,
+    *,
+    refine: bool,
+) -> tuple[Choice, ...]:
+    """Return each engine at its best angles, the best engine first."""
+    tolerances = np.array([rtol * _largest(each) for each in values])
+    names, grid = list(swept.coords["engine"]), angles_of(swept)
+    found: list[Choice] = []
+    for k, engine in enumerate(swept.engines):
+        rows = np.stack([each[k] for each in values], axis=1)
+        angles = grid
+        if refine and grid is not None:
+
+            def first(where: NDArray[np.float64], engine: Engine = engine) -> NDArray[np.float64]:
+                of_part: NDArray[np.float64] = objectives[0].values(_part(swept, engine, where))[0]
+                return of_part
+
+            between = dips(first, grid, rows[:, 0], float(tolerances[0]))
+            if between.size:
+                part = _part(swept, engine, between)
+                more = [objective.values(part)[0] for objective in objectives]
+                rows, angles = np.vstack([rows, np.transpose(more)]), np.append(grid, between)
+        kept = _least(rows, tolerances)
+        best = tuple(map(float, rows[kept].min(axis=0))) if kept.size else (np.inf,) * len(values)
+        if angles is None:
+            own = own_angles([engine])
+            where = tuple(own.tolist()) if kept.size and np.isfinite(own[0]) else ()
+        else:
+            where = tuple(sorted(set(angles[kept].tolist())))
+            if where and swept.hold is not None:
+                engine = engine.with_bank_angle(where[0], hold=swept.hold)  # noqa: PLW2901
+        found.append(Choice(0, str(names[k]), engine, where, best))
+    rows = np.array([each.values for each in found])
+    ranked: list[Choice] = []
+    for group in groups(rows, np.arange(len(found)), tolerances):
+        place = len(ranked) + 1
+        ranked += [found[k].replace(place=place) for k in group]
+    return tuple(ranked)
+
+
+def _least(rows: NDArray[np.float64], tolerances: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return the rows lowest in the first column, of those the lowest in the second, and so on."""
+    kept = np.flatnonzero(np.isfinite(rows).all(axis=1))
+    for column, tolerance in zip(rows.T, tolerances, strict=True):
+        if kept.size:
+            kept = kept[column[kept] <= column[kept].min() + tolerance]
+    return kept
+
+
+def groups(
+    rows: NDArray[np.float64], which: NDArray[np.intp], tolerances: NDArray[np.float64]
+) -> Iterator[list[int]]:
+    """Yield rows that tie, the lowest first."""
+    rest = which
+    while rest.size:
+        tied = rest[_least(rows[rest], tolerances)]
+        tied = tied if tied.size else rest  # nothing finite is left
+        yield tied.tolist()
+        rest = rest[~np.isin(rest, tied)]
+
+
+def _largest(values: NDArray[np.float64]) -> float:
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+
+def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
+    """Return the sweep of one engine at other angles."""
+    return again(swept, engines=[engine], bank_angle_deg=angles)
+
+
+def angles_of(swept: Sweep) -> NDArray[np.float64] | None:
+    """Return the bank angles of a sweep, if it has any."""
+    angles = swept.coords.get("bank_angle_deg")
+    return None if angles is None else np.asarray(angles)
+
+
+def own_angles(engines: Sequence[Engine]) -> NDArray[np.float64]:
+    """Return the engines' bank angles, NaN where there are not two banks."""
+    found = np.full(len(engines), np.nan)
+    for k, engine in enumerate(engines):
+        with contextlib.suppress(InputError):
+            found[k] = engine.bank_angle_deg
+    return found
+
+
+# --- between bank angles --------------------------------------------------------------------------
+
+Measured: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
+"""Computes the objective at bank angles in degrees."""
+
+POINTS = 9
+"""Angles at which a dip is sampled in each round, which leaves a quarter of it."""
+NARROW = 1e-10
+"""Degrees to which a pointed dip is narrowed."""
+FLAT = 1e-14
+"""Relative difference that rounding explains: the middle stands for a dip this flat."""
+SAME = 1e-3
+"""Degrees within which two dips count as one."""
+
+
+def dips(
+    measured: Measured,
+    angles: NDArray[np.float64],
+    values: NDArray[np.float64],
+    tolerance: float,
+) -> NDArray[np.float64]:
+    """Return bank angles between the given ones at which the objective is lower than at them."""
+
+    def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = measured(where.ravel())
+        return np.where(np.isnan(found), np.inf, found).reshape(where.shape)
+
+    angles, first = np.unique(angles, return_index=True)
+    values = np.where(np.isnan(values), np.inf, values)[first]
+    lowest_given = np.array(sorted(set(_lowest(values, tolerance))), dtype=np.intp)
+    if not lowest_given.size:
+        return np.empty(0)
+    low = angles[np.maximum(lowest_given - 1, 0)]
+    high = angles[np.minimum(lowest_given + 1, angles.size - 1)]
+    while (high - low).max() > NARROW:
+        across = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, POINTS)
+        heights = at(across)
+        lowest, rows = heights.argmin(axis=1), np.arange(lowest_given.size)
+        low = across[rows, np.maximum(lowest - 1, 0)]
+        high = across[rows, np.minimum(lowest + 1, POINTS - 1)]
+        highest = np.abs(heights).max(axis=1)
+        flat = np.isfinite(highest) & (heights.max(axis=1) <= heights.min(axis=1) + FLAT * highest)
+        low[flat] = high[flat] = across[flat, POINTS // 2]
+    middle = 0.5 * (low + high)
+    # The angle with the fewest digits that is as good: 30 for 30.00000000001.
+    rounded = np.stack([middle.round(digits) for digits in range(8)] + [middle], axis=1)
+    rounded = np.clip(rounded, angles[0], angles[-1])
+    heights = at(rounded)
+    as_good = heights <= heights[:, -1:] + FLAT * np.abs(values[lowest_given])[:, None]
+    rows, chosen = np.arange(lowest_given.size), as_good.argmax(axis=1)
+    found, depths = rounded[rows, chosen], heights[rows, chosen]
+    found = np.sort(found[depths < values[lowest_given] - tolerance])
+    return found[np.append(True, np.diff(found) > SAME)] if found.size else found
+
+
+def _lowest(values: NDArray[np.float64], tolerance: float) -> Iterator[int]:
+    """Yield places about which a dip may lie: ends of runs of tied values below their neighbours.
+
+    Values on both sides of a dip may tie: none of them is below the other then.
+    """
+    heights = values.tolist()
+    start = 0
+    for k, height in enumerate(heights):
+        if k + 1 < len(heights) and abs(heights[k + 1] - height) <= tolerance:
+            continue
+        before = heights[start - 1] if start else np.inf
+        after = heights[k + 1] if k + 1 < len(heights) else np.inf
+        inside = start > 0 or k + 1 < len(heights)
+        if inside and np.isfinite(height) and before > heights[start] and after > height:
+            yield from (start, k)
+        start = k + 1

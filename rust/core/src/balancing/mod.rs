@@ -25,12 +25,18 @@ pub struct TurningPart {
     pub moment: Complex64,
 }
 
+impl TurningPart {
+    /// Part of an order's wrench that turns with a shaft of this ratio.
+    fn of(wrench: &Wrench, ratio: i32) -> Self {
+        let [force, moment] = [wrench.force, wrench.moment]
+            .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
+        Self { force, moment }
+    }
+}
+
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
 pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
-    let wrench = over_square(engine, ratio.unsigned_abs(), false, cancel)?;
-    let [force, moment] = [wrench.force, wrench.moment]
-        .map(|vector| if ratio > 0 { vector.forward } else { vector.backward() });
-    Ok(TurningPart { force, moment })
+    Ok(TurningPart::of(&over_square(engine, ratio.unsigned_abs(), false, cancel)?, ratio))
 }
 
 /// Phasor of an order of the roll torque on the block, over ω².
@@ -66,8 +72,7 @@ fn ends(engine: &Engine) -> [f64; 2] {
 
 /// Length over which a moment counts as much as a force, m: half the distance between the first and
 /// the last cylinder, or the crank radius where they are at one place.
-#[must_use]
-pub fn half_length(engine: &Engine) -> f64 {
+fn half_length(engine: &Engine) -> f64 {
     let [first, last] = ends(engine);
     if last > first { (last - first) / 2.0 } else { engine.largest_crank_radius() }
 }

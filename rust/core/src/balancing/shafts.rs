@@ -1,9 +1,11 @@
 //! Balance shafts: their unbalances, and places where they cancel roll torque.
 
+use std::collections::BTreeSet;
+
 use nalgebra::DMatrix;
 
 use super::least_squares::least_squares;
-use super::{NEGLIGIBLE, TurningPart, ends, half_length, roll_torque, turning, weights};
+use super::{NEGLIGIBLE, TurningPart, ends, half_length, over_square, weights};
 use crate::Complex64;
 use crate::engine::{Engine, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
@@ -43,15 +45,6 @@ pub struct Fitted {
     pub exerts: TurningPart,
 }
 
-/// Places of the axes of shafts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ShaftAxes {
-    /// x and y of each, m.
-    pub axes: Vec<[f64; 2]>,
-    /// Distance, m, of a place further away than the reach that would cancel more roll torque.
-    pub beyond: Option<f64>,
-}
-
 /// Rounding, relative to the engine's length, in the place of a single plane.
 const INSIDE: f64 = 1e-12;
 /// How far from the crank axis free axes may be placed, in lengths of the engine: whatever is the
@@ -61,7 +54,8 @@ const REACH: f64 = 10.0;
 const DECIMALS: f64 = 1e13;
 
 /// Shafts that remove their parts of orders, those of one ratio together with the least squares; free
-/// axes where they cancel roll torque, as far as these are within reach of the engine.
+/// axes where they cancel roll torque, as far as these are within reach of the engine. With the
+/// distance, m, of the furthest place beyond that reach that would cancel more roll torque.
 ///
 /// `given` are torques on the block, over ω² at one speed, by order, that are cancelled as well.
 pub fn fit(
@@ -72,80 +66,75 @@ pub fn fit(
 ) -> Result<(Vec<Fitted>, Option<f64>)> {
     let reference = engine.reference(None)?;
     let mut found = vec![None; wanted.len()];
-    for ratio in distinct(wanted.iter().map(|each| each.ratio)) {
-        let there = turning(engine, ratio, cancel)?;
-        let same: Vec<usize> = (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
-        let shafts: Vec<&ShaftRequest> = same.iter().map(|&k| &wanted[k]).collect();
-        for (k, unbalances) in same.iter().zip(unbalances(engine, &there, &shafts, reference)?) {
-            found[*k] = Some(fitted(ratio, unbalances, reference));
+    let mut beyond: Option<f64> = None;
+    let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
+    for order in orders {
+        let there = over_square(engine, order, true, cancel)?;
+        let (mut free, mut torque) = (Vec::new(), there.torque.roll);
+        torque +=
+            given.iter().filter(|(n, _)| *n == order).map(|(_, extra)| extra).sum::<Complex64>();
+        for ratio in [order as i32, -(order as i32)] {
+            let same: Vec<usize> =
+                (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
+            let shafts: Vec<&ShaftRequest> = same.iter().map(|&k| &wanted[k]).collect();
+            let part = TurningPart::of(&there, ratio);
+            for (k, unbalances) in
+                same.into_iter().zip(unbalances(engine, &part, &shafts, reference)?)
+            {
+                let each = fitted(ratio, unbalances, reference);
+                free.push((k, ratio, each.exerts.force, wanted[k].axis));
+                found[k] = Some(each);
+            }
         }
+        let shafts: Vec<_> =
+            free.iter().map(|&(_, ratio, force, axis)| (ratio, force, axis)).collect();
+        let (axes, further) = place(engine, torque, &shafts);
+        for (&(k, ..), axis) in free.iter().zip(axes) {
+            if let Some(each) = &mut found[k] {
+                each.shaft.axis = axis;
+            }
+        }
+        beyond = beyond.into_iter().chain(further).reduce(f64::max);
     }
-    let mut found: Vec<Fitted> = found.into_iter().flatten().collect();
-    let mut torques = Vec::new();
-    for order in distinct(wanted.iter().map(|each| each.ratio.unsigned_abs())) {
-        let extra = given.iter().filter(|(n, _)| *n == order).map(|(_, torque)| torque);
-        torques.push((order, roll_torque(engine, order, cancel)? + extra.sum::<Complex64>()));
-    }
-    let forces: Vec<_> = found.iter().map(|each| (each.shaft.ratio, each.exerts.force)).collect();
-    let axes: Vec<_> = wanted.iter().map(|each| each.axis).collect();
-    let placed = place(engine, &torques, &forces, &axes);
-    for (each, axis) in found.iter_mut().zip(placed.axes) {
-        each.shaft.axis = axis;
-    }
-    Ok((found, placed.beyond))
+    Ok((found.into_iter().flatten().collect(), beyond))
 }
 
-/// Axes of shafts, free coordinates where they cancel the roll torque of each order or come closest to
-/// it; of several solutions the nearest to the crank axis, and none beyond the reach of the engine.
-///
-/// `torques` are those without the shafts, by order, `forces` ratio and force of each shaft, over ω².
-#[must_use]
-pub fn place(
+/// Axes of the shafts of an order, free coordinates where they cancel the roll torque that there is
+/// without them or come closest to it; of several solutions the nearest to the crank axis, and none
+/// beyond the reach of the engine. `shafts` are ratio, force over ω² and axis of each.
+fn place(
     engine: &Engine,
-    torques: &[(u32, Complex64)],
-    forces: &[(i32, Complex64)],
-    axes: &[[Option<f64>; 2]],
-) -> ShaftAxes {
-    let mut found = ShaftAxes {
-        axes: axes.iter().map(|axis| axis.map(Option::unwrap_or_default)).collect(),
-        beyond: None,
-    };
-    for &(order, torque) in torques {
-        let mut rest = torque;
-        let mut free = Vec::new();
-        for (k, &(ratio, force)) in forces.iter().enumerate() {
-            if ratio.unsigned_abs() != order {
-                continue;
+    torque: Complex64,
+    shafts: &[(i32, Complex64, [Option<f64>; 2])],
+) -> (Vec<[f64; 2]>, Option<f64>) {
+    let mut axes: Vec<_> =
+        shafts.iter().map(|(.., axis)| axis.map(Option::unwrap_or_default)).collect();
+    let (mut rest, mut free) = (torque, Vec::new());
+    for (k, &(ratio, force, axis)) in shafts.iter().enumerate() {
+        for (j, per_metre) in roll_of(ratio, force).into_iter().enumerate() {
+            match axis[j] {
+                Some(given) => rest += per_metre * given,
+                None => free.push((k, j, per_metre)),
             }
-            for (axis, per_metre) in roll_of(ratio, force).into_iter().enumerate() {
-                match axes[k][axis] {
-                    Some(given) => rest += per_metre * given,
-                    None => free.push((k, axis, per_metre)),
-                }
-            }
-        }
-        let parts = |row: usize, value: Complex64| if row == 0 { value.re } else { value.im };
-        let rows = DMatrix::from_fn(2, free.len(), |row, j| parts(row, free[j].2));
-        let target = DMatrix::from_fn(2, 1, |row, _| -parts(row, rest));
-        for most in (0..=2).rev() {
-            let mut places = least_squares(&rows, &target, most).solution;
-            let furthest = places.amax();
-            if furthest > REACH * size(engine) {
-                found.beyond = Some(found.beyond.map_or(furthest, |other| other.max(furthest)));
-                continue;
-            }
-            places.apply(|place| {
-                if place.abs() <= NEGLIGIBLE * furthest {
-                    *place = 0.0;
-                }
-            });
-            for (&(k, axis, _), place) in free.iter().zip(places.iter()) {
-                found.axes[k][axis] = *place;
-            }
-            break;
         }
     }
-    found
+    let parts = |row: usize, value: Complex64| if row == 0 { value.re } else { value.im };
+    let rows = DMatrix::from_fn(2, free.len(), |row, j| parts(row, free[j].2));
+    let target = DMatrix::from_fn(2, 1, |row, _| -parts(row, rest));
+    let mut beyond: Option<f64> = None;
+    for most in (0..=2).rev() {
+        let places = least_squares(&rows, &target, most).solution;
+        let furthest = places.amax();
+        if furthest > REACH * size(engine) {
+            beyond = beyond.or(Some(furthest));
+            continue;
+        }
+        for (&(k, j, _), &place) in free.iter().zip(&places) {
+            axes[k][j] = if place.abs() <= NEGLIGIBLE * furthest { 0.0 } else { place };
+        }
+        break;
+    }
+    (axes, beyond)
 }
 
 /// Heights at which a pair of shafts with equal and opposite ratios cancels a roll torque: how much
@@ -256,16 +245,6 @@ fn size(engine: &Engine) -> f64 {
     reach.fold(last - first, f64::max)
 }
 
-fn distinct<T: Copy + PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for value in values {
-        if !found.contains(&value) {
-            found.push(value);
-        }
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -283,17 +262,16 @@ mod tests {
     fn forces_that_differ_by_rounding_place_no_shaft_far_away() {
         let torque = Complex64::new(1e-4, 2e-4);
         let force = Complex64::new(0.0, 3e-3);
-        let axes = [[Some(0.08), None], [Some(-0.06), None]];
         for rounding in [0.0, 1e-15, -1e-13, 1e-11] {
-            let forces = [(2, force), (-2, force * (1.0 + rounding))];
-            let found = place(&single(), &[(2, torque)], &forces, &axes);
-            let [[_, one], [_, other]] = found.axes[..] else { panic!("two axes") };
+            let [one, other] = [(2, force, 0.08), (-2, force * (1.0 + rounding), -0.06)];
+            let shafts = [one, other].map(|(ratio, force, x)| (ratio, force, [Some(x), None]));
+            let (axes, beyond) = place(&single(), torque, &shafts);
             // Equal and opposite: the difference of heights is what counts.
-            assert!((one + other).abs() < 1e-9 && one.abs() < 0.05 && found.beyond.is_none());
+            assert!((axes[0][1] + axes[1][1]).abs() < 1e-9 && axes[0][1].abs() < 0.05);
+            assert!(beyond.is_none());
         }
-        let small = [(2, force * 1e-6)];
-        let beyond = place(&single(), &[(2, torque)], &small, &[[None, None]]);
-        assert!(beyond.beyond.is_some_and(|distance| distance > 1e3));
-        assert_eq!(beyond.axes, [[0.0, 0.0]]);
+        let (axes, beyond) = place(&single(), torque, &[(2, force * 1e-6, [None, None])]);
+        assert!(beyond.is_some_and(|distance| distance > 1e3));
+        assert_eq!(axes, [[0.0, 0.0]]);
     }
 }

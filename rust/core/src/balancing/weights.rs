@@ -129,8 +129,7 @@ pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> 
 /// the sum of squares is least from three on; in a single plane the squares of what is missed are.
 ///
 /// Returned with the number of planes that differ, up to two.
-#[must_use]
-pub fn unbounded(
+pub(super) fn unbounded(
     wanted: &TurningPart,
     z: &[f64],
     reference: f64,
