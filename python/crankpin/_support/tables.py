@@ -195,21 +195,6 @@ class Table(Record):
             yield head, each
 
 
-class Shown:
-    """Base class of results that are shown by their table."""
-
-    @property
-    def table(self) -> Table:
-        """Table that is shown."""
-        raise NotImplementedError
-
-    def __repr__(self) -> str:
-        return repr(self.table)
-
-    def _repr_html_(self) -> str:
-        return self.table._repr_html_()
-
-
 def common_decimals(values: ArrayLike) -> int | None:
     """Return how many decimals show the largest number to six digits, None outside 0.01 to 1e9.
 

@@ -18,8 +18,6 @@ from crankpin.cli.arguments import MOST_ROWS, command, shared
 from crankpin.cli.outputs import draw, left_out, printed
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from crankpin.cli.arguments import Commands, Given
 
 SWEPT = {
@@ -128,20 +126,19 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     """
     quantity = given.text("--quantity")
     symbols = QUANTITIES[quantity].symbols
-    peaks = _peaks(result, quantity).reshape(-1, len(result.orders), len(symbols))
-    shown, note = np.full(len(result.orders), fill_value=True), ""
-    if given.text("--orders") == "auto" and not given.text("--csv"):
-        largest = peaks.max(axis=(0, 2), initial=0.0)
-        shown = largest >= labels.NEGLIGIBLE * largest.max(initial=0.0)
-        left = tuple(n for n, kept in zip(result.orders, shown, strict=True) if not kept)
-        note = f"{labels.not_shown(left)}\n" if left else ""
-    rows = peaks[:, shown].reshape(len(result.engines), -1, int(shown.sum()) * len(symbols))
+    peaks = result.read(quantity, "peak_xy" if QUANTITIES[quantity].planar else "peak")
+    shown, left = result.shown_orders(quantity)
+    if given.text("--csv"):
+        shown, left = tuple(range(len(result.orders))), ()
+    note = f"{labels.not_shown(left)}\n" if left else ""
+    rows = peaks.reshape(-1, len(result.orders), len(symbols))[:, list(shown)]
+    rows = rows.reshape(len(result.engines), -1, len(shown) * len(symbols))
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
     heads = [SWEPT[dim][-1] for dim in dims]
     heads += [
         f"{symbol} order {order} {QUANTITIES[quantity].unit}"
-        for order in itertools.compress(result.orders, shown)
+        for order in (result.orders[place] for place in shown)
         for symbol in symbols
     ]
     how = _how(result, given)
@@ -155,13 +152,6 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     title = f"{how[0].upper()}{how[1:]}"
     table = rows.reshape(len(points), -1)
     return [Table.from_rows(title, ["engine", *heads], points, table, decimals)], note
-
-
-def _peaks(result: Sweep, quantity: str) -> NDArray[np.float64]:
-    """Return the peaks of a quantity: (…, n_orders, components)."""
-    drawn = getattr(result, quantity)
-    peaks: NDArray[np.float64] = drawn.peak if quantity == "torque" else drawn.peak_xy
-    return peaks
 
 
 def _how(result: Sweep, given: Given) -> str:

@@ -1,6 +1,7 @@
 // The engine at chosen settings: bank angle and what it holds, rod ratio.
 
 import { DEGREE, reduced, unit } from "./complex.mjs";
+import { gasLoad } from "./gas.mjs";
 import { proportions } from "./motion.mjs";
 
 /** Largest rod ratio of the slider; nearer to 1 the harmonics take too many terms. */
@@ -44,6 +45,7 @@ export function configure(figures, settings) {
     spectrum: figures.spectrum,
     reference: figures.reference_z,
     cycle: figures.strokes === 2 ? 360 : 720,
+    gas: Boolean(figures.gas),
     firing: figures.firing_deg && cylinders.map((each) => each.strokes),
     settings,
   };
@@ -72,6 +74,7 @@ function cylinderAt(figures, settings, given) {
     pin: unit(bankDeg - tdcDeg),
     tdc: unit(tdcDeg),
     strokes: strokes(figures, given, tdcDeg, l),
+    gas: gasLoad(figures, given, tdcDeg),
   };
 }
 

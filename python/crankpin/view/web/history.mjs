@@ -6,7 +6,8 @@ export const HEIGHT = 76; // pixels
 
 export class History {
   /** `curves` are names of its curves, with the labels beside them if there are several. */
-  constructor({ title, curves }) {
+  constructor({ title, curves, positive = false }) {
+    this.positive = positive;
     this.line = svg("path", { class: "zero-line" });
     this.frame = svg("path", { class: "frame" });
     this.title = svg("text", { class: "title" }, title);
@@ -34,7 +35,7 @@ export class History {
     place(this.ends[0], [left - 5, top + 7]);
     place(this.ends[1], [left - 5, top + HEIGHT + 1]);
     place(this.unit, [left - 5, middle + 4]);
-    this.curves.forEach(({ label }, k) => place(label, [right + 8, middle + (k ? 14 : -4)]));
+    this.curves.forEach(({ label }, k) => place(label, [right + 8, middle + 5 + 18 * (k - (this.curves.length - 1) / 2)]));
   }
 
   /** Draw what is known; `missing` says why there is nothing. `x` is the place of an angle. */
@@ -47,16 +48,17 @@ export class History {
     }
     this.values = missing ? [] : curves.map(({ value }) => value);
     if (missing) return;
-    this.y = (value) => this.middle - (value / largest) * (HEIGHT / 2 - 3);
+    const [zero, reach] = this.positive ? [HEIGHT / 2 - 3, HEIGHT - 6] : [0, HEIGHT / 2 - 3];
+    this.y = (value) => this.middle + zero - (value / largest) * reach;
     this.ends.forEach((element, k) => {
-      const value = k ? -largest : largest;
+      const value = k ? (this.positive ? 0 : -largest) : largest;
       show(element, value, scale.text(value));
     });
     if (this.unit.textContent !== scale.unit) this.unit.textContent = scale.unit;
-    curves.forEach(({ samples }, k) => {
+    curves.forEach(({ samples, span = 360 }, k) => {
       const turn = samples.length - 1;
-      const points = Array.from({ length: (turn * cycle) / 360 + 1 }, (_, i) =>
-        [x((360 * i) / turn), this.y(samples[i % turn])]);
+      const points = Array.from({ length: (turn * cycle) / span + 1 }, (_, i) =>
+        [x((span * i) / turn), this.y(samples[i % turn])]);
       this.curves[k].line.setAttribute("d", path(points));
     });
   }

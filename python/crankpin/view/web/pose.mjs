@@ -1,6 +1,7 @@
 // Everything at one crank angle: where the parts stand, and the force, moment and torque they make.
 
 import { multiply, unit } from "./complex.mjs";
+import { gasTorque, pressureAt } from "./gas.mjs";
 import { motion, swing } from "./motion.mjs";
 
 export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
@@ -8,11 +9,12 @@ export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
 /**
  * Places in metres, force in N, moment and torque in N·m, at a crank angle in degrees.
  *
- * Exact kinematics; an engine with a given spectrum sums `orders`, and its torque is null.
+ * Exact kinematics; an engine with a given spectrum sums `orders`, and its torque is null. Of the
+ * torque `gas` and `inertia` are the parts.
  */
 export function poseAt(engine, orders, thetaDeg) {
   const crank = unit(thetaDeg);
-  const cylinders = engine.cylinders.map((each) => cylinderPose(each, crank));
+  const cylinders = engine.cylinders.map((each) => cylinderPose(each, crank, thetaDeg));
   const weights = engine.unbalances.map((each) => multiply(each.start, turnedBy(crank, each.ratio)));
   const square = angularSpeed(engine.settings.rpm) ** 2;
   const loads = engine.spectrum
@@ -28,7 +30,7 @@ export function turnedBy(crank, n) {
   return n < 0 ? [power[0], -power[1]] : power;
 }
 
-function cylinderPose(cylinder, crank) {
+function cylinderPose(cylinder, crank, thetaDeg) {
   const [cos, sin] = multiply(crank, [cylinder.tdc[0], -cylinder.tdc[1]]);
   const moved = motion(cylinder.proportions, cos, sin);
   const [dx, dy] = cylinder.direction;
@@ -39,6 +41,7 @@ function cylinderPose(cylinder, crank) {
     sin,
     moved,
     height,
+    pressure: cylinder.gas && pressureAt(cylinder.gas, thetaDeg),
     crankpin: multiply(crank, cylinder.pin).map((part) => part * cylinder.crank_radius),
     // The path of the piston pin lies left of the bore's direction by the offset.
     wrist: [height * dx - offset * dy, height * dy + offset * dx],
@@ -48,7 +51,8 @@ function cylinderPose(cylinder, crank) {
 function exactLoads(engine, cylinders, weights, square) {
   const force = [0, 0];
   const moment = [0, 0];
-  let torque = 0;
+  let inertia = 0;
+  let gas = 0;
   const apply = (fx, fy, z) => {
     const lever = z - engine.reference;
     force[0] += fx;
@@ -57,23 +61,24 @@ function exactLoads(engine, cylinders, weights, square) {
     moment[1] += lever * fx;
   };
   engine.cylinders.forEach((cylinder, k) => {
-    const { cos, sin, moved } = cylinders[k];
-    const { crank_radius: r, reciprocating_mass: m, rod_inertia_excess: inertia } = cylinder;
+    const { cos, sin, moved, pressure } = cylinders[k];
+    const { crank_radius: r, reciprocating_mass: m, rod_inertia_excess: excess } = cylinder;
     const along = -m * r * square * moved.acceleration;
     apply(along * cylinder.direction[0], along * cylinder.direction[1], cylinder.z);
-    torque -= along * r * (moved.velocity + cylinder.proportions.offset);
-    if (inertia) {
+    inertia -= along * r * (moved.velocity + cylinder.proportions.offset);
+    if (pressure !== null) gas += gasTorque(cylinder.gas, r, pressure, moved.velocity);
+    if (excess) {
       const { velocity, acceleration } = swing(cylinder.proportions, cos, sin);
-      torque += inertia * square * acceleration * (1 + velocity);
+      inertia += excess * square * acceleration * (1 + velocity);
     }
   });
   engine.unbalances.forEach(({ ratio, axis, amount, z }, k) => {
     const size = amount * ratio * ratio * square;
     const [fx, fy] = [size * weights[k][0], size * weights[k][1]];
     apply(fx, fy, z);
-    torque += axis[0] * fy - axis[1] * fx;
+    inertia += axis[0] * fy - axis[1] * fx;
   });
-  return { force, moment, torque };
+  return { force, moment, torque: inertia + gas, inertia, gas };
 }
 
 /** Sum of orders: x + iy = Σ forward·e^{inθ} + backward·e^{−inθ}. */

@@ -11,14 +11,19 @@ const NOISE = 1e-11;
 /** The highest order that matters loses less than this part of its peak between two samples. */
 const BETWEEN = 0.03;
 
-/** Forces, moments and torques of a turn, its last sample that of the first. */
+/** Forces, moments and torques of a turn, its last sample that of the first; with gas of a cycle. */
 export function turn(engine, orders) {
-  const curve = { force: [], moment: [], torque: [] };
-  for (let theta = 0; theta <= 360; theta += STEP) {
-    const { force, moment, torque } = poseAt(engine, orders, theta);
-    curve.force.push(force);
-    curve.moment.push(moment);
+  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], pressures: [] };
+  for (let theta = 0; theta <= (engine.gas ? engine.cycle : 360); theta += STEP) {
+    const { force, moment, torque, inertia, gas, cylinders } = poseAt(engine, orders, theta);
+    if (theta <= 360) {
+      curve.force.push(force);
+      curve.moment.push(moment);
+    }
     curve.torque.push(torque);
+    curve.inertia.push(inertia);
+    curve.gas.push(gas);
+    curve.pressures.push(cylinders.map(({ pressure }) => pressure));
   }
   return curve;
 }
@@ -31,7 +36,8 @@ export function sizes({ cylinders, reference, settings }) {
   return {
     force: size(() => 1),
     moment: size(({ z }) => Math.abs(z) + Math.abs(reference)),
-    torque: size((each) => each.crank_radius),
+    torque: size((each) => each.crank_radius) + cylinders.reduce((sum, { gas, crank_radius: r }) =>
+      sum + (gas ? Math.max(...gas.samples) * gas.area * r : 0), 0),
   };
 }
 

@@ -5,7 +5,7 @@ import { choice, Settings, Transport } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { Ends } from "./ends.mjs";
 import { configure, ownSettings, strokesAt } from "./engine.mjs";
-import { roundBelow, short } from "./format.mjs";
+import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
 import { Handle } from "./handle.mjs";
 import { Header } from "./header.mjs";
@@ -227,7 +227,7 @@ export class View {
   }
 
   layoutTimeline() {
-    const { curve, peaks: largest, readouts: { scales } } = this;
+    const { curve, engine, peaks: largest, readouts: { scales } } = this;
     const component = (quantity, k) => ({
       name: "xy"[k], label: STRINGS.components[quantity][k],
       samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
@@ -238,12 +238,34 @@ export class View {
       missing: largest[quantity] ? "" : STRINGS.balanced,
     }));
     const known = curve.torque[0] !== null;
+    const span = engine.gas ? engine.cycle : 360;
+    const torques = engine.gas ? ["gas", "inertia", "torque"] : ["torque"];
     histories.push({
-      title: STRINGS.torque, largest: largest.torque, scale: scales.torque,
-      curves: [{ name: "torque", samples: curve.torque, value: (pose) => pose.torque }],
+      title: STRINGS.torque, scale: scales.torque,
+      largest: torques.length > 1
+        ? Math.max(...torques.flatMap((name) => curve[name].map(Math.abs))) : largest.torque,
+      curves: torques.map((name) => ({
+        name, span, label: torques.length > 1 ? STRINGS.torques[name] : "",
+        samples: curve[name], value: (pose) => pose[name],
+      })),
       missing: known ? (largest.torque ? "" : STRINGS.balanced) : STRINGS.noTorque,
     });
+    if (engine.gas && known) histories.push(this.pressures(span));
     this.timeline.layout(this.engine, histories, Math.max(this.width, 300));
+  }
+
+  /** The history of the pressures in all cylinders. */
+  pressures(span) {
+    const fired = this.engine.cylinders.flatMap(({ gas }, k) => (gas ? [k] : []));
+    const largest = Math.max(...fired.map((k) => Math.max(...this.engine.cylinders[k].gas.samples)));
+    return {
+      title: STRINGS.pressure, positive: true, largest, missing: "",
+      scale: scaleFor(largest, STRINGS.units.pressure),
+      curves: fired.map((k) => ({
+        name: "pressure", span, value: (pose) => pose.cylinders[k].pressure,
+        samples: this.curve.pressures.map((each) => each[k]),
+      })),
+    };
   }
 
   // --- what changes with the angle --------------------------------------------------------------
