@@ -4,6 +4,7 @@
 //! - [`numbers`]: errors, limits, cancellation, threads, memory; angles, orders, fractions, sums of
 //!   roots of unity;
 //! - [`gear`]: one cylinder's running gear and its harmonics;
+//! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
 //! - [`readings`] of that list: balances, waveforms and their peaks, sweeps, tolerances, exact answers;
@@ -24,6 +25,7 @@ pub mod gear;
 mod load;
 pub mod matching;
 pub mod numbers;
+pub mod pressure;
 pub mod readings;
 pub mod search;
 pub mod wrench;
@@ -41,6 +43,7 @@ pub use numbers::order::Order;
 pub use numbers::{
     angle, crank_angles, double, error, limits, memory, order, pool, rational, ring,
 };
+pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;

@@ -14,6 +14,7 @@ const BOUNDED: &[(&str, &str)] = &[
     ("engine/", "1000 cylinders"),
     ("load.rs", "1000 cylinders"),
     ("firing/", "1000 cylinders"),
+    ("pressure/", "100 000 points of a cycle"),
     ("balancing/", "planes and shafts of one engine"),
     ("matching.rs", "1000 cylinders of each set"),
     ("design.rs", "free angles of one crank"),

@@ -16,6 +16,7 @@ mod engine;
 mod firing;
 mod interrupt;
 mod matching;
+mod pressure;
 mod reserve;
 mod search;
 mod slider_crank;
@@ -44,6 +45,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<firing::Firing>()?;
     module.add_class::<tolerances::Tolerances>()?;
     module.add_class::<design::Merit>()?;
+    module.add_class::<pressure::Cycle>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(convert::near_miss, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;

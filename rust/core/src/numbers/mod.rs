@@ -10,6 +10,7 @@ pub mod limits;
 pub mod memory;
 pub mod order;
 pub mod pool;
+pub mod quadrature;
 pub mod rational;
 pub mod ring;
 pub(crate) mod simd;

@@ -1,7 +1,9 @@
 //! Integrals of a function with a narrow spike, by panels that halve towards it.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
+
+use crate::numbers::quadrature::gauss_legendre;
 
 /// Integral over [0, π/2] of a function with a spike of this width at 0 and waves of order n.
 pub(super) fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
@@ -25,33 +27,13 @@ pub(super) fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
     sum
 }
 
-/// Nodes and weights of the 20-point Gauss-Legendre rule on [−1, 1].
-static GAUSS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    const COUNT: u32 = 20;
-    let legendre = |x: f64| {
-        let (mut before, mut here) = (1.0, x);
-        for k in 2..=COUNT {
-            let k = f64::from(k);
-            (before, here) = (here, ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k);
-        }
-        (here, f64::from(COUNT) * (x * here - before) / (x * x - 1.0))
-    };
-    (0..COUNT)
-        .map(|i| {
-            let mut x = (PI * (f64::from(i) + 0.75) / (f64::from(COUNT) + 0.5)).cos();
-            for _ in 0..8 {
-                let (value, slope) = legendre(x);
-                x -= value / slope;
-            }
-            let (_, slope) = legendre(x);
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
-});
+/// The 20-point rule on [−1, 1].
+static GAUSS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(20));
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// ∫ cos nφ/(w² + φ²): between 0 and π/2 by the exponential of a wide range, and its spike.
     #[test]

@@ -1,0 +1,319 @@
+//! Harmonics of the torque of gas pressure, and a bound of those left out.
+
+use std::sync::LazyLock;
+
+use super::interpolant::value_and_slope;
+use super::{Cycle, period_deg};
+use crate::Complex64;
+use crate::engine::layout::Strokes;
+use crate::gear::slider_crank::Proportions;
+use crate::gear::{Gear, GearKind};
+use crate::numbers::angle::cis_degrees;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::memory;
+use crate::numbers::order::Order;
+use crate::numbers::quadrature::gauss_legendre;
+
+/// Torque on a crank over piston area and crank radius, Pa.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GasTorque {
+    /// Mean over the cycle.
+    pub mean: f64,
+    /// Peak phasors of the orders asked for.
+    pub phasors: Vec<Complex64>,
+}
+
+/// Nodes that are summed at once: they stay in the cache.
+const CHUNK: usize = 512;
+/// Orders after which powers are computed afresh: rounding grows with each multiplication.
+const FRESH: usize = 32;
+/// Part of the total within which the quadrature of a squared slope is exact.
+const QUADRATURE: f64 = 1e-13;
+/// Part of the largest torque below which a jump of it is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A quadrature rule, and up to where it reaches rounding.
+struct Rule {
+    /// Points besides those that the polynomial of pressure takes.
+    points: u32,
+    /// Largest phase, radians, of the highest order over half a panel.
+    phase: f64,
+    /// Least distance of a singularity of the piston's motion, in half panels.
+    distance: f64,
+}
+
+/// From the error term of Gauss-Legendre quadrature of `e^{iκx}`, 2^{2m+1}(m!)⁴κ^{2m}/((2m+1)(2m)!³),
+/// and from its rate of convergence ρ^{−2m} on the ellipse through the singularity.
+const RULES: [Rule; 4] = [
+    Rule { points: 4, phase: 0.05, distance: 50.0 },
+    Rule { points: 6, phase: 0.45, distance: 11.0 },
+    Rule { points: 8, phase: 1.3, distance: 5.0 },
+    Rule { points: 16, phase: 6.0, distance: 1.7 },
+];
+
+/// Largest number of points of a rule: that for polynomials of degree 32.
+const MOST_NODES: usize = 16 + 17;
+
+static NODES: LazyLock<Vec<Vec<(f64, f64)>>> =
+    LazyLock::new(|| (0..=MOST_NODES as u32).map(gauss_legendre).collect());
+
+/// A node of the quadrature.
+struct Node {
+    /// Crank angle, radians.
+    theta: f64,
+    /// Weight, radians.
+    weight: f64,
+    /// Torque there.
+    torque: f64,
+    /// Its slope, per radian.
+    slope: f64,
+}
+
+impl Cycle {
+    /// Torque on the crank of a gear over piston area and crank radius, of the pressure above the
+    /// crankcase's: its mean, and its phasors at orders of the gear's own crank.
+    #[allow(dead_code, reason = "read by the gas loads of engines")]
+    pub(crate) fn torque(
+        &self,
+        gear: &Gear,
+        crankcase: f64,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<GasTorque> {
+        self.torque_of(slider_crank(gear)?, crankcase, orders, cancel)
+    }
+
+    /// [`Self::tails`] above one order; infinite for a gear without a motion.
+    #[allow(dead_code, reason = "read by the gas loads of engines")]
+    pub(crate) fn tail(&self, gear: &Gear, crankcase: f64, above: Order) -> f64 {
+        let tails = slider_crank(gear)
+            .and_then(|proportions| self.tails(proportions, crankcase, above, &Cancel::new()));
+        tails.map_or(f64::INFINITY, |tails| tails[tails.len() - 1])
+    }
+
+    /// Torque on a crank over piston area and crank radius, of the pressure above the crankcase's.
+    pub fn torque_of(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<GasTorque> {
+        self.integrate(proportions, crankcase, orders, cancel).map(|(torque, _)| torque)
+    }
+
+    /// Bounds of the sum of the magnitudes of all phasors above order ½, 1, 1½ … up to one; infinite
+    /// where the torque jumps.
+    ///
+    /// By Cauchy and Schwarz from those of the slope: Σ|cₖ| ≤ √(Σ k⁻² · Σ k²|cₖ|²), and the last sum is
+    /// known from the mean square of the slope less that of the orders below (Parseval).
+    pub fn tails(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        highest: Order,
+        cancel: &Cancel,
+    ) -> Result<Vec<f64>> {
+        let orders = (1..=highest.halves()).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
+        let (torque, slope) = self.integrate(proportions, crankcase, &orders, cancel)?;
+        let step = if self.strokes == Strokes::Four { 0.5 } else { 1.0 };
+        let mut left = slope;
+        let tail = |(order, phasor): (&Order, &Complex64)| {
+            let k = order.number();
+            left -= k * k * phasor.norm_sqr();
+            // Σ 1/k² above an order, of terms that are below the integral between their middles.
+            let last = (k / step).floor() * step;
+            (left.max(0.0) + QUADRATURE * slope).sqrt() / (step * (last + 0.5 * step)).sqrt()
+        };
+        Ok(orders.iter().zip(&torque.phasors).map(tail).collect())
+    }
+
+    /// Torque, and twice the mean square of its slope: infinite where it jumps.
+    fn integrate(
+        &self,
+        proportions: &Proportions,
+        crankcase: f64,
+        orders: &[Order],
+        cancel: &Cancel,
+    ) -> Result<(GasTorque, f64)> {
+        let period = period_deg(self.strokes).to_radians();
+        let mut sorted: Vec<usize> = (0..orders.len()).collect();
+        sorted.sort_unstable_by_key(|&k| orders[k]);
+        // Half orders are none of a two-stroke's.
+        sorted.retain(|&k| self.strokes == Strokes::Four || orders[k].as_whole().is_some());
+        let halves: Vec<u32> = sorted.iter().map(|&k| orders[k].halves()).collect();
+        let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
+        let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
+        let (mut mean, mut square) = (0.0, 0.0);
+        let mut chunk: Vec<Node> = memory::room(CHUNK + MOST_NODES)?;
+        let mut powers = Powers::default();
+        let mut finish = |chunk: &mut Vec<Node>| -> Result<()> {
+            mean += chunk.iter().map(|node| node.weight * node.torque).sum::<f64>();
+            square += chunk.iter().map(|node| node.weight * node.slope * node.slope).sum::<f64>();
+            powers.add(chunk, &halves, &mut sums, cancel)?;
+            chunk.clear();
+            cancel.check()
+        };
+        for panel in 0..self.panels.edges.len() - 1 {
+            self.nodes(panel, proportions, crankcase, highest, &mut chunk, &mut finish)?;
+        }
+        finish(&mut chunk)?;
+        let mut phasors = memory::zeros(orders.len())?;
+        for (&k, sum) in sorted.iter().zip(&sums) {
+            phasors[k] = sum * (2.0 / period);
+        }
+        let slope =
+            if self.jumps(proportions, crankcase) { f64::INFINITY } else { 2.0 * square / period };
+        Ok((GasTorque { mean: mean / period, phasors }, slope))
+    }
+
+    /// Append the nodes of a panel, halved until a rule is exact to rounding.
+    fn nodes(
+        &self,
+        panel: usize,
+        proportions: &Proportions,
+        crankcase: f64,
+        highest: f64,
+        chunk: &mut Vec<Node>,
+        finish: &mut impl FnMut(&mut Vec<Node>) -> Result<()>,
+    ) -> Result<()> {
+        let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
+        let coefficients = self.panels.panel(panel);
+        let half = 0.5 * (to - from).to_radians();
+        let middle = 0.5 * (from + to);
+        let extra = self.panels.degree.div_ceil(2) as u32;
+        // Parts of the panel, as intervals of [−1, 1].
+        let mut parts = vec![(-1.0, 1.0)];
+        while let Some((low, high)) = parts.pop() {
+            let (centre, width): (f64, f64) = (0.5 * (low + high), 0.5 * (high - low));
+            let theta = middle.to_radians() + half * centre;
+            let distance = to_singularity(proportions, theta) / (half * width);
+            let phase = highest * half * width;
+            let rule = RULES.iter().find(|rule| phase <= rule.phase && distance >= rule.distance);
+            // A panel that is a point to rounding has no parts.
+            let Some(rule) = rule.or(if width < 1e-15 { RULES.last() } else { None }) else {
+                parts.extend([(centre, high), (low, centre)]);
+                continue;
+            };
+            for &(x, weight) in &NODES[(rule.points + extra) as usize] {
+                let place = centre + width * x;
+                let (pressure, slope) = value_and_slope(coefficients, place);
+                let offset = half * place;
+                let unit = cis_degrees(middle) * Complex64::cis(offset);
+                let motion = proportions.motion(unit.im, unit.re);
+                let gauge = pressure - crankcase;
+                chunk.push(Node {
+                    theta: middle.to_radians() + offset,
+                    weight: weight * half * width,
+                    // The piston's way down is minus its distance from the crank.
+                    torque: -gauge * motion.velocity,
+                    slope: -slope / half * motion.velocity - gauge * motion.acceleration,
+                });
+            }
+            if chunk.len() >= CHUNK {
+                finish(chunk)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether torque jumps at an edge: pressure does, and the piston moves.
+    fn jumps(&self, proportions: &Proportions, crankcase: f64) -> bool {
+        let panels = &self.panels;
+        let count = panels.edges.len() - 1;
+        let ends = |k: usize| {
+            [-1.0, 1.0].map(|place| value_and_slope(panels.panel(k), place).0 - crankcase)
+        };
+        let largest = (0..count).flat_map(ends).map(f64::abs).fold(0.0, f64::max);
+        (0..count).any(|k| {
+            let jump = ends((k + 1) % count)[0] - ends(k)[1];
+            let unit = cis_degrees(panels.edges[k + 1]);
+            let velocity = proportions.motion(unit.im, unit.re).velocity;
+            (jump * velocity).abs() > ROUNDING * largest
+        })
+    }
+}
+
+/// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.
+#[derive(Default)]
+struct Powers {
+    re: Vec<f64>,
+    im: Vec<f64>,
+    step_re: Vec<f64>,
+    step_im: Vec<f64>,
+    /// Halves by which a step turns.
+    gap: u32,
+}
+
+impl Powers {
+    fn add(
+        &mut self,
+        nodes: &[Node],
+        halves: &[u32],
+        sums: &mut [Complex64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        fill(&mut self.re, &mut self.im, nodes, 0);
+        self.gap = 0;
+        let mut before = 0;
+        for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
+            let gap = order - before;
+            before = order;
+            if gap > 2 || i % FRESH == 0 {
+                fill(&mut self.re, &mut self.im, nodes, order);
+                cancel.check()?;
+            } else {
+                if gap != self.gap {
+                    fill(&mut self.step_re, &mut self.step_im, nodes, gap);
+                    self.gap = gap;
+                }
+                let steps = self.step_re.iter().zip(&self.step_im);
+                for ((re, im), (&c, &s)) in self.re.iter_mut().zip(&mut self.im).zip(steps) {
+                    (*re, *im) = (*re * c - *im * s, *re * s + *im * c);
+                }
+            }
+            let mut parts = [0.0; 2];
+            for ((node, re), im) in nodes.iter().zip(&self.re).zip(&self.im) {
+                let weighted = node.weight * node.torque;
+                parts[0] += weighted * re;
+                parts[1] -= weighted * im;
+            }
+            *sum += Complex64::new(parts[0], parts[1]);
+        }
+        Ok(())
+    }
+}
+
+/// Cosines and sines of so many halves of the nodes' angles.
+fn fill(re: &mut Vec<f64>, im: &mut Vec<f64>, nodes: &[Node], halves: u32) {
+    re.clear();
+    im.clear();
+    for node in nodes {
+        let (sin, cos) = (0.5 * f64::from(halves) * node.theta).sin_cos();
+        re.push(cos);
+        im.push(sin);
+    }
+}
+
+/// Distance of a crank angle in the complex plane from the nearest singularity of the piston's motion:
+/// where the rod would stand across the bore, sin θ = e/r ± l/r.
+fn to_singularity(proportions: &Proportions, theta: f64) -> f64 {
+    let distance = |at: f64, beyond: f64| {
+        // acosh(1 + x) without loss of a small x.
+        let height = (beyond + (beyond * (beyond + 2.0)).sqrt()).ln_1p();
+        let turns = (theta - at) / std::f64::consts::TAU;
+        ((turns - turns.round()) * std::f64::consts::TAU).hypot(height)
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    distance(quarter, proportions.above.high).min(distance(-quarter, proportions.below.high))
+}
+
+fn slider_crank(gear: &Gear) -> Result<&Proportions> {
+    match &gear.kind {
+        GearKind::SliderCrank { proportions, .. } => Ok(proportions),
+        GearKind::Given(_) => Err(Error::NoTorque(
+            "a force spectrum does not determine the piston's motion; leave out `spectrum`",
+        )),
+    }
+}

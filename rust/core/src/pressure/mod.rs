@@ -1,0 +1,202 @@
+//! Cylinder pressure over a cycle, and the torque that it exerts on a crank.
+//!
+//! Imports run downwards: [`Cycle`] keeps the points it was given and the piecewise polynomial through
+//! them (`interpolant`); `harmonics` integrates that over a piston's motion.
+
+mod harmonics;
+mod interpolant;
+
+use serde::{Deserialize, Serialize};
+
+pub use self::harmonics::GasTorque;
+use self::interpolant::Panels;
+use crate::engine::layout::Strokes;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+
+/// Most points of a cycle: 720° in steps of 0.01° are 72 000.
+pub const MOST_POINTS: usize = 100_000;
+/// Fewest points of a table.
+const FEWEST_POINTS: usize = 8;
+/// Difference from a whole period, as a part of it, up to which a grid is closed: angles may have been
+/// printed with few digits.
+const CLOSED: f64 = 2e-6;
+/// Atmospheric pressure, Pa: the crankcase's unless another is given.
+pub const ATMOSPHERE: f64 = 101_325.0;
+
+/// Absolute pressure in a cylinder over one cycle, Pa, by crank angle after the firing top dead centre.
+///
+/// Either a table, interpolated by cubics, or polynomials between edges at which pressure may jump or
+/// bend: the values at their Chebyshev points. Both are kept as they were given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Given", into = "Given")]
+pub struct Cycle {
+    given: Given,
+    strokes: Strokes,
+    panels: Panels,
+}
+
+/// What a cycle is made of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Given {
+    /// Name, or origin; may be empty.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// 2 or 4.
+    pub strokes: u32,
+    /// Crank angles of the points after the firing top dead centre, ascending, degrees. An angle that is
+    /// there twice is one at which pressure jumps.
+    pub theta_deg: Vec<f64>,
+    /// Absolute pressure there, Pa.
+    pub pressure: Vec<f64>,
+    /// Degree of the polynomials, each through this number of Chebyshev points and one; none for a table.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub degree: Option<usize>,
+}
+
+impl TryFrom<Given> for Cycle {
+    type Error = Error;
+
+    fn try_from(given: Given) -> Result<Self> {
+        Self::new(given)
+    }
+}
+
+impl From<Cycle> for Given {
+    fn from(cycle: Cycle) -> Self {
+        cycle.given
+    }
+}
+
+impl Cycle {
+    /// Check the points and interpolate between them.
+    pub fn new(given: Given) -> Result<Self> {
+        let strokes = Strokes::from_number(given.strokes)?;
+        let (angles, values) = (&given.theta_deg, &given.pressure);
+        if angles.len() != values.len() {
+            return Err(Error::Length {
+                argument: "pressure".to_owned(),
+                found: values.len(),
+                reference: "theta_deg".to_owned(),
+                expected: angles.len(),
+                item: "crank angle",
+            });
+        }
+        let fewest = if given.degree.is_some() { 2 } else { FEWEST_POINTS };
+        if !(fewest..=MOST_POINTS).contains(&angles.len()) {
+            let hint = format!("give from {fewest} to {MOST_POINTS} points");
+            return Err(Error::value("theta_deg", format!("{} points", angles.len()), hint));
+        }
+        if given.name.len() > limits::LONGEST_NAME {
+            let hint = format!("give at most {} bytes", limits::LONGEST_NAME);
+            return Err(Error::value("name", &given.name, hint));
+        }
+        for (k, &angle) in angles.iter().enumerate() {
+            limits::finite(&format!("theta_deg[{k}]"), angle)?;
+            if k > 0 && angle < angles[k - 1] {
+                let hint = format!("give ascending angles: it follows {:?}", angles[k - 1]);
+                return Err(Error::figure(format!("theta_deg[{k}]"), angle, hint));
+            }
+            if k > 1 && angle == angles[k - 2] {
+                let hint =
+                    "is given three times; give an angle once, or twice where pressure jumps";
+                return Err(Error::figure(format!("theta_deg[{k}]"), angle, hint));
+            }
+        }
+        for (k, &value) in values.iter().enumerate() {
+            let argument = format!("pressure[{k}]");
+            limits::finite(&argument, value)?;
+            if value < 0.0 {
+                let hint = "give absolute pressure in Pa: gauge pressure and 101325";
+                return Err(Error::figure(argument, value, hint));
+            }
+        }
+        let period = period_deg(strokes);
+        let panels = match given.degree {
+            None => Panels::of_table(angles, values, period, is_closed(angles, period)?)?,
+            Some(degree) => Panels::of_chebyshev(angles, values, period, degree)?,
+        };
+        Ok(Self { given, strokes, panels })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn given(&self) -> &Given {
+        &self.given
+    }
+
+    /// Whether its period is two turns or one.
+    #[must_use]
+    pub fn strokes(&self) -> Strokes {
+        self.strokes
+    }
+
+    /// Whether the last point of a table repeats the first, a period later.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.given.degree.is_none()
+            && is_closed(&self.given.theta_deg, period_deg(self.strokes)) == Ok(true)
+    }
+
+    /// Absolute pressure, Pa, at a crank angle in radians after the firing top dead centre.
+    #[must_use]
+    pub fn pressure(&self, theta: f64) -> f64 {
+        self.pressure_deg(theta.to_degrees())
+    }
+
+    /// Absolute pressure, Pa, at a crank angle in degrees; the value after it where pressure jumps.
+    #[must_use]
+    pub fn pressure_deg(&self, theta_deg: f64) -> f64 {
+        self.panels.value(theta_deg)
+    }
+
+    /// The table with every other point alone, from the first or the second on; none for polynomials
+    /// and tables too short for it.
+    #[must_use]
+    pub fn thinned(&self, from_second: bool) -> Option<Self> {
+        if self.given.degree.is_some() {
+            return None;
+        }
+        let last = self.given.theta_deg.len() - usize::from(self.is_closed());
+        let places = (usize::from(from_second)..last).step_by(2);
+        let given = Given {
+            theta_deg: places.clone().map(|k| self.given.theta_deg[k]).collect(),
+            pressure: places.map(|k| self.given.pressure[k]).collect(),
+            ..self.given.clone()
+        };
+        Self::new(given).ok()
+    }
+}
+
+fn period_deg(strokes: Strokes) -> f64 {
+    180.0 * f64::from(strokes.number())
+}
+
+/// Whether a grid over a period repeats its first point; an error if it does not cover the period.
+fn is_closed(angles: &[f64], period: f64) -> Result<bool> {
+    let span = angles[angles.len() - 1] - angles[0];
+    let tolerance = CLOSED * period;
+    if (span - period).abs() <= tolerance {
+        return Ok(true);
+    }
+    let widest = angles.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    // The gap between the last point and the first of the next period is one of the grid's.
+    if span < period && period - span <= widest + tolerance {
+        return Ok(false);
+    }
+    let strokes = period / 180.0;
+    let radians = period.to_radians();
+    let mut hint = format!("give one period, {period}° (strokes = {strokes})");
+    if (span - radians).abs() <= 0.05 * radians {
+        hint += "; was it given in radians?";
+    } else if period == 720.0 && span <= 360.0 + tolerance && 360.0 - span <= widest + tolerance {
+        hint += "; give strokes = 2 if this is a whole cycle";
+    } else if span > period {
+        hint += "; of several cycles, give one or their mean";
+    }
+    Err(Error::value("theta_deg", format!("{span}° in all"), hint))
+}
+
+#[cfg(test)]
+mod tests;

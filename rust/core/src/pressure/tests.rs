@@ -1,0 +1,221 @@
+use super::*;
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::order::Order;
+use crate::slider_crank::Proportions;
+use approx::assert_relative_eq;
+use std::f64::consts::{PI, TAU};
+
+fn table(
+    angles: impl Iterator<Item = f64>,
+    of: impl Fn(f64) -> f64,
+    strokes: u32,
+) -> Result<Cycle> {
+    let theta_deg: Vec<f64> = angles.collect();
+    let pressure = theta_deg.iter().map(|&theta| of(theta)).collect();
+    Cycle::new(Given { name: String::new(), strokes, theta_deg, pressure, degree: None })
+}
+
+fn even(count: usize, period: f64) -> impl Iterator<Item = f64> {
+    (0..count).map(move |k| period * k as f64 / count as f64)
+}
+
+/// Smooth, four-stroke, with all orders: 1e5/(1.1 − cos θ/2).
+fn smooth(theta_deg: f64) -> f64 {
+    1e5 / (1.1 - (0.5 * theta_deg).to_radians().cos())
+}
+
+/// Chebyshev panels of a function over a period.
+fn panels(of: impl Fn(f64) -> f64, edges: &[f64], degree: usize) -> Cycle {
+    let (mut theta_deg, mut pressure) = (Vec::new(), Vec::new());
+    for pair in edges.windows(2) {
+        for k in 0..=degree {
+            let theta = match k {
+                0 => pair[0],
+                k if k == degree => pair[1],
+                k => {
+                    0.5 * (pair[0] + pair[1])
+                        - 0.5 * (pair[1] - pair[0]) * interpolant::node(k, degree)
+                }
+            };
+            theta_deg.push(theta);
+            pressure.push(of(theta));
+        }
+    }
+    let strokes = if edges[edges.len() - 1] - edges[0] > 400.0 { 4 } else { 2 };
+    Cycle::new(Given { name: String::new(), strokes, theta_deg, pressure, degree: Some(degree) })
+        .unwrap()
+}
+
+/// ∫ p·dv·e^{−ikθ} by the trapezoidal rule, which converges exponentially for smooth functions.
+fn phasor(of: impl Fn(f64) -> f64, p: &Proportions, k: f64, turns: f64) -> Complex64 {
+    const COUNT: usize = 6000;
+    let sum: Complex64 = (0..COUNT)
+        .map(|j| {
+            let theta = TAU * turns * j as f64 / COUNT as f64;
+            let torque = -of(theta.to_degrees()) * p.motion(theta.sin(), theta.cos()).velocity;
+            torque * Complex64::cis(-k * theta)
+        })
+        .sum();
+    sum * (if k == 0.0 { 1.0 } else { 2.0 } / COUNT as f64)
+}
+
+#[test]
+fn harmonics_of_smooth_panels_are_those_of_their_function() {
+    let edges: Vec<f64> = (0..=48).map(|k| 15.0 * f64::from(k)).collect();
+    let cycle = panels(smooth, &edges, 15);
+    for (ratio, offset) in [(0.3, 0.0), (0.3, 0.4), (0.9, -0.05)] {
+        let p = Proportions::new(ratio, offset).unwrap();
+        let orders: Vec<Order> =
+            [30, 1, 2, 3, 7, 80].map(|h| Order::from_halves(h).unwrap()).into();
+        let torque = cycle.torque_of(&p, ATMOSPHERE, &orders, &Cancel::new()).unwrap();
+        let gauge = |theta: f64| smooth(theta) - ATMOSPHERE;
+        // Roundings of the largest pressure, 1e6 Pa.
+        assert!((torque.mean - phasor(gauge, &p, 0.0, 2.0).re).abs() < 1e-8);
+        for (order, found) in orders.iter().zip(&torque.phasors) {
+            let expected = phasor(gauge, &p, order.number(), 2.0);
+            assert!((found - expected).norm() < 1e-8, "{ratio} {order}: {found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_long_rod_and_a_constant_pressure_have_closed_forms() {
+    // −velocity = sin θ: torque p·sin θ; pressure (1 + cos θ/2)·p gives orders ½, 1, 3/2.
+    let p = Proportions::new(1e-9, 0.0).unwrap();
+    let edges = [0.0, 180.0, 360.0, 540.0, 720.0];
+    let cycle = panels(|theta| 1e6 * (1.0 + (0.5 * theta).to_radians().cos()), &edges, 20);
+    let orders: Vec<Order> = (1..=4).map(|h| Order::from_halves(h).unwrap()).collect();
+    let torque = cycle.torque_of(&p, 0.0, &orders, &Cancel::new()).unwrap();
+    let i = Complex64::I;
+    let expected = [-0.5 * i, -i, -0.5 * i, Complex64::default()];
+    for (found, expected) in torque.phasors.iter().zip(expected) {
+        assert!((found / 1e6 - expected).norm() < 2e-9, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_table_converges_to_its_function_in_the_fourth_order() {
+    let p = Proportions::new(0.3, 0.1).unwrap();
+    let orders: Vec<Order> = (1..=24).map(|h| Order::from_halves(h).unwrap()).collect();
+    let error = |count: usize| {
+        let cycle = table(even(count, 720.0), smooth, 4).unwrap();
+        let torque = cycle.torque_of(&p, 0.0, &orders, &Cancel::new()).unwrap();
+        let pairs = orders.iter().zip(&torque.phasors);
+        pairs.map(|(k, t)| (t - phasor(smooth, &p, k.number(), 2.0)).norm()).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(180), error(720));
+    // 4⁴ = 256 for four times the points.
+    assert!(fine * 150.0 < coarse && fine < 0.2, "{coarse} {fine}");
+}
+
+#[test]
+fn closed_open_shifted_and_uneven_grids_are_one_cycle() {
+    let open = table(even(720, 720.0), smooth, 4).unwrap();
+    let closed = table((0..=720).map(f64::from), smooth, 4).unwrap();
+    let shifted = table((-360..360).map(f64::from), smooth, 4).unwrap();
+    assert!(closed.is_closed() && !open.is_closed() && !shifted.is_closed());
+    for theta in [0.0, 0.4, 359.9, 719.7, -0.3, 1234.5] {
+        let expected = open.pressure_deg(theta);
+        assert_relative_eq!(closed.pressure_deg(theta), expected, max_relative = 1e-12);
+        assert_relative_eq!(shifted.pressure_deg(theta), expected, max_relative = 1e-12);
+        assert_relative_eq!(open.pressure(theta.to_radians()), expected, max_relative = 1e-12);
+    }
+    let uneven = table((0..720).map(|k| f64::from(k) + 0.3 * f64::from(k % 2)), smooth, 4).unwrap();
+    assert_relative_eq!(uneven.pressure_deg(100.7), smooth(100.7), max_relative = 1e-6);
+}
+
+#[test]
+fn cubics_do_not_overshoot_and_keep_to_their_side_of_a_jump() {
+    let step = |theta: f64| if theta < 100.0 { 1e5 } else { 4e6 };
+    let cycle = table((0..720).map(f64::from), step, 4).unwrap();
+    for k in 0..7200 {
+        let value = cycle.pressure_deg(0.1 * f64::from(k));
+        assert!((1e5 - 1e-6..=4e6 + 1e-6).contains(&value), "{k} {value}");
+    }
+    // A line on one side of a jump, a parabola on the other.
+    let of = |theta: f64, after: bool| match theta {
+        t if t > 90.0 || (t == 90.0 && after) => 1e5 + 10.0 * (t - 90.0).powi(2),
+        t => 2e5 + 100.0 * t,
+    };
+    let mut theta_deg: Vec<f64> = (0..36).map(|k| 10.0 * f64::from(k)).collect();
+    theta_deg.insert(9, 90.0);
+    let pressure = theta_deg.iter().enumerate().map(|(k, &t)| of(t, k > 9)).collect();
+    let cycle =
+        Cycle::new(Given { name: String::new(), strokes: 2, theta_deg, pressure, degree: None });
+    let cycle = cycle.unwrap();
+    for theta in [82.0, 89.999, 90.0, 90.001, 97.0, 133.0] {
+        assert_relative_eq!(cycle.pressure_deg(theta), of(theta, true), max_relative = 1e-12);
+    }
+}
+
+#[test]
+fn grids_that_are_no_period_are_rejected_with_a_hint() {
+    let error = |angles: Vec<f64>, strokes| {
+        table(angles.into_iter(), |_| 1e5, strokes).unwrap_err().to_string()
+    };
+    let degrees = |from: i32, to: i32| (from..to).map(f64::from).collect::<Vec<_>>();
+    assert!(error(degrees(0, 360), 4).contains("strokes = 2"));
+    assert!(error(degrees(0, 700), 4).contains("one period, 720°"));
+    assert!(error(degrees(0, 1440), 4).contains("several cycles"));
+    assert!(error(degrees(0, 720).iter().map(|t| t.to_radians()).collect(), 4).contains("radians"));
+    assert!(error(vec![0.0, 2.0, 1.0, 3.0, 4.0, 5.0, 6.0, 7.0], 4).contains("theta_deg[2] = 1.0"));
+    assert!(error(degrees(0, 5), 4).contains("5 points"));
+    let mut thrice = degrees(0, 720);
+    thrice.splice(5..5, [5.0, 5.0]);
+    assert!(error(thrice, 4).contains("three times"));
+    let negative = table(even(720, 720.0), |t| if t == 5.0 { -1.0 } else { 1e5 }, 4);
+    assert!(negative.unwrap_err().to_string().starts_with("pressure[5] = -1.0: give absolute"));
+}
+
+#[test]
+fn tails_bound_what_is_left_out_and_are_close() {
+    let p = Proportions::new(0.3, 0.0).unwrap();
+    let cycle = table(even(360, 720.0), smooth, 4).unwrap();
+    let highest = Order::whole(40).unwrap();
+    let tails = cycle.tails(&p, ATMOSPHERE, highest, &Cancel::new()).unwrap();
+    let orders: Vec<Order> = (1..=4000).map(|h| Order::from_halves(h).unwrap()).collect();
+    let torque = cycle.torque_of(&p, ATMOSPHERE, &orders, &Cancel::new()).unwrap();
+    for (above, tail) in tails.iter().enumerate() {
+        let left: f64 = torque.phasors[above + 1..].iter().map(|phasor| phasor.norm()).sum();
+        assert!(left <= *tail, "{above}: {left} {tail}");
+        assert!(*tail <= 4.0 * left + 1.0 || above > 30, "{above}: {left} {tail}");
+    }
+    assert_eq!(tails.len(), 80);
+    // A jump where the piston moves has a divergent sum; one where it stands has not.
+    let jump = |at: f64| {
+        let cycle = panels(|t| 1e5 + 1e4 * (t - at).rem_euclid(720.0), &[at, at + 720.0], 3);
+        cycle.tails(&p, 0.0, highest, &Cancel::new()).unwrap()[79]
+    };
+    assert_eq!(jump(90.0), f64::INFINITY);
+    assert!(jump(0.0) < 1e7);
+}
+
+#[test]
+fn a_two_stroke_has_whole_orders_alone() {
+    let p = Proportions::new(0.3, 0.0).unwrap();
+    let of = |theta: f64| 1e5 / (1.1 - theta.to_radians().cos());
+    let cycle = panels(of, &(0..=24).map(|k| 15.0 * f64::from(k)).collect::<Vec<_>>(), 15);
+    let orders: Vec<Order> = (1..=6).map(|h| Order::from_halves(h).unwrap()).collect();
+    let torque = cycle.torque_of(&p, 0.0, &orders, &Cancel::new()).unwrap();
+    for (order, found) in orders.iter().zip(&torque.phasors) {
+        match order.as_whole() {
+            None => assert_eq!(*found, Complex64::default()),
+            Some(k) => {
+                let expected = phasor(of, &p, f64::from(k), 1.0);
+                assert!((found - expected).norm() < 1e-9, "{k} {found} {expected}");
+            }
+        }
+    }
+    assert_relative_eq!(cycle.pressure(-PI), of(180.0), max_relative = 1e-12);
+}
+
+#[test]
+fn half_the_points_are_a_table_of_their_own() {
+    let cycle = table((0..=720).map(f64::from), smooth, 4).unwrap();
+    let (even, odd) = (cycle.thinned(false).unwrap(), cycle.thinned(true).unwrap());
+    assert_eq!((even.given().theta_deg.len(), odd.given().theta_deg[0]), (360, 1.0));
+    assert_relative_eq!(even.pressure_deg(718.0), smooth(718.0), max_relative = 1e-14);
+    let text = serde_json::to_string(&cycle).unwrap();
+    assert_eq!(serde_json::from_str::<Cycle>(&text).unwrap(), cycle);
+}

@@ -1,0 +1,129 @@
+//! Cylinder pressure over a cycle.
+
+use std::hash::{Hash, Hasher};
+
+use crankpin_core as core;
+use crankpin_core::pressure::Given;
+use crankpin_core::{Complex64, Order, order};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::{OrRaise, Parts, cylinder, frozen};
+use crate::interrupt;
+
+/// Points of a cycle, checked, and what interpolates between them.
+#[pyclass(frozen, eq, hash, module = "crankpin._core")]
+#[derive(Clone, PartialEq)]
+pub struct Cycle(pub core::Cycle);
+
+impl Hash for Cycle {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let given = self.0.given();
+        (given.theta_deg.len(), given.strokes, &given.name).hash(state);
+        given.pressure.first().map(|value| value.to_bits()).hash(state);
+    }
+}
+
+/// Values of each point, as the core keeps them.
+type Points<'py> =
+    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, u32, String, Option<usize>);
+
+#[pymethods]
+impl Cycle {
+    #[new]
+    fn new(
+        theta_deg: PyReadonlyArray1<'_, f64>,
+        pressure: PyReadonlyArray1<'_, f64>,
+        strokes: u32,
+        name: String,
+        degree: Option<usize>,
+    ) -> PyResult<Self> {
+        let (theta_deg, pressure) = (theta_deg.as_slice()?, pressure.as_slice()?);
+        let longest = core::pressure::MOST_POINTS + 1;
+        // One more than may be is enough for the error.
+        let few = |values: &[f64]| values[..values.len().min(longest)].to_vec();
+        let given =
+            Given { name, strokes, theta_deg: few(theta_deg), pressure: few(pressure), degree };
+        core::Cycle::new(given).or_raise().map(Self)
+    }
+
+    /// Crank angles, pressures, strokes, name and degree.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Points<'py> {
+        let given = self.0.given();
+        let array = |values: &[f64]| frozen(py, ndarray::Array1::from(values.to_vec()));
+        (
+            array(&given.theta_deg),
+            array(&given.pressure),
+            given.strokes,
+            given.name.clone(),
+            given.degree,
+        )
+    }
+
+    #[getter]
+    fn is_closed(&self) -> bool {
+        self.0.is_closed()
+    }
+
+    /// Every other point.
+    fn thinned(&self, from_second: bool) -> Option<Self> {
+        self.0.thinned(from_second).map(Self)
+    }
+
+    /// Absolute pressure at crank angles, degrees.
+    fn pressure<'py>(
+        &self,
+        py: Python<'py>,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let thetas = theta_deg.as_slice()?;
+        interrupt::written(py, [thetas.len()], None, |out, cancel| {
+            core::crank_angles::check(thetas, cancel)?;
+            for (k, (value, &theta)) in out.iter_mut().zip(thetas).enumerate() {
+                if k % 4096 == 0 {
+                    cancel.check()?;
+                }
+                *value = self.0.pressure_deg(theta);
+            }
+            Ok(())
+        })
+    }
+
+    /// Torque over piston area and crank radius above a crankcase pressure: mean, phasors at orders
+    /// given in halves.
+    fn torque<'py>(
+        &self,
+        py: Python<'py>,
+        parts: Parts,
+        crankcase: f64,
+        halves: Vec<u32>,
+    ) -> PyResult<(f64, Bound<'py, PyArray1<Complex64>>)> {
+        let proportions = cylinder(parts)?.proportions();
+        let crankcase = core::limits::finite("crankcase", crankcase).or_raise()?;
+        let orders: Vec<Order> =
+            halves.into_iter().map(Order::from_halves).collect::<core::Result<_>>().or_raise()?;
+        if !orders.is_empty() {
+            order::check_list(&orders).or_raise()?;
+        }
+        let torque = interrupt::run(py, |cancel| {
+            self.0.torque_of(&proportions, crankcase, &orders, cancel)
+        })?;
+        Ok((torque.mean, PyArray1::from_vec(py, torque.phasors)))
+    }
+
+    /// Bounds of the sum of phasors above each order up to one, ½, 1, …, in halves.
+    fn tails<'py>(
+        &self,
+        py: Python<'py>,
+        parts: Parts,
+        crankcase: f64,
+        halves: u32,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let proportions = cylinder(parts)?.proportions();
+        let highest = Order::from_halves(halves).or_raise()?;
+        let tails =
+            interrupt::run(py, |cancel| self.0.tails(&proportions, crankcase, highest, cancel))?;
+        Ok(PyArray1::from_vec(py, tails))
+    }
+}
