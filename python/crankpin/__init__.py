@@ -24,12 +24,14 @@ from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.throws import throws
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
+from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 
 __all__ = [
+    "Cycle",
     "Cylinder",
     "Engine",
     "InputError",

@@ -82,6 +82,7 @@ def designs(**options: Any) -> cp.types.Designs:
 
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
+    "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
     "Engine": V6,
     "Engine of odd angles": ODD,
     "Balance": balance(),
@@ -716,6 +717,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
     fields = {
         field
         for kind in (
+            cp.Cycle,
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,

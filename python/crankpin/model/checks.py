@@ -51,6 +51,13 @@ The largest first-order couples, of two-strokes, are 3 MN·m at 80 rpm: 5.3e3 kg
 apart.
 """
 
+LARGEST_IN_BAR, LARGEST_IN_KPA = 500.0, 5e4
+"""Peak pressures, Pa, below which they are in bar or kPa: a motored cylinder reaches 1e6 Pa, a
+diesel 3e7."""
+
+LEAST_ABSOLUTE = 1e4
+"""Least pressure, Pa, below which gauge pressure is likely: an engine that idles has 2e4 Pa."""
+
 MILLIMETRES = ": was it given in millimetres?"
 GRAMS_MILLIMETRES = ": was it given in g·mm or g·m?"
 
@@ -151,6 +158,19 @@ def bore(diameter: float, stroke: float) -> None:
     """Warn of a bore and a stroke that are not in one unit."""
     if not 1.0 / LARGEST_BORE < diameter / stroke < LARGEST_BORE:
         _report([f"bore = {diameter:g} m and stroke = {stroke:g} m: are both in metres?"])
+
+
+def pressure(values: NDArray[np.float64]) -> None:
+    """Warn of cylinder pressures in bar or kPa, or against the atmosphere."""
+    least, most = float(values.min()), float(values.max())
+    if most < LARGEST_IN_KPA:
+        unit = "bar" if most < LARGEST_IN_BAR else "kPa"
+        warn(f"pressure is at most {most:g} Pa: was it given in {unit}? Pressures are Pa here")
+    elif least < LEAST_ABSOLUTE:
+        warn(
+            f"pressure is {least:g} Pa at its least: is it gauge pressure? Pressures are absolute "
+            "here: add that of the atmosphere, 101325 Pa"
+        )
 
 
 def _at(radius: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
@@ -235,6 +236,19 @@ class Cylinder:
     def stroke(self) -> float:
         """Twice the crank radius, m (a pin offset lengthens the piston's travel a little)."""
         return 2.0 * self.crank_radius
+
+    @property
+    def travel(self) -> float:
+        """Distance between the ends of the piston's travel, m: the stroke without pin offset."""
+        if self.pin_offset == 0.0:
+            return self.stroke
+        # √((l + r)² − e²) − √((l − r)² − e²), without cancellation.
+        radius, rod, offset = self.crank_radius, self.rod_length, self.pin_offset
+        reach = [
+            math.sqrt((length - offset) * (length + offset))
+            for length in (rod + radius, rod - radius)
+        ]
+        return 4.0 * radius * rod / sum(reach)
 
     def replace(self, **changes: Any) -> Cylinder:  # noqa: ANN401 - numbers, or a Rod
         """Return a copy with some parts changed.

@@ -61,6 +61,10 @@ impl Cycle {
         )
     }
 
+    fn __len__(&self) -> usize {
+        self.0.given().theta_deg.len()
+    }
+
     #[getter]
     fn is_closed(&self) -> bool {
         self.0.is_closed()

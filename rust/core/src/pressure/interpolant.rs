@@ -7,6 +7,9 @@ const CUBIC: usize = 3;
 /// Highest degree of given polynomials.
 const HIGHEST_DEGREE: usize = 32;
 
+/// Difference of the ends of a closed grid, over the range of pressure, up to which they are one point.
+const DRIFT: f64 = 0.05;
+
 /// Polynomials of one degree on adjoining panels of a period, as Chebyshev series.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panels {
@@ -40,12 +43,21 @@ impl Panels {
             }
         }
         if closed && let Some(last) = knots.pop() {
-            // Rounding, or drift between cycles: the mean of both ends.
             let first = &mut knots[0];
             let (before, after) = (last.before, first.after);
+            let (low, high) = values
+                .iter()
+                .fold((f64::INFINITY, 0.0_f64), |(low, high), &p| (low.min(p), high.max(p)));
+            if (after - before).abs() > DRIFT * (high - low) {
+                let hint = format!(
+                    "the grid is closed, and a period earlier pressure is {after:?}; leave the \
+                     last point out if pressure jumps there"
+                );
+                return Err(Error::figure(format!("pressure[{}]", values.len() - 1), before, hint));
+            }
+            // Rounding, or drift between cycles: the mean of both ends.
             let mean = 0.5 * (before + after);
-            let jumps = last.before != last.after || first.before != first.after;
-            (first.before, first.after) = if jumps { (before, after) } else { (mean, mean) };
+            (first.before, first.after) = (mean, mean);
         }
         if knots.len() < 4 {
             let hint = "give at least four different angles";

@@ -1,0 +1,168 @@
+"""Do cycles read tables as they stand, and is their torque that of pressure over the piston?"""
+
+# ruff: noqa: ANN401 - arguments of any type are the point
+
+from __future__ import annotations
+
+import pickle
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from rederivation import pressure as again
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+CYLINDER = cp.Cylinder(0.043, 0.043 / 0.3, 0.5, bore=0.086)
+OFFSET = cp.Cylinder(0.043, 0.15, 0.5, pin_offset=0.012, bore=0.08)
+ORDERS = [0.5, 1, 1.5, 2, 6, 12]
+
+
+def fired(theta_deg: Any) -> Any:
+    """Return a smooth pressure of a period of 720°, Pa: a peak of 40 bar at 12°, some 50° wide."""
+    wave = np.cos(np.radians((np.asarray(theta_deg) - 12.0) / 2.0))
+    return 1e5 + 3.9e6 * np.exp(20.0 * (wave - 1.0))
+
+
+def sampled(theta_deg: Any, **options: Any) -> cp.Cycle:
+    return cp.Cycle(theta_deg, fired(theta_deg), **options)
+
+
+def expected(
+    cylinder: cp.Cylinder, orders: list[float], crankcase: float = 101325.0
+) -> tuple[float, NDArray[np.complex128]]:
+    crank = (cylinder.crank_radius, cylinder.rod_length, cylinder.pin_offset)
+    assert cylinder.bore
+    return again.torque_phasors(
+        lambda theta: fired(np.degrees(theta)),
+        np.radians([0.0, 720.0]),
+        np.array(orders),
+        cylinder.bore,
+        crank,
+        crankcase,
+    )
+
+
+@pytest.mark.parametrize("cylinder", [CYLINDER, OFFSET])
+@pytest.mark.parametrize("crankcase", [101325.0, 0.0, 3e5])
+def test_torque_is_that_of_pressure_over_the_piston(
+    cylinder: cp.Cylinder, crankcase: float
+) -> None:
+    cycle = sampled(np.arange(0.0, 720.0, 0.25))
+    mean, phasors = expected(cylinder, ORDERS, crankcase)
+    # Cubics through points 0.25° apart of a peak 50° wide: (1/200)⁴ of the largest torque, 400 N·m.
+    np.testing.assert_allclose(cycle.mean_torque(cylinder), mean, atol=1e-6)
+    found = cycle.torque_harmonics(cylinder, ORDERS, crankcase=crankcase)
+    np.testing.assert_allclose(found, phasors, atol=1e-6)
+    assert cycle.work(cylinder) == pytest.approx(4 * np.pi * mean, rel=1e-7)
+
+
+def test_grids_closed_open_shifted_and_uneven_give_one_torque() -> None:
+    uneven = np.arange(720) + 0.4 * np.sin(np.arange(720))
+    grids = {
+        "closed, every 1°": np.linspace(0, 720, 721),
+        "open, every 1°": np.arange(720),
+        "closed, every 0.5°": np.linspace(-360, 360, 1441),
+        "open, steps of 0.6165° to 1.384°": uneven - 200.0,
+    }
+    _, phasors = expected(CYLINDER, ORDERS)
+    for grid, theta in grids.items():
+        cycle = sampled(theta)
+        assert cycle.grid == grid
+        # Steps of 1.4° at most: 256 times those of 0.25° and more.
+        np.testing.assert_allclose(cycle.torque_harmonics(CYLINDER, ORDERS), phasors, atol=2e-3)
+
+
+def test_the_error_bound_of_a_table_holds_and_follows_its_resolution() -> None:
+    _, phasors = expected(CYLINDER, ORDERS)
+    before = np.inf
+    for count in (90, 180, 360, 720):
+        cycle = sampled(np.linspace(0, 720, count, endpoint=False))
+        bound = cycle.resolution_error(CYLINDER, ORDERS)
+        error = abs(cycle.torque_harmonics(CYLINDER, ORDERS) - phasors)
+        assert (error <= bound).all()
+        assert bound.max() < before
+        before = float(bound.max())
+    # From 180 points to 720: twice a factor of 16, and room for the limited slopes.
+    assert before < 0.0466 / 100
+
+
+def test_a_two_stroke_has_no_half_orders() -> None:
+    theta = np.arange(0.0, 360.0, 0.5)
+    cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(5 * (np.cos(np.radians(theta)) - 1)), strokes=2)
+    assert cycle.period_deg == 360.0
+    harmonics = cycle.torque_harmonics(CYLINDER, [0.5, 1, 1.5, 2])
+    assert (harmonics[[0, 2]] == 0.0).all()
+    assert (abs(harmonics[[1, 3]]) > 10.0).all()
+
+
+def test_pressure_at_takes_any_angle_and_shape() -> None:
+    cycle = sampled(np.arange(720))
+    theta = np.array([[0.0, 12.0, 733.5], [-360.0, 1e4, 359.25]])
+    # Second differences of the fourth order of a peak 50° wide at steps of 1°.
+    np.testing.assert_allclose(cycle.pressure_at(theta), fired(theta), rtol=1e-6)
+    assert cycle.pressure_at(12.0).shape == ()
+
+
+def test_cycles_are_values() -> None:
+    theta = np.arange(720)
+    pressure = fired(theta)
+    cycle = cp.Cycle(theta, pressure, name="bench")
+    pressure[0] = 0.0
+    assert cycle.pressure[0] > 1e5
+    assert cycle == pickle.loads(pickle.dumps(cycle))  # noqa: S301 - our own
+    assert hash(cycle) == hash(sampled(theta, name="bench"))
+    assert cycle != cycle.replace(name="other")
+    assert cycle.table["pressure"].values == tuple(cycle.pressure)
+    assert repr(cycle).startswith("bench, four-stroke, 720 points (open, every 1°), 40 bar at 12°")
+
+
+@pytest.mark.parametrize(
+    ("theta_deg", "pressure", "message"),
+    [
+        (np.arange(360), None, r"theta_deg = 359° in all: .*give strokes = 2"),
+        (np.radians(np.arange(720)), None, r"theta_deg = .*radians"),
+        (np.arange(720)[::-1], None, r"theta_deg\[1\] = 718.0: give ascending angles"),
+        (np.arange(720), np.full(719, 1e5), "pressure has 719 entries"),
+        (np.arange(720), fired(np.arange(720)) - 2e5, r"pressure\[\d+\] = -.*absolute"),
+        (np.arange(721), np.linspace(1e5, 2e5, 721), r"pressure\[720\] = 200000.0: .* closed"),
+        (np.arange(720), "high", "pressure = 'high': give numbers"),
+        (np.arange(720), np.full(720, np.nan), r"pressure\[0\] = NaN"),
+    ],
+)
+def test_tables_that_are_no_cycle_are_named(theta_deg: Any, pressure: Any, message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        cp.Cycle(theta_deg, fired(theta_deg) if pressure is None else pressure)
+
+
+@pytest.mark.parametrize(
+    ("pressure", "message"),
+    [
+        (fired(np.arange(720)) / 1e3, "was it given in kPa"),
+        (fired(np.arange(720)) / 1e5, "was it given in bar"),
+        (fired(np.arange(720)) - 1e5, "is it gauge pressure"),
+    ],
+)
+def test_other_units_are_warned_of(pressure: Any, message: str) -> None:
+    with pytest.warns(UserWarning, match=message):
+        cp.Cycle(np.arange(720), pressure)
+
+
+def test_torque_needs_a_bore_and_says_so() -> None:
+    cycle = sampled(np.arange(720))
+    with pytest.raises(cp.InputError, match=r"bore = None: .*cylinder\.replace\(bore="):
+        cycle.mean_torque(cp.Cylinder(0.043, 0.145, 0.5))
+    with pytest.raises(cp.InputError, match=r"cylinder = 0\.086: give a crankpin.Cylinder"):
+        cycle.imep(0.086)  # type: ignore[arg-type]
+    with pytest.raises(cp.InputError, match=r"orders = 0\.3"):
+        cycle.torque_harmonics(CYLINDER, 0.3)
+
+
+def test_travel_is_the_distance_of_the_piston_s_ends() -> None:
+    theta = np.radians(np.linspace(0, 360, 200_001))
+    x = again.height(theta, 0.043, 0.15, 0.012)
+    # Between samples 3e-5 apart a maximum is missed by 1e-10 of its curvature.
+    assert pytest.approx(np.ptp(x), rel=1e-9) == OFFSET.travel
+    assert CYLINDER.travel == CYLINDER.stroke
