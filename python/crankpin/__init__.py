@@ -17,6 +17,7 @@ from crankpin.analysis.balancing.balancer_options import balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
 from crankpin.analysis.balancing.two_plane import two_plane_correction
+from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
 from crankpin.analysis.ranking.rank import rank
@@ -41,6 +42,7 @@ __all__ = [
     "__version__",
     "balance_shafts",
     "balancer_options",
+    "bearing_loads",
     "bob_weight",
     "compare",
     "counterweights",

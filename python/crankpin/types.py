@@ -7,6 +7,7 @@ from crankpin.analysis.balancing.bob_weight import BobWeight
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
+from crankpin.analysis.bearings import BearingLoads
 from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
@@ -35,6 +36,7 @@ __all__ = [
     "BalanceShafts",
     "BalancerOption",
     "BalancerOptions",
+    "BearingLoads",
     "BobWeight",
     "Choice",
     "ClosedForm",

@@ -111,6 +111,7 @@ RESULTS = {
     cp.types.Throws: ["throws_deg", "pin_split_deg"],
     cp.types.Ranking: ["values"],
     cp.types.Counterweights: ["largest", "residual", "verdicts", "bay_loads"],
+    cp.types.BearingLoads: ["crankpin", "main", "side_thrust", "rod_force", "tension_deg", "z"],
     cp.types.BobWeight: ["mass", "grams"],
     cp.types.TwoPlaneCorrection: ["amount_g_mm", "angle_deg", "drill_deg"],
 }

@@ -98,6 +98,7 @@ OBJECTS: dict[str, Any] = {
     "ClosedForm of a force": V6.closed_form(2, "force", reference_z=0.0),
     "Waveform": waveform(),
     "Waveform, auto": waveform(orders="auto"),
+    "BearingLoads": cp.bearing_loads(V6, 5000, THETA),
     "Sweep": sweep(),
     "Sweep of one": cp.sweep(V6, rpm=5000),
     "SweepWaveform": sweep().waveform(THETA),
@@ -515,7 +516,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
     tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking", "Waveform")
-    tables += ("Counterweights", "BobWeight", "TwoPlane", "Sweep of", "Sweep")
+    tables += ("Counterweights", "BearingLoads", "BobWeight", "TwoPlane", "Sweep of", "Sweep")
     if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 

@@ -54,3 +54,17 @@ QUANTITIES = {
 
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
 """Names of the vectors in the cross-section plane."""
+
+_ACROSS = ("|F_x|", "|F_y|"), ("along x", "along y")
+LOADS = {
+    each.name: each
+    for each in (
+        Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m", ""),
+        Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m", ""),
+        Kind("main", "main bearing", *_ACROSS, "N", "kg·m", ""),
+        Kind("side_thrust", "side thrust", ("|F|",), ("across the bore",), "N", "kg·m", ""),
+        Kind("rod_force", "rod force", ("|F|",), ("along the rod",), "N", "kg·m", ""),
+        Kind("gas_force", "gas force", ("|F|",), ("along the bore",), "N", "", ""),
+    )
+}
+"""Name of a load inside an engine → its entry."""

@@ -7,7 +7,8 @@
 //! - [`pressure`]: cylinder pressure over a cycle, and the torque of it;
 //! - [`engine`]: running gears, banks and shafts in their places, layouts, files;
 //! - [`wrench`] and `load`: every load of an engine in one list, superposed order by order;
-//! - [`readings`] of that list: balances, waveforms and their peaks, sweeps, tolerances, exact answers;
+//! - [`readings`] of that list: balances, waveforms and their peaks, bearing loads, sweeps, tolerances,
+//!   exact answers;
 //! - [`balancing`]: counterweights and balance shafts fitted to an engine;
 //! - [`firing`] and [`search`].
 //!
@@ -47,7 +48,7 @@ pub use pressure::{Cycle, GasTorque};
 pub use readings::balance::{Balance, Orders, Request};
 pub use readings::sweep::Sweep;
 pub use readings::waveform::Waveform;
-pub use readings::{balance, exact, peaks, sweep, tolerances, waveform};
+pub use readings::{balance, exact, internal, peaks, sweep, tolerances, waveform};
 
 /// Complex numbers as ndarray and `NumPy` share them.
 pub type Complex64 = num_complex::Complex64;

@@ -224,12 +224,14 @@ impl Proportions {
         // h = √(l² − u²) with u = r sin θ − e: h' = −u u'/h, h'' = −(u u'' + l² u'²/h²)/h.
         let inverse = 1.0 / height;
         let steepness = self.rod * inverse;
+        let slope = lateral * inverse;
         let velocity = -lateral * cos * inverse;
         let acceleration = (lateral * sin - steepness * steepness * squared) * inverse;
         Motion {
             position: cos + height,
             velocity: velocity - sin,
             acceleration: acceleration - cos,
+            slope,
         }
     }
 }
@@ -268,6 +270,9 @@ pub struct Motion {
     pub velocity: f64,
     /// (d²x/dθ²)/r.
     pub acceleration: f64,
+    /// tan φ of the rod's angle to the bore: above zero where its crankpin end lies on the side to
+    /// which the crankpin swings after top dead centre.
+    pub slope: f64,
 }
 
 /// [`Cylinder::slack`] of a rod and an offset, in crank radii.

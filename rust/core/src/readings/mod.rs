@@ -1,9 +1,11 @@
-//! Readings of the list of loads: balances, waveforms, sweeps, tolerances and exact answers.
+//! Readings of the list of loads: balances, waveforms, bearing loads, sweeps, tolerances and exact
+//! answers.
 
 pub(crate) mod amplitude;
 pub mod balance;
 mod choice;
 pub mod exact;
+pub mod internal;
 mod kinematics;
 pub mod peaks;
 pub mod sweep;

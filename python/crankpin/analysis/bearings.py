@@ -1,0 +1,358 @@
+"""Loads inside an engine: bearings and walls over crank angle, shear and bending along z."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels, optional
+from crankpin._support.quantities import LOADS
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.request import engine_core
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin.model.engine import Engine
+
+AXES = ("engine", "crank", "rod")
+"""Axes in which vectors are given: fixed in the engine, or turning with crank or rod."""
+PARTS = ("crank", "crankcase")
+"""Parts that are cut along z."""
+
+
+def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None) -> BearingLoads:
+    """Compute what crankpins, wrist pins, cylinder walls and main bearings carry.
+
+    Every cylinder is taken apart into piston, rod and crank; the rod's moment of inertia counts
+    where the cylinder has one. The crank is taken as statically determinate between neighbouring
+    main bearings: each load on it is shared by the bearing in front of it and the one behind by the
+    lever rule, and one outside the end bearings is carried by the two nearest, one of which is
+    pulled. A real crankshaft is continuous, and bends over its bearings. The places of the bearings
+    are :attr:`Engine.mains`: those given, or else one between all throws.
+
+    Parameters
+    ----------
+    engine
+        The engine. Its ``rotating_mass`` and counterweights load the main bearings. A rod's own
+        rotating mass loads its crankpin too, where the cylinder has a ``rod``
+        (:meth:`Cylinder.from_rod`); else the crankpin's load is that of the reciprocating mass.
+        The wrist pin carries the ``piston_mass``, where it is not known the whole reciprocating
+        mass.
+    rpm
+        Crank speed.
+    theta_deg
+        Crank angles, degrees: (n_theta,); by default 0° to 720° in steps of one degree. Peaks and
+        means are those over these angles.
+
+    Raises
+    ------
+    InputError
+        If a figure cannot be used.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
+    >>> loads.main.shape, loads.side_thrust.shape
+    ((5, 721, 2), (4, 721))
+
+    The middle main bearing of an inline four carries two throws that point the same way:
+
+    >>> (loads.peak("main") / 1e3).round(1)
+    array([5. , 2.4, 9.9, 2.4, 5. ])
+    """
+    theta = np.arange(721.0) if theta_deg is None else theta_deg
+    found = BearingLoads(engine, rpm, theta)  # type: ignore[arg-type] # checked there
+    inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
+    return found
+
+
+class BearingLoads(Tabled):
+    """Loads inside an engine at given crank angles.
+
+    Vectors are along x and y, fixed in the engine; :meth:`turned` gives them in the axes of the
+    crank or the rod. Made by :func:`crankpin.bearing_loads`.
+
+    Main bearings, walls and heads push the engine block as a whole as the shaking force of
+    :meth:`Engine.waveform` does (with that of the balance shafts, whose bearings are not computed).
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> loads = cp.bearing_loads(cp.Engine.preset("v8-crossplane"), rpm=6000)
+    >>> loads.shares[1].round(2)  # of the throws of cylinders 1 to 8, on the second main bearing
+    array([0.5, 0.5, 0.5, 0.5, 0. , 0. , 0. , 0. ])
+    """
+
+    engine: Engine
+    """The engine."""
+    rpm: float
+    """Crank speed, rpm."""
+    theta_deg: NDArray[np.float64]
+    """Crank angles, degrees: (n_theta,)."""
+
+    def __post_init__(self) -> None:
+        engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
+        theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
+        core = _core.Internal(engine, rpm, self.engine.mains.tolist())
+        values = dict(zip(LOADS, core.loads(theta), strict=True))
+        self.__dict__.update(rpm=rpm, theta_deg=theta, _internal=core, _values=values)
+        super().__post_init__()
+
+    @property
+    def _core(self) -> _core.Internal:
+        return self.__dict__["_internal"]  # type: ignore[no-any-return]
+
+    def read(self, load: str) -> NDArray[np.float64]:
+        """Return the values of a load by its name, such as ``"main"``, read-only."""
+        name = inputs.one_of("load", load, LOADS)
+        return self.__dict__["_values"][name]  # type: ignore[no-any-return]
+
+    # --- loads ----------------------------------------------------------------------------------
+
+    @property
+    def crankpin(self) -> NDArray[np.float64]:
+        """Force of each rod on its crankpin along x and y, N: (n_cylinders, n_theta, 2).
+
+        Rods that share a crankpin have a bearing each.
+        """
+        return self.read("crankpin")
+
+    @property
+    def wrist_pin(self) -> NDArray[np.float64]:
+        """Force of each rod on its wrist pin along x and y, N: (n_cylinders, n_theta, 2)."""
+        return self.read("wrist_pin")
+
+    @property
+    def main(self) -> NDArray[np.float64]:
+        """Force of the crank on each main bearing along x and y, N: (n_mains, n_theta, 2)."""
+        return self.read("main")
+
+    @property
+    def side_thrust(self) -> NDArray[np.float64]:
+        """Force of each piston on its cylinder wall, N: (n_cylinders, n_theta).
+
+        Positive towards the side from which the crankpin swings after top dead centre, to which
+        gas pressure pushes the piston as it expands: F·tan φ, with the rod's moment of inertia.
+        """
+        return self.read("side_thrust")
+
+    @property
+    def rod_force(self) -> NDArray[np.float64]:
+        """Force along each rod at its wrist pin, compression positive, N.
+
+        Of shape (n_cylinders, n_theta).
+        """
+        return self.read("rod_force")
+
+    @property
+    def gas_force(self) -> NDArray[np.float64]:
+        """Gas force on each piston towards the crank, N: (n_cylinders, n_theta).
+
+        The same force acts on the cylinder head away from the crank.
+        """
+        return self.read("gas_force")
+
+    def turned(self, load: str = "crankpin", axes: str = "crank") -> NDArray[np.float64]:
+        """Return the loads of bearings in axes that turn, N: (n, n_theta, 2).
+
+        Parameters
+        ----------
+        load
+            ``"crankpin"``, ``"wrist_pin"`` or ``"main"``.
+        axes
+            ``"crank"``: along the throw outwards, and a quarter turn ahead in the direction of
+            rotation; of main bearings the throw is that of cylinder 1. This shows where a pin or a
+            journal is loaded. ``"rod"``: along the rod to the wrist pin, and a quarter turn ahead,
+            for the bearings in the rod. ``"engine"``: x and y, as the arrays are.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000, theta_deg=[0, 180])
+        >>> loads.turned("crankpin")[0].round(-1)
+        array([[9900.,    0.],
+               [5370.,    0.]])
+        """
+        name = inputs.one_of("load", load, _VECTORS)
+        chosen = inputs.one_of("axes", axes, AXES)
+        if chosen == "engine":
+            return self.read(name)
+        if (name, chosen) == ("main", "rod"):
+            raise InputError('axes = "rod": main bearings have none; give "crank" or "engine"')
+        return self._core.turned(name, chosen, self.theta_deg)
+
+    def magnitude(self, load: str) -> NDArray[np.float64]:
+        """Return the magnitude of a load, N: (n, n_theta)."""
+        values = self.read(load)
+        sizes = np.hypot(values[..., 0], values[..., 1]) if load in _VECTORS else np.abs(values)
+        return np.asarray(sizes)
+
+    def peak(self, load: str) -> NDArray[np.float64]:
+        """Return the largest magnitude of a load over the crank angles, N: (n,)."""
+        return np.asarray(self.magnitude(load).max(axis=-1, initial=0.0))
+
+    def mean(self, load: str) -> NDArray[np.float64]:
+        """Return the mean magnitude of a load over the crank angles, N: (n,).
+
+        Each angle counts for the distance between its neighbours (trapezoidal rule).
+        """
+        values, theta = self.magnitude(load), self.theta_deg
+        if len(theta) < 2 or theta[0] == theta[-1]:
+            return values.mean(axis=-1) if len(theta) else np.zeros(len(values))
+        return np.asarray(np.trapezoid(values, theta, axis=-1) / (theta[-1] - theta[0]))
+
+    @cached_property
+    def shares(self) -> NDArray[np.float64]:
+        """Share of each cylinder's crankpin load that a main bearing carries.
+
+        Of shape (n_mains, n_cylinders).
+        """
+        return read_only(self._core.shares())
+
+    @cached_property
+    def tension_deg(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """Ranges of crank angles in which a rod is in tension at its wrist pin, by cylinder.
+
+        Degrees from and to, over a cycle of the engine; a range that 0° cuts begins below it. A
+        wrist pin without any, or with one that is the whole cycle, never changes sides in its
+        bearing, whose oil film is then not renewed.
+        """
+        return tuple(map(tuple, self._core.tension(180 * self.engine.strokes)))
+
+    # --- along z --------------------------------------------------------------------------------
+
+    @cached_property
+    def z(self) -> NDArray[np.float64]:
+        """Places of throws, counterweights, balance shafts' unbalances and main bearings, m.
+
+        Ascending, of shape (n_places,).
+        """
+        return read_only(np.array(self._core.places()))
+
+    def shear(self, part: str = "crankcase") -> NDArray[np.float64]:
+        """Return the sum of the loads on a part up to each place of ``z`` and at it, N.
+
+        Along x and y, of shape (n_places, n_theta, 2).
+
+        Parameters
+        ----------
+        part
+            ``"crank"``: loaded by rods and unbalances, supported by the main bearings.
+            ``"crankcase"``: loaded by main bearings, walls, heads and balance shafts. What holds it
+            (mounts, its own inertia) is not computed: past the last load its shear is the shaking
+            force.
+        """
+        return self._sections(part)[0]
+
+    def bending(self, part: str = "crankcase") -> NDArray[np.float64]:
+        """Return the moment about each place of ``z`` of the loads on a part in front of it, N·m.
+
+        About x and y, of shape (n_places, n_theta, 2). That of the crank is zero at main bearings,
+        where the model has hinges, unless a load overhangs the end one; there the crankcase has
+        the internal couple of the engine, Σ (z − zₖ)·Fₖ over the loads in front.
+
+        Parameters
+        ----------
+        part
+            ``"crank"`` or ``"crankcase"``, as of :meth:`shear`.
+
+        Examples
+        --------
+        The rocking moment of an inline four vanishes in order 1. Its front half bends its middle by
+        m·r·ω² times the spacing:
+
+        >>> import crankpin as cp
+        >>> i4 = cp.Engine.inline(
+        ...     cp.Cylinder(0.05, 1e6, 0.5), throws_deg=[0, 180, 180, 0], spacing=0.1
+        ... )
+        >>> loads = cp.bearing_loads(i4, rpm=6000, theta_deg=[0])
+        >>> middle = list(loads.z).index(i4.reference_z)
+        >>> couple = float(abs(loads.bending()[middle, 0]).max())
+        >>> round(couple / (0.5 * 0.05 * (2 * 3.141592653589793 * 100) ** 2 * 0.1), 6)
+        1.0
+        """
+        return self._sections(part)[1]
+
+    def _sections(self, part: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        name = inputs.one_of("part", part, PARTS)
+        kept = self.__dict__.setdefault("_cut", {})
+        if name not in kept:
+            kept[name] = self._core.sections(name, self.theta_deg)
+        return kept[name]  # type: ignore[no-any-return]
+
+    # --- tables ---------------------------------------------------------------------------------
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the loads over crank angle with named dimensions and units (needs xarray).
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> data = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000).to_xarray()
+        >>> data.main.dims
+        ('main_bearing', 'theta_deg', 'axis')
+        """
+        arrays: dict[str, Any] = {}
+        for name, kind in LOADS.items():
+            of = "main_bearing" if name == "main" else "cylinder"
+            dims = (of, "theta_deg", *(("axis",) if kind.planar else ()))
+            arrays[name] = (dims, self.read(name), {"units": kind.xarray_unit})
+        coords: Mapping[str, Any] = {
+            "main_bearing": ("main_bearing", np.arange(1, len(self.main) + 1)),
+            "cylinder": ("cylinder", np.arange(1, len(self.crankpin) + 1)),
+            **labels.coordinates({"theta_deg": self.theta_deg}),
+            "axis": ("axis", ["x", "y"]),
+        }
+        attributes = {"engine": self.engine.name, "rpm": self.rpm}
+        found: xr.Dataset = optional.xarray().Dataset(arrays, coords, attributes)
+        return found
+
+    @property
+    def table(self) -> Table:
+        """Table that is shown: peaks and means of each cylinder, then of each main bearing."""
+        where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
+        force = self.rod_force
+        in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
+        columns = {
+            "crankpin": self.peak("crankpin"),
+            "mean": self.mean("crankpin"),
+            "wrist pin": self.peak("wrist_pin"),
+            "side thrust": self.peak("side_thrust"),
+            "rod compressed": force.max(axis=-1, initial=0.0),
+            "pulled": (-force).max(axis=-1, initial=0.0),
+        }
+        of_mains = {"peak": self.peak("main"), "mean": self.mean("main")}
+        return Table(
+            f"{where}, largest loads at {len(self.theta_deg)} crank angles",
+            (
+                _counted("cylinder", len(force)),
+                *(Column(name, tuple(each.tolist()), "N") for name, each in columns.items()),
+                Column("pulled for", tuple(in_tension), "°"),
+            ),
+            below=Table(
+                "Main bearings, which share the loads between them by the lever rule",
+                (
+                    _counted("main", len(self.main)),
+                    Column("z", tuple(self.engine.mains.tolist()), "m"),
+                    *(Column(name, tuple(each.tolist()), "N") for name, each in of_mains.items()),
+                ),
+            ),
+        )
+
+
+def _counted(name: str, count: int) -> Column:
+    return Column(name, tuple(range(1, count + 1)))
+
+
+_VECTORS = tuple(name for name, kind in LOADS.items() if kind.planar)
+"""Names of the loads that are vectors."""

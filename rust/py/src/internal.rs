@@ -1,0 +1,108 @@
+//! Loads of bearings and walls, and sections of crank and crankcase.
+
+use crankpin_core::internal::{self, Bearing, BearingLoads, Part, Sections, TurningAxes};
+use numpy::{PyArray2, PyArray3, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::{OrRaise, frozen};
+use crate::engine::{Engine, choice};
+use crate::interrupt;
+
+/// An engine with main bearings at a speed.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct Internal {
+    engine: crankpin_core::Engine,
+    rpm: f64,
+}
+
+/// Loads of crankpins, wrist pins and main bearings along x and y, side thrust, rod force, gas force.
+type Loads<'py> = (
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+impl Internal {
+    fn core(&self) -> crankpin_core::Result<internal::Internal<'_>> {
+        internal::Internal::new(&self.engine, self.rpm, None)
+    }
+}
+
+#[pymethods]
+impl Internal {
+    #[new]
+    fn new(engine: &Bound<'_, Engine>, rpm: f64, mains: Vec<f64>) -> PyResult<Self> {
+        let engine = engine.get().0.with_mains(mains).or_raise()?;
+        internal::Internal::new(&engine, rpm, None).or_raise()?;
+        Ok(Self { engine, rpm })
+    }
+
+    /// Places of loads and main bearings along z.
+    fn places(&self) -> PyResult<Vec<f64>> {
+        self.core().or_raise().map(|core| core.places())
+    }
+
+    /// Share of each crankpin's load that each main bearing carries.
+    fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.core().or_raise().map(|core| frozen(py, core.shares()))
+    }
+
+    fn loads<'py>(
+        &self,
+        py: Python<'py>,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Loads<'py>> {
+        let thetas = theta_deg.as_slice()?;
+        let found = interrupt::run(py, |cancel| self.core()?.loads(thetas, cancel))?;
+        let BearingLoads { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
+        let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|each| frozen(py, each));
+        let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|each| frozen(py, each));
+        Ok((crankpin, wrist_pin, main, side_thrust, rod, gas))
+    }
+
+    /// Loads of the bearings of a name in axes that turn with the crank or the rod.
+    fn turned<'py>(
+        &self,
+        py: Python<'py>,
+        bearing: &str,
+        axes: &str,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let bearings = [
+            ("crankpin", Bearing::Crankpin),
+            ("wrist_pin", Bearing::WristPin),
+            ("main", Bearing::Main),
+        ];
+        let bearing = choice("bearing", bearing, &bearings)?;
+        let axes =
+            choice("axes", axes, &[("crank", TurningAxes::Crank), ("rod", TurningAxes::Rod)])?;
+        let thetas = theta_deg.as_slice()?;
+        let found =
+            interrupt::run(py, |cancel| self.core()?.turned(bearing, axes, thetas, cancel))?;
+        Ok(frozen(py, found))
+    }
+
+    /// Shear and bending of crank or crankcase.
+    #[expect(clippy::type_complexity, reason = "a pair of arrays")]
+    fn sections<'py>(
+        &self,
+        py: Python<'py>,
+        part: &str,
+        theta_deg: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let part = choice("part", part, &[("crank", Part::Crank), ("crankcase", Part::Crankcase)])?;
+        let thetas = theta_deg.as_slice()?;
+        let found = interrupt::run(py, |cancel| self.core()?.sections(part, thetas, cancel))?;
+        let Sections { shear, bending } = found;
+        Ok((frozen(py, shear), frozen(py, bending)))
+    }
+
+    /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.
+    fn tension(&self, py: Python<'_>, cycle_deg: u32) -> PyResult<Vec<Vec<(f64, f64)>>> {
+        let found = interrupt::run(py, |cancel| self.core()?.tension(cycle_deg, cancel))?;
+        Ok(found.into_iter().map(|rod| rod.into_iter().map(<(f64, f64)>::from).collect()).collect())
+    }
+}

@@ -1,0 +1,353 @@
+"""What do pins, walls and main bearings carry, and do they add up to the shaking force?"""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+
+import crankpin as cp
+import numpy as np
+import pytest
+from conftest import CYLINDER, I4
+from rederivation import bearings, rigid_rod
+from rederivation.rigid_rod import SliderCrank
+
+RPM = 4500.0
+OMEGA = 2.0 * np.pi * RPM / 60.0
+THETA = np.arange(0.0, 720.0, 7.3)
+RODS = (
+    cp.Rod(mass=0.62, inertia=0.0031, length=0.15, to_crankpin=0.045),
+    cp.Rod(mass=0.55, inertia=0.0021, length=0.14, to_crankpin=0.05),
+)
+EACH = [
+    cp.Cylinder.from_rod(RODS[k % 2], crank_radius, piston_mass=mass, pin_offset=offset)
+    for k, (crank_radius, mass, offset) in enumerate(
+        [(0.045, 0.45, 0.0), (0.04, 0.5, 0.002), (0.045, 0.47, -0.003), (0.042, 0.4, 0.0)]
+    )
+]
+"""Pistons, rods and offsets of their own."""
+MIXED = cp.Engine.from_lists(
+    EACH,
+    tdc_deg=[0.0, 90.0, 211.0, 333.3],
+    bank_deg=[60.0, 130.0, 60.0, 130.0],
+    z=[0.0, 0.024, 0.13, 0.16],
+    rotating_mass=[0.9, 0.7, 0.2, 0.8],
+    mains=[-0.05, 0.07, 0.22],
+)
+WEIGHTED = MIXED.with_counterweights(
+    [
+        cp.Unbalance(0.02, angle_deg=200, z=-0.08),
+        cp.Unbalance(0.015, angle_deg=170, z=0.05, pin=2),
+        cp.Unbalance(0.01, angle_deg=20, z=0.07),
+    ]
+).with_shafts(
+    [
+        cp.Shaft(-1, x=0.1, y=-0.04, unbalances=[cp.Unbalance(0.004, angle_deg=70, z=0.02)]),
+        cp.Shaft(2, x=-0.08, y=0.2, unbalances=[cp.Unbalance(0.002, angle_deg=33, z=0.3)]),
+    ]
+)
+
+
+def throws(engine: cp.Engine) -> list[bearings.Throw]:
+    """The bodies of an engine whose cylinders have rods."""
+    found = []
+    for k, cylinder in enumerate(engine.cylinders):
+        rod = cylinder.rod
+        assert rod is not None
+        assert cylinder.piston_mass is not None
+        parts = SliderCrank(
+            cylinder.crank_radius,
+            rod.length,
+            cylinder.pin_offset,
+            cylinder.piston_mass,
+            rod.mass,
+            rod.inertia,
+            rod.to_crankpin,
+        )
+        crank_mass = engine.rotating_mass[k] - rod.mass * (1.0 - rod.to_crankpin / rod.length)
+        tdc, bank = np.deg2rad(engine.tdc_deg[k]), np.deg2rad(engine.bank_deg[k])
+        found.append(bearings.Throw(parts, float(crank_mass), tdc, bank, float(engine.z[k])))
+    return found
+
+
+def as_complex(vectors: np.ndarray) -> np.ndarray:
+    return np.asarray(vectors[..., 0] + 1j * vectors[..., 1])
+
+
+def assert_close(found: np.ndarray, expected: np.ndarray, rtol: float = 1e-12) -> None:
+    """Relative to the largest: numpy.linalg.solve and the core round some ten operations each."""
+    assert np.abs(expected).max() > 0.0
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=rtol * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_pins_and_walls_carry_what_newton_and_euler_say(k: int) -> None:
+    loads = cp.bearing_loads(MIXED, RPM, THETA)
+    throw = throws(MIXED)[k]
+    expected = bearings.cylinder_forces(throw, OMEGA, np.deg2rad(THETA))
+    assert_close(as_complex(loads.crankpin[k]), expected.on_crankpin)
+    assert_close(as_complex(loads.wrist_pin[k]), expected.on_wrist_pin)
+    assert_close(loads.rod_force[k], expected.along_rod)
+    across = -1j * np.exp(1j * throw.bank)
+    assert_close(loads.side_thrust[k] * across, expected.on_wall)
+    turned = as_complex(loads.turned("crankpin", "rod")[k])
+    assert_close(turned, expected.on_crankpin * expected.rod.conj())
+    turned = as_complex(loads.turned("wrist_pin", "rod")[k])
+    assert_close(turned, expected.on_wrist_pin * expected.rod.conj())
+    pin = np.exp(1j * (throw.bank - throw.tdc + np.deg2rad(THETA)))
+    assert_close(as_complex(loads.turned("crankpin")[k]), expected.on_crankpin * pin.conj())
+
+
+def crank_loads(engine: cp.Engine) -> list[tuple[float, np.ndarray]]:
+    """Loads (z, force) of the crank, bearings not counted."""
+    theta, bodies = np.deg2rad(THETA), throws(engine)
+    found = [(t.z, bearings.cylinder_forces(t, OMEGA, theta).on_crankpin) for t in bodies]
+    found += [(t.z, t.on_crank(OMEGA, theta)) for t in bodies]
+    for weight in engine.counterweights:
+        start = np.deg2rad(float(weight.angle_deg))
+        if weight.pin is not None:
+            start += np.deg2rad(engine.pin_deg[weight.pin - 1])
+        found.append((weight.z, weight.amount * OMEGA**2 * np.exp(1j * (theta + start))))
+    return found
+
+
+@pytest.mark.parametrize("engine", [MIXED, WEIGHTED], ids=["plain", "weighted"])
+def test_main_bearings_support_each_span_of_the_crank(engine: cp.Engine) -> None:
+    loads = cp.bearing_loads(engine, RPM, THETA)
+    expected = bearings.main_loads(crank_loads(engine), engine.mains.tolist(), len(THETA))
+    assert_close(as_complex(loads.main), expected)
+    start = np.exp(-1j * np.deg2rad(engine.pin_deg[0] + THETA))
+    assert_close(as_complex(loads.turned("main")), expected * start)
+
+
+def test_shear_and_bending_are_sums_of_the_loads_in_front() -> None:
+    loads = cp.bearing_loads(WEIGHTED, RPM, THETA)
+    on_crank = crank_loads(WEIGHTED)
+    mains = bearings.main_loads(on_crank, WEIGHTED.mains.tolist(), len(THETA))
+    supports = list(zip(WEIGHTED.mains.tolist(), mains, strict=True))
+    on_crank += [(z, -force) for z, force in supports]
+    theta = np.deg2rad(THETA)
+    walls = [(t.z, bearings.cylinder_forces(t, OMEGA, theta).on_wall) for t in throws(WEIGHTED)]
+    on_shafts = [
+        (u.z, u.amount * (shaft.ratio * OMEGA) ** 2
+         * np.exp(1j * (shaft.ratio * theta + np.deg2rad(float(u.angle_deg)))))
+        for shaft in WEIGHTED.shafts for u in shaft.unbalances
+    ]  # fmt: skip
+    for part, forces in (("crank", on_crank), ("crankcase", supports + walls + on_shafts)):
+        places = sorted({z for z, _ in on_crank + on_shafts})
+        assert loads.z.tolist() == places
+        shear = np.array(
+            [sum((f for z, f in forces if z <= place), 0.0 * theta) for place in places]
+        )
+        bending = np.array(
+            [bearings.internal_couple(forces, place, len(THETA)) for place in places]
+        )
+        assert_close(as_complex(loads.shear(part)), shear)
+        assert_close(as_complex(loads.bending(part)), bending)
+
+
+ENGINES = {
+    "mixed": MIXED,
+    "weighted": WEIGHTED,
+    "v8": cp.Engine.preset("v8-crossplane"),
+    "v6": cp.Engine.preset("v6-60"),
+    "boxer": cp.Engine.preset("boxer-4"),
+    "w16": cp.Engine.preset("w16"),
+}
+
+
+def wrench(engine: cp.Engine, loads: cp.types.BearingLoads) -> tuple[np.ndarray, ...]:
+    """Force, moment about z = 0, and roll torque of all that pushes the engine block."""
+    mains, z_mains = as_complex(loads.main), np.array(engine.mains)
+    bore = np.exp(1j * np.deg2rad(engine.bank_deg))[:, np.newaxis]
+    walls = -1j * bore * loads.side_thrust
+    heads = bore * loads.gas_force
+    force = mains.sum(axis=0) + (walls + heads).sum(axis=0)
+    moment = 1j * (z_mains @ mains + engine.z @ (walls + heads))
+    height = np.array([
+        cylinder.position(THETA - tdc)
+        for cylinder, tdc in zip(engine.cylinders, engine.tdc_deg, strict=True)
+    ])  # fmt: skip
+    offset = np.array([cylinder.pin_offset for cylinder in engine.cylinders])[:, np.newaxis]
+    at = bore * (height + 1j * offset)
+    roll = (at.conj() * (walls + heads)).imag.sum(axis=0)
+    for shaft in engine.shafts:
+        for u in shaft.unbalances:
+            angle = np.deg2rad(shaft.ratio * THETA + float(u.angle_deg))
+            pushed = u.amount * (shaft.ratio * OMEGA) ** 2 * np.exp(1j * angle)
+            force, moment = force + pushed, moment + 1j * u.z * pushed
+            roll = roll + (complex(shaft.x, -shaft.y) * pushed).imag
+    return force, moment, roll
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_all_forces_together_are_those_of_the_waveform(name: str) -> None:
+    engine = ENGINES[name].replace(reference_z=0.0)
+    loads = cp.bearing_loads(engine, RPM, THETA)
+    force, moment, roll = wrench(engine, loads)
+    shaken = engine.waveform(RPM, theta_deg=THETA)
+    # Rounding of what is added up: the forces of all crankpins, at the length of the engine.
+    size = np.abs(loads.crankpin).max() * len(engine)
+    length = float(np.ptp(engine.mains))
+    np.testing.assert_allclose(force, as_complex(shaken.force), rtol=0, atol=1e-14 * size)
+    np.testing.assert_allclose(
+        moment, as_complex(shaken.moment), rtol=0, atol=1e-14 * size * length
+    )
+    np.testing.assert_allclose(roll, shaken.torque, rtol=0, atol=1e-14 * size * 0.2)
+
+
+def test_the_crank_is_in_equilibrium() -> None:
+    loads = cp.bearing_loads(WEIGHTED, RPM, THETA)
+    size = np.abs(loads.main).max()
+    assert np.abs(loads.shear("crank")[-1]).max() < 1e-14 * size
+    # Hinges at the main bearings; a counterweight overhangs the front one.
+    front, *others = (loads.bending("crank")[loads.z.tolist().index(z)] for z in WEIGHTED.mains)
+    assert np.abs(others).max() < 1e-14 * size
+    np.testing.assert_allclose(np.hypot(*front.T), 0.03 * 0.02 * OMEGA**2, rtol=1e-13)
+
+
+# Internal couples at the middle of cranks without rocking moments, of m·r·ω² times the spacing.
+MIDDLES = {
+    "I4": ([0, 180, 180, 0], 1.0),
+    "I6": ([0, 120, 240, 240, 120, 0], np.sqrt(3.0)),
+    "cross-plane": ([0, 90, 270, 180], np.sqrt(2.5)),
+    "straight-8, 2-4-2": ([0, 180, 90, 270, 270, 90, 180, 0], np.sqrt(2.0)),
+}
+
+
+@pytest.mark.parametrize("name", MIDDLES)
+def test_the_middle_carries_the_couple_of_either_half(name: str) -> None:
+    throws_deg, expected = MIDDLES[name]
+    # Unbalances of the pins only, of 1 N at a spacing of 1 m.
+    cylinder = cp.Cylinder(1.0, 4.0, 0.0)
+    engine = cp.Engine.inline(cylinder, throws_deg=throws_deg, spacing=1.0, rotating_mass=1.0)
+    loads = cp.bearing_loads(engine, 60.0 / (2.0 * np.pi), np.arange(0.0, 360.0, 30.0))
+    middle = loads.z.tolist().index(engine.reference_z)
+    couple = np.abs(as_complex(loads.bending("crankcase")[middle]))
+    np.testing.assert_allclose(couple, expected, rtol=1e-14)
+
+
+def test_rods_on_one_pin_load_it_together() -> None:
+    v_twin = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0], spacing=0.1)
+    loads = cp.bearing_loads(v_twin, RPM, THETA)
+    assert v_twin.mains.tolist() == [-0.045, 0.045]
+    np.testing.assert_array_equal(loads.shares, [[0.5, 0.5], [0.5, 0.5]])
+    halves = loads.crankpin.sum(axis=0) / 2.0
+    np.testing.assert_allclose(loads.main[0], halves, rtol=0, atol=1e-15 * np.abs(halves).max())
+    np.testing.assert_array_equal(loads.main[0], loads.main[1])
+
+
+def test_a_load_at_a_bearing_is_its_own_and_one_outside_pulls_the_next() -> None:
+    weight = cp.Unbalance(0.02, angle_deg=0, z=I4.reference_z)
+    still = I4.replace(cylinder=CYLINDER.replace(reciprocating_mass=0.0))
+    force = 0.02 * OMEGA**2
+    alone = cp.bearing_loads(still.with_counterweights([weight]), RPM, [0.0]).main[:, 0, 0]
+    np.testing.assert_allclose(alone, [0, 0, force, 0, 0], rtol=1e-15)
+    nose = cp.Unbalance(0.02, angle_deg=0, z=-0.1)
+    outside = cp.bearing_loads(still.with_counterweights([nose]), RPM, [0.0]).main[:, 0, 0]
+    np.testing.assert_allclose(outside, [1.5 * force, -0.5 * force, 0, 0, 0], atol=1e-13 * force)
+
+
+def test_without_a_rod_the_crankpin_has_the_reciprocating_part() -> None:
+    single = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1, rotating_mass=0.7)
+    loads = cp.bearing_loads(single, RPM, THETA)
+    np.testing.assert_allclose(loads.crankpin[0], -loads.wrist_pin[0], rtol=1e-15)
+    turning = 0.7 * 0.045 * OMEGA**2 * np.exp(1j * np.deg2rad(single.pin_deg[0] + THETA))
+    carried = as_complex(loads.main.sum(axis=0))
+    assert_close(carried, as_complex(loads.crankpin[0]) + turning, rtol=1e-15)
+
+
+def test_rods_are_in_tension_where_their_force_says() -> None:
+    loads = cp.bearing_loads(MIXED, RPM, np.arange(-360.0, 720.0, 0.5))
+    for force, ranges in zip(loads.rod_force, loads.tension_deg, strict=True):
+        inside = [(low < loads.theta_deg) & (loads.theta_deg < high) for low, high in ranges]
+        cycle = (loads.theta_deg >= ranges[0][0]) & (loads.theta_deg < ranges[0][0] + 720.0)
+        np.testing.assert_array_equal(np.any(inside, axis=0)[cycle], (force < 0.0)[cycle])
+    # A scotch yoke pulls for half a turn about top dead centre, to the last place of its rod ratio.
+    yoke = cp.Engine.inline(cp.Cylinder(0.05, 1e12, 0.5), throws_deg=[0], spacing=0.1)
+    (ranges,) = cp.bearing_loads(yoke, RPM).tension_deg
+    np.testing.assert_allclose(ranges, [(-90.0, 90.0), (270.0, 450.0)], atol=1e-9)
+
+
+def test_peaks_and_means_are_over_the_crank_angles() -> None:
+    # A balanced yoke: the pin's load is m·r·ω² |cos θ|, of mean 2/π.
+    cylinder = cp.Cylinder(0.05, 1e9, 0.5)
+    yoke = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.1)
+    loads = cp.bearing_loads(yoke, RPM)
+    force = 0.5 * 0.05 * OMEGA**2
+    np.testing.assert_allclose(loads.peak("crankpin"), force, rtol=1e-9)
+    # Trapezoids of one degree leave (π/180)²/12 of it, and the rod 1e-10.
+    np.testing.assert_allclose(loads.mean("crankpin"), 2.0 / np.pi * force, rtol=3e-5)
+    one = cp.bearing_loads(yoke, RPM, [60.0])
+    np.testing.assert_allclose(one.mean("main"), force / 4.0, rtol=1e-9)
+    assert cp.bearing_loads(yoke, RPM, []).mean("main").tolist() == [0.0, 0.0]
+    assert str(cp.bearing_loads(yoke, RPM, []).table)
+
+
+def test_counterweights_relieve_bearings_and_leave_pins() -> None:
+    i4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, rotating_mass=0.8)
+    fitted = cp.counterweights(i4, planes="webs", target="internal", factor=0.5).fitted
+    before, after = (cp.bearing_loads(engine, RPM) for engine in (i4, fitted))
+    np.testing.assert_array_equal(before.crankpin, after.crankpin)
+    # Half the reciprocating and all of the rotating mass is gone from where two throws add up;
+    # a bearing between opposite throws has their difference, which is the second order's alone.
+    relief = after.peak("main") / before.peak("main")
+    assert (relief[::2] < 0.3).all()
+    np.testing.assert_allclose(relief[1::2], 1.0, rtol=1e-12)
+    middle = i4.reference_z
+    bent = [loads.bending()[loads.z.tolist().index(middle)] for loads in (before, after)]
+    assert np.abs(bent[1]).max() < 0.6 * np.abs(bent[0]).max()
+
+
+def far_counterweight() -> object:
+    """A counterweight too far out for any bearing."""
+    mains = [-1e-4, 1e-4]
+    single = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1).replace(mains=mains)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of z in other units
+        weighted = single.with_counterweights([cp.Unbalance(0.01, angle_deg=0, z=300.0)])
+    return cp.bearing_loads(weighted, RPM)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (far_counterweight, "mains = [-0.0001, 0.0001]: "),
+        (lambda: cp.bearing_loads("I4", RPM), "engine = 'I4': give a crankpin.Engine"),
+        (lambda: cp.bearing_loads(I4, -1.0), "rpm = -1.0: "),
+        (lambda: cp.bearing_loads(I4, RPM, [np.nan]), "theta_deg = NaN: "),
+        (lambda: cp.bearing_loads(I4, RPM).read("moment"), "load = 'moment': "),
+        (lambda: cp.bearing_loads(I4, RPM).turned("side_thrust"), "load = 'side_thrust': "),
+        (lambda: cp.bearing_loads(I4, RPM).turned(axes="bore"), "axes = 'bore': "),
+        (lambda: cp.bearing_loads(I4, RPM).turned("main", "rod"), 'axes = "rod": '),
+        (lambda: cp.bearing_loads(I4, RPM).bending("block"), "part = 'block': "),
+    ],
+)
+def test_errors_name_the_argument(call: object, message: str) -> None:
+    with pytest.raises(cp.InputError) as error:
+        call()  # type: ignore[operator]
+    assert str(error.value).startswith(message)
+
+
+def test_results_are_records_over_named_dimensions() -> None:
+    loads = cp.bearing_loads(MIXED, RPM, THETA)
+    assert loads == cp.bearing_loads(MIXED, RPM, THETA)
+    assert loads.replace(rpm=1000.0) == cp.bearing_loads(MIXED, 1000.0, THETA)
+    data = loads.to_xarray()
+    assert data.main.sel(main_bearing=2, axis="x").dims == ("theta_deg",)
+    np.testing.assert_array_equal(data.side_thrust.sel(cylinder=3), loads.side_thrust[2])
+    assert not loads.main.flags.writeable
+    assert dataclasses.is_dataclass(loads)
+    assert loads.table["crankpin"].values == tuple(loads.peak("crankpin"))
+    below = loads.table.below
+    assert below is not None
+    assert below["mean"].values == tuple(loads.mean("main"))
+
+
+def test_the_independent_rod_has_the_core_s_motion() -> None:
+    """The re-derivation's bodies are the engine's."""
+    throw = throws(MIXED)[1]
+    moving = rigid_rod.motion(throw.parts, np.deg2rad(THETA) - throw.tdc)
+    np.testing.assert_allclose(
+        moving.piston[0][0], EACH[1].position(THETA - MIXED.tdc_deg[1]), rtol=1e-14
+    )
