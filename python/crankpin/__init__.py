@@ -20,6 +20,7 @@ from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
+from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.throws import throws
@@ -36,9 +37,11 @@ __all__ = [
     "Cylinder",
     "Engine",
     "InputError",
+    "PortTiming",
     "Rod",
     "Shaft",
     "Unbalance",
+    "ValveTiming",
     "__version__",
     "balance_shafts",
     "balancer_options",

@@ -28,6 +28,7 @@ __all__ = [
     "balance",
     "centred_table",
     "check_cylinder",
+    "check_timing",
     "closed_form",
     "crank_radius_of_stroke",
     "cylinder_harmonics",
@@ -44,12 +45,10 @@ __all__ = [
     "offset_table",
     "pair_heights",
     "peaks_of_sums",
-    "port_timing",
     "rod_parts",
     "roll_torque",
     "shared",
     "turning",
-    "valve_timing",
     "vanishing",
     "vee_throws",
     "waveform",
@@ -359,8 +358,6 @@ def matched(
 ) -> tuple[list[list[int]], float, float, bool]: ...
 def peaks_of_sums(orders: Sequence[float], phasors: _Complex) -> _Real: ...
 
-_Timing: TypeAlias = tuple[str, str, str, str]
-_PortOpenings: TypeAlias = tuple[str, str]
 _Groups: TypeAlias = Sequence[Sequence[int]] | None
 
 @final
@@ -395,20 +392,15 @@ class Firing:
     def banks(self) -> list[list[int]]: ...
     def gaps(self, groups: _Groups) -> list[list[tuple[int, int, float]]]: ...
     def stroke_periods(self) -> list[tuple[str, _Real]]: ...
-    def valves(self, given: _Timing) -> tuple[_Real, _Real]: ...
-    def ports(self, given: _PortOpenings) -> tuple[_Real, _Real]: ...
-    def valve_overlaps(
-        self, groups: _Groups, given: _Timing
-    ) -> list[list[tuple[int, int, float, float]]]: ...
-    def port_overlaps(
-        self, groups: _Groups, given: _PortOpenings
+    def open(self, given: Sequence[str]) -> tuple[_Real, _Real]: ...
+    def overlaps(
+        self, groups: _Groups, given: Sequence[str]
     ) -> list[list[tuple[int, int, float, float]]]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-def valve_timing(given: _Timing) -> None: ...
-def port_timing(given: _PortOpenings) -> None: ...
+def check_timing(given: Sequence[str]) -> None: ...
 def inline_throws(firing_order: str, intervals: Sequence[str] | None, strokes: int) -> _Real: ...
 def vee_throws(
     firing_order: str,

@@ -13,20 +13,14 @@ from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
-from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
 from crankpin.analysis.tolerances.match_parts import Match
-from crankpin.analysis.tolerances.samples import Shares, Tolerances
-from crankpin.analysis.vanishing import (
-    OrderVerdicts,
-    VanishingOrders,
-    VectorVerdicts,
-    Verdicts,
-)
+from crankpin.analysis.tolerances.samples import Tolerances
+from crankpin.analysis.vanishing import VanishingOrders, Verdicts
 from crankpin.analysis.waveform import Waveform
 
 __all__ = [
@@ -50,19 +44,14 @@ __all__ = [
     "Gap",
     "Match",
     "OrderBalance",
-    "OrderVerdicts",
-    "PortTiming",
     "Quantity",
     "Ranking",
-    "Shares",
     "Sweep",
     "SweepWaveform",
     "Throws",
     "Tolerances",
     "TwoPlaneCorrection",
-    "ValveTiming",
     "VanishingOrders",
-    "VectorVerdicts",
     "Verdicts",
     "Waveform",
 ]

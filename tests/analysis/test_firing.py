@@ -90,7 +90,7 @@ def test_gaps_within_the_page_s_banks() -> None:
 
 @pytest.mark.parametrize(("opens", "closes"), [(50, 10), (80, 60), (0, 0), (90, 90), (40, -20)])
 def test_exhaust_overlaps_of_the_page_s_banks(opens: int, closes: int) -> None:
-    timing = cp.types.ValveTiming(exhaust_opens_deg=opens, exhaust_closes_deg=closes)
+    timing = cp.ValveTiming(exhaust_opens_deg=opens, exhaust_closes_deg=closes)
     (way,) = (each for each in firing.ways(V8.tdc_deg.tolist()) if each.order == PAGE.order)
     for bank, overlaps in zip(PAGE.banks, PAGE.exhaust_overlaps(timing=timing), strict=True):
         both = dict.fromkeys(itertools.combinations(bank, 2), 0.0)
@@ -114,7 +114,7 @@ def test_manifolds_across_the_banks_even_the_exhaust() -> None:
     # As in the V8s whose exhausts are inside the V: every second cylinder of the order.
     for group in PAGE.gaps([PAGE.order[::2], PAGE.order[1::2]]):
         assert [gap.gap_deg for gap in group] == [180.0] * 4
-    assert PAGE.exhaust_overlaps([[1, 6], [8, 5]], timing=cp.types.ValveTiming()) == ((), ())
+    assert PAGE.exhaust_overlaps([[1, 6], [8, 5]], timing=cp.ValveTiming()) == ((), ())
     flat = cp.Engine.preset("v8-flatplane").firing(EVEN["v8-flatplane"])
     for bank in flat.gaps():
         assert [gap.gap_deg for gap in bank] == [180.0] * 4
@@ -247,14 +247,14 @@ def test_two_strokes() -> None:
         i3.firing("1-2-3", strokes=4).ports()
     for call in (only.ports, only.exhaust_overlaps, only.plot):
         with pytest.raises(cp.InputError, match=r"timing = ValveTiming.*: give a .*PortTiming"):
-            call(timing=cp.types.ValveTiming())  # type: ignore[arg-type]
+            call(timing=cp.ValveTiming())  # type: ignore[arg-type]
     with pytest.raises(cp.InputError, match=r"timing = PortTiming.*: give a .*ValveTiming"):
-        i3.firing("1-2-3", strokes=4).exhaust_overlaps(timing=cp.types.PortTiming())
+        i3.firing("1-2-3", strokes=4).exhaust_overlaps(timing=cp.PortTiming())
 
 
 def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
     i3 = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
-    timing = cp.types.PortTiming(transfer_opens_deg=62, exhaust_opens_deg="94.5")
+    timing = cp.PortTiming(transfer_opens_deg=62, exhaust_opens_deg="94.5")
     fires = i3.firing("1-3-2", strokes=2)
     for periods, half in zip(fires.ports(timing).values(), (62.0, 94.5), strict=True):
         assert (periods[:, 1] - periods[:, 0]).tolist() == [2 * half] * 3
@@ -266,13 +266,13 @@ def test_ports_open_and_close_with_the_piston_at_one_height() -> None:
             assert up == pytest.approx(down, rel=1e-14)  # a few roundings of a cosine
     # With a pin offset they are timed from where the piston is lowest.
     single = inline([0]).replace(cylinder=OFFSET).firing("1", strokes=2)
-    (opens, closes) = single.ports(cp.types.PortTiming(40, 90))["exhaust"][0]
+    (opens, closes) = single.ports(cp.PortTiming(40, 90))["exhaust"][0]
     assert 0.5 * (opens + closes) == pytest.approx(single.strokes_deg()["power"][0, 1], abs=1e-12)
 
 
 @pytest.mark.parametrize("opens", [60, 85, 90, 100, 179])
 def test_exhaust_overlaps_of_a_two_stroke(opens: int) -> None:
-    timing = cp.types.PortTiming(exhaust_opens_deg=opens)
+    timing = cp.PortTiming(exhaust_opens_deg=opens)
     for order, tdc in (("1-3-2", [0, 240, 120]), ("1-2-3-4", [0, 90, 180, 270])):
         engine = cp.Engine.from_lists(
             CYLINDER, tdc_deg=tdc, bank_deg=[90] * len(tdc), z=[0.1 * k for k in range(len(tdc))]
@@ -333,7 +333,7 @@ def test_strokes_end_where_the_piston_turns() -> None:
 
 
 def test_valves_open_and_close_about_the_dead_centres() -> None:
-    timing = cp.types.ValveTiming(
+    timing = cp.ValveTiming(
         intake_opens_deg=12, intake_closes_deg=48, exhaust_opens_deg="55", exhaust_closes_deg=7
     )
     intake, exhaust = PAGE.valves(timing).values()
@@ -342,11 +342,11 @@ def test_valves_open_and_close_about_the_dead_centres() -> None:
     assert (intake[:, 1] - intake[:, 0] == 12 + 180 + 48).all()
     assert (exhaust[:, 0] == (strokes["exhaust"][:, 0] - 55) % 720).all()
     assert (exhaust[:, 1] - exhaust[:, 0] == 55 + 180 + 7).all()
-    late = PAGE.valves(cp.types.ValveTiming(intake_opens_deg=-10))["intake"]
+    late = PAGE.valves(cp.ValveTiming(intake_opens_deg=-10))["intake"]
     assert (late[:, 0] == (strokes["intake"][:, 0] + 10) % 720).all()
     # Valves of an engine with offset pins are timed from where its pistons turn.
     single = inline([0]).replace(cylinder=OFFSET).firing("1")
-    opens, closes = single.valves(cp.types.ValveTiming(0, 0, 0, 0))["intake"][0]
+    opens, closes = single.valves(cp.ValveTiming(0, 0, 0, 0))["intake"][0]
     assert [opens, closes] == single.strokes_deg()["intake"][0].tolist()
 
 
@@ -354,14 +354,14 @@ def test_valves_open_and_close_about_the_dead_centres() -> None:
 @pytest.mark.parametrize("value", [-90, 181, math.nan, math.inf, "early", None])
 def test_timing_that_is_none(name: str, value: Any) -> None:  # noqa: ANN401 - bad on purpose
     with pytest.raises(cp.InputError, match=name):
-        cp.types.ValveTiming(**{name: value})
+        cp.ValveTiming(**{name: value})
 
 
 @pytest.mark.parametrize("name", ["transfer_opens_deg", "exhaust_opens_deg"])
 @pytest.mark.parametrize("value", [0, 180, -5, math.nan, math.inf, "early", None])
 def test_port_timing_that_is_none(name: str, value: Any) -> None:  # noqa: ANN401 - bad on purpose
     with pytest.raises(cp.InputError, match=name):
-        cp.types.PortTiming(**{name: value})
+        cp.PortTiming(**{name: value})
 
 
 # --- the crank of a firing order ------------------------------------------------------------------
@@ -698,7 +698,7 @@ def test_too_many_cylinders_to_list_can_still_be_named() -> None:
 
 def test_firings_are_frozen_and_copied() -> None:
     throws = cp.throws("1-2-3-4-5-6", bank_angle_deg=60)
-    timing, ports = cp.types.ValveTiming(intake_opens_deg="360/7"), cp.types.PortTiming(50, "360/7")
+    timing, ports = cp.ValveTiming(intake_opens_deg="360/7"), cp.PortTiming(50, "360/7")
     two = BOXER.firing("1+2-3+4", strokes=2)
     for each in (PAGE, two, throws, timing, ports):
         for again in (pickle.loads(pickle.dumps(each)), copy.copy(each), copy.deepcopy(each)):  # noqa: S301 - our own

@@ -93,7 +93,7 @@ SOUND: dict[str, list[Any]] = {
     "text": [TOML, JSON],
     "theta_deg": [[0.0, 90.0], 30.0],
     "throws_deg": [[0, 120, 240], [0]],
-    "timing": [cp.types.ValveTiming(exhaust_opens_deg="360/7"), cp.types.PortTiming()],
+    "timing": [cp.ValveTiming(exhaust_opens_deg="360/7"), cp.PortTiming()],
     "x": ["rpm"],
     "z": [[0.0, 0.1]],
 }
@@ -183,8 +183,6 @@ def targets() -> Iterator[Target]:
         value = getattr(cp, name)
         if callable(value) and name not in PLAIN:
             yield target(name, value)
-    for name in ("PortTiming", "ValveTiming"):
-        yield target(f"types.{name}", getattr(cp.types, name))
     for label, subject in SUBJECTS.items():
         for name in dir(type(subject) if not isinstance(subject, type) else subject):
             of_class = isinstance(subject, type)

@@ -326,13 +326,13 @@ def test_a_sweep_by_tolerance_bounds_every_point() -> None:
         exact = np.asarray(each.waveform(rpm=RPM, theta_deg=THETA_DEG).torque)
         worst = max(worst, np.abs(exact - (waves @ torque).real).max())
     # The bound takes the largest harmonic of the axis and adds orders as if they peaked together.
-    assert 0.02 * sweep.error_bound.torque <= worst <= sweep.error_bound.torque
+    assert 0.1 * sweep.error_bound.torque <= worst <= sweep.error_bound.torque
 
 
 def test_what_vanishes_is_proved() -> None:
     i4 = cp.Engine.inline(CYLINDERS[0], throws_deg=[0, 180, 180, 0], spacing=0.1)
     proof = i4.vanishing_orders(range(1, 7))
-    found = [proof[n].torque for n in range(1, 7)]
+    found = [proof.torque[n] for n in range(1, 7)]
     assert found == ["vanishes", "remains"] * 3
     unlike = i4.replace(
         cylinder=[

@@ -58,7 +58,7 @@ def wrapped(periods: Any, cycle: float) -> set[tuple[int, float, float]]:  # noq
 
 def test_it_shows_strokes_and_open_valves() -> None:
     assert "intake open" not in drawn(V8.plot())  # nobody gave a timing
-    ax = V8.plot(timing=cp.types.ValveTiming())
+    ax = V8.plot(timing=cp.ValveTiming())
     found = drawn(ax)
     for name, periods in V8.strokes_deg().items():
         assert found[name] == wrapped(periods, 720.0)
@@ -81,7 +81,7 @@ def test_cylinders_stand_bank_by_bank_and_fire_where_marked() -> None:
 
 
 def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
-    found = drawn(V8.plot(timing=cp.types.ValveTiming()))["exhausts overlap"]
+    found = drawn(V8.plot(timing=cp.ValveTiming()))["exhausts overlap"]
     exhausts = V8.valves()["exhaust"]
     total = 0.0
     for bank in V8.exhaust_overlaps():
@@ -92,12 +92,12 @@ def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
                 inside = [(a, b) for k, a, b in found if k == cylinder and a <= start < b]
                 assert inside or each.overlap_deg == 0.0
     assert sum(b - a for _, a, b in found) == pytest.approx(total)
-    alone = cp.Engine.preset("single").firing().plot(timing=cp.types.ValveTiming())
+    alone = cp.Engine.preset("single").firing().plot(timing=cp.ValveTiming())
     assert "exhausts overlap" not in drawn(alone)
 
 
 def test_a_two_stroke_has_two_strokes_and_ports() -> None:
-    timing = cp.types.PortTiming(exhaust_opens_deg=98)
+    timing = cp.PortTiming(exhaust_opens_deg=98)
     ax = TWO.plot(timing=timing)
     found = drawn(ax)
     assert ax.get_xlim() == (0.0, 360.0)
@@ -109,7 +109,7 @@ def test_a_two_stroke_has_two_strokes_and_ports() -> None:
 
 def test_it_takes_axes_timing_and_style() -> None:
     _, ax = plt.subplots()
-    timing = cp.types.ValveTiming(exhaust_opens_deg=80)
+    timing = cp.ValveTiming(exhaust_opens_deg=80)
     assert V8.plot(ax, timing=timing, edgecolor="red") is ax
     assert {end - start for _, start, end in drawn(ax)["exhaust open"]} >= {270.0}
     assert all(
@@ -121,7 +121,7 @@ def test_it_takes_axes_timing_and_style() -> None:
 
 def test_an_error_leaves_no_figure() -> None:
     with pytest.raises(cp.InputError, match="timing = "):
-        V8.plot(timing=cp.types.PortTiming())
+        V8.plot(timing=cp.PortTiming())
     assert plt.get_fignums() == []
 
 

@@ -191,7 +191,7 @@ def test_shares_that_interact_are_explained() -> None:
         I4, rpm=5000, reciprocating_mass=0.002, pin_deg=0.1, samples=500, by="[1].force.backward"
     )
     words = " ".join(title_of(spread.plot(kind="shares")).split())
-    interact = abs(spread.shares.interaction[0]) > 0.05
+    interact = abs(spread.shares["interaction"].values[0]) > 5
     assert ("where tolerances interact" in words) == interact
 
 

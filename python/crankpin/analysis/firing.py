@@ -14,15 +14,13 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional, tables
 from crankpin._support.record import Record
-from crankpin.analysis import gas_exchange
+from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
-
-    from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
@@ -155,7 +153,7 @@ class Firing(Record):
         return tuple(tuple(Gap(*gap) for gap in group) for group in found)
 
     def exhaust_overlaps(
-        self, groups: Groups | None = None, *, timing: ValveTiming | PortTiming | None = None
+        self, groups: Groups | None = None, *, timing: Timing | None = None
     ) -> tuple[tuple[Gap, ...], ...]:
         """Return the overlaps of exhaust valves, or ports, within groups of cylinders.
 
@@ -175,7 +173,8 @@ class Firing(Record):
         >>> max(left, key=lambda each: each.overlap_deg)
         Gap(before=5, after=7, gap_deg=90.0, overlap_deg=150.0)
         """
-        found = gas_exchange.overlaps(self._core, _groups(groups), timing)
+        kind = PortTiming if self.strokes == 2 else ValveTiming
+        found = self._core.overlaps(_groups(groups), angles(timing, kind))
         return tuple(tuple(Gap(*each) for each in group) for group in found)
 
     # --- strokes and valves ---------------------------------------------------------------------
@@ -217,7 +216,8 @@ class Firing(Record):
         >>> f.valves()["exhaust"]  # opens 50° before bottom, closes 10° after top dead centre
         array([[130., 370.]])
         """
-        return gas_exchange.valves(self._core, timing)
+        intake, exhaust = self._core.open(angles(timing, ValveTiming))
+        return MappingProxyType({"intake": intake, "exhaust": exhaust})
 
     def ports(self, timing: PortTiming | None = None) -> Mapping[str, NDArray[np.float64]]:
         """Return when ports open and close: name → (n_cylinders, 2), of a two-stroke.
@@ -237,7 +237,8 @@ class Firing(Record):
         >>> f.ports()["exhaust"]  # opens 85° before, closes 85° after bottom dead centre
         array([[ 95., 265.]])
         """
-        return gas_exchange.ports(self._core, timing)
+        transfer, exhaust = self._core.open(angles(timing, PortTiming))
+        return MappingProxyType({"transfer": transfer, "exhaust": exhaust})
 
     # --- tables and pictures --------------------------------------------------------------------
 
@@ -256,7 +257,7 @@ class Firing(Record):
         self,
         ax: Axes | None = None,
         *,
-        timing: ValveTiming | PortTiming | None = None,
+        timing: Timing | None = None,
         **style: Any,  # noqa: ANN401 - of matplotlib's collections
     ) -> Axes:
         """Draw strokes, and with a timing open valves or ports, over a cycle; return the axes.

@@ -1,30 +1,38 @@
-"""Valves and ports: when they open and close, and which are open at one time."""
+"""Valves and ports: when they open and close."""
 
 from __future__ import annotations
 
 import dataclasses
 from fractions import Fraction
-from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import numpy as np
-    from numpy.typing import NDArray
-
     from crankpin._support.inputs import Angle
 
-TIMES = ("intake_opens_deg", "intake_closes_deg", "exhaust_opens_deg", "exhaust_closes_deg")
-PORT_TIMES = ("transfer_opens_deg", "exhaust_opens_deg")
+
+class _Timing:
+    """Angles of valves or ports, checked."""
+
+    def __post_init__(self) -> None:
+        for name in self.__dataclass_fields__:  # type: ignore[attr-defined]
+            value = getattr(self, name)
+            if not isinstance(value, (str, Fraction)):
+                object.__setattr__(self, name, inputs.number(name, value))
+        _core.check_timing(self.texts)
+
+    @property
+    def texts(self) -> list[str]:
+        """The angles as text that reads back exactly, as the core takes them."""
+        names = self.__dataclass_fields__  # type: ignore[attr-defined]
+        return [inputs.angle(name, getattr(self, name)) for name in names]
 
 
 @dataclasses.dataclass(frozen=True)
-class ValveTiming:
+class ValveTiming(_Timing):
     """Opening and closing of the valves of a four-stroke, in degrees of crank angle.
 
     Parameters
@@ -44,7 +52,7 @@ class ValveTiming:
     Examples
     --------
     >>> import crankpin as cp
-    >>> racing = cp.types.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
+    >>> racing = cp.ValveTiming(exhaust_opens_deg=80, exhaust_closes_deg=50)
     >>> racing.exhaust_opens_deg
     80.0
     """
@@ -54,13 +62,9 @@ class ValveTiming:
     exhaust_opens_deg: Angle = 50.0
     exhaust_closes_deg: Angle = 10.0
 
-    def __post_init__(self) -> None:
-        _keep_numbers(self, TIMES)
-        _core.valve_timing(_valve_texts(self))
-
 
 @dataclasses.dataclass(frozen=True)
-class PortTiming:
+class PortTiming(_Timing):
     """Opening of the ports of a two-stroke, in degrees of crank angle.
 
     The piston opens them on its way down and closes them as far after bottom dead centre.
@@ -79,7 +83,7 @@ class PortTiming:
     Examples
     --------
     >>> import crankpin as cp
-    >>> racing = cp.types.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
+    >>> racing = cp.PortTiming(transfer_opens_deg=66, exhaust_opens_deg=98)
     >>> racing.exhaust_opens_deg
     98.0
     """
@@ -87,66 +91,17 @@ class PortTiming:
     transfer_opens_deg: Angle = 60.0
     exhaust_opens_deg: Angle = 85.0
 
-    def __post_init__(self) -> None:
-        _keep_numbers(self, PORT_TIMES)
-        _core.port_timing(_port_texts(self))
+
+Timing: TypeAlias = ValveTiming | PortTiming
 
 
-def valves(core: _core.Firing, timing: ValveTiming | None) -> Mapping[str, NDArray[np.float64]]:
-    """Return when valves open and close; see :meth:`Firing.valves`."""
-    intake, exhaust = core.valves(_valve_texts(valve_timing(timing)))
-    return MappingProxyType({"intake": intake, "exhaust": exhaust})
-
-
-def ports(core: _core.Firing, timing: PortTiming | None) -> Mapping[str, NDArray[np.float64]]:
-    """Return when ports open and close; see :meth:`Firing.ports`."""
-    transfer, exhaust = core.ports(_port_texts(port_timing(timing)))
-    return MappingProxyType({"transfer": transfer, "exhaust": exhaust})
-
-
-def overlaps(
-    core: _core.Firing, groups: list[list[int]] | None, timing: ValveTiming | PortTiming | None
-) -> list[list[tuple[int, int, float, float]]]:
-    """Return the overlaps of exhausts in each group; see :meth:`Firing.exhaust_overlaps`."""
-    if core.strokes == 2:
-        return core.port_overlaps(groups, _port_texts(port_timing(timing)))
-    return core.valve_overlaps(groups, _valve_texts(valve_timing(timing)))
-
-
-def valve_timing(timing: object) -> ValveTiming:
-    """Return a timing of valves, by default the ordinary one."""
-    if timing is None:
-        return ValveTiming()
-    if not isinstance(timing, ValveTiming):
-        hint = "give a crankpin.ValveTiming, of a two-stroke a crankpin.PortTiming"
+def angles(timing: Timing | None, kind: type[ValveTiming | PortTiming]) -> list[str]:
+    """Return the angles of a timing of this kind, by default the ordinary one."""
+    found = kind() if timing is None else timing
+    if not isinstance(found, kind):
+        other = "four-stroke a crankpin.ValveTiming"
+        if kind is ValveTiming:
+            other = "two-stroke a crankpin.PortTiming"
+        hint = f"give a crankpin.{kind.__name__}, of a {other}"
         raise InputError(f"timing = {inputs.shorten(timing)}: {hint}")
-    return timing
-
-
-def port_timing(timing: object) -> PortTiming:
-    """Return a timing of ports, by default the ordinary one."""
-    if timing is None:
-        return PortTiming()
-    if not isinstance(timing, PortTiming):
-        hint = "give a crankpin.PortTiming, of a four-stroke a crankpin.ValveTiming"
-        raise InputError(f"timing = {inputs.shorten(timing)}: {hint}")
-    return timing
-
-
-def _keep_numbers(timing: ValveTiming | PortTiming, names: tuple[str, ...]) -> None:
-    """Keep angles as numbers where they are not exact text."""
-    for name in names:
-        value = getattr(timing, name)
-        if not isinstance(value, (str, Fraction)):
-            object.__setattr__(timing, name, inputs.number(name, value))
-
-
-def _valve_texts(timing: ValveTiming) -> tuple[str, str, str, str]:
-    """Return the angles as text that reads back exactly, as the core takes them."""
-    first, second, third, fourth = (inputs.angle(name, getattr(timing, name)) for name in TIMES)
-    return first, second, third, fourth
-
-
-def _port_texts(timing: PortTiming) -> tuple[str, str]:
-    transfer, exhaust = (inputs.angle(name, getattr(timing, name)) for name in PORT_TIMES)
-    return transfer, exhaust
+    return found.texts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
-from crankpin._support.record import Listed, Record, Tabled, read_only
+from crankpin._support.record import Record, Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis.request import engine_core
 
@@ -49,13 +49,12 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
-class Verdicts(Listed[str], Record):
-    """Verdicts on one sum, order by order: "vanishes", "remains" or "undecided".
+class Verdicts(Record):
+    """Verdicts on a sum by order: "vanishes", "remains" or "undecided".
 
-    A read-only sequence, in the sequence of ``orders``; ``np.asarray`` makes an array of text.
+    A mapping from orders to verdicts; ``np.asarray`` makes an array of text. A force or moment
+    vanishes where both components do, and has verdicts on its parts.
     """
-
-    _items = "words"
 
     orders: tuple[int, ...]
     """Multiples of crank speed."""
@@ -63,6 +62,45 @@ class Verdicts(Listed[str], Record):
     """Verdicts: (n_orders,)."""
     within_rounding: tuple[bool, ...]
     """True where floating point finds the sum below its rounding error: (n_orders,)."""
+    parts: tuple[tuple[str, Verdicts], ...] = ()
+    """Name and verdicts of each part of a force or moment."""
+
+    @classmethod
+    def of_vector(cls, parts: dict[str, Verdicts]) -> Verdicts:
+        """Return the verdicts on a force or moment of these parts."""
+        x, y = parts["x"], parts["y"]
+        pairs = list(zip(x.words, y.words, strict=True))
+        words = (
+            "remains" if "remains" in pair else "undecided" if "undecided" in pair else "vanishes"
+            for pair in pairs
+        )  # fmt: skip
+        within = (a and b for a, b in zip(x.within_rounding, y.within_rounding, strict=True))
+        return cls(x.orders, tuple(words), tuple(within), tuple(parts.items()))
+
+    @property
+    def x(self) -> Verdicts:
+        """Of the component along (about) x."""
+        return self._part("x")
+
+    @property
+    def y(self) -> Verdicts:
+        """Of the component along (about) y."""
+        return self._part("y")
+
+    @property
+    def forward(self) -> Verdicts:
+        """Of the part that turns with the crank."""
+        return self._part("forward")
+
+    @property
+    def backward(self) -> Verdicts:
+        """Of the part that turns against the crank."""
+        return self._part("backward")
+
+    def _part(self, name: str) -> Verdicts:
+        if not self.parts:
+            raise AbsentError(f"{name} = of a single sum: a force or a moment has parts")
+        return dict(self.parts)[name]
 
     @property
     def vanishing(self) -> tuple[int, ...]:
@@ -82,49 +120,31 @@ class Verdicts(Listed[str], Record):
     def _orders_with(self, verdict: str) -> tuple[int, ...]:
         return tuple(n for n, word in zip(self.orders, self.words, strict=True) if word == verdict)
 
+    def __getitem__(self, order: int) -> str:
+        """Return the verdict on one order.
+
+        Raises
+        ------
+        InputError
+            If the order is not among ``orders``.
+        """
+        if order not in self.orders:
+            known = labels.orders_text(self.orders)
+            raise InputError(f"order = {inputs.shorten(order)}: decided were {known}")
+        return self.words[self.orders.index(order)]
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self.orders)
+
+    def __len__(self) -> int:
+        return len(self.orders)
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
         return np.array(self.words, dtype=dtype)
 
     def __repr__(self) -> str:
         pairs = zip(self.orders, self.words, strict=True)
         return f"<Verdicts {', '.join(f'{order}: {word}' for order, word in pairs)}>"
-
-
-Decided = TypeVar("Decided")
-
-
-class VectorVerdicts(NamedTuple, Generic[Decided]):
-    """Verdicts on a force or moment: :class:`Verdicts`, or the words of one order."""
-
-    x: Decided
-    """Along (about) x."""
-    y: Decided
-    """Along (about) y."""
-    forward: Decided
-    """Part that turns with the crank."""
-    backward: Decided
-    """Part that turns against the crank."""
-
-    @property
-    def vanishing(self) -> tuple[int, ...]:
-        """Orders in which the whole vector is proved to vanish; absent of one order."""
-        x, y = self.x, self.y
-        if not (isinstance(x, Verdicts) and isinstance(y, Verdicts)):
-            raise AbsentError("vanishing = of one order: read it of all orders, or x and y of this")
-        return tuple(n for n in x.vanishing if n in y.vanishing)
-
-
-class OrderVerdicts(NamedTuple):
-    """Verdicts on one order: "vanishes", "remains" or "undecided"."""
-
-    order: int
-    """Multiple of crank speed."""
-    force: VectorVerdicts[str]
-    """Shaking force."""
-    moment: VectorVerdicts[str]
-    """Rocking moment."""
-    torque: str
-    """Roll torque."""
 
 
 class VanishingOrders(Tabled):
@@ -152,7 +172,7 @@ class VanishingOrders(Tabled):
     >>> v = cp.Engine.preset("v8-crossplane").vanishing_orders(orders=[1, 2, 4])
     >>> v.force.vanishing, v.moment.backward.vanishing
     ((1, 2), (1, 2, 4))
-    >>> v[1].moment.forward
+    >>> v.moment.forward[1]
     'remains'
     >>> bool(v.undecided.any())
     False
@@ -197,14 +217,14 @@ class VanishingOrders(Tabled):
         return self.engine.reference_z if self.plane is None else self.plane
 
     @property
-    def force(self) -> VectorVerdicts[Verdicts]:
-        """Shaking force: verdicts on x, y, forward and backward."""
-        return VectorVerdicts(*(self._verdicts("force", each) for each in COMPONENTS))
+    def force(self) -> Verdicts:
+        """Shaking force: verdicts on the whole, and on x, y, forward and backward."""
+        return Verdicts.of_vector({each: self._verdicts("force", each) for each in COMPONENTS})
 
     @property
-    def moment(self) -> VectorVerdicts[Verdicts]:
-        """Rocking moment: verdicts on x (pitch), y (yaw), forward and backward."""
-        return VectorVerdicts(*(self._verdicts("moment", each) for each in COMPONENTS))
+    def moment(self) -> Verdicts:
+        """Rocking moment: verdicts on the whole, on x (pitch), y (yaw), forward and backward."""
+        return Verdicts.of_vector({each: self._verdicts("moment", each) for each in COMPONENTS})
 
     @property
     def torque(self) -> Verdicts:
@@ -216,26 +236,6 @@ class VanishingOrders(Tabled):
         words = tuple(self._word(k, column) for k in range(len(self.orders)))
         within = tuple(map(bool, self.within_rounding[:, column]))
         return Verdicts(self.orders, words, within)
-
-    def __getitem__(self, order: int) -> OrderVerdicts:
-        """Return the verdicts on one order.
-
-        Raises
-        ------
-        InputError
-            If the order is not among ``orders``.
-        """
-        if order not in self.orders:
-            known = labels.orders_text(self.orders)
-            raise InputError(f"order = {inputs.shorten(order)}: decided were {known}")
-        k = self.orders.index(order)
-        words = [self._word(k, column) for column in range(len(self.sums))]
-        return OrderVerdicts(
-            self.orders[k], VectorVerdicts(*words[:4]), VectorVerdicts(*words[4:8]), words[8]
-        )
-
-    def __iter__(self) -> Iterator[OrderVerdicts]:
-        return (self[order] for order in self.orders)
 
     def _word(self, k: int, column: int) -> str:
         if self.vanishes[k, column]:

@@ -196,5 +196,5 @@ def _tolerances(given: Given) -> str:
         orders=given.orders(),
     )
     draw(result, picture, kind="shares" if given.text("--shares") else "histogram")
-    table = result.shares.table if given.text("--shares") else result.table
+    table = result.shares if given.text("--shares") else result.table
     return printed(table, csv=given.text("--csv"))

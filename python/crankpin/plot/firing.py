@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
+    from crankpin.analysis.gas_exchange import Timing
 
 STROKES = (-0.44, 0.5)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
@@ -58,7 +58,7 @@ def _firing(
     result: Firing,
     ax: Axes | None = None,
     *,
-    timing: ValveTiming | PortTiming | None = None,
+    timing: Timing | None = None,
     **style: Any,  # noqa: ANN401
 ) -> Axes:
     rows = [cylinder for bank in result.banks for cylinder in bank]
@@ -107,7 +107,7 @@ def _firing(
 
 
 def _openings(
-    result: Firing, timing: ValveTiming | PortTiming
+    result: Firing, timing: Timing
 ) -> tuple[str, NDArray[np.float64], NDArray[np.float64]]:
     """Return the name of the inlet, and the periods in which inlets and exhausts are open."""
     if result.strokes == 2:

@@ -129,10 +129,11 @@ def _nominal(ax: Axes, value: float) -> None:
 def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any]) -> Axes:
     """Draw bars from 0 on, one after the other; short of 100 %, or beyond, where they interact."""
     shares = result.shares_of(result.by if by is None else (by,))
-    rows = np.arange(len(shares.by))
-    ax.set_yticks(rows, [plain_text(name) for name in shares.by])
+    names, *parts, interaction = shares.columns
+    rows = np.arange(len(shares))
+    ax.set_yticks(rows, [plain_text(name) for name in names.values])
     _fit_rows(ax, len(rows))
-    interact = bool((abs(shares.interaction) > INTERACTION).any())
+    interact = any(abs(each) > INTERACTION for each in interaction.values)
     set_title(
         ax,
         labels.name_of(result.engine),
@@ -140,11 +141,12 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
         "sums differ from 100 % where tolerances interact" if interact else "",
     )
     left = np.zeros(len(rows))
-    looks = series(ax, len(shares.tolerances), mpl.cbook.normalize_kwargs(style, Rectangle))
-    for name, look, values in zip(shares.tolerances, looks, 100.0 * shares.values.T, strict=True):
+    looks = series(ax, len(parts), mpl.cbook.normalize_kwargs(style, Rectangle))
+    for part, look in zip(parts, looks, strict=True):
+        values = np.array(part.values)
         seen = bool((values >= LEAST_SHARE).any())
         bars = {"height": 0.62, "color": look["color"]} | style
-        title = labels.TOLERANCES[name][0] if seen else "_"
+        title = part.name if seen else "_"
         ax.barh(rows, values, left=left, label=title, gid=SERIES, **bars)
         left = left + values
     ax.axvline(100.0, color=muted(ax), linewidth=0.8)

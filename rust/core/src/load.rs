@@ -16,7 +16,7 @@
 //! | reading | unit phasor | sum |
 //! |---|---|---|
 //! | balances, sweeps ([`Phasors`]) | a complex number | a complex number and Σ\|terms\| |
-//! | tolerances | a complex number | columns: one complex number for each sample, whose weights and levers come from its draws |
+//! | tolerances | a complex number | a complex number for each sample, whose weights and levers come from its draws |
 //! | proofs, closed forms | a root of unity, times symbols for angles that are no parts of a turn | a list of such roots with rational weights |
 //!
 //! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
@@ -254,7 +254,7 @@ impl Arithmetic for Phasors {
         (_, load): (usize, &Load),
         weight: Weight,
         unit: &Complex64,
-        Times { halves, quarters }: Times,
+        times: Times,
     ) {
         let (weight, size) = match (weight, load.source) {
             (Weight::Force, _) => (load.weight, load.weight),
@@ -271,15 +271,21 @@ impl Arithmetic for Phasors {
             (Weight::Rod, Source::Piston { rod_inertia, .. }) => (rod_inertia, rod_inertia.abs()),
             (Weight::Torque | Weight::Rod, Source::Unbalance) => (0.0, 0.0),
         };
-        let half = 0.5 * f64::from(halves);
-        let turned = match quarters.rem_euclid(4) {
-            0 => *unit,
+        sum.value += times.of(*unit) * weight;
+        sum.size += 0.5 * f64::from(times.halves) * size;
+    }
+}
+
+impl Times {
+    /// A complex number times this factor.
+    pub fn of(self, unit: Complex64) -> Complex64 {
+        let half = 0.5 * f64::from(self.halves);
+        half * match self.quarters.rem_euclid(4) {
+            0 => unit,
             1 => Complex64::new(-unit.im, unit.re),
             2 => -unit,
             _ => Complex64::new(unit.im, -unit.re),
-        };
-        sum.value += turned * (half * weight);
-        sum.size += half * size;
+        }
     }
 }
 

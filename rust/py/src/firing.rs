@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::firing::{self, NamedOrder, Period, PortTiming, ValveTiming};
-use crankpin_core::layout::Strokes;
+use crankpin_core::firing::{self, Period, Timing};
+use crankpin_core::layout::{FiringOrder, Strokes};
 use crankpin_core::memory;
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
@@ -19,12 +19,6 @@ use crate::interrupt;
 #[derive(PartialEq)]
 pub struct Firing(core::Firing);
 
-/// Opening and closing angles: before top, after bottom, before bottom, after top dead centre.
-type Timing = (Angle, Angle, Angle, Angle);
-
-/// Opening angles of transfer and exhaust ports before bottom dead centre.
-type PortOpenings = (Angle, Angle);
-
 /// Groups of cylinders by number.
 type Groups = Option<Vec<Vec<usize>>>;
 
@@ -34,14 +28,9 @@ type Two<'py, A> = (Bound<'py, A>, Bound<'py, A>);
 /// Cylinders by number, crank angle between them and of both together.
 type Overlap = (usize, usize, f64, f64);
 
-fn timing(
-    (intake_opens, intake_closes, exhaust_opens, exhaust_closes): Timing,
-) -> PyResult<ValveTiming> {
-    ValveTiming::new(intake_opens.0, intake_closes.0, exhaust_opens.0, exhaust_closes.0).or_raise()
-}
-
-fn ports((transfer_opens, exhaust_opens): PortOpenings) -> PyResult<PortTiming> {
-    PortTiming::new(transfer_opens.0, exhaust_opens.0).or_raise()
+/// Opening and closing angles of valves or ports.
+fn timing(angles: &[Angle]) -> PyResult<Timing> {
+    Timing::new(&angles.iter().map(|angle| angle.0).collect::<Vec<_>>()).or_raise()
 }
 
 fn column(
@@ -61,7 +50,7 @@ impl Firing {
     #[staticmethod]
     fn named(py: Python<'_>, engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Self> {
         let strokes = Strokes::from_number(strokes).or_raise()?;
-        let order: NamedOrder = firing_order.parse().or_raise()?;
+        let order: FiringOrder = firing_order.parse().or_raise()?;
         let engine = Arc::clone(&engine.0);
         interrupt::run(py, |cancel| core::Firing::named(&engine, &order, strokes, cancel)).map(Self)
     }
@@ -77,7 +66,7 @@ impl Firing {
     #[staticmethod]
     fn all_named(engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Vec<Self>> {
         let strokes = Strokes::from_number(strokes).or_raise()?;
-        let order: NamedOrder = firing_order.parse().or_raise()?;
+        let order: FiringOrder = firing_order.parse().or_raise()?;
         let found = core::Firing::all_named(&engine.0, &order, strokes).or_raise()?;
         Ok(found.into_iter().map(Self).collect())
     }
@@ -156,35 +145,16 @@ impl Firing {
         found.into_iter().map(|(name, each)| (name, periods(py, &each))).collect()
     }
 
-    fn valves<'py>(&self, py: Python<'py>, given: Timing) -> PyResult<Two<'py, PyArray2<f64>>> {
-        let valves = self.0.valves(&timing(given)?).or_raise()?;
-        Ok((periods(py, &valves.intake), periods(py, &valves.exhaust)))
+    /// When intake valves or transfer ports, and exhausts are open.
+    fn open<'py>(&self, py: Python<'py>, given: Vec<Angle>) -> PyResult<Two<'py, PyArray2<f64>>> {
+        let [intake, exhaust] = self.0.open(&timing(&given)?).or_raise()?;
+        Ok((periods(py, &intake), periods(py, &exhaust)))
     }
 
-    fn ports<'py>(
-        &self,
-        py: Python<'py>,
-        given: PortOpenings,
-    ) -> PyResult<Two<'py, PyArray2<f64>>> {
-        let found = self.0.ports(&ports(given)?).or_raise()?;
-        Ok((periods(py, &found.transfer), periods(py, &found.exhaust)))
-    }
-
-    fn valve_overlaps(&self, groups: Groups, given: Timing) -> PyResult<Vec<Vec<Overlap>>> {
-        let valves = self.0.valves(&timing(given)?).or_raise()?;
-        self.overlaps(groups, &valves.exhaust)
-    }
-
-    fn port_overlaps(&self, groups: Groups, given: PortOpenings) -> PyResult<Vec<Vec<Overlap>>> {
-        let ports = self.0.ports(&ports(given)?).or_raise()?;
-        self.overlaps(groups, &ports.exhaust)
-    }
-}
-
-impl Firing {
-    fn overlaps(&self, groups: Groups, open: &[Period]) -> PyResult<Vec<Vec<Overlap>>> {
+    fn overlaps(&self, groups: Groups, given: Vec<Angle>) -> PyResult<Vec<Vec<Overlap>>> {
+        let [_, exhaust] = self.0.open(&timing(&given)?).or_raise()?;
         let groups = self.0.groups(groups.as_deref()).or_raise()?;
-        let found = self.0.overlaps(&groups, open);
+        let found = self.0.overlaps(&groups, &exhaust);
         let figures = |each: &firing::Overlap| {
             (each.before + 1, each.after + 1, each.gap.degrees(), each.overlap.degrees())
         };
@@ -192,16 +162,10 @@ impl Firing {
     }
 }
 
-/// Raise if valves cannot open and close so.
+/// Raise if valves or ports cannot open and close so.
 #[pyfunction]
-pub fn valve_timing(given: Timing) -> PyResult<()> {
-    timing(given).map(drop)
-}
-
-/// Raise if ports cannot open and close so.
-#[pyfunction]
-pub fn port_timing(given: PortOpenings) -> PyResult<()> {
-    ports(given).map(drop)
+pub fn check_timing(given: Vec<Angle>) -> PyResult<()> {
+    timing(&given).map(drop)
 }
 
 /// Crankpins that a firing order needs, and no pin splits.

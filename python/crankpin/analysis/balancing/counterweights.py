@@ -197,7 +197,7 @@ class Counterweights(Tabled):
         are ``exact`` and were to remove all; where they are not, "remains" is a finding of floating
         point: more than a millionth of what the weights exert.
         """
-        decided = self.engine.vanishing_orders([1])[1]
+        decided = self.engine.vanishing_orders([1])
         found = {}
         for name in ("force", "moment"):
             before = getattr(decided, name)
@@ -206,9 +206,9 @@ class Counterweights(Tabled):
                 forward = "vanishes"
                 if factor is not None:
                     left = left_by(self.engine, factor).vanishing_orders([1])
-                    forward = getattr(left[1], name).forward
+                    forward = getattr(left, name).forward[1]
             elif not self.by_plane:
-                forward = before.forward
+                forward = before.forward[1]
             else:
                 size = NOTICEABLE * sum(weight.amount for weight in self.hardware)
                 if name == "moment":

@@ -198,8 +198,8 @@ def left_by(engine: Engine, factor: float) -> Engine:
 
 def _vanishes(engine: Engine, quantity: str, plane: float) -> bool:
     """Return whether the forward part of order 1 is proved to vanish."""
-    found = engine.vanishing_orders([1], reference_z=plane)[1]
-    return bool(getattr(found, quantity).forward == "vanishes")
+    found = engine.vanishing_orders([1], reference_z=plane)
+    return bool(getattr(found, quantity).forward[1] == "vanishes")
 
 
 # --- bay by bay -----------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled, read_only
+from crankpin._support.record import Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
@@ -225,31 +225,52 @@ class Tolerances(ByOrder, Tabled):
         return np.quantile(self.values(by), parts) if parts.size else parts
 
     @cached_property
-    def shares(self) -> Shares:
-        """Share of each tolerance in the variance of each of ``by``."""
+    def shares(self) -> Table:
+        """Share of each tolerance in the variance of each of ``by``, in percent."""
         return self.shares_of(self.by)
 
-    def shares_of(self, by: str | Sequence[str]) -> Shares:
-        """Return the share of each tolerance in the variance of some values.
+    def shares_of(self, by: str | Sequence[str]) -> Table:
+        """Return the share of each tolerance in the variance of some values, in percent.
 
         The samples are evaluated once more with each figure alone deviating as it did. A share is
-        the variance that it makes by itself over that of all together. Shares add up to 1 less the
-        interaction, which vanishes where values are linear in the deviations.
+        the variance that it makes by itself over that of all together. Shares add up to 100 % less
+        the interaction, which is near zero where values are linear in the deviations, or grow as
+        the root of their squares; zero where nothing varies.
 
         Parameters
         ----------
         by
             Names as in :func:`crankpin.rank`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> t = cp.tolerances(
+        ...     cp.Engine.preset("i6"), rpm=6000, reciprocating_mass=0.002, pin_deg=0.1,
+        ...     samples=2000,
+        ... )
+        >>> shares = t.shares_of("[1].force.forward")
+        >>> [column.name for column in shares.columns[1:]]
+        ['reciprocating mass', 'crankpin angle', 'interaction']
+        >>> abs(shares["interaction"].values[0]) < 5  # %
+        True
         """
         named = names_of(by, self.source.request)
         figures = self.source.spreads.given
-        alone = [Tolerances(self.source.only(name), named) for name in figures]
-        rows = []
-        for name in named:
-            total = self.std(name) ** 2
-            parts = [each.std(name) ** 2 for each in alone]
-            rows.append([part / total if total else 0.0 for part in parts])
-        return Shares(named, figures, np.array(rows).reshape(len(named), len(figures)))
+        total = np.array([self.std(name) ** 2 for name in named])
+        parts = [Tolerances(self.source.only(figure), named) for figure in figures]
+        variances = np.array([[part.std(name) ** 2 for part in parts] for name in named])
+        varies = total > 0.0
+        rows = 100.0 * variances / np.where(varies, total, 1.0)[:, None]
+        rest = np.where(varies, 100.0 - rows.sum(axis=1), 0.0)
+        heads = [*(labels.TOLERANCES[figure][0] for figure in figures), "interaction"]
+        return Table.from_rows(
+            "Share of each tolerance in the variance",
+            ["", *((head, "%") for head in heads)],
+            named,
+            np.column_stack([rows, rest]),
+            decimals=1,
+        )
 
     # --- samples --------------------------------------------------------------------------------
 
@@ -353,50 +374,3 @@ def _read(objective: Objective, result: Any) -> NDArray[np.float64]:  # noqa: AN
     """Return what an objective reads off samples, or off a balance: quantities are the same."""
     assert objective.of_sweep is not None  # noqa: S101 - checked
     return objective.of_sweep(result)
-
-
-class Shares(Tabled):
-    """Share of each tolerance in the variance of what remains.
-
-    ``shares.values`` is (n_by, n_tolerances); ``shares.interaction`` is what their sums lack of 1.
-
-    Made by :attr:`Tolerances.shares`.
-
-    Examples
-    --------
-    >>> import crankpin as cp
-    >>> t = cp.tolerances(
-    ...     cp.Engine.preset("i6"), rpm=6000, reciprocating_mass=0.002, pin_deg=0.1, samples=2000,
-    ...     by="[1].force.forward",
-    ... )
-    >>> t.shares.tolerances
-    ('reciprocating_mass', 'pin_deg')
-    >>> bool(abs(t.shares.interaction[0]) < 0.05)
-    True
-    """
-
-    by: tuple[str, ...]
-    """What was read of the samples."""
-    tolerances: tuple[str, ...]
-    """Figures that spread."""
-    values: NDArray[np.float64]
-    """Variance that each figure makes by itself over that of all together: (n_by, n_tolerances)."""
-
-    @cached_property
-    def interaction(self) -> NDArray[np.float64]:
-        """1 less the sum of the shares, zero where nothing varies: (n_by,).
-
-        Near zero where what remains is linear in the deviations, or grows as their root of squares.
-        """
-        sums = self.values.sum(axis=1)
-        return read_only(np.where(self.values.any(axis=1), 1.0 - sums, 0.0))
-
-    @property
-    def table(self) -> Table:
-        """Table that is shown, in percent."""
-        names = [(labels.TOLERANCES[name][0], "%") for name in self.tolerances]
-        rows = 100.0 * np.column_stack([self.values, self.interaction])
-        title = "Share of each tolerance in the variance"
-        return Table.from_rows(
-            title, ["", *names, ("interaction", "%")], [(by,) for by in self.by], rows, 1
-        )

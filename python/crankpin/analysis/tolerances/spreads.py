@@ -93,8 +93,6 @@ class Spreads:
     @property
     def text(self) -> str:
         """The spreads in words."""
-        if not self.given:
-            return "no spreads"
         parts = []
         for name in self.given:
             spreads = self.values[FIGURES.index(name)]

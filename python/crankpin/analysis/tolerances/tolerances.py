@@ -109,8 +109,8 @@ def tolerances(
     Raises
     ------
     InputError
-        If an argument is out of range, or a spread so wide that a draw would leave no engine: a
-        mass below zero, or a crank that cannot turn.
+        If an argument is out of range, no part deviates, or a spread is so wide that a draw would
+        leave no engine: a mass below zero, or a crank that cannot turn.
 
     Examples
     --------
@@ -136,6 +136,8 @@ def tolerances(
         "rod_length": rod_length,
     }
     spreads = Spreads.checked(engine, given, distribution, pins)
+    if not spreads.given:
+        raise InputError(f"no part deviates: give a spread, {', '.join(given)}")
     count, start = inputs.whole("samples", samples), _seed(seed)
     if not 1 <= count <= MOST_SAMPLES:
         raise InputError(f"samples = {inputs.shorten(samples)}: give 1 to {MOST_SAMPLES}")

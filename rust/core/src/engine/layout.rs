@@ -1,7 +1,6 @@
 //! Engines from the few figures by which people know them: throws, bank angle, firing order.
 
-use std::str::FromStr;
-
+pub use super::firing_order::FiringOrder;
 use super::{Engine, Placement, bank_angle_in_range};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
@@ -193,43 +192,15 @@ impl Seat {
     }
 }
 
-/// The order in which cylinders fire, by number from 1.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FiringOrder(Vec<usize>);
-
-impl std::fmt::Display for FiringOrder {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let listed: Vec<String> = self.0.iter().map(ToString::to_string).collect();
-        f.write_str(&listed.join("-"))
-    }
-}
-
 impl FiringOrder {
-    /// Each cylinder from 1 to the number of them, once.
-    pub fn new(order: Vec<usize>) -> Result<Self> {
-        let mut sorted = order.clone();
-        sorted.sort_unstable();
-        if order.is_empty()
-            || order.len() > limits::MOST_CYLINDERS
-            || !sorted.into_iter().eq(1..=order.len())
-        {
-            let listed: Vec<String> = order.iter().map(ToString::to_string).collect();
-            let hint =
-                "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
-            return Err(Error::value("firing_order", listed.join("-"), hint));
-        }
-        Ok(Self(order))
-    }
-
-    /// The cylinders, by number from 1, in the order in which they fire.
-    #[must_use]
-    pub fn cylinders(&self) -> &[usize] {
-        &self.0
-    }
-
     /// Crank angles after the first firing at which the first, second … fire.
     fn times(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
-        let count = self.0.len();
+        if self.has_groups() {
+            let hint = "give an order without '+': its pins are those of cylinders that fire one after \
+                        the other";
+            return Err(Error::value("firing_order", self, hint));
+        }
+        let count = self.cylinders().len();
         let (strokes, intervals) = match rule {
             FiringRule::Even(strokes) => {
                 return Ok((0..count)
@@ -272,8 +243,9 @@ impl FiringOrder {
 
     /// When each cylinder fires, by number: 0 for the first.
     fn ranks(&self) -> Vec<usize> {
-        let mut ranks = vec![0; self.0.len()];
-        for (rank, &cylinder) in self.0.iter().enumerate() {
+        let cylinders = self.cylinders();
+        let mut ranks = vec![0; cylinders.len()];
+        for (rank, cylinder) in cylinders.into_iter().enumerate() {
             ranks[cylinder - 1] = rank;
         }
         ranks
@@ -310,7 +282,7 @@ impl FiringOrder {
 
     /// Where each cylinder of a vee sits, and its top dead centre.
     fn vee_seats(&self, rule: &FiringRule, layout: &Vee) -> Result<Vec<(Seat, Angle)>> {
-        let count = self.0.len();
+        let count = self.cylinders().len();
         if count % 2 == 1 {
             let hint = format!(
                 "has {count} cylinders and a vee an even number; leave out bank_angle_deg for an \
@@ -339,22 +311,6 @@ impl FiringOrder {
         let tdcs: Vec<Angle> =
             seats.iter().zip(&ranks).map(|(seat, &rank)| tdc(seat, rank)).collect();
         Ok(seats.into_iter().zip(tdcs).collect())
-    }
-}
-
-impl FromStr for FiringOrder {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let parts = text.split(['-', ',', ' ']).filter(|part| !part.is_empty());
-        let order: std::result::Result<Vec<usize>, _> = parts.map(str::parse).collect();
-        order.map_or_else(
-            |_| {
-                let hint = "give cylinder numbers joined by '-', such as 1-3-4-2";
-                Err(Error::value("firing_order", text, hint))
-            },
-            Self::new,
-        )
     }
 }
 
@@ -542,13 +498,6 @@ mod tests {
         for (order, fits) in [("1-2", true), ("1-2-3", false), ("1-2-3-4-5", false)] {
             let order: FiringOrder = order.parse().unwrap();
             assert_eq!(order.vee(cylinder(), &FiringRule::Ijesc, &any).is_ok(), fits);
-        }
-    }
-
-    #[test]
-    fn orders_that_are_none_are_refused() {
-        for bad in ["", "1-1", "0-1", "1-3", "1-x", "-", "2-3"] {
-            assert!(bad.parse::<FiringOrder>().is_err(), "{bad}");
         }
     }
 }

@@ -4,6 +4,7 @@
 //! of comparing numbers and a vee at 0° stays a vee.
 
 pub mod file;
+mod firing_order;
 pub mod layout;
 mod shaft;
 

@@ -3,11 +3,10 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::firing_order::NamedOrder;
 use super::tops::Tops;
 use super::way::Firing;
 use crate::engine::Engine;
-use crate::layout::Strokes;
+use crate::layout::{FiringOrder, Strokes};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result, shorten};
 use crate::numbers::memory;
@@ -21,21 +20,22 @@ impl Firing {
     /// Every choice of turns by which an engine fires in this order, the most even first.
     pub fn all_named(
         engine: &Arc<Engine>,
-        order: &NamedOrder,
+        order: &FiringOrder,
         strokes: Strokes,
     ) -> Result<Vec<Self>> {
         let tops = Tops::of(engine);
         let count = tops.0.len();
-        if order.cylinders.len() != count {
+        let (cylinders, together) = order.rotated();
+        if cylinders.len() != count {
             let hint = format!("name each of the engine's {count} cylinders once");
             return Err(Error::value("firing_order", order, hint));
         }
         // Within a turn cylinders fire as they reach the top; the order may go back to an earlier
         // top once, where the second turn begins.
         let mut second_turn_at = Vec::new();
-        for k in 1..count {
-            let [before, now] = [k - 1, k].map(|k| tops.0[order.cylinders[k]]);
-            if order.together[k] {
+        for (k, pair) in (1..).zip(cylinders.windows(2)) {
+            let [before, now] = [pair[0], pair[1]].map(|cylinder| tops.0[cylinder]);
+            if together[k] {
                 if before != now {
                     return Ok(Vec::new());
                 }
@@ -46,7 +46,7 @@ impl Firing {
         let splits: Vec<usize> = match (strokes, &second_turn_at[..]) {
             (Strokes::Four, &[split]) => vec![split],
             (Strokes::Four, []) => {
-                (1..=count).filter(|&k| order.together.get(k) != Some(&true)).collect()
+                (1..=count).filter(|&k| together.get(k) != Some(&true)).collect()
             }
             (Strokes::Two, []) => vec![count],
             _ => Vec::new(),
@@ -55,7 +55,7 @@ impl Firing {
             .into_iter()
             .map(|split| {
                 let mut later = vec![false; count];
-                for &cylinder in &order.cylinders[split..] {
+                for &cylinder in &cylinders[split..] {
                     later[cylinder] = true;
                 }
                 Self::assemble(engine, &tops, strokes, &later)
@@ -68,7 +68,7 @@ impl Firing {
     /// The most even way for an engine to fire in this order.
     pub fn named(
         engine: &Arc<Engine>,
-        order: &NamedOrder,
+        order: &FiringOrder,
         strokes: Strokes,
         cancel: &Cancel,
     ) -> Result<Self> {
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn an_order_within_one_turn_leaves_the_start_of_the_next_open() {
         let v6 = engine(&vee(60.0, 0.0, &[0.0, 120.0, 240.0], Side::Right));
-        let order: NamedOrder = "1-2-5-6-3-4".parse().unwrap();
+        let order: FiringOrder = "1-2-5-6-3-4".parse().unwrap();
         let ways = Firing::all_named(&v6, &order, Strokes::Four).unwrap();
         assert_eq!(ways.len(), 6);
         for way in &ways {
@@ -191,11 +191,11 @@ mod tests {
         let ways = Firing::all(&boxer, Strokes::Four, &Cancel::new()).unwrap();
         assert_eq!(ways.len(), 8);
         for way in &ways {
-            let order: NamedOrder = way.to_string().parse().unwrap();
+            let order: FiringOrder = way.to_string().parse().unwrap();
             assert_eq!(order.to_string(), way.to_string());
             assert!(Firing::all_named(&boxer, &order, Strokes::Four).unwrap().contains(way));
         }
-        let together: NamedOrder = "3+4-1+2".parse().unwrap();
+        let together: FiringOrder = "3+4-1+2".parse().unwrap();
         let two_stroke = Firing::named(&boxer, &together, Strokes::Two, &Cancel::new()).unwrap();
         assert_eq!(two_stroke.to_string(), "1+2-3+4");
         assert_eq!(intervals(&two_stroke), [0.0, 180.0, 0.0, 180.0]);
@@ -310,13 +310,13 @@ mod tests {
     fn the_errors_of_an_engine_of_a_thousand_cylinders_are_short() {
         let engine = placed(&vec![(cylinder(0.0), 0.0, 90.0); 1000]);
         let numbers: Vec<String> = (1..=1000).map(|number| number.to_string()).collect();
-        let order: NamedOrder = numbers.join("-").parse().unwrap();
+        let order: FiringOrder = numbers.join("-").parse().unwrap();
         for strokes in [Strokes::Two, Strokes::Four] {
             let message =
                 Firing::named(&engine, &order, strokes, &Cancel::new()).unwrap_err().to_string();
             assert!(message.len() < 1000, "{}", message.len());
         }
-        let message = "9-".repeat(500_000).parse::<NamedOrder>().unwrap_err().to_string();
+        let message = "9-".repeat(500_000).parse::<FiringOrder>().unwrap_err().to_string();
         assert!(message.len() < 1000, "{}", message.len());
     }
 }

@@ -20,57 +20,56 @@ pub struct Overlap {
     pub overlap: Angle,
 }
 
-/// When valves open and close.
+/// When valves or ports open and close.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ValveTiming {
-    intake: [Angle; 2],
-    exhaust: [Angle; 2],
+pub enum Timing {
+    /// Of a four-stroke: opening before a stroke, closing after it.
+    Valves {
+        /// Before top, after bottom dead centre.
+        intake: [Angle; 2],
+        /// Before bottom, after top dead centre.
+        exhaust: [Angle; 2],
+    },
+    /// Of a two-stroke: opening before bottom dead centre, and closing as much after it.
+    Ports {
+        /// Of the transfer ports.
+        transfer: Angle,
+        /// Of the exhaust ports.
+        exhaust: Angle,
+    },
 }
 
-impl ValveTiming {
-    /// The intake valve opens before top and closes after bottom dead centre, the exhaust valve
-    /// opens before bottom and closes after top dead centre, by these angles.
-    pub fn new(
-        intake_opens: Angle,
-        intake_closes: Angle,
-        exhaust_opens: Angle,
-        exhaust_closes: Angle,
-    ) -> Result<Self> {
-        let given = [
-            ("intake_opens_deg", intake_opens),
-            ("intake_closes_deg", intake_closes),
-            ("exhaust_opens_deg", exhaust_opens),
-            ("exhaust_closes_deg", exhaust_closes),
-        ];
-        for (argument, angle) in given {
-            let degrees = angle.degrees();
-            if !(-90.0 < degrees && degrees <= 180.0) {
-                let hint = "give degrees above -90 and up to 180";
-                return Err(Error::value(argument, angle, hint));
+impl Timing {
+    /// Of valves: intake opens, intake closes, exhaust opens, exhaust closes. Of ports: transfer opens,
+    /// exhaust opens.
+    pub fn new(angles: &[Angle]) -> Result<Self> {
+        let check = |names: &[&str], fits: fn(f64) -> bool, hint: &str| {
+            let wrong = names.iter().zip(angles).find(|(_, angle)| !fits(angle.degrees()));
+            wrong.map_or(Ok(()), |(name, angle)| Err(Error::value(*name, angle, hint)))
+        };
+        match *angles {
+            [transfer, exhaust] => {
+                let names = ["transfer_opens_deg", "exhaust_opens_deg"];
+                let fits = |degrees| 0.0 < degrees && degrees < 180.0;
+                check(&names, fits, "give degrees above 0 and below 180")?;
+                Ok(Self::Ports { transfer, exhaust })
+            }
+            [a, b, c, d] => {
+                let names = [
+                    "intake_opens_deg",
+                    "intake_closes_deg",
+                    "exhaust_opens_deg",
+                    "exhaust_closes_deg",
+                ];
+                let fits = |degrees| -90.0 < degrees && degrees <= 180.0;
+                check(&names, fits, "give degrees above -90 and up to 180")?;
+                Ok(Self::Valves { intake: [a, b], exhaust: [c, d] })
+            }
+            _ => {
+                let hint = "give four angles of valves, or two of ports";
+                Err(Error::value("timing", angles.len(), hint))
             }
         }
-        Ok(Self { intake: [intake_opens, intake_closes], exhaust: [exhaust_opens, exhaust_closes] })
-    }
-}
-
-/// When the ports of a two-stroke open and close.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PortTiming {
-    transfer: Angle,
-    exhaust: Angle,
-}
-
-impl PortTiming {
-    /// Each opens before bottom dead centre by its angle, and closes as much after it.
-    pub fn new(transfer_opens: Angle, exhaust_opens: Angle) -> Result<Self> {
-        let given = [("transfer_opens_deg", transfer_opens), ("exhaust_opens_deg", exhaust_opens)];
-        for (argument, angle) in given {
-            if !(0.0 < angle.degrees() && angle.degrees() < 180.0) {
-                let hint = "give degrees above 0 and below 180";
-                return Err(Error::value(argument, angle, hint));
-            }
-        }
-        Ok(Self { transfer: transfer_opens, exhaust: exhaust_opens })
     }
 }
 
@@ -80,24 +79,6 @@ pub type Period = [Angle; 2];
 
 /// Periods of each cylinder.
 pub type Periods = Vec<Period>;
-
-/// Periods in which valves are open.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Valves {
-    /// Of the intake valves.
-    pub intake: Periods,
-    /// Of the exhaust valves.
-    pub exhaust: Periods,
-}
-
-/// Periods in which ports are open.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ports {
-    /// Of the transfer ports.
-    pub transfer: Periods,
-    /// Of the exhaust ports.
-    pub exhaust: Periods,
-}
 
 /// Crank angle for which a valve of cylinder i (from 0) is open: it opens by the first angle before a
 /// stroke, and closes by the second one after it.
@@ -145,40 +126,37 @@ impl Firing {
             .collect()
     }
 
-    /// When valves are open; of a four-stroke.
-    pub fn valves(&self, timing: &ValveTiming) -> Result<Valves> {
-        if self.strokes() == Strokes::Two {
-            let hint = "valves are those of a four-stroke; a two-stroke breathes through ports: \
-                        Firing.ports, PortTiming";
-            return Err(Error::value("strokes", 2, hint));
+    /// When intake valves or transfer ports, and exhausts are open.
+    pub fn open(&self, timing: &Timing) -> Result<[Periods; 2]> {
+        let mut found = [(); 2].map(|()| Vec::new());
+        for (i, (firing, place)) in
+            self.angles().into_iter().zip(self.engine().placements()).enumerate()
+        {
+            let (turn, downwards) = (turns(1), top_to_bottom(place));
+            let [first, second] = match (*timing, self.strokes()) {
+                (Timing::Valves { intake, exhaust }, Strokes::Four) => {
+                    let open = open_for("intake", i, intake, downwards)?;
+                    let first = self.period(firing + (turn - intake[0]), open);
+                    let open = open_for("exhaust", i, exhaust, turn - downwards)?;
+                    [first, self.period(firing + downwards - exhaust[0], open)]
+                }
+                (Timing::Ports { transfer, exhaust }, Strokes::Two) => [transfer, exhaust]
+                    .map(|half| self.period(firing + downwards - half, half + half)),
+                (Timing::Valves { .. }, Strokes::Two) => {
+                    let hint = "valves are those of a four-stroke; a two-stroke breathes through \
+                                ports: Firing.ports, PortTiming";
+                    return Err(Error::value("strokes", 2, hint));
+                }
+                (Timing::Ports { .. }, Strokes::Four) => {
+                    let hint = "ports are those of a two-stroke; a four-stroke breathes through \
+                                valves: Firing.valves, ValveTiming";
+                    return Err(Error::value("strokes", 4, hint));
+                }
+            };
+            found[0].push(first);
+            found[1].push(second);
         }
-        let mut valves = Valves { intake: Vec::new(), exhaust: Vec::new() };
-        let angles = self.angles().into_iter().zip(self.engine().placements());
-        for (i, (firing, placement)) in angles.enumerate() {
-            let (turn, downwards) = (turns(1), top_to_bottom(placement));
-            let open = open_for("intake", i, timing.intake, downwards)?;
-            valves.intake.push(self.period(firing + (turn - timing.intake[0]), open));
-            let open = open_for("exhaust", i, timing.exhaust, turn - downwards)?;
-            valves.exhaust.push(self.period(firing + downwards - timing.exhaust[0], open));
-        }
-        Ok(valves)
-    }
-
-    /// When ports are open; of a two-stroke.
-    pub fn ports(&self, timing: &PortTiming) -> Result<Ports> {
-        if self.strokes() == Strokes::Four {
-            let hint = "ports are those of a two-stroke; a four-stroke breathes through valves: \
-                        Firing.valves, ValveTiming";
-            return Err(Error::value("strokes", 4, hint));
-        }
-        let open = |half: Angle| -> Periods {
-            let tops = self.angles().into_iter().zip(self.engine().placements());
-            tops.map(|(firing, placement)| {
-                self.period(firing + top_to_bottom(placement) - half, half + half)
-            })
-            .collect()
-        };
-        Ok(Ports { transfer: open(timing.transfer), exhaust: open(timing.exhaust) })
+        Ok(found)
     }
 
     /// Where of a group two are open at one time; a period for each cylinder of the engine.
@@ -251,21 +229,20 @@ mod tests {
             near(strokes[3].1[0], top + 360.0 + down, 360.0 - down);
             near(strokes[2].1[1], 200.0, 180.0);
             let angle = |degrees| Angle::from_degrees(degrees).unwrap();
-            let timing =
-                ValveTiming { intake: [10.0, 40.0].map(angle), exhaust: [50.0, 15.0].map(angle) };
-            let valves = four.valves(&timing).unwrap();
-            near(valves.intake[0], top + 350.0, 50.0 + down);
-            near(valves.exhaust[0], top + down - 50.0, 65.0 + 360.0 - down);
-            let ports = PortTiming { transfer: angle(60.0), exhaust: angle(80.0) };
-            assert!(four.ports(&ports).is_err());
+            let timing = Timing::new(&[10.0, 40.0, 50.0, 15.0].map(angle)).unwrap();
+            let [intake, exhaust] = four.open(&timing).unwrap();
+            near(intake[0], top + 350.0, 50.0 + down);
+            near(exhaust[0], top + down - 50.0, 65.0 + 360.0 - down);
+            let ports = Timing::new(&[60.0, 80.0].map(angle)).unwrap();
+            assert!(four.open(&ports).is_err());
             let two = Firing::with_later(&engine, Strokes::Two, &[false; 2]).unwrap();
-            assert!(two.valves(&timing).is_err());
+            assert!(two.open(&timing).is_err());
             let strokes = two.stroke_periods();
             assert_eq!((strokes.len(), strokes[1].0), (2, "compression"));
             near(strokes[1].1[1], 20.0, 180.0);
-            let open = two.ports(&ports).unwrap();
-            near(open.transfer[0], top + down - 60.0, 120.0);
-            near(open.exhaust[0], top + down - 80.0, 160.0);
+            let [transfer, exhaust] = two.open(&ports).unwrap();
+            near(transfer[0], top + down - 60.0, 120.0);
+            near(exhaust[0], top + down - 80.0, 160.0);
         }
     }
 
@@ -275,20 +252,20 @@ mod tests {
         let angle = |degrees| Angle::from_degrees(degrees).unwrap();
         let timing = |intake: f64, exhaust: f64| {
             let [intake, exhaust] = [intake, exhaust].map(angle);
-            ValveTiming::new(intake, intake, exhaust, exhaust).unwrap()
+            Timing::new(&[intake, intake, exhaust, exhaust]).unwrap()
         };
         for (offset, intake, exhaust) in [(-0.0999, -80.0, 0.0), (0.0999, 0.0, -80.0)] {
             let engine = placed(&[(cylinder(0.0), 0.0, 90.0), (cylinder(offset), 0.0, 90.0)]);
             let firing = Firing::with_later(&engine, Strokes::Four, &[false; 2]).unwrap();
-            let message = firing.valves(&timing(intake, exhaust)).unwrap_err().to_string();
+            let message = firing.open(&timing(intake, exhaust)).unwrap_err().to_string();
             let [name, other] =
                 if intake < 0.0 { ["intake", "exhaust"] } else { ["exhaust", "intake"] };
             assert!(message.starts_with(&format!("{name}_opens_deg + {name}_closes_deg = -160: ")));
             assert!(message.contains("cylinder 2"), "{message}");
             assert!(!message.contains(other), "{message}");
             // Later by 20° on either side they open before they close.
-            let valves = firing.valves(&timing(0.4 * intake, 0.4 * exhaust)).unwrap();
-            for [opens, closes] in valves.intake.into_iter().chain(valves.exhaust) {
+            let open = firing.open(&timing(0.4 * intake, 0.4 * exhaust)).unwrap();
+            for [opens, closes] in open.concat() {
                 assert!(closes.degrees() > opens.degrees());
             }
         }

@@ -72,16 +72,15 @@ impl Firing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::NamedOrder;
     use super::super::engines::{engine, vee};
     use super::*;
-    use crate::layout::{Side, Strokes};
+    use crate::layout::{FiringOrder, Side, Strokes};
     use crate::numbers::cancel::Cancel;
 
     #[test]
     fn groups_are_by_number_and_apart() {
         let v8 = engine(&vee(90.0, 0.0, &[0.0, 90.0, 270.0, 180.0], Side::Left));
-        let order: NamedOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
+        let order: FiringOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
         let firing = Firing::named(&v8, &order, Strokes::Four, &Cancel::new()).unwrap();
         assert_eq!(firing.groups(None).unwrap(), firing.banks());
         assert_eq!(firing.banks(), [[0, 2, 4, 6], [1, 3, 5, 7]]);

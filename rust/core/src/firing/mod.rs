@@ -8,11 +8,10 @@
 //! Angles that are parts of a turn are exact, and so is what is reported as even or simultaneous;
 //! others are distinguished when they differ by more than [`crate::layout::MOST_ROUNDING`].
 //!
-//! Imports run downwards: `tops`, [`firing_order`] → [`way`] → [`choices`], [`intervals`],
+//! Imports run downwards: `tops` → [`way`] → [`choices`], [`intervals`],
 //! [`gas_exchange`]; [`pins`] is independent.
 
 pub mod choices;
-pub mod firing_order;
 pub mod gas_exchange;
 pub mod intervals;
 pub mod pins;
@@ -23,8 +22,7 @@ pub mod way;
 mod engines;
 
 pub use choices::MOST_LISTED;
-pub use firing_order::NamedOrder;
-pub use gas_exchange::{Overlap, Period, Periods, PortTiming, Ports, ValveTiming, Valves};
+pub use gas_exchange::{Overlap, Period, Periods, Timing};
 pub use intervals::Gap;
 pub use pins::{Throws, inline_throws, vee_throws};
 pub use way::Firing;

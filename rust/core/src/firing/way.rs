@@ -138,7 +138,7 @@ impl Firing {
 }
 
 impl std::fmt::Display for Firing {
-    /// The order as [`super::NamedOrder`] reads it.
+    /// The order as [`crate::layout::FiringOrder`] reads it.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (k, cylinder) in self.order.iter().enumerate() {
             let joint = match k {
@@ -156,13 +156,13 @@ impl std::fmt::Display for Firing {
 mod tests {
     use super::super::engines::{engine, intervals, vee};
     use super::super::*;
-    use crate::layout::{Side, Strokes};
+    use crate::layout::{FiringOrder, Side, Strokes};
     use crate::numbers::cancel::Cancel;
 
     #[test]
     fn the_cross_plane_v8_fires_evenly() {
         let v8 = engine(&vee(90.0, 0.0, &[0.0, 90.0, 270.0, 180.0], Side::Left));
-        let order: NamedOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
+        let order: FiringOrder = "1-8-4-3-6-5-7-2".parse().unwrap();
         let firing = Firing::named(&v8, &order, Strokes::Four, &Cancel::new()).unwrap();
         assert!(firing.even());
         assert_eq!(intervals(&firing), [90.0; 8]);

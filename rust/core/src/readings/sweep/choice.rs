@@ -12,6 +12,10 @@
 //!   neighbouring orders of h′, of opposite signs, which grow with λ. With q = p² order 2 is −½(1 + q²),
 //!   order 2j above is ½(1 − q²)q^{j−1} up to factors of n, which grows up to q² = (j − 1)/(j + 1), or
 //!   λ = 0.96 for order 4 and beyond that for others.
+//! - Torque of rods without offset: φ' = λ cos θ/√(1 − λ² sin²θ) is a power series in λ whose terms give
+//!   each order one sign; it makes the odd orders. The even ones are half the derivative of φ'², whose
+//!   order 2j is 2qʲ(1 − q)/(1 + q), which grows up to j(1 − q²) = 2q, or λ = 0.91 for order 2 and beyond
+//!   that for others.
 //! - Any other: the bound of the tail that begins with the order, which grows with λ and with the
 //!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
 //!   Orders 1 and 2 of torques are kept where the layout has them.
@@ -38,6 +42,8 @@ use crate::readings::choice::{candidates, few, scales, tail};
 const NEGLIGIBLE: f64 = 0.01;
 /// Rod ratio up to which every order of the torque of masses without offset grows with it.
 const TORQUE_GROWS: f64 = 0.95;
+/// The same of the torque of rods.
+const ROD_TORQUE_GROWS: f64 = 0.9;
 
 impl Sweep {
     /// With few orders that leave out at most `rtol` at any point, as [`crate::Orders::Auto`] does
@@ -196,7 +202,8 @@ impl Sweep {
         };
         let grows = match harmonic {
             Harmonic::Torque(_) => rod_ratio <= TORQUE_GROWS,
-            _ => matches!(harmonic, Harmonic::Force(_)),
+            Harmonic::Rod(_) => rod_ratio <= ROD_TORQUE_GROWS,
+            Harmonic::Force(_) | Harmonic::One => true,
         };
         if gear.is_centred() && grows {
             return values(gear, |value| Factor::AtMost(value.norm()));

@@ -1,110 +1,60 @@
-//! What the deviations of one sample add to the sums of an engine's loads.
+//! What the deviations of some samples add to the sums of an engine's loads.
 //!
 //! Superposition is linear in the loads: a sample is the nominal engine, and of each load that
 //! deviates what it makes less what it made. Without deviations that is nothing, to the last bit; and
-//! sums that the nominal engine cancels stay free of its rounding.
+//! sums that the nominal engine cancels stay free of its rounding. The weight of a load in the one sum
+//! is that difference, harmonics included, with one complex number for each sample.
 
-use super::amplitudes::{Amplitudes, ComplexColumns, Shape};
-use super::{CHUNK, Deviations, Parameter, SampleColumn};
+use std::rc::Rc;
+
+use super::amplitudes::{Amplitudes, amplitudes};
+use super::{CHUNK, Deviations, Parameter, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Placement};
-use crate::load::{Alike, Load, Loads, Wanted};
+use crate::load::{Alike, Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
-use crate::wrench::Planar;
 
-/// Sums of one order over ω²: real and imaginary parts.
+/// A number of each sample.
+type Reals = [f64; CHUNK];
+/// A complex number of each sample.
+pub(super) type Complexes = [Complex64; CHUNK];
+
+const ZEROS: Complexes = [Complex64::ZERO; CHUNK];
+
+/// Sums of one order over ω².
 #[derive(Clone)]
 pub(super) struct SampleSums {
     /// Forward part, and conjugate of the backward part.
-    pub force: [[SampleColumn; 2]; 2],
-    pub moment: [[SampleColumn; 2]; 2],
+    pub force: [Complexes; 2],
+    pub moment: [Complexes; 2],
     /// On the block and on the crank.
-    pub torque: [[SampleColumn; 2]; 2],
+    pub torque: [Complexes; 2],
 }
 
-impl SampleSums {
-    pub const ZERO: Self = {
-        let pairs = [[[0.0; CHUNK]; 2]; 2];
-        Self { force: pairs, moment: pairs, torque: pairs }
-    };
-}
-
-/// A load of weight 1 at one order.
-struct Unit {
-    force: Planar,
-    /// Of the roll torque and of the torque on the crank.
-    phase: Complex64,
-}
-
-impl Unit {
-    fn of(load: &Load, order: u32) -> Option<Self> {
-        let mut one = *load;
-        one.weight = 1.0;
-        let loads = Loads { list: vec![one], gears: Vec::new(), reference: 0.0 };
-        let wanted = Wanted { planar: true, roll: false, by_bank: false };
-        let [force, _] = loads.sums(Order::whole(order).ok()?, wanted).pop()?.planar();
-        Some(Self { force, phase: load.phase.cis(-i64::from(order)) })
-    }
-
-    /// Adds a load of these complex weights, and of these weights times levers.
-    #[inline(always)]
-    fn add_planar(
-        &self,
-        sums: &mut SampleSums,
-        weight: &[SampleColumn; 2],
-        levered: &[SampleColumn; 2],
-    ) {
-        let turned = self.force.quarter_turned();
-        add(&mut sums.force[0], self.force.forward, weight);
-        add(&mut sums.force[1], self.force.backward_conj, weight);
-        add(&mut sums.moment[0], turned.forward, levered);
-        add(&mut sums.moment[1], turned.backward_conj, levered);
-    }
-}
-
-#[inline(always)]
-fn add(sum: &mut [SampleColumn; 2], unit: Complex64, values: &[SampleColumn; 2]) {
-    let ([sum_re, sum_im], [re, im]) = (sum, values);
-    for i in 0..CHUNK {
-        sum_re[i] += unit.re * re[i] - unit.im * im[i];
-        sum_im[i] += unit.re * im[i] + unit.im * re[i];
-    }
-}
-
-/// What of a cylinder may deviate.
-struct UnitPart {
-    place: Placement,
+/// Load of a pin that deviates: of a cylinder, or a counterweight.
+#[derive(Clone, Copy)]
+struct Deviating {
     pin: usize,
-    /// Of its piston, by order.
-    piston: Vec<Option<Unit>>,
-    /// Of what rotates with its crankpin, by order.
-    rotating: Vec<Option<Unit>>,
-    nominal: Amplitudes,
-}
-
-/// A counterweight that follows a pin.
-struct LoadWeight {
-    pin: usize,
-    amount: f64,
-    lever: f64,
-    by_order: Vec<Option<Unit>>,
+    cylinder: Option<usize>,
+    is_piston: bool,
 }
 
 /// Loads of an engine whose figures deviate.
 pub(super) struct Terms {
     orders: Vec<u32>,
     torque: bool,
-    reference: f64,
-    parts: Vec<UnitPart>,
-    weights: Vec<LoadWeight>,
-    pins: usize,
+    places: Vec<Placement>,
+    loads: Loads,
+    deviating: Vec<Deviating>,
+    pin_of: Vec<usize>,
+    /// Harmonics of each cylinder.
+    nominal: Vec<Amplitudes>,
+    /// Those of unbalances.
+    one: Amplitudes,
 }
-
-/// Unit phasors of pins, by pin and order: cosine and sine of n times the deviation.
-type Turns = Vec<Vec<[SampleColumn; 2]>>;
 
 impl Terms {
     pub fn new(
@@ -119,30 +69,39 @@ impl Terms {
         let laden = engine.placements().iter().map(|p| Placement { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
-        let loads = Loads::new(&laden, reference, Alike::Dimensions, None).list;
-        let count = engine.placements().len();
-        let by_order = |load: &Load| orders.iter().map(|&n| Unit::of(load, n)).collect::<Vec<_>>();
-        let mut parts = Vec::with_capacity(count);
-        for (i, &place) in engine.placements().iter().enumerate() {
-            let shape = Shape::new(&place.cylinder, torque);
-            let (radius, rod) = (place.cylinder.crank_radius(), place.cylinder.rod_length());
-            let nominal = shape.amplitudes(&[radius], &[rod], orders, cancel)?;
-            let (piston, rotating) = (by_order(&loads[i]), by_order(&loads[count + i]));
-            parts.push(UnitPart { place, pin: pin_of[i], piston, rotating, nominal });
-        }
-        let weights = engine.counterweights().iter().zip(&loads[2 * count..]);
-        let weights = weights.filter_map(|(weight, load)| {
-            let (pin, lever) = (pin_of[weight.pin?], weight.z - reference);
-            Some(LoadWeight { pin, amount: weight.amount, lever, by_order: by_order(load) })
+        let mut loads = Loads::new(&laden, reference, Alike::Dimensions, None);
+        let of_cylinders = |is_piston| {
+            let deviating = move |(i, &pin)| Deviating { pin, cylinder: Some(i), is_piston };
+            pin_of.iter().enumerate().map(deviating).map(Some)
+        };
+        let weights = engine.counterweights().iter().map(|weight| {
+            Some(Deviating { pin: pin_of[weight.pin?], cylinder: None, is_piston: false })
         });
-        let pins = pin_of.iter().max().map_or(0, |last| last + 1);
-        let weights = weights.collect();
-        Ok(Self { orders: orders.to_vec(), torque, reference, parts, weights, pins })
+        let all: Vec<_> = of_cylinders(true).chain(of_cylinders(false)).chain(weights).collect();
+        let mut kept = all.iter().map(Option::is_some);
+        loads.list.retain(|_| kept.next().unwrap_or_default());
+        let nominal = |Placement { cylinder, .. }: &Placement| {
+            let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
+            amplitudes(cylinder, torque, lengths, orders, cancel)
+        };
+        let nominal = engine.placements().iter().map(nominal).collect::<Result<_>>()?;
+        let mut one = Amplitudes::default();
+        one[0] = vec![vec![Complex64::ONE]; orders.len()];
+        Ok(Self {
+            orders: orders.to_vec(),
+            torque,
+            places: engine.placements().to_vec(),
+            loads,
+            deviating: all.into_iter().flatten().collect(),
+            pin_of: pin_of.to_vec(),
+            nominal,
+            one,
+        })
     }
 
     /// Number of cylinders or pins that have a figure.
     pub fn count(&self, figure: Parameter) -> usize {
-        if figure.of_pin() { self.pins } else { self.parts.len() }
+        if figure.of_pin() { pins(&self.pin_of) } else { self.places.len() }
     }
 
     /// Sums of every order, over ω², that the deviations of some samples add.
@@ -154,248 +113,204 @@ impl Terms {
     ) -> Result<Vec<SampleSums>> {
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
-        let turns = angles.as_ref().map(|angles| self.turns(angles));
-        let mut sums = vec![SampleSums::ZERO; self.orders.len()];
-        for (i, part) in self.parts.iter().enumerate() {
+        let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
+        let harmonics = |(i, Placement { cylinder, .. }): (usize, &Placement)| {
             cancel.check()?;
-            let deviation = Deviation {
-                mass: masses.as_ref().map(|columns| &columns[i]),
-                rotating: rotating.as_ref().map(|columns| &columns[i]),
-                radius: radii.as_ref().map(|columns| &columns[part.pin]),
-                z: places.as_ref().map(|columns| &columns[i]),
-                rod: rods.as_ref().map(|columns| &columns[i]),
-                turns: turns.as_ref().map(|turns| &turns[part.pin][..]),
-            };
-            self.add_part(part, &deviation, &mut sums, cancel)?;
-        }
-        for weight in &self.weights {
-            let Some(turns) = &turns else { continue };
-            let moved = weight.by_order.iter().zip(&turns[weight.pin]).zip(&mut sums);
-            for ((unit, turn), sums) in moved {
-                let Some(unit) = unit else { continue };
-                let [force, moment] = [1.0, weight.lever].map(|lever| {
-                    let amount = weight.amount * lever;
-                    let one = [vec![1.0], vec![0.0]];
-                    less(turned(&[amount; CHUNK], &one, Some(turn)), [amount, 0.0])
-                });
-                unit.add_planar(sums, &force, &moment);
-            }
-        }
-        Ok(sums)
-    }
-
-    fn turns(&self, angles: &[SampleColumn]) -> Turns {
-        let mut turns: Turns = vec![vec![[[0.0; CHUNK]; 2]; self.orders.len()]; self.pins];
-        vectorised(
-            #[inline(always)]
-            || {
-                for (turns, angles) in turns.iter_mut().zip(angles) {
-                    for ([cos, sin], &n) in turns.iter_mut().zip(&self.orders) {
-                        let mut degrees = *angles;
-                        for angle in &mut degrees {
-                            *angle *= f64::from(n);
-                        }
-                        sin_cos_degrees(&degrees, sin, cos);
-                    }
-                }
-            },
-        );
-        turns
-    }
-
-    fn add_part(
-        &self,
-        part: &UnitPart,
-        deviation: &Deviation,
-        sums: &mut [SampleSums],
-        cancel: &Cancel,
-    ) -> Result<()> {
-        let cylinder = &part.place.cylinder;
-        let radius = around(cylinder.crank_radius(), deviation.radius);
-        let mass = around(cylinder.reciprocating_mass(), deviation.mass);
-        let rotating = around(part.place.rotating_mass, deviation.rotating);
-        let z = around(part.place.z, deviation.z);
-        let changed = if deviation.radius.is_some() || deviation.rod.is_some() {
-            let rod = around(cylinder.rod_length(), deviation.rod);
-            let shape = Shape::new(cylinder, self.torque);
-            Some(shape.amplitudes(&radius, &rod, &self.orders, cancel)?)
-        } else {
-            None
+            let radius = radii[self.pin_of[i]].map(|change| cylinder.crank_radius() + change);
+            let rod = rods[i].map(|change| cylinder.rod_length() + change);
+            amplitudes(cylinder, self.torque, (&radius, &rod), &self.orders, cancel)
         };
-        let amplitudes = changed.as_ref().unwrap_or(&part.nominal);
-        vectorised(
-            #[inline(always)]
-            || {
-                let lever = around(-self.reference, Some(&z));
-                let nominal = Nominal::new(&part.place, self.reference);
-                let first_order = product(&mass, &radius);
-                let second_moment = product(&first_order, &radius);
-                let unbalance = product(&rotating, &radius);
-                let inertia = [cylinder.rod_inertia_excess(); CHUNK];
-                for (k, sums) in sums.iter_mut().enumerate() {
-                    let turn = deviation.turns.map(|turns| &turns[k]);
-                    let change = |weight: &SampleColumn,
-                                  nominal: f64,
-                                  a: &ComplexColumns,
-                                  a0: &ComplexColumns| {
-                        less(turned(weight, a, turn), at_rest(nominal, a0))
-                    };
-                    if let Some(unit) = &part.piston[k] {
-                        let weight = turned(&first_order, &amplitudes.force[k], turn);
-                        let base = at_rest(nominal.first_order, &part.nominal.force[k]);
-                        let levered = levered(&weight, &lever, base, nominal.lever);
-                        unit.add_planar(sums, &less(weight, base), &levered);
-                        let torques = [&amplitudes.roll, &amplitudes.crank];
-                        let bases = [&part.nominal.roll, &part.nominal.crank];
-                        for (which, (a, a0)) in torques.iter().zip(bases).enumerate() {
-                            if !self.torque {
-                                continue;
-                            }
-                            let masses = change(
-                                &second_moment,
-                                nominal.second_moment,
-                                &a.masses[k],
-                                &a0.masses[k],
-                            );
-                            add(&mut sums.torque[which], unit.phase, &masses);
-                            if let (Some(a), Some(a0)) = (a.rod.get(k), a0.rod.get(k)) {
-                                let rod = change(&inertia, inertia[0], a, a0);
-                                add(&mut sums.torque[which], unit.phase, &rod);
-                            }
-                        }
-                    }
-                    if let Some(unit) = &part.rotating[k] {
-                        let one = [vec![1.0], vec![0.0]];
-                        let weight = turned(&unbalance, &one, turn);
-                        let base = at_rest(nominal.unbalance, &one);
-                        let levered = levered(&weight, &lever, base, nominal.lever);
-                        unit.add_planar(sums, &less(weight, base), &levered);
+        let changed: Vec<Amplitudes> =
+            if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
+                self.places.iter().enumerate().map(harmonics).collect::<Result<_>>()?
+            } else {
+                Vec::new()
+            };
+        let turns = if deviates(Parameter::Pin) { self.turns(&angles) } else { Vec::new() };
+        let reference = self.loads.reference;
+        let drawn = |(&Deviating { pin, cylinder, is_piston }, load): (&Deviating, &Load)| {
+            let turns = turns.get(pin).map(|turns| &turns[..]);
+            let fixed = |value: f64| ([value; CHUNK], value);
+            let one = [&self.one; 2];
+            let Some(i) = cylinder else {
+                let lever = fixed(load.z - reference);
+                return Drawn { weights: vec![fixed(load.weight)], lever, amplitudes: one, turns };
+            };
+            let place = &self.places[i];
+            let Placement { cylinder, rotating_mass, z, .. } = *place;
+            let radius = radii[pin].map(|change| cylinder.crank_radius() + change);
+            let lever = (places[i].map(|change| z + change - reference), z - reference);
+            if !is_piston {
+                let unbalance = product(&rotating[i].map(|change| rotating_mass + change), &radius);
+                let weights = vec![(unbalance, rotating_mass * cylinder.crank_radius())];
+                return Drawn { weights, lever, amplitudes: one, turns };
+            }
+            let mass = masses[i].map(|change| cylinder.reciprocating_mass() + change);
+            let first_order = product(&mass, &radius);
+            let weights = vec![
+                (first_order, cylinder.first_order()),
+                (product(&first_order, &radius), cylinder.second_moment()),
+                fixed(cylinder.rod_inertia_excess()),
+            ];
+            let nominal = &self.nominal[i];
+            let amplitudes = [changed.get(i).unwrap_or(nominal), nominal];
+            Drawn { weights, lever, amplitudes, turns }
+        };
+        let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
+        let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
+        let of_order = |(k, &order): (usize, &u32)| {
+            cancel.check()?;
+            let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
+            let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
+            for term in superpose(&arithmetic, &self.loads, Order::whole(order)?, wanted) {
+                let planar = sums.force.iter_mut().chain(&mut sums.moment);
+                // A part may be empty: an unbalance turns one way.
+                let parts = term.force.iter().chain(&term.moment).map(|part| part.first());
+                let torque = sums.torque.iter_mut().zip(term.roll.iter().map(Some));
+                for (sum, part) in planar.zip(parts).chain(torque) {
+                    if let Some(part) = part {
+                        add(sum, Complex64::ONE, part);
                     }
                 }
-            },
-        );
-        Ok(())
+            }
+            Ok(sums)
+        };
+        self.orders.iter().enumerate().map(of_order).collect()
+    }
+
+    /// Unit phasors by pin and order: of n times the deviation.
+    fn turns(&self, angles: &[Reals]) -> Vec<Vec<Complexes>> {
+        let turn = |angles: &Reals, n: u32| {
+            vectorised(
+                #[inline(always)]
+                || {
+                    let (mut sin, mut cos) = ([0.0; CHUNK], [0.0; CHUNK]);
+                    sin_cos_degrees(&angles.map(|angle| angle * f64::from(n)), &mut sin, &mut cos);
+                    std::array::from_fn(|i| Complex64::new(cos[i], sin[i]))
+                },
+            )
+        };
+        angles.iter().map(|angles| self.orders.iter().map(|&n| turn(angles, n)).collect()).collect()
     }
 }
 
-/// Columns of the samples from `first` on, of rows of so many values; None where nothing deviates.
-fn columns(values: &[f64], width: usize, first: usize) -> Option<Vec<SampleColumn>> {
-    let rows = values.get(first * width..).filter(|rows| !rows.is_empty())?;
+/// A load as it was drawn, and as it is nominally.
+struct Drawn<'a> {
+    /// Of the force, and of a piston of the torques of masses and rod.
+    weights: Vec<(Reals, f64)>,
+    lever: (Reals, f64),
+    amplitudes: [&'a Amplitudes; 2],
+    /// Turn of its pin, by order.
+    turns: Option<&'a [Complexes]>,
+}
+
+/// Complex weights of a load at one order, less the nominal ones.
+struct Changes {
+    force: Complexes,
+    moment: Complexes,
+    /// Of masses and of rod: on the block and on the crank.
+    torque: [Vec<Complexes>; 2],
+}
+
+impl Drawn<'_> {
+    /// At the order of this index.
+    fn changes(&self, k: usize) -> Changes {
+        vectorised(
+            #[inline(always)]
+            || {
+                let of = |list: usize, weight: usize| {
+                    let [now, before] = self.amplitudes.map(|lists| lists[list].get(k));
+                    let (weight, nominal) = self.weights.get(weight)?;
+                    let (now, base) = (now?, before?.first()? * nominal);
+                    let mut drawn = ZEROS;
+                    for (i, drawn) in drawn.iter_mut().enumerate() {
+                        *drawn = now[if now.len() == 1 { 0 } else { i }] * weight[i];
+                    }
+                    if let Some(turns) = self.turns {
+                        drawn.iter_mut().zip(&turns[k]).for_each(|(drawn, turn)| *drawn *= turn);
+                    }
+                    Some((drawn, base))
+                };
+                let (mut force, base) = of(0, 0).unwrap_or((ZEROS, Complex64::ZERO));
+                let mut moment = force;
+                for (i, (force, moment)) in force.iter_mut().zip(&mut moment).enumerate() {
+                    *force -= base;
+                    *moment = *moment * self.lever.0[i] - base * self.lever.1;
+                }
+                let torque = [1, 2].map(|weight| {
+                    let lists = [2 * weight - 1, 2 * weight].into_iter();
+                    let less = |(drawn, base): (Complexes, _)| drawn.map(|drawn| drawn - base);
+                    lists.filter_map(|list| of(list, weight).map(less)).collect()
+                });
+                Changes { force, moment, torque }
+            },
+        )
+    }
+}
+
+/// Arithmetic of samples at one order: unit phasors, and complex weights less the nominal ones.
+struct Samples<'a> {
+    loads: &'a [Drawn<'a>],
+    /// Index of the order.
+    k: usize,
+    phasors: Phasors,
+}
+
+impl Arithmetic for Samples<'_> {
+    type Unit = (Complex64, Rc<Changes>);
+    /// One, of torques those on the block and on the crank; none where nothing was added.
+    type Sum = Vec<Complexes>;
+
+    fn phase(&self, load: (usize, &Load), times: i64) -> Self::Unit {
+        (self.phasors.phase(load, times), Rc::new(self.loads[load.0].changes(self.k)))
+    }
+
+    fn toward(&self, load: (usize, &Load), unit: &Self::Unit, conjugate: bool) -> Self::Unit {
+        (self.phasors.toward(load, &unit.0, conjugate), Rc::clone(&unit.1))
+    }
+
+    fn add(
+        &self,
+        sum: &mut Self::Sum,
+        _: (usize, &Load),
+        weight: Weight,
+        (unit, changes): &Self::Unit,
+        times: Times,
+    ) {
+        let values = match weight {
+            Weight::Force => std::slice::from_ref(&changes.force),
+            Weight::Moment => std::slice::from_ref(&changes.moment),
+            Weight::Torque => &changes.torque[0],
+            Weight::Rod => &changes.torque[1],
+            // What deviates sits on the axis of the crank.
+            Weight::ArmX | Weight::ArmY => return,
+        };
+        sum.resize(values.len(), ZEROS);
+        let unit = times.of(*unit);
+        sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
+    }
+}
+
+/// Columns of the samples from `first` on, of rows of so many values; zero where nothing deviates.
+fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
     let mut columns = vec![[0.0; CHUNK]; width];
+    let rows = values.get(first * width..).unwrap_or_default();
     for (sample, row) in rows.chunks_exact(width).take(CHUNK).enumerate() {
         for (column, &value) in columns.iter_mut().zip(row) {
             column[sample] = value;
         }
     }
-    Some(columns)
+    columns
 }
 
-/// Deviations of a cylinder's figures; None where they do not spread.
-struct Deviation<'a> {
-    mass: Option<&'a SampleColumn>,
-    rotating: Option<&'a SampleColumn>,
-    radius: Option<&'a SampleColumn>,
-    z: Option<&'a SampleColumn>,
-    rod: Option<&'a SampleColumn>,
-    /// By order.
-    turns: Option<&'a [[SampleColumn; 2]]>,
+fn product(a: &Reals, b: &Reals) -> Reals {
+    std::array::from_fn(|i| a[i] * b[i])
 }
 
-/// Weights and lever of a cylinder as it was drawn, by the operations that its samples take.
-struct Nominal {
-    first_order: f64,
-    second_moment: f64,
-    unbalance: f64,
-    lever: f64,
-}
-
-impl Nominal {
-    fn new(place: &Placement, reference: f64) -> Self {
-        Self {
-            first_order: place.cylinder.first_order(),
-            second_moment: place.cylinder.second_moment(),
-            unbalance: place.rotating_mass * place.cylinder.crank_radius(),
-            lever: place.z - reference,
-        }
-    }
-}
-
-/// A nominal value and its deviations.
-#[inline(always)]
-fn around(value: f64, deviation: Option<&SampleColumn>) -> SampleColumn {
-    let mut values = [value; CHUNK];
-    if let Some(deviation) = deviation {
-        for i in 0..CHUNK {
-            values[i] += deviation[i];
-        }
-    }
-    values
-}
-
-#[inline(always)]
-fn product(a: &SampleColumn, b: &SampleColumn) -> SampleColumn {
-    let mut values = *a;
-    for i in 0..CHUNK {
-        values[i] *= b[i];
-    }
-    values
-}
-
-/// Weights times amplitudes, one for all samples or one for each, turned by `e^{inδ}`.
-#[inline(always)]
-fn turned(
-    weight: &SampleColumn,
-    amplitude: &ComplexColumns,
-    turn: Option<&[SampleColumn; 2]>,
-) -> [SampleColumn; 2] {
-    let [mut re, mut im] = [*weight; 2];
-    for (column, values) in [&mut re, &mut im].into_iter().zip(amplitude) {
-        match values[..] {
-            [value] => {
-                for weight in column.iter_mut() {
-                    *weight *= value;
-                }
-            }
-            _ => column.iter_mut().zip(values).for_each(|(weight, value)| *weight *= value),
-        }
-    }
-    let Some([cos, sin]) = turn else { return [re, im] };
-    for i in 0..CHUNK {
-        let (x, y) = (re[i], im[i]);
-        re[i] = x * cos[i] - y * sin[i];
-        im[i] = x * sin[i] + y * cos[i];
-    }
-    [re, im]
-}
-
-/// A weight times the first of some amplitudes.
-fn at_rest(weight: f64, amplitude: &ComplexColumns) -> [f64; 2] {
-    amplitude.each_ref().map(|values| weight * values[0])
-}
-
-#[inline(always)]
-fn less(mut values: [SampleColumn; 2], base: [f64; 2]) -> [SampleColumn; 2] {
-    for (values, base) in values.iter_mut().zip(base) {
-        for value in values.iter_mut() {
-            *value -= base;
-        }
-    }
-    values
-}
-
-/// Weights times levers, less what they were.
-#[inline(always)]
-fn levered(
-    weight: &[SampleColumn; 2],
-    lever: &SampleColumn,
-    base: [f64; 2],
-    nominal: f64,
-) -> [SampleColumn; 2] {
-    let mut values = *weight;
-    for (values, base) in values.iter_mut().zip(base) {
-        for i in 0..CHUNK {
-            values[i] = values[i] * lever[i] - base * nominal;
-        }
-    }
-    values
+/// Adds a complex number times the values.
+fn add(sum: &mut Complexes, unit: Complex64, values: &Complexes) {
+    vectorised(
+        #[inline(always)]
+        || sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += unit * value),
+    );
 }
