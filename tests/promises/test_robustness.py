@@ -135,7 +135,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (crank, "odd_bank", "Left", "Left"),
     (crank, "numbering", None, "None"),
     (crank, "strokes", 2.5, "2.5"),
-    (fires, "firing_order", "6-5-4-3-2-1", "1-6-5-4-3-2"),
+    (fires, "firing_order", "6-5-4-3-2-1", "6-5-4-3-2-1"),
     (fires, "firing_order", "1-2-3", "1-2-3"),
     (fires, "firing_order", "1+2-3+4-5+6", "1+2-3+4-5+6"),
     (fires, "firing_order", None, "None"),
