@@ -232,7 +232,9 @@ def test_results_are_read_by_threads_at_once() -> None:
             b = V6.balance(5000)
             reads = [
                 partial(b.read, quantity, what)
-                for _, quantity, what, _ in export.variables(["force", "moment", "torque"])
+                for _, quantity, what, _ in export.variables(
+                    ["force", "moment", "torque", "torque.gas", "torque.inertia"], fired=True
+                )
             ]
             with ThreadPoolExecutor(8) as pool:
                 found = list(pool.map(lambda read: read(), reads * 4))
@@ -377,3 +379,24 @@ def test_engines_among_arrangements_are_refused() -> None:
 def test_the_objective_is_required() -> None:
     with pytest.raises(cp.InputError, match=r"by = None: .*total\.moment\.peak"):
         cp.rank(V6, rpm=1000)
+
+
+def test_without_gas_pressure_inertia_is_the_whole_torque() -> None:
+    for result in (V6.balance(5000), cp.sweep(V6, **SWEPT), V6.balance(5000).about((0.1, 0.2, 0))):
+        for whole in (result.torque, result.crank_torque, result[3].torque):
+            np.testing.assert_array_equal(whole.inertia, whole)
+            np.testing.assert_array_equal(whole.inertia.peak, whole.peak)
+            assert whole.gas.shape == whole.shape
+            assert not whole.gas.any()
+        assert np.all(result.torque.mean == 0.0)
+        np.testing.assert_array_equal(result.total.torque.inertia.peak, result.total.torque.peak)
+        for wrong in ("gas", "inertia", "mean"):
+            assert not hasattr(result.moment, wrong)
+        assert not hasattr(result.torque.gas, "gas")
+        assert not hasattr(result[2].torque, "mean")
+        assert "torque_mean" not in result.to_xarray()
+    for waves in (V6.waveform(5000), cp.sweep(V6, **SWEPT).waveform([0.0, 90.0])):
+        np.testing.assert_array_equal(waves.read("torque.inertia"), waves.torque)
+        np.testing.assert_array_equal(waves.read("crank_torque.gas"), 0.0 * waves.crank_torque)
+        with pytest.raises(cp.InputError, match=r"quantity = 'moment\.gas': give"):
+            waves.read("moment.gas")

@@ -52,6 +52,20 @@ QUANTITIES = {
 }  # fmt: skip
 """Name of a quantity → its entry."""
 
+PART_WORDS = {"gas": "of gas pressure", "inertia": "of inertia forces"}
+"""Part of a torque → what it is due to."""
+
+PARTS = {
+    f"{kind.name}.{part}": kind._replace(name=f"{kind.name}.{part}", words=f"{kind.words} {words}")
+    for kind in QUANTITIES.values()
+    if not kind.planar
+    for part, words in PART_WORDS.items()
+}
+"""Part of a torque, such as ``"torque.gas"`` → its entry; both parts add up to the torque."""
+
+KINDS = QUANTITIES | PARTS
+"""Every entry by its name."""
+
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
 """Names of the vectors in the cross-section plane."""
 

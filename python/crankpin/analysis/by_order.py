@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import PARTS, QUANTITIES
 from crankpin._support.record import read_only
 from crankpin.analysis import export
 from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
@@ -59,6 +59,11 @@ class ByOrder(Keyed, Quantities):
         quantities' ``zero_bound`` are zero.
         """
         raise NotImplementedError
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return False
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -136,16 +141,26 @@ class ByOrder(Keyed, Quantities):
             raise InputError(f"what = {inputs.shorten(what)}: give the name of an array")
         found: NDArray[Any] | None = self._kept.get((quantity, what))
         if found is None:
-            there = [what for _, _, what, _ in export.variables([quantity])]
+            there = [what for _, _, what, _ in export.variables([quantity], fired=True)]
             inputs.one_of("what", what, [*there, "turning"])
-            found = read_only(np.asarray(self._about_point(quantity, what)))
+            found = read_only(np.asarray(self._of_part(quantity, what)))
             found = self._kept.setdefault((quantity, what), found)
         return found
+
+    def _of_part(self, quantity: str, what: str) -> NDArray[Any]:
+        """Compute an array; without gas pressure inertia is the whole."""
+        whole, _, part = quantity.partition(".")
+        if self.fired or not (part or what == "mean"):
+            return self._about_point(quantity, what)
+        if part == "inertia" and what != "mean":
+            return self.read(whole, what)
+        return np.zeros_like(self.read(whole, "total_peak" if what == "mean" else what))
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; roll torque about a point beside the crank from that about its axis."""
         x, y = self.request.aside
-        if quantity != "torque" or (x == 0.0 and y == 0.0):
+        of_inertia = quantity in ("torque", "torque.inertia") and what != "mean"
+        if not of_inertia or (x == 0.0 and y == 0.0):
             return self._compute(quantity, what)
         if what == "phasors":
             force = self.read("force", "phasors")
@@ -212,7 +227,9 @@ class ByOrder(Keyed, Quantities):
 
     def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is named."""
-        return check_quantities(quantities, self.request.quantities)
+        there = self.request.quantities
+        parts = [name for name in PARTS if self.fired and name.partition(".")[0] in there]
+        return check_quantities(quantities, (*there, *parts))
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, order, quantity and component (needs pandas).

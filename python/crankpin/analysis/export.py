@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels, optional
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import KINDS, PLANE_VECTORS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -28,18 +28,25 @@ TRAILING: dict[str, tuple[str, ...]] = {
     "peak_xy": ("order", "axis"),
     "total_peak": (),
     "total_peak_xy": ("axis",),
+    "mean": (),
 }
 """Array of a plane vector → its dimensions after the swept ones; a scalar has no ``axis``."""
 NOT_OF_SCALARS = ("forward", "backward", "peak_xy", "total_peak_xy")
+OF_GAS = ("mean",)
+"""Arrays that only torques of fired engines have."""
 
 
-def variables(quantities: Sequence[str]) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
+def variables(
+    quantities: Sequence[str], *, fired: bool
+) -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     """Yield name, quantity, array and trailing dimensions of each variable of a dataset."""
     for quantity in quantities:
-        planar = QUANTITIES[quantity].planar
+        planar = KINDS[quantity].planar
+        absent = OF_GAS if planar else NOT_OF_SCALARS if fired else (*NOT_OF_SCALARS, *OF_GAS)
         for what, dims in TRAILING.items():
-            if planar or what not in NOT_OF_SCALARS:
-                name = quantity if what == "phasors" else f"{quantity}_{what}"
+            if what not in absent:
+                name = quantity.replace(".", "_")
+                name = name if what == "phasors" else f"{name}_{what}"
                 yield name, quantity, what, tuple(d for d in dims if planar or d != "axis")
 
 
@@ -54,14 +61,14 @@ def to_xarray(
     if arrays is None:
         arrays = {
             name: ((*result.dims, *dims), result.read(quantity, what), units(quantity))
-            for name, quantity, what, dims in variables(quantities)
+            for name, quantity, what, dims in variables(quantities, fired=result.fired)
         }
     whole = all(isinstance(order, int) for order in result.orders)
     orders = np.array(result.orders, dtype=np.int64 if whole else np.float64)
     coords = _labelled(result.coords, quantities)
     coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
     bounds = {
-        f"{name}_error_bound": getattr(result.error_bound, QUANTITIES[name].bound)
+        f"{name.replace('.', '_')}_error_bound": getattr(result.error_bound, KINDS[name].bound)
         for name in quantities
     }
     if inputs.flag("split_complex", split_complex):
@@ -86,7 +93,7 @@ def _labelled(coords: Mapping[str, Any], quantities: Sequence[str]) -> dict[str,
 
 def units(quantity: str) -> dict[str, str]:
     """Return the attributes of a quantity's variables."""
-    return {"units": QUANTITIES[quantity].xarray_unit}
+    return {"units": KINDS[quantity].xarray_unit}
 
 
 def to_pandas(result: ByOrder, quantities: Sequence[str]) -> pd.DataFrame:
@@ -134,7 +141,7 @@ def _tidy(
                 "quantity": quantity,
                 "component": component,
                 **figures,
-                "unit": QUANTITIES[quantity].unit,
+                "unit": KINDS[quantity].unit,
             },
             index=index,
         ).reset_index()

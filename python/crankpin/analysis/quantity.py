@@ -11,7 +11,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import QUANTITIES, Kind
+from crankpin._support.quantities import KINDS, PARTS, Kind
 from crankpin._support.record import Record, read_only
 from crankpin._support.tables import Column, Table
 
@@ -100,7 +100,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     result: ByOrder
     """Balance or sweep that the quantity belongs to."""
     name: str
-    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``."""
+    """``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``, or a part: ``"torque.gas"``."""
     order: Key = None
     """The order; ``"all"`` for all orders together, None for every order."""
 
@@ -110,7 +110,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     @property
     def kind(self) -> Kind:
         """Entry of the registry: name, symbols, unit and components."""
-        return QUANTITIES[self.name]
+        return KINDS[self.name]
 
     @property
     def unit(self) -> str:
@@ -190,6 +190,24 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         return self._read("phasors")  # type: ignore[no-any-return]
 
     @property
+    def gas(self) -> Self:
+        """Part of a torque that is due to gas pressure."""
+        return self._part("gas")
+
+    @property
+    def inertia(self) -> Self:
+        """Part of a torque that is due to inertia forces."""
+        return self._part("inertia")
+
+    @property
+    def mean(self) -> Any:  # noqa: ANN401 - a number of a balance
+        """Mean of a torque over the cycle, N·m: (…); zero without gas pressure."""
+        if self.kind.planar or self.order not in (None, ALL):
+            raise AbsentError("mean is that of a torque, all orders together: as in b.torque.mean")
+        values = self.result.read(self.name, "mean")
+        return values if values.ndim else float(values)
+
+    @property
     def zero_bound(self) -> Any:  # noqa: ANN401 - as above
         """Largest rounding error of a sum that vanishes, N or N·m: (…, n_orders).
 
@@ -235,6 +253,11 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
             )
         values = self.result.read(self.name, f"total_{what}")
         return values if values.ndim else float(values)
+
+    def _part(self, part: str) -> Self:
+        if (name := f"{self.name}.{part}") not in PARTS:
+            raise AbsentError(f"{part} is a part of torque and crank_torque, not of {self.name}")
+        return self.replace(name=name)
 
     def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
         if not self.kind.planar:

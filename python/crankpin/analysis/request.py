@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
@@ -87,9 +87,10 @@ class Request(Record):
 
     def check(self, quantity: str) -> None:
         """Raise an AbsentError if a quantity is not available."""
-        if isinstance(quantity, str) and quantity in self.quantities:
+        if isinstance(quantity, str) and quantity.partition(".")[0] in self.quantities:
+            inputs.one_of("quantity", quantity, KINDS)
             return
-        name = inputs.one_of("quantity", quantity, QUANTITIES).replace("_", " ")
+        name = inputs.one_of("quantity", quantity, KINDS).replace("_", " ")
         if self.pairs is not None:
             raise AbsentError(
                 f"{name} is not available: a force spectrum does not determine it; "

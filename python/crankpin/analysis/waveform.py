@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis import export
@@ -97,8 +97,27 @@ class OverAngle:
         return self.read("crank_torque")
 
     def read(self, quantity: str) -> NDArray[np.float64]:
-        """Return the values of a quantity, read-only, computed when they are first read."""
+        """Return the values of a quantity, read-only, computed when they are first read.
+
+        Parameters
+        ----------
+        quantity
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; or the part of a torque
+            due to gas pressure or inertia forces: ``"torque.gas"``, ``"torque.inertia"``.
+        """
+        self.request.check(quantity)
+        whole, _, part = quantity.partition(".")
+        if self.fired or not part:
+            return self._values(quantity)
+        return self._values(whole) if part == "inertia" else np.zeros_like(self._values(whole))
+
+    def _values(self, quantity: str) -> NDArray[np.float64]:
         raise NotImplementedError
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return False
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -112,8 +131,8 @@ class OverAngle:
 
     def dims(self, quantity: str = "moment") -> tuple[str, ...]:
         """Return the names of a quantity's dimensions."""
-        name = inputs.one_of("quantity", quantity, QUANTITIES)
-        return (*self.coords, "axis") if QUANTITIES[name].planar else tuple(self.coords)
+        name = inputs.one_of("quantity", quantity, KINDS)
+        return (*self.coords, "axis") if KINDS[name].planar else tuple(self.coords)
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
@@ -189,7 +208,7 @@ class Waveform(OverAngle, Tabled):
             request.torque,
         )
         self.__dict__.update(
-            theta_deg=theta, _values=dict(zip(QUANTITIES, arrays, strict=True)), _balance=balance
+            theta_deg=theta, _by_name=dict(zip(QUANTITIES, arrays, strict=True)), _balance=balance
         )
         super().__post_init__()
 
@@ -216,10 +235,8 @@ class Waveform(OverAngle, Tabled):
             return ErrorBound(0.0, 0.0, 0.0 if known else None)
         return error_bound(self._summed, torque_known=known)
 
-    def read(self, quantity: str) -> NDArray[np.float64]:
-        """Return the values of a quantity, read-only."""
-        self.request.check(quantity)
-        return self.__dict__["_values"][quantity]  # type: ignore[no-any-return]
+    def _values(self, quantity: str) -> NDArray[np.float64]:
+        return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
 
     @property
     def attributes(self) -> Mapping[str, Any]:

@@ -33,7 +33,7 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     request = whole.request.at_orders(whole.orders)
     fixed = {"engines": whole.engines, "names": None, "hold": whole.hold, "request": request}
     variables: dict[str, Any] = {}
-    for name, quantity, what, trailing in export.variables(quantities):
+    for name, quantity, what, trailing in export.variables(quantities, fired=whole.fired):
         dims = (*lengths, *trailing)
         kind = np.complex128 if what in ("phasors", "forward", "backward") else np.float64
         slices = [part for dim in lengths for part in (axes[dim], (dim,))]

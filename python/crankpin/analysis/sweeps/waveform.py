@@ -88,8 +88,7 @@ class SweepWaveform(OverAngle, Record):
         none = ErrorBound(0.0, 0.0, None if bound.torque is None else 0.0)
         return none if self.exact else bound
 
-    def read(self, quantity: str) -> NDArray[np.float64]:
-        """Return the values of a quantity, read-only, computed when they are first read."""
+    def _values(self, quantity: str) -> NDArray[np.float64]:
         kept: dict[str, NDArray[np.float64]] = self.__dict__["_kept"]
         if quantity not in kept:
             return kept.setdefault(quantity, read_only(self.values(quantity)))
