@@ -35,6 +35,17 @@ FITTED = I4.replace(
     ],
 )
 
+LOADED = cp.bearing_loads(
+    cp.Engine.inline(
+        cp.Cylinder.from_rod(cp.Rod(0.55, 0.0022, 0.145, 0.045), 0.043, piston_mass=0.42),
+        throws_deg=[0, 180, 180, 0],
+        spacing=0.095,
+        rotating_mass=0.8,
+        name="Inline-4",
+    ),
+    rpm=6000,
+)
+
 V10S = cp.design(
     10,
     layout="vee",
@@ -142,6 +153,12 @@ PICTURES: dict[str, Callable[..., Any]] = {
         quantity="force", **place
     ),
     "balancer-options": lambda **place: cp.balancer_options(V6_90, rpm=5000).plot(**place),
+    "bearing-loads": LOADED.plot,
+    "bearing-loads-curves": lambda **place: LOADED.plot(kind="curves", **place),
+    "bearing-loads-crankpin": lambda **place: LOADED.plot(
+        load="crankpin", numbers=[1], axes="rod", **place
+    ),
+    "bending": lambda **place: LOADED.plot(kind="bending", **place),
     "designs": V10S.plot,
     "tolerances": SPREAD.plot,
     "tolerance-shares": lambda **place: SPREAD.plot(kind="shares", **place),

@@ -15,6 +15,7 @@ from crankpin._support.quantities import LOADS
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -290,7 +291,7 @@ class BearingLoads(Tabled):
             kept[name] = self._core.sections(name, self.theta_deg)
         return kept[name]  # type: ignore[no-any-return]
 
-    # --- tables ---------------------------------------------------------------------------------
+    # --- tables and pictures ---------------------------------------------------------------------
 
     def to_xarray(self) -> xr.Dataset:
         """Return the loads over crank angle with named dimensions and units (needs xarray).
@@ -316,6 +317,32 @@ class BearingLoads(Tabled):
         attributes = {"engine": self.engine.name, "rpm": self.rpm}
         found: xr.Dataset = optional.xarray().Dataset(arrays, coords, attributes)
         return found
+
+    def plot(self, ax: Any = None, *, kind: str = "polar", **options: Any) -> Any:  # noqa: ANN401
+        """Draw loads; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        kind
+            ``"polar"``: the tip of a load, with crank angles. ``"curves"``: magnitudes over crank
+            angle. ``"bending"``: largest bending moment along z.
+        **options
+            Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
+            bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of
+            ``"polar"``: ``axes``, as in :meth:`turned`; of ``"bending"``: ``part``, as there, by
+            default both. Of all: ``label``, for a legend of several results on the same axes;
+            colour, line width and other properties of matplotlib lines.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
+        >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
+        >>> ax = loads.plot(kind="bending", part="crankcase")
+        """
+        return draw(self, ax, kind=kind, **options)
 
     @property
     def table(self) -> Table:

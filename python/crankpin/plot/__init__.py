@@ -7,6 +7,7 @@ imported when a picture is drawn, and matplotlib with it.
 from crankpin.plot import (
     balance,
     balancing,
+    bearings,
     compare,
     counterweights,
     engine,
@@ -22,6 +23,7 @@ from crankpin.plot.engine import inline_svg
 __all__ = [
     "balance",
     "balancing",
+    "bearings",
     "compare",
     "counterweights",
     "draw",

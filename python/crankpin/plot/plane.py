@@ -9,15 +9,23 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import label_x, label_y, note_zero
-from crankpin.plot.style import muted
+from crankpin.plot.style import SERIES, count_series, foreground, muted, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity
+from crankpin.plot.words import drawn_quantity, in_degrees
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
+
+
+DOTS, LABELS = 30.0, 90.0
+"""Degrees between dots, and between dots with their angle."""
+SAME = 0.08
+"""Part of the orbit's radius within which dots share one label."""
+ARROWS = (15.0, 135.0, 255.0)
+"""Crank angles of the arrows, degrees."""
 
 
 def plane_vector(quantity: object, exists: Callable[[str], bool]) -> str:
@@ -43,6 +51,72 @@ def arrow_at(ax: Axes, curve: NDArray[np.complex128], place: int, colour: Any) -
         (tail.real, tail.imag),
         arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 14.0, "shrinkA": 0.0},
         zorder=3,
+    )
+
+
+def trace(
+    ax: Axes,
+    theta: NDArray[np.float64],
+    vectors: Sequence[NDArray[np.float64]],
+    names: Sequence[str],
+    style: Mapping[str, Any],
+    period: float = 360.0,
+) -> None:
+    """Draw the tips of vectors, (n_theta, 2) each, with crank angles and the direction marked.
+
+    What comes after the first period is left out: it would fill the gaps of dashes.
+    """
+    alone = not count_series(ax) and len(vectors) == 1
+    once = theta <= theta.min(initial=np.inf) + period
+    theta = theta[once]
+    curves = [values[once, 0] + 1j * values[once, 1] for values in vectors]
+    for curve, name, look in zip(curves, names, series(ax, len(curves), style), strict=True):
+        (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=name, **look)
+        if not curve.any():
+            continue
+        for angle in ARROWS:
+            place = int(np.searchsorted(theta, angle))
+            if 0 < place < len(theta):
+                arrow_at(ax, curve, place, line.get_color())
+        dots = _places(theta, DOTS, period)
+        ax.plot(curve.real[dots], curve.imag[dots], "o", color=line.get_color(), markersize=3.5)
+    scale_plane(ax, 1.4)  # room for the angles
+    if alone:  # of several curves, numbers would not say whose they are
+        for where_to, angles in _labelled(theta, curves[0], period):
+            _annotate(ax, where_to, angles)
+
+
+def _places(theta: NDArray[np.float64], step: float, period: float) -> NDArray[np.intp]:
+    """Return the places of multiples of a step in the first period."""
+    angles = np.round(theta / step) * step
+    within = (abs(theta - angles) < 1e-9) & (theta - theta.min(initial=np.inf) < period - 1e-9)
+    return np.flatnonzero(within)
+
+
+def _labelled(
+    theta: NDArray[np.float64], curve: NDArray[np.complex128], period: float
+) -> Iterator[tuple[complex, str]]:
+    """Yield points and the crank angles at which the curve passes them."""
+    near = SAME * float(abs(curve).max(initial=0.0))
+    rest = list(_places(theta, LABELS, period)) if near else []
+    while rest:
+        here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
+        yield complex(curve[rest[0]]), ", ".join(in_degrees(float(theta[k])) for k in here)
+        rest = [place for place in rest if place not in here]
+
+
+def _annotate(ax: Axes, point: complex, text: str) -> None:
+    """Write beside a point, on the side away from the centre."""
+    outward = point / abs(point) if point else 1.0 + 0.0j
+    ax.annotate(
+        text,
+        (point.real, point.imag),
+        (11.0 * outward.real, 11.0 * outward.imag),
+        textcoords="offset points",
+        fontsize="small",
+        color=foreground(ax),
+        ha="center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right",
+        va="center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top",
     )
 
 

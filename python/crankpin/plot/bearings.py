@@ -1,0 +1,157 @@
+"""Loads inside an engine: polar load diagrams, curves over crank angle, bending along z."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.quantities import LOADS
+from crankpin.analysis.bearings import PARTS, BearingLoads
+from crankpin.plot.dispatch import picture
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
+from crankpin.plot.plane import trace
+from crankpin.plot.style import SERIES, count_series, muted, series
+from crankpin.plot.ticks import degrees, from_zero, numeric, span
+from crankpin.plot.words import number
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from matplotlib.axes import Axes
+
+ALONG = {
+    "engine": ("along x", "along y"),
+    "crank": ("along the throw, outwards", "ahead of it"),
+    "rod": ("along the rod, to the wrist pin", "across it, ahead"),
+}
+"""Axes of a load → their names."""
+
+
+def polar(
+    result: BearingLoads,
+    ax: Axes | None = None,
+    *,
+    load: str = "main",
+    numbers: Iterable[int] | None = None,
+    axes: str = "engine",
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    """Draw the tips of the loads of bearings."""
+    vectors = result.turned(load, axes)
+    places = _places(numbers, len(vectors))
+    ax = axes_or_new(ax)
+    _entitle(result, ax, f"{LOADS[load].words} loads")
+    names = _names(load, places, label)
+    period = 180.0 * result.engine.strokes if result.gas_force.any() else 360.0
+    trace(ax, result.theta_deg, [vectors[k] for k in places], names, style, period)
+    along, across = ALONG[axes]
+    label_x(ax, f"{along}, N")
+    label_y(ax, f"{across}, N")
+    add_legend(ax)
+    return ax
+
+
+def curves(
+    result: BearingLoads,
+    ax: Axes | None = None,
+    *,
+    load: str = "main",
+    numbers: Iterable[int] | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    """Draw the magnitudes of bearing loads over crank angle; of other loads, their values."""
+    kind = LOADS[inputs.one_of("load", load, LOADS)]
+    values = result.magnitude(load) if kind.planar else result.read(load)
+    places = _places(numbers, len(values))
+    ax = axes_or_new(ax)
+    where = kind.components[0] if not kind.planar else "magnitude"
+    _entitle(result, ax, f"{kind.words}, {where}")
+    looks = series(ax, len(places), style)
+    for k, look, name in zip(places, looks, _names(load, places, label), strict=True):
+        ax.plot(result.theta_deg, values[k], gid=SERIES, label=name, **look)
+    ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
+    degrees(ax.xaxis)
+    span(ax, result.theta_deg)
+    numeric(ax.yaxis)
+    label_x(ax, "crank angle θ")
+    label_y(ax, f"{kind.words}, N")
+    if not values.any():
+        note_zero(ax)
+    add_legend(ax)
+    return ax
+
+
+def bending(
+    result: BearingLoads,
+    ax: Axes | None = None,
+    *,
+    part: str | None = None,
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Axes:
+    """Draw the largest bending moments along z, with the main bearings."""
+    parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
+    ax = axes_or_new(ax)
+    first = not count_series(ax)
+    _entitle(result, ax, f"largest bending moment at {len(result.theta_deg)} crank angles")
+    for each, look in zip(parts, series(ax, len(parts), style), strict=True):
+        moments = result.bending(each)
+        largest = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
+        name = ", ".join(filter(None, [label, each if label is None or part is None else ""]))
+        ax.plot(result.z, largest, gid=SERIES, label=name, **look)
+    ends = [float(np.max(line.get_ydata())) for line in ax.lines if line.get_gid() == SERIES]
+    from_zero(ax, max(ends, default=0.0))
+    if first:
+        look = {"color": muted(ax, 0.5), "linewidth": 0.8, "zorder": 1, "gid": "crankpin mains"}
+        ax.vlines(result.engine.mains, 0.0, 1.0, transform=ax.get_xaxis_transform(), **look)
+    span(ax, result.z)
+    numeric(ax.xaxis)
+    numeric(ax.yaxis)
+    label_x(ax, "z, m (lines: main bearings)")
+    label_y(ax, "bending moment, N·m")
+    if not any(ends):
+        note_zero(ax)
+    add_legend(ax)
+    return ax
+
+
+def _entitle(result: BearingLoads, ax: Axes, what: str) -> None:
+    set_title(ax, labels.name_of(result.engine), f"{what}, {number(result.rpm)} rpm")
+
+
+def _places(numbers: Iterable[int] | None, count: int) -> list[int]:
+    """Return the places in a list of bearings or cylinders that are numbered from 1."""
+    if numbers is None:
+        return list(range(count))
+    hint = f"give whole numbers from 1 to {count}"
+    listed = [inputs.whole("numbers", each) for each in inputs.items("numbers", numbers, hint)]
+    if not listed or not all(1 <= each <= count for each in listed):
+        raise InputError(f"numbers = {inputs.shorten(listed)}: {hint}")
+    return [each - 1 for each in listed]
+
+
+def _names(load: str, places: list[int], label: str | None) -> list[str]:
+    """Return the entries of a legend."""
+    if label is not None and len(places) == 1:
+        return [label]
+    before = f"{label}, " if label else ""
+    return [f"{before}{LOADS[load].words} {place + 1}" for place in places]
+
+
+KINDS = {"polar": polar, "curves": curves, "bending": bending}
+
+
+@picture.register(BearingLoads)
+def _bearing_loads(
+    result: BearingLoads,
+    ax: Axes | None = None,
+    *,
+    kind: str = "polar",
+    **options: Any,  # noqa: ANN401 - of the kind
+) -> Axes:
+    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, **options)

@@ -1,0 +1,80 @@
+"""Are polar load diagrams, curves and bending the figures of the bearing loads?"""
+
+from __future__ import annotations
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+from plot.pictures import LOADED
+from plot.reading import heights, legend_texts, series, title_of
+
+
+def test_polar_diagrams_trace_the_loads_once() -> None:
+    ax = LOADED.plot(numbers=[3, 1])
+    assert legend_texts(ax) == ["main bearing 3", "main bearing 1"]
+    for line, expected in zip(series(ax), LOADED.main[[2, 0]], strict=True):
+        # Without gas a turn is all there is.
+        np.testing.assert_array_equal(line.get_xydata(), expected[:361])
+    assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm"
+    assert ax.get_aspect() == 1.0
+
+
+@pytest.mark.parametrize(
+    ("axes", "along"), [("crank", "along the throw"), ("rod", "along the rod")]
+)
+def test_crankpins_are_drawn_in_axes_that_turn(axes: str, along: str) -> None:
+    ax = LOADED.plot(load="crankpin", numbers=[2], axes=axes, label="a pin")
+    (line,) = series(ax)
+    expected = LOADED.turned("crankpin", axes)[1, :361]
+    np.testing.assert_array_equal(line.get_xydata(), expected)
+    assert ax.get_xlabel().startswith(along)
+    # Crank angles beside the only curve.
+    assert {"0°", "90°", "180°", "270°"} >= {text.get_text() for text in ax.texts} - {""}
+    assert line.get_label() == "a pin"
+
+
+def test_curves_are_magnitudes_of_vectors_and_values_of_others() -> None:
+    ax = LOADED.plot(kind="curves", load="wrist_pin")
+    np.testing.assert_array_equal(heights(ax), LOADED.magnitude("wrist_pin"))
+    ax = LOADED.plot(kind="curves", load="rod_force", numbers=[4])
+    np.testing.assert_array_equal(heights(ax)[0], LOADED.rod_force[3])
+    assert (heights(ax) < 0.0).any()
+
+
+def test_bending_is_drawn_along_z_with_the_main_bearings() -> None:
+    ax = LOADED.plot(kind="bending")
+    LOADED.replace(rpm=3000.0).plot(ax, kind="bending", part="crankcase", label="slow")
+    moments = [LOADED.bending(part) for part in ("crank", "crankcase")]
+    expected = [np.hypot(*np.moveaxis(each, -1, 0)).max(axis=1) for each in moments]
+    np.testing.assert_array_equal(heights(ax)[:2], expected)
+    np.testing.assert_allclose(heights(ax)[2], expected[1] / 4.0, rtol=1e-14, atol=1e-9)
+    assert legend_texts(ax) == ["crank", "crankcase", "slow"]
+    (mains,) = ax.collections
+    np.testing.assert_array_equal(
+        [line[0, 0] for line in mains.get_segments()], LOADED.engine.mains
+    )
+
+
+def test_an_engine_at_rest_says_so() -> None:
+    for kind in ("polar", "curves", "bending"):
+        texts = LOADED.replace(rpm=0.0).plot(kind=kind).texts
+        assert "zero throughout" in {text.get_text() for text in texts}
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"kind": "bars"}, "kind = 'bars': "),
+        ({"numbers": [0]}, r"numbers = \[0\]: give whole numbers from 1 to 5"),
+        ({"numbers": []}, r"numbers = \[\]: "),
+        ({"numbers": [5], "load": "crankpin"}, r"numbers = \[5\]: give whole numbers from 1 to 4"),
+        ({"load": "side_thrust"}, "load = 'side_thrust': "),
+        ({"kind": "curves", "load": "moment"}, "load = 'moment': "),
+        ({"kind": "bending", "part": "head"}, "part = 'head': "),
+        ({"axes": "rod"}, "axes = "),
+    ],
+)
+def test_errors_name_the_option(options: dict[str, object], message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        LOADED.plot(**options)
