@@ -399,7 +399,7 @@ impl Merit {
         removed: &[i32],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads = Loads::new(engine, engine.reference(None)?, Alike::Proportions, None);
+        let loads = Loads::new(engine, engine.reference(None)?, Alike::Proportions);
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];

@@ -24,7 +24,6 @@
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Hold, first_equal};
 use crate::gear::slider_crank::Cylinder;
-use crate::gear::spectrum::Spectrum;
 use crate::gear::{Gear, GearKind};
 use crate::numbers::angle::Angle;
 use crate::numbers::order::Order;
@@ -82,6 +81,25 @@ pub(crate) enum Harmonic {
     Rod(usize),
 }
 
+/// What a term scales with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scale {
+    /// The square of the speed of the crank, ω²: inertia.
+    Speed,
+    /// Nothing: gas pressure, whatever the speed.
+    #[expect(dead_code, reason = "of pressure")]
+    Given,
+}
+
+impl Harmonic {
+    /// What the terms of this harmonic scale with.
+    pub fn scale(self) -> Scale {
+        match self {
+            Self::One | Self::Force(_) | Self::Torque(_) | Self::Rod(_) => Scale::Speed,
+        }
+    }
+}
+
 /// Real factor of a load's unit phasor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Weight {
@@ -130,7 +148,7 @@ pub(crate) trait Arithmetic {
     );
 }
 
-/// Sums of the loads of one harmonic and bank at one order, over ω² and the harmonic.
+/// Sums of the loads of one harmonic and bank at one order, over the harmonic and what it scales with.
 #[derive(Debug, Clone)]
 pub(crate) struct Term<S> {
     pub harmonic: Harmonic,
@@ -319,10 +337,9 @@ pub(crate) struct Loads {
 }
 
 impl Loads {
-    /// Loads of an engine, whose slider-cranks a spectrum may replace: it is one gear for all, with
-    /// masses and radius in it.
-    pub fn new(engine: &Engine, reference: f64, alike: Alike, spectrum: Option<&Spectrum>) -> Self {
-        let cylinders = engine.gears();
+    /// Loads of an engine. A spectrum that it has is one gear for all, with masses and radius in it.
+    pub fn new(engine: &Engine, reference: f64, alike: Alike) -> Self {
+        let (cylinders, spectrum) = (engine.gears(), engine.spectrum());
         let alike_to = match (spectrum, alike) {
             (Some(_), _) => vec![0; cylinders.len()],
             (None, Alike::Proportions) => first_equal(cylinders.iter().map(Cylinder::proportions)),

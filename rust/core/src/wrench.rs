@@ -15,7 +15,7 @@ pub struct Planar {
     pub size: f64,
 }
 
-/// Roll torque of one order on the block and inertia torque on the crank, about +z.
+/// Roll torque of one order on the block and torque on the crank, about +z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Torque {
     /// On the block: peak phasor.
@@ -33,8 +33,10 @@ pub struct Wrench {
     pub force: Planar,
     /// Rocking moment about the reference point, N·m.
     pub moment: Planar,
-    /// Torques, N·m.
-    pub torque: Torque,
+    /// Torques of inertia, N·m.
+    pub inertia: Torque,
+    /// Torques of gas pressure, N·m.
+    pub gas: Torque,
 }
 
 /// Bound of the rounding error of a sum of `count` loads at order n, per unit of Σ|terms|.
@@ -122,6 +124,16 @@ impl Planar {
 }
 
 impl Torque {
+    /// Sum of two.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            roll: self.roll + other.roll,
+            crank: self.crank + other.crank,
+            size: self.size + other.size,
+        }
+    }
+
     /// The torques times a real factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
@@ -136,6 +148,23 @@ impl Torque {
 }
 
 impl Wrench {
+    /// The whole torques.
+    #[must_use]
+    pub fn torque(&self) -> Torque {
+        self.inertia.plus(&self.gas)
+    }
+
+    /// The wrench at a speed, of one whose parts by inertia are over ω².
+    #[must_use]
+    pub fn at_speed(&self, square: f64) -> Self {
+        Self {
+            force: self.force.scaled(square),
+            moment: self.moment.scaled(square),
+            inertia: self.inertia.scaled(square),
+            gas: self.gas,
+        }
+    }
+
     /// The same wrench with its moment about a point this far from the reference point, m.
     ///
     /// M′ = M − a × F: with a = (x, y, z), the moment in the cross-section loses i·z·F and the roll
@@ -145,8 +174,8 @@ impl Wrench {
         let mut moved = *self;
         moved.moment.add_scaled(&self.force.quarter_turned(), Complex64::new(-z, 0.0));
         let [force_x, force_y] = self.force.xy(0.0);
-        moved.torque.roll -= force_y * x - force_x * y;
-        moved.torque.size += self.force.size * (x.abs() + y.abs());
+        moved.inertia.roll -= force_y * x - force_x * y;
+        moved.inertia.size += self.force.size * (x.abs() + y.abs());
         moved
     }
 }
@@ -212,8 +241,8 @@ mod tests {
         let seen = at_force.moved([-0.1, 0.2, -0.5]);
         let [about_x, about_y] = seen.moment.xy(0.0);
         assert!((about_x + y * 0.5).norm() < 1e-15 && (about_y - x * 0.5).norm() < 1e-15);
-        assert!((seen.torque.roll - (y * 0.1 + x * 0.2)).norm() < 1e-15);
+        assert!((seen.inertia.roll - (y * 0.1 + x * 0.2)).norm() < 1e-15);
         let back = seen.moved([0.1, -0.2, 0.5]);
-        assert!(back.moment.peak() < 1e-15 && back.torque.roll.norm() < 1e-15);
+        assert!(back.moment.peak() < 1e-15 && back.inertia.roll.norm() < 1e-15);
     }
 }

@@ -197,7 +197,7 @@ fn a_window_has_the_angles_within_it() {
 #[track_caller]
 fn check(solution: &Solution, engine: &Engine, unit: f64, second_order: f64) {
     let orders = Orders::whole(&[1, 2]).unwrap();
-    let request = Request { rpm: 3000.0, reference_z: None, spectrum: None, torque: false };
+    let request = Request { rpm: 3000.0, reference_z: None, torque: false };
     let balance = balance(engine, &request, &orders, &Cancel::new()).unwrap();
     // Sums of fourteen terms, good to 1e-14 of the longest lever, 3.
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} is not {b} of {solution:?}");

@@ -17,8 +17,7 @@ use crankpin_core::{
 use proptest::prelude::*;
 
 const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 9];
-const REQUEST: Request =
-    Request { rpm: 3000.0, reference_z: Some(0.0), spectrum: None, torque: true };
+const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(0.0), torque: true };
 const VECTORS: [Vector; 2] = [Vector::Force, Vector::Moment];
 
 fn of(engine: &Engine) -> Balance {
@@ -32,7 +31,7 @@ fn auto(engine: &Engine, request: &Request, rtol: f64) -> crankpin_core::Result<
 /// Roll torque, order by order.
 fn rolls(balance: &Balance) -> impl Iterator<Item = Complex64> {
     assert!(balance.has_torque);
-    balance.wrenches.iter().map(|wrench| wrench.torque.roll)
+    balance.wrenches.iter().map(|wrench| wrench.torque().roll)
 }
 
 /// Size that rounding is relative to: Σ m r ω² (1 + |z|).
@@ -102,7 +101,7 @@ proptest! {
             let [a, b] = [&before, &after].map(|balance| &balance.wrenches[k]);
             same(a.force.forward * phase, b.force.forward, size(&engine));
             same(a.force.backward() * phase.conj(), b.force.backward(), size(&engine));
-            same(a.torque.roll * phase, b.torque.roll, size(&engine));
+            same(a.torque().roll * phase, b.torque().roll, size(&engine));
         }
     }
 
@@ -239,7 +238,7 @@ proptest! {
                     same(found, expected, size);
                 }
             }
-            let torque = balance.wrenches[k].torque;
+            let torque = balance.wrenches[k].torque();
             same(torque.roll, roll, size);
             same(torque.crank, crank, size);
             // The documented bound of rounding errors: a load for each piston and rotating mass.
@@ -371,7 +370,7 @@ proptest! {
             rpm: vec![rpm, 3000.0],
         };
         let cancel = Cancel::new();
-        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), None, &Cancel::new()).unwrap();
+        let sweep = Sweep::new(vec![engine.clone().into()], axes, whole(&ORDERS), Some(0.1), &Cancel::new()).unwrap();
         let phasors = |quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
         let (force, moment) = (phasors(Quantity::Force), phasors(Quantity::Moment));
         let torque = phasors(Quantity::Torque);
@@ -396,7 +395,7 @@ proptest! {
                     let peak = peaks[[0, i, 1, 2, 1, k, axis]];
                     same(peak.into(), phasor.norm().into(), size);
                 }
-                same(torque[[0, i, 1, 2, 1, k]], alone.wrenches[k].torque.roll, size);
+                same(torque[[0, i, 1, 2, 1, k]], alone.wrenches[k].torque().roll, size);
                 let longest = alone.planar(Vector::Force, k).peak();
                 same(vectors[[0, i, 1, 2, 1, k]].into(), longest.into(), size);
             }
@@ -412,7 +411,7 @@ proptest! {
             Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
-        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), None, &Cancel::new()).unwrap();
+        let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), &Cancel::new()).unwrap();
         let moment = sweep.phasors(Quantity::Moment, Figure::Amplitude, &Cancel::new()).unwrap();
         let alone = of(&engine);
         for k in 0..ORDERS.len() {
@@ -436,7 +435,7 @@ proptest! {
                 rpm: vec![3000.0],
             };
             let engines = vec![engine.clone().into(), engine.clone().into()];
-            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, None, &Cancel::new()).unwrap();
+            let sweep = Sweep::new(engines, axes, whole(&[1, 2, 4]), None, &Cancel::new()).unwrap();
             sweep.peaks(Quantity::Moment, Figure::Sum, &Cancel::new()).unwrap()
         };
         let whole = sweep(&angles);
@@ -530,8 +529,8 @@ fn a_spectrum_stands_in_for_the_rods() {
     let turning = changed(&engine, |p| Placement { rotating_mass: 1.0, ..*p });
     let amplitudes = [(2, 0.2), (4, 1e-6), (6, 0.0)];
     let spectrum = Spectrum::new(amplitudes.map(|(n, a)| (n, Complex64::new(a, 0.0)))).unwrap();
-    let request = Request { spectrum: Some(&spectrum), ..REQUEST };
-    let [still, turning] = [&engine, &turning].map(|engine| auto(engine, &request, 1e-3).unwrap());
+    let [still, turning] = [&engine, &turning]
+        .map(|engine| auto(&engine.with_spectrum(spectrum.clone()), &REQUEST, 1e-3).unwrap());
     assert_eq!((&still.orders, &still.omitted), (&whole(&[2]), &whole(&[4])));
     // Rotating mass acts at order 1, which the spectrum does not have.
     assert_eq!((turning.orders, turning.omitted), (whole(&[1, 2]), whole(&[4])));

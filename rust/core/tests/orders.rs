@@ -124,8 +124,8 @@ fn who_stops_waiting_is_told_at_once() {
     let placement = Placement { cylinder, tdc: zero, bank: zero, z: 0.0, rotating_mass: 0.0 };
     let engine = Engine::new("", "", vec![placement]).unwrap();
     let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
-    let spectrum = Some(&spectrum);
-    let request = Request { rpm: 1000.0, reference_z: None, spectrum, torque: false };
+    let engine = engine.with_spectrum(spectrum);
+    let request = Request { rpm: 1000.0, reference_z: None, torque: false };
     for orders in [Orders::whole(&[1]).unwrap(), Orders::Auto { rtol: 1e-3 }] {
         let found = balance::balance(&engine, &request, &orders, &stopped);
         assert_eq!(found.unwrap_err(), Error::Cancelled);

@@ -21,8 +21,15 @@ use proptest::prelude::*;
 const QUANTITIES: [Quantity; 4] =
     [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
 const REFERENCE: f64 = 0.07;
-const REQUEST: Request =
-    Request { rpm: 3000.0, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(REFERENCE), torque: true };
+
+/// The engine with the force of its cylinders given, if one is.
+fn given(engine: &Arc<Engine>, spectrum: Option<&Spectrum>) -> Arc<Engine> {
+    spectrum.map_or_else(
+        || Arc::clone(engine),
+        |spectrum| Arc::new(engine.with_spectrum(spectrum.clone())),
+    )
+}
 
 fn sweep(
     engines: &[Arc<Engine>],
@@ -31,15 +38,8 @@ fn sweep(
     spectrum: Option<&Spectrum>,
 ) -> Sweep {
     let reference = Some(REFERENCE);
-    Sweep::new(
-        engines.to_vec(),
-        axes.clone(),
-        whole(orders),
-        reference,
-        spectrum.cloned(),
-        &Cancel::new(),
-    )
-    .unwrap()
+    let engines = engines.iter().map(|engine| given(engine, spectrum)).collect();
+    Sweep::new(engines, axes.clone(), whole(orders), reference, &Cancel::new()).unwrap()
 }
 
 fn phasors(sweep: &Sweep, quantity: Quantity, figure: Figure) -> Vec<Complex64> {
@@ -88,7 +88,7 @@ impl OfBalance {
                     _ => torque.crank,
                 };
                 let phasors: Vec<_> =
-                    balance.wrenches.iter().map(|wrench| of(&wrench.torque)).collect();
+                    balance.wrenches.iter().map(|wrench| of(&wrench.torque())).collect();
                 return Self {
                     turning: phasors.iter().map(|&p| [p, Complex64::default()]).collect(),
                     bounds: all.map(|k| balance.torque_zero_bound(k)).collect(),
@@ -136,10 +136,10 @@ fn each_point_is_a_balance(
             let request = Request {
                 rpm: axes.rpm[0],
                 reference_z: Some(REFERENCE),
-                spectrum,
                 torque: spectrum.is_none(),
             };
-            let balance = by_orders(&there(engine, &axes), &request, orders);
+            let placed = given(&there(engine, &axes).into(), spectrum);
+            let balance = by_orders(&placed, &request, orders);
             let OfBalance { phasors: expected, turning, bounds, lengths } =
                 OfBalance::new(&balance, quantity);
             let width = orders.len() * count;
@@ -182,7 +182,7 @@ fn each_point_is_a_balance(
                 let peak = finder.of_vector(&of(0), &of(1), &Cancel::new()).unwrap();
                 assert!((longest[point] - peak).abs() <= slack, "{context}");
             }
-            let only = sweep(&[Arc::clone(engine)], &axes, orders, spectrum);
+            let only = sweep(&[Arc::clone(&engines[place[0]])], &axes, orders, spectrum);
             assert_eq!(phasors(&only, quantity, Figure::Amplitude), found, "{context}");
             assert_eq!(phasors(&only, quantity, Figure::Turning), parts, "{context}");
             for (figure, all) in figures.into_iter().zip(&all) {
@@ -457,10 +457,9 @@ fn as_much_as_rounding_can_leave_is_zero() {
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let of = |reference: f64| {
         let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
-        let (engines, spectrum) = (vec![Arc::clone(&engine)], Some(spectrum.clone()));
+        let engines = vec![given(&engine, Some(&spectrum))];
         let sweep =
-            Sweep::new(engines, axes, whole(&[1]), Some(reference), spectrum, &Cancel::new())
-                .unwrap();
+            Sweep::new(engines, axes, whole(&[1]), Some(reference), &Cancel::new()).unwrap();
         peaks(&sweep, Quantity::Moment, Figure::Amplitude)[1]
     };
     assert_eq!(of(reference), 0.0);
@@ -475,8 +474,8 @@ fn refusal(result: Result<impl Sized, Error>) -> String {
 }
 
 fn new(axes: &Axes, orders: &[u32], spectrum: Option<Spectrum>) -> Result<Sweep, Error> {
-    let engines = vec![plain(), mixed()];
-    Sweep::new(engines, axes.clone(), whole(orders), None, spectrum, &Cancel::new())
+    let engines = [plain(), mixed()].map(|engine| given(&engine, spectrum.as_ref())).to_vec();
+    Sweep::new(engines, axes.clone(), whole(orders), None, &Cancel::new())
 }
 
 #[test]
@@ -485,10 +484,10 @@ fn values_that_cannot_be_are_refused() {
     assert!(new(&good, &[1], None).is_ok());
     assert!(refusal(new(&good, &[], None)).contains("orders"));
     assert!(refusal(new(&good, &[2, 2], None)).contains("orders"));
-    let no_engine = Sweep::new(vec![], good.clone(), whole(&[1]), None, None, &Cancel::new());
+    let no_engine = Sweep::new(vec![], good.clone(), whole(&[1]), None, &Cancel::new());
     assert!(refusal(no_engine).starts_with("engines = []"));
     let engines = vec![plain()];
-    let far = Sweep::new(engines, good.clone(), whole(&[1]), Some(f64::NAN), None, &Cancel::new());
+    let far = Sweep::new(engines, good.clone(), whole(&[1]), Some(f64::NAN), &Cancel::new());
     assert!(refusal(far).contains("reference_z"));
 
     // Behind many that can be.
@@ -515,8 +514,7 @@ fn values_that_cannot_be_are_refused() {
         assert!(refusal(new(&axes, &[1], None)).starts_with(told), "{told}");
     }
     let axes = Axes { bank_angle: Some((vec![60.0], Hold::Pins)), ..good.clone() };
-    let no_banks =
-        Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, None, &Cancel::new());
+    let no_banks = Sweep::new(vec![plain(), in_line()], axes, whole(&[1]), None, &Cancel::new());
     assert!(
         refusal(no_banks)
             .starts_with("bank_angle_deg is undefined for this engine: it has one bank")
@@ -690,12 +688,10 @@ fn whoever_no_longer_waits_is_told_so() {
     };
     let engines = || vec![plain(), mixed()];
     let stopped = |result: Result<_, Error>| result.err() == Some(Error::Cancelled);
-    assert!(stopped(
-        Sweep::within(1e-3, engines(), axes.clone(), None, None, true, &raised).map(drop)
-    ));
+    assert!(stopped(Sweep::within(1e-3, engines(), axes.clone(), None, true, &raised).map(drop)));
     let speeds = Axes { rpm: vec![3000.0, 1000.0], ..Axes::default() };
     for axes in [axes, speeds] {
-        let made = Sweep::new(engines(), axes.clone(), whole(&[1]), None, None, &raised);
+        let made = Sweep::new(engines(), axes.clone(), whole(&[1]), None, &raised);
         assert!(stopped(made.map(drop)));
         let sweep = new(&axes, &[1, 2], None).unwrap();
         for quantity in QUANTITIES {
@@ -782,7 +778,7 @@ fn square(rpm: f64) -> f64 {
 fn few_orders_are_chosen(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> Sweep {
     let cancel = Cancel::new();
     let (all, reference) = (engines.to_vec(), Some(REFERENCE));
-    let chosen = Sweep::within(rtol, all, axes.clone(), reference, None, torque, &cancel).unwrap();
+    let chosen = Sweep::within(rtol, all, axes.clone(), reference, torque, &cancel).unwrap();
     assert_eq!(chosen.shape(), sweep(engines, axes, &[1], None).shape());
     let known = |quantity| chosen.peaks(quantity, Figure::Sum, &cancel).is_ok();
     assert_eq!(QUANTITIES.map(known), [true, true, torque, torque]);
@@ -990,7 +986,7 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
         let placements = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
         let engine = Arc::new(Engine::new("", "", placements).unwrap());
         let (axes, cancel) = (axes.clone(), Cancel::new());
-        Sweep::within(rtol, vec![engine], axes, Some(REFERENCE), None, false, &cancel).unwrap()
+        Sweep::within(rtol, vec![engine], axes, Some(REFERENCE), false, &cancel).unwrap()
     };
     // A boxer pair in one plane: nothing at all. And half a turn apart in line order 2 is two thirds of
     // m·r·ω², and may be left out.
@@ -1034,9 +1030,8 @@ fn few_orders_of_a_spectrum_are_chosen() {
     let upright = Arc::new(Engine::new("", "", vec![upright]).unwrap());
     let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
     let chosen = |engine: &Arc<Engine>, rtol: f64, spectrum: &Spectrum| {
-        let (engines, spectrum) = (vec![Arc::clone(engine)], Some(spectrum.clone()));
-        let cancel = Cancel::new();
-        Sweep::within(rtol, engines, axes.clone(), Some(REFERENCE), spectrum, true, &cancel)
+        let (engines, cancel) = (vec![given(engine, Some(spectrum))], Cancel::new());
+        Sweep::within(rtol, engines, axes.clone(), Some(REFERENCE), true, &cancel)
     };
     let one = chosen(&upright, 2e-3, &spectrum).unwrap();
     assert_eq!((one.orders(), one.omitted()), (&whole(&[1, 6])[..], &whole(&[3, 4])[..]));
@@ -1053,6 +1048,6 @@ fn few_orders_of_a_spectrum_are_chosen() {
 
     assert!(refusal(chosen(&upright, 1.0, &only)).starts_with("rtol = 1"));
     let stiff = Axes { rod_ratio: Some(vec![0.3, 1.0 - 1e-12]), ..axes.clone() };
-    let stiff = Sweep::within(1e-6, vec![plain()], stiff, None, None, true, &Cancel::new());
+    let stiff = Sweep::within(1e-6, vec![plain()], stiff, None, true, &Cancel::new());
     assert!(matches!(stiff, Err(Error::TooManyOrders { .. })));
 }

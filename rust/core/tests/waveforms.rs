@@ -17,8 +17,7 @@ use crankpin_core::{
 
 const REFERENCE: f64 = 0.07;
 const RPM: f64 = 3000.0;
-const REQUEST: Request =
-    Request { rpm: RPM, reference_z: Some(REFERENCE), spectrum: None, torque: true };
+const REQUEST: Request = Request { rpm: RPM, reference_z: Some(REFERENCE), torque: true };
 
 fn square(rpm: f64) -> f64 {
     (rpm * std::f64::consts::TAU / 60.0).powi(2)
@@ -72,7 +71,7 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> Vec<f64> {
         let unit = Complex64::cis(n.number() * θ.to_radians());
         let mut phasors = [balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k)].concat();
         if balance.has_torque {
-            let torque = balance.wrenches[k].torque;
+            let torque = balance.wrenches[k].torque();
             phasors.extend([torque.roll, torque.crank]);
         }
         for (sum, phasor) in sums.iter_mut().zip(phasors) {
@@ -87,7 +86,9 @@ fn sums_of_orders_are_sums_of_orders() {
     let spectrum = Spectrum::new([(1, Complex64::new(0.02, 0.003)), (4, Complex64::i())]).unwrap();
     for engine in [mixed(), plain(), in_line(), weighted()] {
         for (spectrum, torque) in [(None, true), (None, false), (Some(&spectrum), true)] {
-            let request = Request { spectrum, torque, ..REQUEST };
+            let request = Request { torque, ..REQUEST };
+            let engine = spectrum
+                .map_or(engine.clone(), |s: &Spectrum| engine.with_spectrum(s.clone()).into());
             let given = Orders::whole(&[1, 4, 2, 7]).unwrap();
             let balance = by_orders(&engine, &request, &[1, 4, 2, 7]);
             for count in [1, 256, 257, 1300] {
@@ -152,10 +153,10 @@ fn chosen_orders_are_summed_or_too_many() {
     assert!(matches!(auto(&stiff, &REQUEST, 1e-6), Err(Error::TooManyOrders { .. })));
     // A spectrum is summed, however many orders it has, and has no kinematics.
     let spectrum = Spectrum::new((1..40).map(|n| (n, Complex64::new(1.0, 0.0)))).unwrap();
-    let request = Request { spectrum: Some(&spectrum), ..REQUEST };
-    let summed = auto(&one, &request, 1e-9).unwrap();
+    let one = one.with_spectrum(spectrum);
+    let summed = auto(&one, &REQUEST, 1e-9).unwrap();
     assert_eq!(summed.balance.unwrap().orders.len(), 39);
-    let refused = waveform::exact(&one, &request, &thetas, &cancel).unwrap_err();
+    let refused = waveform::exact(&one, &REQUEST, &thetas, &cancel).unwrap_err();
     assert!(refused.to_string().starts_with("spectrum = given"));
 }
 
@@ -201,7 +202,7 @@ const QUANTITIES: [Quantity; 4] =
     [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
 
 fn sweep(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) -> Sweep {
-    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), None, &Cancel::new())
+    Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), &Cancel::new())
         .unwrap()
 }
 
@@ -391,8 +392,8 @@ fn waveforms_of_a_sweep_have_their_refusals() {
     let angles = CrankAngles::new(&thetas(9)).unwrap();
     let with = |spectrum: Option<Spectrum>| {
         let reference = Some(REFERENCE);
-        Sweep::new(vec![plain()], axes.clone(), whole(&[1]), reference, spectrum, &Cancel::new())
-            .unwrap()
+        let engine = spectrum.map_or(plain(), |spectrum| plain().with_spectrum(spectrum).into());
+        Sweep::new(vec![engine], axes.clone(), whole(&[1]), reference, &Cancel::new()).unwrap()
     };
     let told = |sweep: &Sweep, quantity: Quantity, exact: bool, room: usize| {
         let mut out = vec![0.0; room];

@@ -8,7 +8,7 @@ use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen, python_error, spectrum};
+use crate::convert::{OrRaise, frozen, python_error};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -41,10 +41,9 @@ pub fn balance(
     torque: bool,
 ) -> PyResult<Balance> {
     let orders = self::orders(orders, rtol)?;
-    let spectrum = self::spectrum(spectrum)?;
-    let request = Request { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
-    let engine = &engine.get().0;
-    interrupt::run(py, |cancel| core::balance::balance(engine, &request, &orders, cancel))
+    let request = Request { rpm, reference_z, torque };
+    let engine = engine.get().with_spectrum(spectrum)?;
+    interrupt::run(py, |cancel| core::balance::balance(&engine, &request, &orders, cancel))
         .map(Balance)
 }
 
@@ -158,11 +157,11 @@ impl Balance {
     }
 
     fn roll_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
-        self.each(py, |k| self.0.wrenches[k].torque.roll)
+        self.each(py, |k| self.0.wrenches[k].torque().roll)
     }
 
     fn crank_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
-        self.each(py, |k| self.0.wrenches[k].torque.crank)
+        self.each(py, |k| self.0.wrenches[k].torque().crank)
     }
 
     /// Largest torque of all orders together, on the block or on the crank.

@@ -1,7 +1,6 @@
 //! Between Python's values and the core's: angles, cylinders, spectra, arrays, errors.
 
 use crankpin_core as core;
-use crankpin_core::Complex64;
 use crankpin_core::rational::Ratio;
 use ndarray::Dimension;
 use numpy::{Element, PyArray, PyArrayMethods};
@@ -108,11 +107,6 @@ pub fn cylinder((radius, rod, mass, offset, rod_inertia): Parts) -> PyResult<cor
     core::Cylinder::new(radius, rod, mass, offset)
         .and_then(|cylinder| cylinder.with_rod_inertia_excess(rod_inertia))
         .or_raise()
-}
-
-/// The core's spectrum from (order, amplitude) pairs.
-pub fn spectrum(terms: Option<Vec<(u32, Complex64)>>) -> PyResult<Option<core::Spectrum>> {
-    terms.map(core::Spectrum::new).transpose().or_raise()
 }
 
 /// A `NumPy` array that owns the values and cannot be written to.

@@ -4,9 +4,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::Error;
 use crankpin_core::engine::{Details, Hold, Placement, Shaft, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
+use crankpin_core::{Complex64, Error};
 use ndarray::Array1;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -99,6 +99,16 @@ fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
 }
 
 impl Engine {
+    /// The engine with a force given for every cylinder, order by order, if there is one.
+    pub fn with_spectrum(
+        &self,
+        spectrum: Option<Vec<(u32, Complex64)>>,
+    ) -> PyResult<Arc<core::Engine>> {
+        let Some(terms) = spectrum else { return Ok(Arc::clone(&self.0)) };
+        let spectrum = core::Spectrum::new(terms).or_raise()?;
+        Ok(Arc::new(self.0.with_spectrum(spectrum)))
+    }
+
     fn column<'py>(
         &self,
         py: Python<'py>,

@@ -8,7 +8,7 @@ use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyR
 use pyo3::prelude::*;
 
 use crate::balance::numbers;
-use crate::convert::{OrRaise, frozen, python_error, spectrum};
+use crate::convert::{OrRaise, frozen, python_error};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
 use crate::waveform::CrankAngles;
@@ -109,8 +109,8 @@ impl Sweep {
                 return Err(python_error(Error::value("hold", held, hint)));
             }
         };
-        let engines: Vec<_> = engines.into_iter().map(|engine| engine.0).collect();
-        let spectrum = self::spectrum(spectrum)?;
+        let engines = engines.iter().map(|engine| engine.with_spectrum(spectrum.clone()));
+        let engines = engines.collect::<PyResult<Vec<_>>>()?;
         let orders = orders.map(|orders| Order::all_whole(&orders)).transpose().or_raise()?;
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
@@ -125,9 +125,9 @@ impl Sweep {
                 rpm: memory::copied(rpm, cancel)?,
             };
             if let Some(orders) = orders {
-                return core::Sweep::new(engines, axes, orders, reference_z, spectrum, cancel);
+                return core::Sweep::new(engines, axes, orders, reference_z, cancel);
             }
-            core::Sweep::within(rtol, engines, axes, reference_z, spectrum, torque, cancel)
+            core::Sweep::within(rtol, engines, axes, reference_z, torque, cancel)
         })?;
         Ok(Self { sweep: if torque { sweep } else { sweep.without_torque() }, swept })
     }

@@ -53,7 +53,7 @@ impl Tolerances {
     ) -> PyResult<Self> {
         let distributions = [("normal", Distribution::Normal), ("uniform", Distribution::Uniform)];
         let distribution = choice("distribution", distribution, &distributions)?;
-        let request = Request { rpm, reference_z, spectrum: None, torque };
+        let request = Request { rpm, reference_z, torque };
         let engine = &engine.get().0;
         let plan = interrupt::run(py, |cancel| {
             core::tolerances::Tolerances::new(

@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::balance::{self, Balance};
-use crate::convert::{OrRaise, frozen, spectrum};
+use crate::convert::{OrRaise, frozen};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -46,16 +46,15 @@ pub fn waveform<'py>(
     spectrum: Option<Vec<(u32, Complex64)>>,
     torque: bool,
 ) -> PyResult<Parts<'py>> {
-    let engine = &engine.get().0;
+    let engine = engine.get().with_spectrum(spectrum)?;
     let thetas = theta_deg.as_slice()?;
-    let spectrum = self::spectrum(spectrum)?;
     let orders = balance::orders(orders, rtol)?;
     let waveform = interrupt::run(py, |cancel| {
-        let request = Request { rpm, reference_z, spectrum: spectrum.as_ref(), torque };
+        let request = Request { rpm, reference_z, torque };
         if !summed {
-            return core::waveform::exact(engine, &request, thetas, cancel);
+            return core::waveform::exact(&engine, &request, thetas, cancel);
         }
-        core::waveform::from_orders(engine, &request, thetas, &orders, cancel)
+        core::waveform::from_orders(&engine, &request, thetas, &orders, cancel)
     })?;
     Ok((
         frozen(py, waveform.force),

@@ -41,13 +41,13 @@ pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPa
 
 /// Phasor of an order of the roll torque on the block, over ω².
 pub fn roll_torque(engine: &Engine, order: u32, cancel: &Cancel) -> Result<Complex64> {
-    Ok(over_square(engine, order, true, cancel)?.torque.roll)
+    Ok(over_square(engine, order, true, cancel)?.inertia.roll)
 }
 
 fn over_square(engine: &Engine, order: u32, torque: bool, cancel: &Cancel) -> Result<Wrench> {
     // 1 rad/s
     let rpm = 30.0 / std::f64::consts::PI;
-    let request = Request { rpm, reference_z: None, spectrum: None, torque };
+    let request = Request { rpm, reference_z: None, torque };
     let found = balance(engine, &request, &Orders::whole(&[order])?, cancel)?;
     Ok(found.wrenches[0])
 }

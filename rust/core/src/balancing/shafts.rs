@@ -70,7 +70,7 @@ pub fn fit(
     let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
     for order in orders {
         let there = over_square(engine, order, true, cancel)?;
-        let (mut free, mut torque) = (Vec::new(), there.torque.roll);
+        let (mut free, mut torque) = (Vec::new(), there.inertia.roll);
         torque +=
             given.iter().filter(|(n, _)| *n == order).map(|(_, extra)| extra).sum::<Complex64>();
         for ratio in [order as i32, -(order as i32)] {

@@ -238,6 +238,10 @@ impl PartsEntry {
 
 impl EngineFile {
     fn of(engine: &Engine) -> Result<Self> {
+        if engine.spectrum().is_some() {
+            let hint = "is not part of an engine file; write the engine without it";
+            return Err(Error::value("spectrum", "given", hint));
+        }
         let each = engine.placements().iter().zip(engine.details());
         let parts: Vec<PartsEntry> =
             each.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();

@@ -3,14 +3,18 @@
 //! Cylinders refer to their running gear and their bank by index, so that being alike is no matter
 //! of comparing numbers and a vee at 0° stays a vee.
 
+mod banks;
 pub mod file;
 mod firing_order;
 pub mod layout;
 mod shaft;
 
+use self::banks::right_bank;
+pub use self::banks::{Banks, Hold, bank_angle_in_range};
 use self::layout::Strokes;
 pub use self::shaft::{Crank, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
+use crate::gear::spectrum::Spectrum;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -50,38 +54,6 @@ pub struct Details {
     pub rod: Option<[f64; 3]>,
 }
 
-/// What a change of bank angle leaves as it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hold {
-    /// The crank: crankpins keep their angles and the firing intervals change (the IJESC paper).
-    Pins,
-    /// The firing: every top dead centre stays and the pins are split as needed (Ito, Hattori).
-    Firing,
-}
-
-/// The two banks of a vee.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Banks {
-    /// Index of the bank at x > 0 where the vee stands upright.
-    pub right: usize,
-    /// Directions of the right bank and of the left, which is up to 180° ahead of it.
-    pub directions: [Angle; 2],
-}
-
-impl Banks {
-    /// Angle between the banks, up to 180°.
-    #[must_use]
-    pub fn angle(&self) -> Angle {
-        (self.directions[1] - self.directions[0]).reduced()
-    }
-
-    /// Direction half-way from the right bank to the left.
-    #[must_use]
-    pub fn bisector(&self) -> Angle {
-        (self.directions[0] + self.angle().half()).reduced()
-    }
-}
-
 /// Cylinders, in the order of their numbers, on one crankshaft, and the shafts that it drives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Engine {
@@ -94,6 +66,8 @@ pub struct Engine {
     gears: Vec<Cylinder>,
     /// Index of each cylinder's running gear.
     gear_of: Vec<usize>,
+    /// Force of every cylinder, masses and radius in it, in place of that of its slider-crank.
+    spectrum: Option<Spectrum>,
     /// Index of each cylinder's bank, in the order in which cylinders have them.
     bank_of: Vec<usize>,
     /// The right one of two banks.
@@ -167,6 +141,7 @@ impl Engine {
             placements,
             gears,
             gear_of,
+            spectrum: None,
             bank_of: first_equal(bank_keys.iter()),
             cranks: vec![Crank::MAIN],
             crank_of: vec![0; count],
@@ -219,6 +194,19 @@ impl Engine {
     #[must_use]
     pub fn gear_of(&self, cylinder: usize) -> usize {
         self.gear_of[cylinder]
+    }
+
+    /// Force given for every cylinder in place of that of its slider-crank.
+    #[must_use]
+    pub fn spectrum(&self) -> Option<&Spectrum> {
+        self.spectrum.as_ref()
+    }
+
+    /// The same engine with this force of every cylinder, over ω², in place of its slider-crank's; it
+    /// does not determine a torque.
+    #[must_use]
+    pub fn with_spectrum(&self, spectrum: Spectrum) -> Self {
+        Self { spectrum: Some(spectrum), ..self.clone() }
     }
 
     /// Directions of the banks; cylinders refer to them by index.
@@ -323,41 +311,6 @@ impl Engine {
     #[must_use]
     pub fn largest_crank_radius(&self) -> f64 {
         self.gears.iter().map(Cylinder::crank_radius).fold(0.0, f64::max)
-    }
-
-    /// The two banks of a vee.
-    pub fn banks(&self) -> Result<Banks> {
-        self.check_one_crank("bank_angle_deg")?;
-        let directions = self.bank_directions();
-        let Some(right) = self.right else {
-            let listed: Vec<String> = directions.iter().map(|bank| format!("{bank}°")).collect();
-            let count = match listed.len() {
-                1 => "one bank".to_owned(),
-                count => format!("{count} banks"),
-            };
-            return Err(Error::Undefined {
-                argument: "bank_angle_deg",
-                reason: format!("it has {count} ({}); exactly two are needed", listed.join(", ")),
-            });
-        };
-        Ok(Banks { right, directions: [directions[right], directions[1 - right]] })
-    }
-
-    /// The same engine with its two banks at another angle about the same bisector.
-    pub fn with_bank_angle(&self, bank_angle: Angle, hold: Hold) -> Result<Self> {
-        bank_angle_in_range(bank_angle.degrees())?;
-        let vee = self.banks()?;
-        let (middle, half) = (vee.bisector(), bank_angle.half());
-        let mut turned = self.clone();
-        for (i, place) in turned.placements.iter_mut().enumerate() {
-            let pin = place.pin();
-            let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
-            place.bank = bore.reduced();
-            if hold == Hold::Pins {
-                place.tdc = (place.bank - pin).reduced();
-            }
-        }
-        Ok(turned)
     }
 
     /// The same engine with its whole crank turned so that the first cylinder is at top dead
@@ -470,19 +423,6 @@ impl Engine {
     }
 }
 
-/// The right one of two banks: the other is up to 180° ahead of it.
-fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
-    let second = keys.iter().position(|key| *key != keys[0])?;
-    if keys.iter().any(|key| *key != keys[0] && *key != keys[second]) {
-        return None;
-    }
-    let (first, other) = (placements[0].bank, placements[second].bank);
-    Some(match (other - first).reduced().degrees() {
-        0.0 | 180.0 => usize::from(keys[second] < keys[0]),
-        ahead => usize::from(ahead > 180.0),
-    })
-}
-
 /// Rejects a list that has not one entry for each cylinder.
 fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<()> {
     if found == expected {
@@ -519,14 +459,6 @@ fn index_of<T: PartialEq + Copy>(list: &mut Vec<T>, value: &T) -> usize {
         list.push(*value);
         list.len() - 1
     })
-}
-
-/// A bank angle from 0° to 180°.
-pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
-    if (0.0..=180.0).contains(&degrees) {
-        return Ok(degrees);
-    }
-    Err(Error::figure("bank_angle_deg", degrees, "give degrees between 0 and 180"))
 }
 
 #[cfg(test)]

@@ -82,12 +82,23 @@ impl Firing {
         let mut hint = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
         if can_list(count, strokes) {
             let possible = Self::all(engine, strokes, cancel)?;
-            let (listed, more) = distinct_orders(&possible);
-            let more = if more { ", …" } else { "" };
-            let listed = listed.join(", ");
-            hint = format!("{hint}. Possible orders, most even first: {listed}{more}");
+            hint = format!("{hint}. Possible orders, most even first: {}", listed(&possible));
         }
         Err(Error::value("firing_order", order, hint))
+    }
+
+    /// The way in which an engine fires: the most even one in its own firing order.
+    pub fn own(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
+        let strokes = engine.strokes();
+        if !engine.firing_order().is_empty() {
+            return Self::named(engine, &engine.firing_order().parse()?, strokes, cancel);
+        }
+        let mut hint = "the engine has none; give it one, such as 1-3-4-2".to_owned();
+        if can_list(engine.placements().len(), strokes) {
+            let possible = Self::all(engine, strokes, cancel)?;
+            hint = format!("{hint}. Possible orders, most even first: {}", listed(&possible));
+        }
+        Err(Error::value("firing_order", "None", hint))
     }
 
     /// The most even way for an engine to fire, if no other order is as even.
@@ -97,13 +108,11 @@ impl Firing {
     pub fn most_even(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
         let mut ways = Self::all(engine, strokes, cancel)?;
         let as_even = ways.iter().take_while(|way| unevenness(way) == unevenness(&ways[0])).count();
-        let (listed, more) = distinct_orders(&ways[..as_even]);
-        if listed.len() == 1 {
+        if distinct_orders(&ways[..as_even]).0.len() == 1 {
             return Ok(ways.swap_remove(0));
         }
-        let more = if more { ", …" } else { "" };
-        let hint =
-            format!("name one of the orders that are equally even: {}{more}", listed.join(", "));
+        let text = listed(&ways[..as_even]);
+        let hint = format!("name one of the orders that are equally even: {text}");
         Err(Error::value("firing_order", "None", hint))
     }
 
@@ -149,6 +158,12 @@ fn unevenness(firing: &Firing) -> u64 {
     (firing.unevenness() * 1e6).round() as u64
 }
 
+/// The first few distinct orders as a list.
+fn listed(firings: &[Firing]) -> String {
+    let (listed, more) = distinct_orders(firings);
+    listed.join(", ") + if more { ", …" } else { "" }
+}
+
 /// The first few distinct orders, shortened, and true if there are more.
 fn distinct_orders(firings: &[Firing]) -> (Vec<String>, bool) {
     let mut texts: Vec<String> = Vec::new();
@@ -169,6 +184,24 @@ mod tests {
     use super::super::engines::{cylinder, engine, figures, intervals, placed, vee};
     use super::*;
     use crate::layout::Side;
+
+    #[test]
+    fn the_phases_of_an_engine_are_dead_centres_in_the_turn_of_firing() {
+        // Crank angles of an inline-4 by its order, and of a vee with offset pins whose pistons are
+        // highest asin(e/(l + r)) later, half of them a turn later.
+        let four = placed(&[30.0, 210.0, 210.0, 30.0].map(|tdc| (cylinder(0.0), tdc, 90.0)));
+        let four = |order: &str| four.firing_as(order, Strokes::Four).map(Arc::new).unwrap();
+        let phases = |engine| figures(&Firing::own(&engine, &Cancel::new()).unwrap().phases());
+        assert_eq!(phases(four("1-3-4-2")), [30.0, 570.0, 210.0, 390.0]);
+        assert_eq!(phases(four("1-2-4-3")), [30.0, 210.0, 570.0, 390.0]);
+        let past = (0.02_f64 / 0.2).asin().to_degrees();
+        let mixed = [(cylinder(0.02), 700.0 - 360.0, 90.0), (cylinder(0.0), 340.0 + past, 90.0)];
+        let together = placed(&mixed).firing_as("1-2", Strokes::Four).unwrap();
+        assert_eq!(phases(Arc::new(together)), [340.0, (340.0 + past) % 360.0 + 360.0]);
+        let unknown = Firing::own(&four(""), &Cancel::new()).unwrap_err().to_string();
+        assert!(unknown.starts_with("firing_order = None: the engine has none"), "{unknown}");
+        assert!(unknown.contains("1-2-4-3, 1-3-4-2"), "{unknown}");
+    }
 
     #[test]
     fn an_order_within_one_turn_leaves_the_start_of_the_next_open() {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::tops::{Tops, degrees, highest_after_tdc, same, turns};
-use crate::engine::Engine;
+use crate::engine::{Engine, Placement};
 use crate::layout::Strokes;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -107,6 +107,24 @@ impl Firing {
         let first = &self.engine.placements()[0];
         let top = first.tdc + degrees(highest_after_tdc(first));
         self.times.iter().map(|&time| self.within(top.reduced() + time)).collect()
+    }
+
+    /// Crank angle at which each cylinder's crankpin points along its bore as it fires, by number,
+    /// within a cycle: its top dead centre in the turn in which it fires.
+    #[must_use]
+    pub fn phases(&self) -> Vec<Angle> {
+        let placements = self.engine.placements();
+        let first = &placements[0];
+        let phase = |(place, time): (&Placement, &Angle)| {
+            let after_first = (place.tdc - first.tdc).reduced();
+            // Tops are highest points: with pin offsets they lie beside the dead centres.
+            let past = highest_after_tdc(place) - highest_after_tdc(first);
+            let turn = (time.degrees() - past - after_first.degrees()) / 360.0;
+            self.within(
+                first.tdc.reduced() + after_first + turns((turn.round() as i64).rem_euclid(2)),
+            )
+        };
+        placements.iter().zip(&self.times).map(phase).collect()
     }
 
     /// True if all intervals are equal.

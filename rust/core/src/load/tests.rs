@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::Spectrum;
 use crate::engine::{Placement, Shaft, Unbalance};
 
 const REFERENCE: f64 = 0.03;
@@ -45,7 +46,7 @@ pub(crate) fn engine() -> Engine {
 }
 
 fn loads(engine: &Engine, alike: Alike) -> Loads {
-    Loads::new(engine, REFERENCE, alike, None)
+    Loads::new(engine, REFERENCE, alike)
 }
 
 fn whole(order: u32) -> Order {
@@ -103,7 +104,8 @@ fn pistons_alike_share_a_gear() {
     assert_eq!((count(Alike::Dimensions), count(Alike::Proportions)), (2, 1));
     // A spectrum has the masses in it.
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
-    let given = Loads::new(&engine(), REFERENCE, Alike::Proportions, Some(&spectrum));
+    let given =
+        Loads::new(&engine().with_spectrum(spectrum.clone()), REFERENCE, Alike::Proportions);
     assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1 }]);
     let weights = given.list.into_iter().map(|load| load.weight);
     assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);

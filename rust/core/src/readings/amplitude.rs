@@ -2,13 +2,14 @@
 
 use crate::Complex64;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::load::{Harmonic, Loads, Wanted};
+use crate::load::{Harmonic, Loads, Scale, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
 
-/// Wrenches over ω² of the given orders, in their order; what vanishes to within rounding is zero.
+/// Wrenches of the given orders, in their order, those of inertia over ω²; what vanishes to within
+/// rounding is zero.
 ///
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it.
 pub(crate) fn wrenches(
@@ -29,16 +30,22 @@ pub(crate) fn wrenches(
             let [force, moment] = term.planar();
             wrench.force.add_scaled(&force, on_force);
             wrench.moment.add_scaled(&moment, on_force);
-            wrench.torque.roll += term.roll.value * roll;
-            wrench.torque.crank += term.roll.value * crank;
-            wrench.torque.size += term.roll.size * roll.norm().max(crank.norm());
+            let torque = match term.harmonic.scale() {
+                Scale::Speed => &mut wrench.inertia,
+                Scale::Given => &mut wrench.gas,
+            };
+            torque.roll += term.roll.value * roll;
+            torque.crank += term.roll.value * crank;
+            torque.size += term.roll.size * roll.norm().max(crank.norm());
         }
         let factor = rounding(loads.list.len(), order.number());
         let snap = |vector: &Planar| vector.snapped(vector.size * factor);
         (wrench.force, wrench.moment) = (snap(&wrench.force), snap(&wrench.moment));
-        let bound = wrench.torque.size * factor;
-        for phasor in [&mut wrench.torque.roll, &mut wrench.torque.crank] {
-            *phasor = snapped(*phasor, bound);
+        for torque in [&mut wrench.inertia, &mut wrench.gas] {
+            let bound = torque.size * factor;
+            for phasor in [&mut torque.roll, &mut torque.crank] {
+                *phasor = snapped(*phasor, bound);
+            }
         }
         Ok(wrench)
     };

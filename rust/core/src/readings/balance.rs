@@ -2,7 +2,6 @@
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::spectrum::Spectrum;
 use crate::load::{Alike, Loads};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -35,14 +34,12 @@ impl Orders {
 
 /// Operating point and options of a balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Request<'a> {
+pub struct Request {
     /// Crank speed.
     pub rpm: f64,
     /// Plane about which moments are taken; by default half-way between the first and the last
     /// cylinder.
     pub reference_z: Option<f64>,
-    /// Replaces every cylinder's slider-crank.
-    pub spectrum: Option<&'a Spectrum>,
     /// Whether torques are wanted too.
     pub torque: bool,
 }
@@ -59,7 +56,7 @@ pub struct Balance {
     /// Bounds of what the orders left out add to force, moment and either torque at any crank
     /// angle; 0 for orders that were asked for by number.
     pub error_bound: [f64; 3],
-    /// Whether torque is known: it was wanted, and no spectrum of forces replaces the pistons.
+    /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,
     /// Number of loads, on which rounding depends.
     loads: usize,
@@ -93,7 +90,7 @@ impl Balance {
     /// Bound of the rounding error of the k-th order of torque.
     #[must_use]
     pub fn torque_zero_bound(&self, k: usize) -> f64 {
-        self.wrenches[k].torque.size * rounding(self.loads, self.orders[k].number())
+        self.wrenches[k].torque().size * rounding(self.loads, self.orders[k].number())
     }
 
     /// Peak phasors along (about) x and y of the k-th order.
@@ -118,8 +115,8 @@ impl Balance {
     /// Largest roll torque and crank torque of the sum of all orders.
     pub fn torque_peaks(&self, cancel: &Cancel) -> Result<[f64; 2]> {
         let finder = PeakFinder::new(&self.orders)?;
-        let roll: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.roll).collect();
-        let crank: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque.crank).collect();
+        let roll: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque().roll).collect();
+        let crank: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque().crank).collect();
         Ok([finder.along_axis(&roll, cancel)?, finder.along_axis(&crank, cancel)?])
     }
 
@@ -146,11 +143,10 @@ pub fn balance(
     orders: &Orders,
     cancel: &Cancel,
 ) -> Result<Balance> {
-    let Request { spectrum, torque, .. } = *request;
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
-    let torque = torque && spectrum.is_none();
-    let loads = Loads::new(engine, reference, Alike::Proportions, spectrum);
+    let torque = request.torque && engine.spectrum().is_none();
+    let loads = Loads::new(engine, reference, Alike::Proportions);
     let square = omega * omega;
     let mut balance = match orders {
         Orders::Given(orders) => {
@@ -178,9 +174,7 @@ pub fn balance(
         }
     };
     for wrench in &mut balance.wrenches {
-        wrench.force = wrench.force.scaled(square);
-        wrench.moment = wrench.moment.scaled(square);
-        wrench.torque = wrench.torque.scaled(square);
+        *wrench = wrench.at_speed(square);
     }
     Ok(balance)
 }

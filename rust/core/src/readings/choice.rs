@@ -189,7 +189,7 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
 
 /// Sizes of force, moment and the larger torque.
 fn sizes(wrench: &Wrench) -> [f64; 3] {
-    [wrench.force.peak(), wrench.moment.peak(), wrench.torque.peak()]
+    [wrench.force.peak(), wrench.moment.peak(), wrench.torque().peak()]
 }
 
 #[cfg(test)]
@@ -215,7 +215,7 @@ mod tests {
         };
         let share = |inertias: [f64; 2], motion: usize| {
             let engine = Engine::new("", "", inertias.map(place).to_vec()).unwrap();
-            let loads = Loads::new(&engine, 0.0, Alike::Proportions, None);
+            let loads = Loads::new(&engine, 0.0, Alike::Proportions);
             rod_share(&loads, motion, &[1.0, 1.0, 4.0])
         };
         assert_eq!(share([0.0, 0.0], 0), 0.0);

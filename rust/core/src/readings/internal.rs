@@ -230,7 +230,7 @@ impl<'a> Internal<'a> {
                 * load.phase.cis(-i64::from(load.ratio))
                 * (amount * square * f64::from(load.ratio * load.ratio)),
         };
-        let loads = Loads::new(engine, 0.0, Alike::Dimensions, None);
+        let loads = Loads::new(engine, 0.0, Alike::Dimensions);
         let (pistons, turn) = loads.list.split_at(engine.placements().len());
         let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
         let all = |loads: &[Load]| loads.iter().map(|load| turning(load, load.weight)).collect();

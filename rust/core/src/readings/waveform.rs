@@ -40,13 +40,13 @@ pub fn exact(
     theta_deg: &[f64],
     cancel: &Cancel,
 ) -> Result<Waveform> {
-    if request.spectrum.is_some() {
+    if engine.spectrum().is_some() {
         let hint = "exact kinematics needs the slider-crank; give orders, or \"auto\"";
         return Err(Error::value("spectrum", "given", hint));
     }
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
-    let loads = Loads::new(engine, reference, Alike::Proportions, None);
+    let loads = Loads::new(engine, reference, Alike::Proportions);
     let kinematics = Kinematics::new(&loads);
     let memory = in_blocks(theta_deg, request.torque, cancel, |angles, rows| {
         vectorised(
@@ -58,7 +58,7 @@ pub fn exact(
     memory.waveform(None, request.torque)
 }
 
-/// As a sum of orders; a spectrum may replace the slider-cranks.
+/// As a sum of orders.
 pub fn from_orders(
     engine: &Engine,
     request: &Request,
@@ -152,7 +152,7 @@ impl WaveformRows {
             let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
             let ([force_x, force_y], [moment_x, moment_y]) =
                 (balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k));
-            let torque = &balance.wrenches[k].torque;
+            let torque = &balance.wrenches[k].torque();
             let phasors = [force_x, force_y, moment_x, moment_y, torque.roll, torque.crank];
             for (column, phasor) in self.columns.iter_mut().zip(phasors) {
                 if phasor == Complex64::default() {
@@ -263,8 +263,7 @@ mod tests {
     #[test]
     fn exact_samples_are_the_sums_of_all_orders() {
         let engine = load::tests::engine();
-        let request =
-            Request { rpm: 1000.0, reference_z: Some(0.07), spectrum: None, torque: true };
+        let request = Request { rpm: 1000.0, reference_z: Some(0.07), torque: true };
         let theta_deg: Vec<f64> = (0..40).map(|k| 27.0 * f64::from(k)).collect();
         let exact = exact(&engine, &request, &theta_deg, &Cancel::new()).unwrap();
         let all = Orders::Auto { rtol: 1e-14 };

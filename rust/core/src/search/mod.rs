@@ -277,7 +277,7 @@ mod tests {
             let solution = search.solution(&angles, k).unwrap();
             assert_eq!(solution.bank_angle, degrees);
             let engine = solution.engine(cylinder, 0.1).unwrap();
-            let request = Request { rpm: 3000.0, reference_z: None, spectrum: None, torque: false };
+            let request = Request { rpm: 3000.0, reference_z: None, torque: false };
             let orders = crate::Orders::whole(&[1, 2]).unwrap();
             let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
             assert_eq!(found.planar(Vector::Moment, 0).backward(), Complex64::default());

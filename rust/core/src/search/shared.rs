@@ -87,7 +87,7 @@ mod tests {
         let one = Complex64::new(1.0, 0.0);
         let spectrum = Spectrum::new(vec![(1, one), (2, one)]).unwrap();
         let rpm = 30.0 / std::f64::consts::PI;
-        let request = Request { rpm, reference_z: None, spectrum: Some(&spectrum), torque: false };
+        let request = Request { rpm, reference_z: None, torque: false };
         let orders = Orders::whole(&[1, 2]).unwrap();
         let cylinder = Cylinder::new(1.0, 4.0, 1.0, 0.0).unwrap();
         for throws in 2..=7 {
@@ -101,7 +101,7 @@ mod tests {
                 assert_eq!((found.bank_angle, found.banks[0][0]), (90.0, 0));
                 assert!(last < found.banks[0]);
                 last.clone_from(&found.banks[0]);
-                let engine = found.engine(cylinder, 1.0).unwrap();
+                let engine = found.engine(cylinder, 1.0).unwrap().with_spectrum(spectrum.clone());
                 let summed = balance::balance(&engine, &request, &orders, &Cancel::new()).unwrap();
                 let first = summed.planar(Vector::Moment, 0);
                 // Sums of 14 terms of at most 3.

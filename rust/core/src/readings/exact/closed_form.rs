@@ -317,8 +317,7 @@ mod tests {
                         closed_form(&engine, order, moment, reference, &Cancel::new()).unwrap();
                     let rpm = 60.0 / std::f64::consts::TAU;
                     let orders = crate::Orders::whole(&[order]).unwrap();
-                    let request =
-                        Request { rpm, reference_z: reference, spectrum: None, torque: false };
+                    let request = Request { rpm, reference_z: reference, torque: false };
                     let found = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
                     let vector = if moment { Vector::Moment } else { Vector::Force };
                     let planar = found.planar(vector, 0);

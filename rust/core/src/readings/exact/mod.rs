@@ -60,7 +60,7 @@ impl TypedProportions {
 /// doubles may differ.
 fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
     engine.check_one_crank("an exact sum")?;
-    let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions, None);
+    let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions);
     let same = first_equal(loads.cylinders().iter().map(TypedProportions::of));
     for load in &mut loads.list {
         if let Source::Piston { gear, .. } = &mut load.source {

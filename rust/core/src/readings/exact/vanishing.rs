@@ -386,7 +386,7 @@ fn within_rounding(
     reference_z: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Vec<[bool; 9]>> {
-    let request = Request { rpm: 60.0, reference_z, spectrum: None, torque: true };
+    let request = Request { rpm: 60.0, reference_z, torque: true };
     let found = balance::balance(engine, &request, &Orders::Given(orders), cancel)?;
     Ok((0..found.orders.len())
         .map(|k| {
@@ -397,7 +397,7 @@ fn within_rounding(
                 [x, y, planar.forward, planar.backward_conj].map(|phasor| phasor == zero)
             };
             let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
-            [a, b, c, d, e, f, g, h, found.wrenches[k].torque.roll == zero]
+            [a, b, c, d, e, f, g, h, found.wrenches[k].torque().roll == zero]
         })
         .collect())
 }

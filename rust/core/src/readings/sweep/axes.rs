@@ -38,8 +38,8 @@ impl Axes {
         Ok(squares)
     }
 
-    /// Rejects values out of range, and axes that engines or a spectrum do not allow.
-    pub(super) fn check(&self, engines: &[Arc<Engine>], by_spectrum: bool) -> Result<()> {
+    /// Rejects values out of range, and axes that engines or their spectra do not allow.
+    pub(super) fn check(&self, engines: &[Arc<Engine>]) -> Result<()> {
         if let Some((angles, _)) = &self.bank_angle {
             length("bank_angle_deg", angles.len())?;
             angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
@@ -48,7 +48,7 @@ impl Axes {
         for (name, values) in [("rod_ratio", &self.rod_ratio), ("pin_offset", &self.pin_offset)] {
             let Some(values) = values else { continue };
             length(name, values.len())?;
-            if by_spectrum {
+            if engines.iter().any(|engine| engine.spectrum().is_some()) {
                 let cure = "a spectrum replaces the slider-crank: leave out one of the two";
                 return Err(Error::value(name, "swept together with a spectrum", cure));
             }

@@ -29,7 +29,6 @@ use super::{Axes, Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::spectrum::Spectrum;
 use crate::gear::{Gear, GearKind};
 use crate::load::{Harmonic, Loads};
 use crate::numbers::cancel::Cancel;
@@ -53,13 +52,11 @@ impl Sweep {
         engines: Vec<Arc<Engine>>,
         axes: Axes,
         reference_z: Option<f64>,
-        spectrum: Option<Spectrum>,
         torque: bool,
         cancel: &Cancel,
     ) -> Result<Self> {
         let rtol = limits::tolerance(rtol)?;
-        let mut sweep =
-            Self::new(engines, axes, vec![Order::FIRST], reference_z, spectrum, cancel)?;
+        let mut sweep = Self::new(engines, axes, vec![Order::FIRST], reference_z, cancel)?;
         sweep.torque &= torque;
         let torque = sweep.torque;
         let mut quantities = vec![Quantity::Force, Quantity::Moment];

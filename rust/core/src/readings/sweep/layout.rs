@@ -79,7 +79,7 @@ impl Sweep {
     /// Loads of an engine.
     pub(super) fn loads(&self, engine: usize) -> Loads {
         let reference = self.references[engine];
-        Loads::new(&self.engines[engine], reference, Alike::Dimensions, self.spectrum.as_ref())
+        Loads::new(&self.engines[engine], reference, Alike::Dimensions)
     }
 }
 

@@ -23,7 +23,6 @@ use self::block::Block;
 use self::kernel::{Job, Number};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::spectrum::Spectrum;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
@@ -68,7 +67,6 @@ pub struct Sweep {
     axes: Axes,
     orders: Vec<Order>,
     references: Vec<f64>,
-    spectrum: Option<Spectrum>,
     /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
     extremes: [Option<f64>; 2],
     /// ω² of each speed.
@@ -89,22 +87,20 @@ impl Sweep {
         axes: Axes,
         orders: Vec<Order>,
         reference_z: Option<f64>,
-        spectrum: Option<Spectrum>,
         cancel: &Cancel,
     ) -> Result<Self> {
         order::check_list(&orders)?;
         axes::not_empty("engines", engines.len())?;
         let squares = axes.squares(cancel)?;
-        axes.check(&engines, spectrum.is_some())?;
+        axes.check(&engines)?;
         let extremes = axes.check_geometry(&engines)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         Ok(Self {
             references: references.collect::<Result<_>>()?,
+            torque: engines.iter().all(|engine| engine.spectrum().is_none()),
             engines,
             axes,
             orders,
-            torque: spectrum.is_none(),
-            spectrum,
             extremes,
             squares,
             omitted: Vec::new(),
@@ -318,7 +314,7 @@ impl Sweep {
         if !matches!(quantity, Quantity::Torque | Quantity::CrankTorque) || self.torque {
             return Ok(());
         }
-        let reason = if self.spectrum.is_some() {
+        let reason = if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             "a force spectrum does not determine it; compute without `spectrum`"
         } else {
             "torque=False was given; leave it out"

@@ -106,7 +106,7 @@ impl Sweep {
     }
 
     fn by_kinematics(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
-        if self.spectrum.is_some() {
+        if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             let cure = "exact kinematics needs the slider-crank; sum orders";
             return Err(Error::value("spectrum", "given", cure));
         }
@@ -162,9 +162,9 @@ impl Sweep {
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Loads::new(&turned, reference, Alike::Dimensions, None)
+                Loads::new(&turned, reference, Alike::Dimensions)
             }
-            None => Loads::new(engine, reference, Alike::Dimensions, None),
+            None => Loads::new(engine, reference, Alike::Dimensions),
         };
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }

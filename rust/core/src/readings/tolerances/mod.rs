@@ -241,7 +241,7 @@ impl Tolerances {
                     out[k] = [x, y, planar.forward, planar.backward()];
                 }
                 if self.nominal.has_torque {
-                    let nominal = &self.nominal.wrenches[k].torque;
+                    let nominal = self.nominal.wrenches[k].torque();
                     let nominal = [nominal.roll, nominal.crank];
                     let sum = |which: usize| nominal[which] + sums.torque[which][i] * self.square;
                     torque[i * orders + k] = [sum(0), sum(1)];

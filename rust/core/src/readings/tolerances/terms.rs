@@ -69,7 +69,7 @@ impl Terms {
         let laden = engine.placements().iter().map(|p| Placement { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
-        let mut loads = Loads::new(&laden, reference, Alike::Dimensions, None);
+        let mut loads = Loads::new(&laden, reference, Alike::Dimensions);
         let of_cylinders = |is_piston| {
             let deviating = move |(i, &pin)| Deviating { pin, cylinder: Some(i), is_piston };
             pin_of.iter().enumerate().map(deviating).map(Some)

@@ -34,7 +34,7 @@ impl Totals {
         let planar = [Vector::Force, Vector::Moment].map(|vector| {
             [0, 1].map(|axis| orders.clone().map(move |k| nominal.xy(vector, k)[axis]))
         });
-        let torque = |k: usize| nominal.wrenches[k].torque;
+        let torque = |k: usize| nominal.wrenches[k].torque();
         let phasors = planar.into_iter().flatten().flatten();
         let phasors = phasors
             .chain(orders.clone().map(|k| torque(k).roll))

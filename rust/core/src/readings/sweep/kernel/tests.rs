@@ -39,8 +39,7 @@ fn cancellation_stops_at_the_next_block() {
             let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(PIECE) } else { 0 };
             let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
             let orders = vec![Order::whole(2).unwrap()];
-            let sweep =
-                Sweep::new(engines.clone(), axes, orders, None, None, &Cancel::new()).unwrap();
+            let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
             let run = |last: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
                 let shape = sweep.result_shape(Quantity::Force, Figure::Length);

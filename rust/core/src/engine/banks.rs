@@ -1,0 +1,95 @@
+//! The two banks of a vee, and the angle between them.
+
+use super::{Engine, Placement};
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+
+/// What a change of bank angle leaves as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hold {
+    /// The crank: crankpins keep their angles and the firing intervals change (the IJESC paper).
+    Pins,
+    /// The firing: every top dead centre stays and the pins are split as needed (Ito, Hattori).
+    Firing,
+}
+
+/// The two banks of a vee.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Banks {
+    /// Index of the bank at x > 0 where the vee stands upright.
+    pub right: usize,
+    /// Directions of the right bank and of the left, which is up to 180° ahead of it.
+    pub directions: [Angle; 2],
+}
+
+impl Banks {
+    /// Angle between the banks, up to 180°.
+    #[must_use]
+    pub fn angle(&self) -> Angle {
+        (self.directions[1] - self.directions[0]).reduced()
+    }
+
+    /// Direction half-way from the right bank to the left.
+    #[must_use]
+    pub fn bisector(&self) -> Angle {
+        (self.directions[0] + self.angle().half()).reduced()
+    }
+}
+
+impl Engine {
+    /// The two banks of a vee.
+    pub fn banks(&self) -> Result<Banks> {
+        self.check_one_crank("bank_angle_deg")?;
+        let directions = self.bank_directions();
+        let Some(right) = self.right else {
+            let listed: Vec<String> = directions.iter().map(|bank| format!("{bank}°")).collect();
+            let count = match listed.len() {
+                1 => "one bank".to_owned(),
+                count => format!("{count} banks"),
+            };
+            return Err(Error::Undefined {
+                argument: "bank_angle_deg",
+                reason: format!("it has {count} ({}); exactly two are needed", listed.join(", ")),
+            });
+        };
+        Ok(Banks { right, directions: [directions[right], directions[1 - right]] })
+    }
+
+    /// The same engine with its two banks at another angle about the same bisector.
+    pub fn with_bank_angle(&self, bank_angle: Angle, hold: Hold) -> Result<Self> {
+        bank_angle_in_range(bank_angle.degrees())?;
+        let vee = self.banks()?;
+        let (middle, half) = (vee.bisector(), bank_angle.half());
+        let mut turned = self.clone();
+        for (i, place) in turned.placements.iter_mut().enumerate() {
+            let pin = place.pin();
+            let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
+            place.bank = bore.reduced();
+            if hold == Hold::Pins {
+                place.tdc = (place.bank - pin).reduced();
+            }
+        }
+        Ok(turned)
+    }
+}
+
+/// The right one of two banks: the other is up to 180° ahead of it.
+pub(super) fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
+    let second = keys.iter().position(|key| *key != keys[0])?;
+    if keys.iter().any(|key| *key != keys[0] && *key != keys[second]) {
+        return None;
+    }
+    let (first, other) = (placements[0].bank, placements[second].bank);
+    Some(match (other - first).reduced().degrees() {
+        0.0 | 180.0 => usize::from(keys[second] < keys[0]),
+        ahead => usize::from(ahead > 180.0),
+    })
+}
+
+/// A bank angle from 0° to 180°.
+pub fn bank_angle_in_range(degrees: f64) -> Result<f64> {
+    if (0.0..=180.0).contains(&degrees) {
+        return Ok(degrees);
+    }
+    Err(Error::figure("bank_angle_deg", degrees, "give degrees between 0 and 180"))
+}
