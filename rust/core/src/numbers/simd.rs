@@ -21,31 +21,29 @@ pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64])
         let quarters = (degrees * (1.0 / 90.0) + ROUND) - ROUND;
         let x = (degrees - 90.0 * quarters) * RADIANS;
         let square = x * x;
-        let s = x + x
-            * square
-            * (-1.666_666_666_666_663_243e-1
-                + square
-                    * (8.333_333_333_322_489_46e-3
-                        + square
-                            * (-1.984_126_982_985_794_93e-4
-                                + square
-                                    * (2.755_731_370_707_006_77e-6
-                                        + square
-                                            * (-2.505_076_025_340_686_34e-8
-                                                + square * 1.589_690_995_211_550_1e-10)))));
-        let c = (1.0 - 0.5 * square)
-            + square
-                * square
-                * (4.166_666_666_666_660_19e-2
-                    + square
-                        * (-1.388_888_888_887_410_96e-3
-                            + square
-                                * (2.480_158_728_947_672_94e-5
-                                    + square
-                                        * (-2.755_731_435_139_066_33e-7
-                                            + square
-                                                * (2.087_572_321_298_174_83e-9
-                                                    + square * -1.135_964_755_778_819_48e-11)))));
+        let s = [
+            1.589_690_995_211_550_1e-10,
+            -2.505_076_025_340_686_34e-8,
+            2.755_731_370_707_006_77e-6,
+            -1.984_126_982_985_794_93e-4,
+            8.333_333_333_322_489_46e-3,
+            -1.666_666_666_666_663_243e-1,
+        ];
+        let c = [
+            -1.135_964_755_778_819_48e-11,
+            2.087_572_321_298_174_83e-9,
+            -2.755_731_435_139_066_33e-7,
+            2.480_158_728_947_672_94e-5,
+            -1.388_888_888_887_410_96e-3,
+            4.166_666_666_666_660_19e-2,
+        ];
+        let (mut of_sin, mut of_cos) = (s[0], c[0]);
+        for k in 1..6 {
+            of_sin = square.mul_add(of_sin, s[k]);
+            of_cos = square.mul_add(of_cos, c[k]);
+        }
+        let s = (x * square).mul_add(of_sin, x);
+        let c = (square * square).mul_add(of_cos, (-0.5_f64).mul_add(square, 1.0));
         // Quarters modulo 4 as −2, −1, 0, 1 (or 2): odd ones exchange sine and cosine.
         let rest = quarters - 4.0 * ((quarters * 0.25 + ROUND) - ROUND);
         let odd = rest.abs() == 1.0;

@@ -24,7 +24,7 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use super::harmonics::of;
-use super::layout::{Layout, LayoutSum};
+use super::layout::{Layout, LayoutSum, Swung};
 use super::{Axes, Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::Engine;
@@ -134,16 +134,19 @@ impl Sweep {
             found.map_or(Factor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
-            let (mut size, mut fixed, mut rounding) = (0.0, [Complex64::default(); 6], 0.0);
+            let (mut size, mut fixed, mut rounding) = (0.0, [Swung::default(); 2], 0.0);
             for sum in sums {
                 match factor(sum.harmonic, k) {
                     Factor::Fixed(amplitude) => {
                         rounding += sum.bound * amplitude.norm();
-                        let constants = fixed.iter_mut().zip(sum.constants);
-                        constants.for_each(|(total, constant)| *total += constant * amplitude);
+                        for (total, part) in fixed.iter_mut().zip(&sum.parts) {
+                            total.cos += part.cos * amplitude;
+                            total.sin += part.sin * amplitude;
+                            total.rest += part.rest * amplitude;
+                        }
                     }
                     Factor::AtMost(largest) => {
-                        size += times(span(&sum.constants, sum.bound), largest);
+                        size += times(span(&sum.parts, sum.bound), largest);
                     }
                 }
             }
@@ -232,15 +235,13 @@ enum Factor {
     AtMost(f64),
 }
 
-/// Largest size at any bank angle of sums A·cos mγ + B·sin mγ + K, forward and backward; zero where
-/// rounding is all there is.
-fn span(constants: &[Complex64; 6], rounding: f64) -> f64 {
-    let i = Complex64::i();
-    let part = |k: usize| {
-        let (a, b) = (constants[k], i * constants[2 + k]);
-        0.5 * ((a + b).norm() + (a - b).norm()) + constants[4 + k].norm()
+/// Largest size at any bank angle of both parts together; zero where rounding is all there is.
+fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
+    let part = |&Swung { cos, sin, rest }: &Swung| {
+        let sin = Complex64::i() * sin;
+        0.5 * ((cos + sin).norm() + (cos - sin).norm()) + rest.norm()
     };
-    let size = part(0) + part(1);
+    let size = parts.iter().map(part).sum();
     if size <= rounding { 0.0 } else { size }
 }
 

@@ -1,8 +1,10 @@
-//! The two factors of a sweep's sums: functions of the bank angle, and constants of an engine at
+//! The two factors of a sweep's sums: waves of half the bank angle, and coefficients of an engine at
 //! points of rod ratio and pin offset.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::block::LANES;
 use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
@@ -13,54 +15,80 @@ use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
-/// Functions of γ: cosine and sine for the forward part (or torque) and for the backward part.
-pub(super) const FUNCTIONS: usize = 4;
-/// Real and imaginary parts of A, B and K, forward and backward, and the bound of rounding errors.
-pub(super) const CONSTANTS: usize = 13;
+/// Columns of numbers, one after the other, each followed by room that a block may read.
+pub(super) struct Columns<const N: usize> {
+    pub values: Vec<f64>,
+    /// Numbers from the start of a column to that of the next one.
+    pub length: usize,
+}
 
-/// Functions of half the bank angle, by order, at some bank angles.
-///
-/// Columns one after the other.
-pub(super) struct Turning(pub Vec<Vec<f64>>);
+impl<const N: usize> Columns<N> {
+    pub fn zeros(count: usize) -> Result<Self> {
+        let length = count + LANES;
+        Ok(Self { values: memory::zeros(N * length)?, length })
+    }
 
-impl Turning {
-    pub fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Result<Self> {
-        let count = angles.len();
-        let Some((bank_angles, hold)) = &sweep.axes.bank_angle else {
-            // No bank turns: cosines of zero.
-            let ones = [1.0, 0.0, 1.0, 0.0].map(|value| std::iter::repeat_n(value, count));
-            let none: Vec<f64> = ones.into_iter().flatten().collect();
-            return Ok(Self(vec![none; sweep.orders.len()])); // bounded: one bank angle, 10 000 orders
-        };
-        let of_order = |&order: &crate::Order| {
-            let multiples = quantity.turn(order, *hold);
-            let mut functions: Vec<f64> = memory::zeros(FUNCTIONS * count)?;
-            let mut degrees: Vec<f64> = memory::zeros(count)?;
-            for (multiple, pair) in multiples.into_iter().zip(functions.chunks_mut(2 * count)) {
-                let (cos, sin) = pair.split_at_mut(count);
-                let half = 0.5 * multiple as f64;
-                for (out, angle) in degrees.iter_mut().zip(&bank_angles[angles.clone()]) {
-                    *out = half * angle;
-                }
-                vectorised(
-                    #[inline(always)]
-                    || sin_cos_degrees(&degrees, sin, cos),
-                );
-            }
-            Ok(functions)
-        };
-        Ok(Self(sweep.orders.iter().map(of_order).collect::<Result<_>>()?))
+    pub fn each(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.values.chunks_exact_mut(self.length)
     }
 }
 
-/// A, B, K and the bound of rounding errors, by order, of one engine at some points.
-pub(super) struct Constants {
-    /// Columns one after the other.
-    pub by_order: Vec<Vec<f64>>,
+/// Cosines and sines of multiples of half the bank angle, at some bank angles.
+pub(super) struct Waves {
+    pub waves: Vec<Columns<2>>,
+    /// Places of the waves of the forward part (or torque) and of the backward part, by order.
+    pub of_order: Vec<[usize; 2]>,
+    /// Number of bank angles.
+    pub angles: usize,
+}
+
+impl Waves {
+    pub fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Result<Self> {
+        let (mut waves, mut places) = (Vec::new(), BTreeMap::new());
+        let mut of_order = memory::room(sweep.orders.len())?;
+        let mut degrees: Vec<f64> = memory::zeros(angles.len())?;
+        for &order in &sweep.orders {
+            // No bank turns by 0 times an angle.
+            let bank_angle = sweep.axes.bank_angle.as_ref();
+            let multiples = bank_angle.map_or([0; 2], |(_, hold)| quantity.turn(order, *hold));
+            let mut place = [0; 2];
+            for (place, multiple) in place.iter_mut().zip(multiples.map(i64::unsigned_abs)) {
+                *place = *places.entry(multiple).or_insert(waves.len());
+                if *place < waves.len() {
+                    continue;
+                }
+                let mut wave = Columns::zeros(angles.len())?;
+                let (cos, sin) = wave.values.split_at_mut(wave.length);
+                let half = 0.5 * multiple as f64;
+                if multiple == 0 {
+                    cos.fill(1.0);
+                } else {
+                    for (out, angle) in degrees.iter_mut().zip(&sweep.bank_angles()[angles.clone()])
+                    {
+                        *out = half * angle;
+                    }
+                    vectorised(
+                        #[inline(always)]
+                        || sin_cos_degrees(&degrees, sin, cos),
+                    );
+                }
+                memory::push(&mut waves, wave)?;
+            }
+            of_order.push(place);
+        }
+        Ok(Self { waves, of_order, angles: angles.len() })
+    }
+}
+
+/// Layout sums times harmonics, by order, of one engine at some points.
+pub(super) struct Coefficients {
+    /// Real and imaginary parts of cos, sin and rest of the forward and of the backward part, and the
+    /// bound of rounding errors.
+    pub by_order: Vec<Columns<13>>,
     pub points: usize,
 }
 
-impl Constants {
+impl Coefficients {
     pub fn new(
         sweep: &Sweep,
         quantity: Quantity,
@@ -72,20 +100,22 @@ impl Constants {
         let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
-            let mut columns: Vec<f64> = memory::zeros(CONSTANTS * count)?;
+            let mut columns = Columns::zeros(count)?;
             for sum in sums {
                 let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };
-                let (constants, bounds) = columns.split_at_mut((CONSTANTS - 1) * count);
-                for (constant, pair) in sum.constants.iter().zip(constants.chunks_mut(2 * count)) {
-                    let (out_re, out_im) = pair.split_at_mut(count);
-                    if *constant == Complex64::default() {
+                let mut each = columns.each();
+                for coefficient in sum.parts.iter().flat_map(|part| [part.cos, part.sin, part.rest])
+                {
+                    let (Some(out_re), Some(out_im)) = (each.next(), each.next()) else { break };
+                    if coefficient == Complex64::default() {
                         continue;
                     }
                     for i in 0..count {
-                        out_re[i] += constant.re * re[i] - constant.im * im[i];
-                        out_im[i] += constant.re * im[i] + constant.im * re[i];
+                        out_re[i] += coefficient.re * re[i] - coefficient.im * im[i];
+                        out_im[i] += coefficient.re * im[i] + coefficient.im * re[i];
                     }
                 }
+                let bounds = each.next().unwrap_or_default();
                 for ((bound, re), im) in bounds.iter_mut().zip(re.iter()).zip(im.iter()) {
                     let length = if *im == 0.0 { re.abs() } else { re.hypot(*im) };
                     *bound += sum.bound * length;

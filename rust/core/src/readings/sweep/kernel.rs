@@ -2,7 +2,7 @@
 //!
 //! With the two banks at `bisector ∓ γ`, γ half the bank angle, a sum of one order is
 //! A·cos mγ + B·sin mγ + K: A and B from the loads of the right and the left bank, turned to the
-//! bisector, K from loads that belong to none. [`Turning`] holds the functions of γ, [`Constants`]
+//! bisector, K from loads that belong to none. [`Waves`] holds the functions of γ, [`Coefficients`]
 //! the sums times harmonics at points of rod ratio and pin offset; a row of the result is a
 //! combination of the two. Every number is evaluated by itself, whatever else is swept.
 
@@ -11,8 +11,8 @@ use std::ops::Mul;
 use bytemuck::Zeroable;
 use rayon::prelude::*;
 
-use super::block::{BLOCK, Block};
-use super::factors::{Constants, Turning};
+use super::block::{Block, LANES};
+use super::factors::{Coefficients, Waves};
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -23,10 +23,12 @@ use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 
-/// Numbers of functions and of constants held at a time.
+/// Numbers of waves and of coefficients held at a time.
 const SLAB: usize = 1 << 19;
 /// Most rows of a task.
 const PIECE: usize = 1024;
+/// Rows between two checks for cancellation.
+const STRETCH: usize = 128;
 
 /// What a result holds.
 pub(super) trait Number:
@@ -82,7 +84,7 @@ impl<F: Sync> Job<'_, F> {
         let (sweep, width) = (self.sweep, self.width);
         let (angles, points) = (sweep.bank_angles().len(), sweep.points());
         let piece = if self.slow { 8 } else { PIECE };
-        let slab = (SLAB / sweep.orders.len()).clamp(BLOCK, 1 << 14);
+        let slab = (SLAB / sweep.orders.len()).clamp(STRETCH, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let large = pool::worth(out.len() * if self.slow { 256 } else { 1 });
         let layout = |k: usize| {
@@ -95,15 +97,17 @@ impl<F: Sync> Job<'_, F> {
             self.each((0..sweep.engines.len()).collect(), large, layout)?;
         self.cancel.expect(sweep.engines.len() * angles * points);
         for angle_slab in slabs(angles) {
-            let turning = Turning::new(sweep, self.quantity, angle_slab.clone())?;
+            let waves = Waves::new(sweep, self.quantity, angle_slab.clone())?;
             for point_slab in slabs(points) {
-                let constants = |(gears, layout): &(Vec<Gear>, Layout)| {
+                let coefficients = |(gears, layout): &(Vec<Gear>, Layout)| {
                     let (quantity, points) = (self.quantity, point_slab.clone());
-                    Constants::new(sweep, quantity, (gears, layout), points, self.cancel)
+                    Coefficients::new(sweep, quantity, (gears, layout), points, self.cancel)
                 };
-                let constants = self.each(layouts.iter().collect(), large, constants)?;
+                let coefficients = self.each(layouts.iter().collect(), large, coefficients)?;
                 let mut tasks = Vec::new();
-                for (out, constants) in out.chunks_mut(angles * points * width).zip(&constants) {
+                for (out, coefficients) in
+                    out.chunks_mut(angles * points * width).zip(&coefficients)
+                {
                     let span = angle_slab.start * points..angle_slab.end * points;
                     let out = &mut out[span.start * width..span.end * width];
                     // Rows are contiguous over several bank angles where the slab has all points.
@@ -115,23 +119,22 @@ impl<F: Sync> Job<'_, F> {
                     for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
                         let rows = out[part.clone()].chunks_mut(piece * width).enumerate();
                         let first = |k| run * point_slab.len() + k * piece;
-                        tasks.extend(rows.map(|(k, rows)| (constants, first(k), rows)));
+                        tasks.extend(rows.map(|(k, rows)| (coefficients, first(k), rows)));
                     }
                 }
                 let work =
-                    |block: &mut Block, (constants, first, out): (&Constants, usize, &mut [T])| {
-                        for (k, out) in out.chunks_mut(BLOCK * width).enumerate() {
+                    |block: &mut Block, (coefficients, first, out): (&Coefficients, usize, &mut [T])| {
+                        for (k, out) in out.chunks_mut(STRETCH * width).enumerate() {
                             self.cancel.check()?;
-                            let first = first + k * BLOCK;
                             vectorised(
                                 #[inline(always)]
                                 || {
-                                    block.evaluate(
-                                        &turning,
-                                        constants,
-                                        first..first + out.len() / width,
-                                    );
-                                    (self.finish)(block, factor, out)
+                                    for (j, out) in out.chunks_mut(LANES * width).enumerate() {
+                                        let row = first + k * STRETCH + j * LANES;
+                                        block.evaluate(&waves, coefficients, row);
+                                        (self.finish)(block, factor, out)?;
+                                    }
+                                    Ok(())
                                 },
                             )?;
                         }

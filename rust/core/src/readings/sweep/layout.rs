@@ -12,10 +12,20 @@ use crate::wrench::rounding;
 #[derive(Clone, Default)]
 pub(super) struct LayoutSum {
     pub harmonic: Harmonic,
-    /// A, B and K as the kernel has them, each forward and backward.
-    pub constants: [Complex64; 6],
+    /// Forward part and conjugate of the backward part, or torque and nothing.
+    pub parts: [Swung; 2],
     /// Bound of the rounding error.
     pub bound: f64,
+}
+
+/// A sum with the two banks at `bisector ∓ γ`: cos·cos(|m|γ) + sin·sin(|m|γ) + rest, m being the
+/// multiple by which the part turns with its bank.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Swung {
+    pub cos: Complex64,
+    pub sin: Complex64,
+    /// Of loads that belong to no bank.
+    pub rest: Complex64,
 }
 
 /// Layout sums of one engine and quantity, order by order.
@@ -53,21 +63,21 @@ impl Sweep {
                     let sum = sum_of(&mut sums, term.harmonic);
                     sum.bound += (parts[0].size + parts[1].size) * rounding;
                     let Some((bank, (right, to_bisector, hold))) = term.bank.zip(vee) else {
-                        sum.constants[4] += parts[0].value;
-                        sum.constants[5] += parts[1].value;
+                        sum.parts.iter_mut().zip(parts).for_each(|(k, part)| k.rest += part.value);
                         continue;
                     };
                     let is_right = bank == right;
                     let to_bisector = to_bisector[usize::from(!is_right)];
-                    for (k, multiple) in quantity.turn(order, hold).into_iter().enumerate() {
-                        if parts[k].size == 0.0 {
+                    let multiples = quantity.turn(order, hold);
+                    for ((sum, part), multiple) in sum.parts.iter_mut().zip(parts).zip(multiples) {
+                        if part.size == 0.0 {
                             continue;
                         }
-                        let turned = parts[k].value * to_bisector.cis(multiple);
+                        let turned = part.value * to_bisector.cis(multiple);
                         // e^{−imγ} of the right bank, e^{imγ} of the left.
                         let sine = Complex64::i() * turned;
-                        sum.constants[k] += turned;
-                        sum.constants[2 + k] += if is_right { -sine } else { sine };
+                        sum.cos += turned;
+                        sum.sin += if is_right == (multiple > 0) { -sine } else { sine };
                     }
                 }
                 layout.push(sums);

@@ -210,13 +210,14 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         let components = if figure == Figure::Turning { 2 } else { quantity.components() };
+        let orders = self.orders.len();
         self.fill(
-            (quantity, figure, false),
+            (quantity, figure),
             out,
             cancel,
             #[inline(always)]
             |block: &Block, factor: f64, out: &mut [Complex64]| {
-                for (i, row) in out.chunks_exact_mut(block.orders() * components).enumerate() {
+                for (i, row) in out.chunks_exact_mut(orders * components).enumerate() {
                     for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
                         let values = if figure == Figure::Turning {
                             let [forward, backward_conj] = block.turning(order, i);
@@ -224,8 +225,8 @@ impl Sweep {
                         } else {
                             block.phasors(order, i)
                         };
-                        for (out, phasor) in phasors.iter_mut().zip(values) {
-                            *out = phasor * factor;
+                        for (out, value) in phasors.iter_mut().zip(&values) {
+                            *out = *value * factor;
                         }
                     }
                 }
@@ -242,71 +243,45 @@ impl Sweep {
         out: &mut [f64],
         cancel: &Cancel,
     ) -> Result<()> {
-        let orders = self.orders.len();
-        match figure {
-            Figure::Amplitude | Figure::Turning => self.fill(
-                (quantity, Figure::Amplitude, false),
-                out,
-                cancel,
-                #[inline(always)]
-                |block: &Block, factor: f64, out: &mut [f64]| {
-                    block.magnitudes(quantity.components(), factor, out);
-                    Ok(())
-                },
-            ),
-            Figure::Length => self.fill(
-                (quantity, figure, false),
-                out,
-                cancel,
-                #[inline(always)]
-                |block: &Block, factor: f64, out: &mut [f64]| {
-                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
-                        for (order, length) in row.iter_mut().enumerate() {
-                            let [forward, backward_conj] = block.turning(order, i);
-                            *length = (forward.norm() + backward_conj.norm()) * factor;
+        let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
+        let finder = figure.is_of_sum().then(|| PeakFinder::new(&self.orders)).transpose()?;
+        let (orders, components) = (self.orders.len(), quantity.components());
+        self.fill(
+            (quantity, figure),
+            out,
+            cancel,
+            #[inline(always)]
+            |block: &Block, factor: f64, out: &mut [f64]| {
+                match (figure, &finder) {
+                    (Figure::Length, _) => block.lengths(factor, out),
+                    (Figure::ZeroBound, _) => {
+                        for (i, row) in out.chunks_exact_mut(orders).enumerate() {
+                            for (order, bound) in row.iter_mut().enumerate() {
+                                *bound = block.bound(order, i) * factor;
+                            }
                         }
                     }
-                    Ok(())
-                },
-            ),
-            Figure::ZeroBound => self.fill(
-                (quantity, figure, false),
-                out,
-                cancel,
-                #[inline(always)]
-                |block: &Block, factor: f64, out: &mut [f64]| {
-                    for (i, row) in out.chunks_exact_mut(orders).enumerate() {
-                        for (order, bound) in row.iter_mut().enumerate() {
-                            *bound = block.bound(order, i) * factor;
+                    (Figure::Sum, Some(finder)) => {
+                        for (i, row) in out.chunks_exact_mut(components).enumerate() {
+                            cancel.check()?;
+                            for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
+                                *peak = finder.along_axis(&phasors, cancel)? * factor;
+                            }
                         }
                     }
-                    Ok(())
-                },
-            ),
-            Figure::Sum => {
-                let finder = PeakFinder::new(&self.orders)?;
-                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
-                    for (i, row) in out.chunks_exact_mut(quantity.components()).enumerate() {
-                        cancel.check()?;
-                        for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                            *peak = finder.along_axis(&phasors, cancel)? * factor;
+                    (Figure::LengthOfSum, Some(finder)) => {
+                        for (i, peak) in out.iter_mut().enumerate() {
+                            cancel.check()?;
+                            let [x, y] = block.by_component(i);
+                            *peak = finder.of_vector(&x, &y, cancel)? * factor;
                         }
                     }
-                    Ok(())
-                })
-            }
-            Figure::LengthOfSum => {
-                let finder = PeakFinder::new(&self.orders)?;
-                self.fill((quantity, figure, true), out, cancel, |block, factor, out| {
-                    for (i, peak) in out.iter_mut().enumerate() {
-                        cancel.check()?;
-                        let [x, y] = block.by_component(i);
-                        *peak = finder.of_vector(&x, &y, cancel)? * factor;
-                    }
-                    Ok(())
-                })
-            }
-        }
+                    _ if components == 2 => block.magnitudes::<2>(factor, out),
+                    _ => block.magnitudes::<1>(factor, out),
+                }
+                Ok(())
+            },
+        )
     }
 
     /// Rejects torque that was not asked for or that a spectrum does not determine.
@@ -339,7 +314,7 @@ impl Sweep {
     /// Evaluates every row; `finish` writes rows from their sums and a factor.
     fn fill<T: Number>(
         &self,
-        (quantity, figure, slow): (Quantity, Figure, bool),
+        (quantity, figure): (Quantity, Figure),
         out: &mut [T],
         cancel: &Cancel,
         finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
@@ -354,6 +329,7 @@ impl Sweep {
             return Ok(());
         }
         let width = shape[5..].iter().product();
+        let slow = figure.is_of_sum();
         Job { sweep: self, quantity, width, slow, cancel, finish }.run(out)
     }
 
@@ -365,6 +341,13 @@ impl Sweep {
 
     fn bank_angles(&self) -> &[f64] {
         self.axes.bank_angle.as_ref().map_or(&[0.0], |(angles, _)| angles)
+    }
+}
+
+impl Figure {
+    /// Whether it takes a search for an extremum.
+    fn is_of_sum(self) -> bool {
+        matches!(self, Self::Sum | Self::LengthOfSum)
     }
 }
 

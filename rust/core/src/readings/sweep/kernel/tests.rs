@@ -9,7 +9,7 @@ use crate::readings::sweep::{Axes, Figure};
 use crate::{Angle, Cylinder};
 
 #[test]
-fn cancellation_stops_at_the_next_block() {
+fn cancellation_stops_at_the_next_stretch() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let place = |bank: f64| Placement {
         cylinder,
@@ -22,45 +22,50 @@ fn cancellation_stops_at_the_next_block() {
     let engines = vec![Arc::clone(&engine), engine];
     let some = |count| Some(vec![0.3; count]);
     let angles = |count| Some((vec![60.0; count], Hold::Pins));
-    // Blocks of two engines' rows, in pieces of 1024.
-    for (bank_angle, rod_ratio, blocks) in [
-        (None, None, 2),
-        (angles(300), None, 2 * 3),
-        (angles(300), some(4), 2 * (8 + 2)),
-        (None, some(1200), 2 * (8 + 2)),
-        (angles(2), some(200), 2 * 4),
+    for (bank_angle, rod_ratio) in [
+        (None, None),
+        (angles(300), None),
+        (angles(300), some(4)),
+        (None, some(1200)),
+        (angles(2), some(200)),
     ] {
         for rpm in [vec![3000.0], vec![3000.0, 1000.0]] {
             let (bank_angle, rod_ratio) = (bank_angle.clone(), rod_ratio.clone());
-            let rows = 2
-                * bank_angle.as_ref().map_or(1, |(angles, _)| angles.len())
+            let of_engine = bank_angle.as_ref().map_or(1, |(angles, _)| angles.len())
                 * rod_ratio.as_ref().map_or(1, Vec::len);
+            let rows = 2 * of_engine;
             // Pieces of values times speeds are steps too.
             let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(PIECE) } else { 0 };
             let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
             let orders = vec![Order::whole(2).unwrap()];
             let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
-            let run = |last: usize| {
+            // Raises the flag once so many rows are done.
+            let run = |after: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
                 let shape = sweep.result_shape(Quantity::Force, Figure::Length);
                 let mut out = vec![0.0; shape.iter().product()];
-                let finish = |_: &Block, _: f64, _: &mut [f64]| {
-                    if done.fetch_add(1, Ordering::Relaxed) + 1 == last {
+                let finish = |_: &Block, _: f64, out: &mut [f64]| {
+                    if done.fetch_add(out.len(), Ordering::Relaxed) + out.len() >= after {
                         cancel.raise();
                     }
                     Ok(())
                 };
-                let what = (Quantity::Force, Figure::Length, false);
+                let what = (Quantity::Force, Figure::Length);
                 let result = sweep.fill(what, &mut out, &cancel, finish);
                 (result, done.into_inner(), cancel.progress())
             };
-            assert_eq!(run(0), (Ok(()), blocks, (rows + pieces, rows + pieces)));
-            for last in 1..blocks {
-                let (result, done, _) = run(last);
-                assert_eq!((result, done), (Err(Error::Cancelled), last));
+            assert_eq!(run(usize::MAX), (Ok(()), rows, (rows + pieces, rows + pieces)));
+            for first in (0..rows).filter(|row| (row % of_engine).is_multiple_of(STRETCH)) {
+                let end = (first / of_engine + 1) * of_engine;
+                let end = end.min(first + STRETCH);
+                let (result, done, _) = run(first + 1);
+                // After the last row only a step over speeds can notice.
+                let noticed = end < rows || pieces > 0;
+                assert_eq!(
+                    (result, done),
+                    (if noticed { Err(Error::Cancelled) } else { Ok(()) }, end)
+                );
             }
-            // After the last block only a step over speeds can notice.
-            assert_eq!(run(blocks).0.is_err(), pieces > 0);
         }
     }
 }
