@@ -268,7 +268,8 @@ class Balance(ByOrder, Tabled):
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
         shown, left_out = self.shown_orders(*names)
-        columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
+        mean = ("mean",) if self.fired else ()
+        columns = [Column("order", (*mean, *(self.orders[k] for k in shown), ALL))]
         for name in names:
             kind = QUANTITIES[name]
             peaks = self.read(name, "peak_xy" if kind.planar else "peak")
@@ -279,8 +280,11 @@ class Balance(ByOrder, Tabled):
                     total.reshape(1, -1),
                 ]
             )
+            means: tuple[float | None, ...] = ()
+            if self.fired:
+                means = (None if kind.planar else getattr(self, name).mean,)
             columns += [
-                Column(symbol, tuple(values), kind.unit)
+                Column(symbol, (*means, *values), kind.unit)
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
         given = " of the orders given" if self.request.orders is not None else ""

@@ -310,10 +310,15 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
     @property
     def table(self) -> Table:
-        """Table that a quantity of a balance shows: peaks by order, and of all orders together."""
+        """Table that a quantity of a balance shows: peaks by order, and of all orders together.
+
+        Torques of a fired engine have their mean, their phases and their parts too.
+        """
         if self.result.dims or self.order is not None:
             raise AbsentError("table is that of a balance's orders: use the table of the result")
         shown, left_out = self.result.shown_orders(self.name)
+        if self.result.fired and not self.kind.planar:
+            return self._table_of_parts(list(shown), labels.not_shown(left_out))
         columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]
         total = self[ALL]
         for head, what in self._columns().items():
@@ -325,6 +330,24 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
             columns.append(Column(head, (*values.tolist(), whole)))
         title = f"{self.kind.words}, {self.unit}"
         return Table(title, tuple(columns), labels.not_shown(left_out))
+
+    def _table_of_parts(self, shown: list[int], note: str) -> Table:
+        """Return mean, peaks and phases of a torque and of its parts."""
+        columns = [Column("order", ("mean", *(self.orders[k] for k in shown), ALL))]
+        parts = [self] if self.name in PARTS else [self, self.gas, self.inertia]
+        for each in parts:
+            phasors, peaks = each.phasor[shown], each.peak[shown]
+            phases = np.angle(phasors, deg=True)
+            angles = [phase if peak else None for phase, peak in zip(phases, peaks, strict=True)]
+            part = "" if each is self else each.name.partition(".")[-1]
+            columns += [
+                Column(
+                    part or self.kind.symbols[0],
+                    (each.mean, *peaks.tolist(), each[ALL].peak),
+                ),
+                Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
+            ]
+        return Table(f"{self.kind.words}, {self.unit}", tuple(columns), note)
 
     def __repr__(self) -> str:
         name = self.kind.words

@@ -29,7 +29,7 @@ from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
 from crankpin.plot.rows import largest
 from crankpin.plot.style import SERIES, background, count_series, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import by_component, drawn_quantity, number, series_names, with_unit
+from crankpin.plot.words import drawn_quantity, number, series_names, series_of, with_unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,18 +62,22 @@ def spectrum(
     """Draw peaks over order; exact zeros as hollow circles on the axis."""
     name = drawn_quantity(quantity, lambda name: _exists(result, name))
     logarithmic = inputs.flag("log", log)
-    drawn = getattr(result, name)
+    drawn = series_of(result, name)
     reject_figure(figure, "spectrum")
     ax = axes_or_new(ax)
     orders = np.array(result.orders, dtype=np.float64)
-    peaks = by_component(drawn.peak_xy if name in PLANE_VECTORS else drawn.peak, name)
+    peaks = (
+        result.read(name, "peak_xy")
+        if name in PLANE_VECTORS
+        else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
+    )
     how = "" if result.request.orders is None else ", orders given"
     how += "" if result.spectrum is None else ", spectrum given"
     set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}")
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     styles = series(ax, peaks.shape[1], style)
-    for k, text in enumerate(series_names(name, label)):
+    for k, text in enumerate(series_names(drawn, label)):
         _stems(ax, orders, peaks[:, k], text, styles[k])
     _beside_each_other(ax)
     _scale(ax, logarithmic=logarithmic)

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin.analysis.balance import Balance
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.waveform import Waveform
 from crankpin.plot.curves import bundle_of, colour_scale
@@ -34,6 +35,7 @@ from crankpin.plot.words import (
     drawn_quantity,
     number,
     series_names,
+    series_of,
     summed,
     with_unit,
 )
@@ -41,6 +43,10 @@ from crankpin.plot.words import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
+
+
+MEAN = "crankpin mean"
+"""Name of the line at the mean of a torque."""
 
 
 def orbit(
@@ -200,7 +206,8 @@ def curves(
 ) -> Axes:
     """Draw a quantity over crank angle, a curve for each axis."""
     name = drawn_quantity(quantity, lambda name: _exists(result, name))
-    values = by_component(getattr(result, name), name)
+    drawn = series_of(result, name)
+    values = np.concatenate([by_component(result.read(each), name) for each in drawn], axis=-1)
     ax = axes_or_new(ax)
     where = f"{number(result.rpm)} rpm, {summed(result, name)}"
     set_title(ax, labels.name_of(result.engine), where)
@@ -208,8 +215,13 @@ def curves(
         label = labels.name_of(result.engine)
     first = not count_series(ax)
     styles = series(ax, values.shape[1], style)
-    for k, text in enumerate(series_names(name, label)):
+    for k, text in enumerate(series_names(drawn, label)):
         ax.plot(result.theta_deg, values[:, k], gid=SERIES, label=text, **styles[k])
+    if len(drawn) > 1:
+        whole = Balance(result.engine, result.rpm, result.request.at_orders((1,)))
+        look = {"color": styles[0]["color"], "linewidth": 0.8, "linestyle": ":"}
+        text = ", ".join(filter(None, [label, "mean"]))
+        ax.axhline(getattr(whole, name).mean, label=text, gid=MEAN, **look)
     if first:
         _dress(ax, result.theta_deg, values)
         label_y(ax, with_unit(name))

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import PARTS, PLANE_VECTORS, QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
+    from crankpin.analysis.balance import Balance
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.sweeps.waveform import SweepWaveform
     from crankpin.analysis.waveform import Waveform
@@ -100,9 +101,17 @@ def by_component(values: NDArray[Any], quantity: str) -> NDArray[Any]:
     return values if quantity in PLANE_VECTORS else values[..., np.newaxis]
 
 
-def series_names(quantity: str, label: str | None) -> list[str]:
-    """Return names of the components of a quantity for a legend, with a label before them."""
-    names = list(QUANTITIES[quantity].components)
+def series_of(result: Balance | Waveform, quantity: str) -> list[str]:
+    """Return what is drawn of a quantity: of the torque of a fired engine its parts too."""
+    parts = [part for part in PARTS if part.startswith(f"{quantity}.") and result.fired]
+    return [quantity, *parts]
+
+
+def series_names(drawn: Sequence[str], label: str | None) -> list[str]:
+    """Return names of the components of what is drawn for a legend, with a label before them."""
+    names = [name.partition(".")[-1] or "whole" for name in drawn]
+    if len(drawn) == 1:
+        names = list(QUANTITIES[drawn[0]].components)
     if not label:
         return names
     return [label] if len(names) == 1 else [f"{label}, {name}" for name in names]
