@@ -1,6 +1,6 @@
 # The compiled core; private. Results are read-only arrays.
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar, Self, TypeAlias, final
 
 import numpy as np
@@ -77,6 +77,24 @@ class Cycle:
     ) -> Self: ...
     @property
     def points(self) -> tuple[_Real, _Real, int, str, int | None]: ...
+    @staticmethod
+    def ideal(
+        parts: _Parts,
+        bore: float,
+        compression_ratio: float,
+        strokes: int,
+        name: str,
+        figures: Mapping[str, float | None],
+    ) -> Cycle: ...
+    @staticmethod
+    def wiebe(
+        parts: _Parts,
+        bore: float,
+        compression_ratio: float,
+        strokes: int,
+        name: str,
+        figures: Mapping[str, float | None],
+    ) -> Cycle: ...
     def __len__(self) -> int: ...
     @property
     def is_closed(self) -> bool: ...

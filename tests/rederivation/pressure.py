@@ -50,3 +50,98 @@ def torque_phasors(
             sums += (weighted * np.exp(-1j * np.outer(orders, theta))).sum(axis=1)
     period = edges[-1] - edges[0]
     return mean / period, sums * 2.0 / period
+
+
+def chamber(theta: Array, compression_ratio: float, crank: tuple[float, float, float]) -> Array:
+    """Return V/V_c, from the piston's way down and its travel."""
+    r, rod, e = crank
+    highest = np.sqrt((rod + r) ** 2 - e**2)
+    travel = highest - np.sqrt((rod - r) ** 2 - e**2)
+    return 1.0 + (compression_ratio - 1.0) * (highest - height(theta, *crank)) / travel
+
+
+def dual_work(
+    displacement: float,
+    compression_ratio: float,
+    pressure_ratio: float,
+    cutoff_ratio: float,
+    exponents: tuple[float, float],
+    pressures: tuple[float, float],
+    strokes: int,
+) -> float:
+    """Work of the dual cycle from its corners: ∫p dV of p·Vⁿ = constant, and of constant p."""
+    n_c, n_e = exponents
+    intake, exhaust = pressures
+    clearance = displacement / (compression_ratio - 1.0)
+    v1 = clearance * compression_ratio
+    p3 = intake * compression_ratio**n_c * pressure_ratio
+    v3 = cutoff_ratio * clearance
+    p4 = p3 * (v3 / v1) ** n_e
+    p2 = intake * compression_ratio**n_c
+    work = (p3 * v3 - p4 * v1) / (n_e - 1.0) + p3 * (v3 - clearance)
+    work -= (p2 * clearance - intake * v1) / (n_c - 1.0)
+    return work + (intake - exhaust) * displacement if strokes == 4 else work
+
+
+def wiebe(
+    figures: dict[str, float], crank: tuple[float, float, float], bore: float
+) -> tuple[Callable[[Array], Array], float, float]:
+    """Single zone by ``solve_ivp``: dp/dθ = (γ−1)/V·(Q_b′ − Q_w′) − γ·p·V′/V.
+
+    Returns pressure between intake closing and exhaust opening, heat released and heat lost, J.
+    """
+    from scipy.integrate import solve_ivp  # noqa: PLC0415 - an extra
+
+    f = figures
+    r, rod, e = crank
+    travel = np.sqrt((rod + r) ** 2 - e**2) - np.sqrt((rod - r) ** 2 - e**2)
+    area = np.pi / 4 * bore**2
+    clearance = area * travel / (f["compression_ratio"] - 1.0)
+    closes, opens = np.radians([f["intake_closes_deg"], f["exhaust_opens_deg"]])
+    start, duration = np.radians([f["start_deg"], f["duration_deg"]])
+    gamma, p0, t0 = f["gamma"], f["intake_pressure"], f["charge_temperature"]
+
+    def volume(theta: Array) -> Array:
+        return clearance * chamber(theta, f["compression_ratio"], crank)
+
+    v0 = volume(closes)
+
+    def slopes(theta: float, state: Array) -> list[float]:
+        p = state[0]
+        v, dv = volume(theta), -area * slope(theta, *crank)
+        y = (theta - start) / duration
+        burning = 0.0 <= y <= 1.0
+        rate = (
+            f["a"] * (f["m"] + 1) * y ** f["m"] * np.exp(-f["a"] * y ** (f["m"] + 1))
+            if burning
+            else 0.0
+        )
+        burnt = f["heat"] * rate / duration
+        lost = 0.0
+        if "wall_temperature" in f:
+            temperature = t0 * p * v / (p0 * v0)
+            motored = p0 * (v0 / v) ** gamma
+            speed = 2 * travel * f["rpm"] / 60.0
+            w = 2.28 * speed
+            if theta > start:
+                w += 3.24e-3 * area * travel * t0 / (p0 * v0) * max(p - motored, 0.0)
+            h = 3.26 * bore**-0.2 * (p / 1e3) ** 0.8 * temperature**-0.55 * w**0.8
+            surface = 2 * area + np.pi * bore * v / area
+            lost = h * surface * (temperature - f["wall_temperature"]) / (2 * np.pi * f["rpm"] / 60)
+        return [(gamma - 1) / v * (burnt - lost) - gamma * p * dv / v, burnt, lost]
+
+    # Pressure bends where the burn begins and ends: a solution for each part.
+    edges = [closes, start, start + duration, opens]
+    state, parts = [p0, 0.0, 0.0], []
+    for low, high in itertools.pairwise(edges):
+        inside = (low + 1e-13, high - 1e-13)
+        options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-9, "dense_output": True}
+        found = solve_ivp(slopes, inside, state, **options)
+        state = found.y[:, -1]
+        parts.append(found.sol)
+
+    def pressure(theta: Array) -> Array:
+        place = np.clip(np.searchsorted(edges, theta) - 1, 0, 2)
+        return np.array([parts[k](angle)[0] for k, angle in zip(place, theta, strict=True)])
+
+    return pressure, float(state[1]), float(state[2])

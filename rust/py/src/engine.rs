@@ -119,7 +119,7 @@ impl Engine {
 }
 
 /// An entry of a layout, with the error that its own conversion raises.
-fn entry<T>(layout: &Bound<'_, PyAny>, name: &str) -> PyResult<T>
+pub fn entry<T>(layout: &Bound<'_, PyAny>, name: &str) -> PyResult<T>
 where
     T: for<'a, 'py> FromPyObject<'a, 'py, Error = PyErr>,
 {

@@ -3,12 +3,16 @@
 use std::hash::{Hash, Hasher};
 
 use crankpin_core as core;
+use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
+use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
+use crankpin_core::pressure::chamber::{Chamber, Ideal};
 use crankpin_core::{Complex64, Order, order};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::{OrRaise, Parts, cylinder, frozen};
+use crate::engine::entry;
 use crate::interrupt;
 
 /// Points of a cycle, checked, and what interpolates between them.
@@ -59,6 +63,70 @@ impl Cycle {
             given.name.clone(),
             given.degree,
         )
+    }
+
+    /// Polytropic curves and ideal combustion.
+    #[staticmethod]
+    fn ideal(
+        parts: Parts,
+        bore: f64,
+        compression_ratio: f64,
+        strokes: u32,
+        name: String,
+        figures: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let chamber = chamber(parts, bore, compression_ratio, strokes)?;
+        let ideal = Ideal {
+            pressure_ratio: entry(figures, "pressure_ratio")?,
+            cutoff_ratio: entry(figures, "cutoff_ratio")?,
+            compression_exponent: entry(figures, "compression_exponent")?,
+            expansion_exponent: entry(figures, "expansion_exponent")?,
+            intake_pressure: entry(figures, "intake_pressure")?,
+            exhaust_pressure: entry(figures, "exhaust_pressure")?,
+        };
+        ideal.cycle(&chamber, name).or_raise().map(Self)
+    }
+
+    /// One zone with a Wiebe burn: `heat` in J, or None for that of fuel at `excess_air`; a wall
+    /// temperature or None.
+    #[staticmethod]
+    fn wiebe(
+        py: Python<'_>,
+        parts: Parts,
+        bore: f64,
+        compression_ratio: f64,
+        strokes: u32,
+        name: String,
+        figures: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let chamber = chamber(parts, bore, compression_ratio, strokes)?;
+        let heat = match entry::<Option<f64>>(figures, "heat")? {
+            Some(joules) => Heat::Given(joules),
+            None => Heat::Fuel {
+                excess_air: entry(figures, "excess_air")?,
+                stoichiometric_ratio: entry(figures, "stoichiometric_ratio")?,
+                heating_value: entry(figures, "heating_value")?,
+            },
+        };
+        let wall = match entry::<Option<f64>>(figures, "wall_temperature")? {
+            Some(temperature) => Some(WallLoss { temperature, rpm: entry(figures, "rpm")? }),
+            None => None,
+        };
+        let wiebe = Wiebe {
+            heat,
+            start_deg: entry(figures, "start_deg")?,
+            duration_deg: entry(figures, "duration_deg")?,
+            a: entry(figures, "a")?,
+            m: entry(figures, "m")?,
+            gamma: entry(figures, "gamma")?,
+            intake_pressure: entry(figures, "intake_pressure")?,
+            exhaust_pressure: entry(figures, "exhaust_pressure")?,
+            charge_temperature: entry(figures, "charge_temperature")?,
+            intake_closes_deg: entry(figures, "intake_closes_deg")?,
+            exhaust_opens_deg: entry(figures, "exhaust_opens_deg")?,
+            wall,
+        };
+        interrupt::run(py, |cancel| wiebe.cycle(&chamber, name, cancel)).map(Self)
     }
 
     fn __len__(&self) -> usize {
@@ -130,4 +198,9 @@ impl Cycle {
             interrupt::run(py, |cancel| self.0.tails(&proportions, crankcase, highest, cancel))?;
         Ok(PyArray1::from_vec(py, tails))
     }
+}
+
+fn chamber(parts: Parts, bore: f64, compression_ratio: f64, strokes: u32) -> PyResult<Chamber> {
+    let strokes = Strokes::from_number(strokes).or_raise()?;
+    Chamber::new(&cylinder(parts)?, bore, compression_ratio, strokes).or_raise()
 }

@@ -153,7 +153,7 @@ pub(super) fn node(k: usize, degree: usize) -> f64 {
 }
 
 /// Coefficient `n` of the Chebyshev series through ascending Chebyshev points.
-fn coefficient(values: &[f64], n: usize) -> f64 {
+pub(super) fn coefficient(values: &[f64], n: usize) -> f64 {
     let degree = values.len() - 1;
     let half = |k: usize| if k == 0 || k == degree { 0.5 } else { 1.0 };
     // The cosine of a whole number of parts of half a turn, the angle reduced as a number of parts.

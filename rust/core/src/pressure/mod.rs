@@ -1,8 +1,11 @@
 //! Cylinder pressure over a cycle, and the torque that it exerts on a crank.
 //!
 //! Imports run downwards: [`Cycle`] keeps the points it was given and the piecewise polynomial through
-//! them (`interpolant`); `harmonics` integrates that over a piston's motion.
+//! them (`interpolant`); `harmonics` integrates that over a piston's motion; `chamber` and `burn` compute
+//! cycles of a cylinder.
 
+pub mod burn;
+pub mod chamber;
 mod harmonics;
 mod interpolant;
 

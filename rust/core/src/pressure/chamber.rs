@@ -1,0 +1,246 @@
+//! The volume over a piston, and cycles that are put together of smooth curves.
+
+use super::interpolant::{coefficient, node};
+use super::{Cycle, Given, MOST_POINTS, period_deg};
+use crate::engine::layout::Strokes;
+use crate::gear::slider_crank::{Cylinder, Proportions};
+use crate::numbers::angle::cis_degrees;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+
+/// Degree of the polynomials of computed cycles.
+pub(super) const DEGREE: usize = 15;
+/// Part of the largest value that the last coefficients of a polynomial may have: rounding.
+pub(super) const RESOLVED: f64 = 2e-14;
+/// Narrowest panel, degrees: a curve that still bends there is followed no closer.
+pub(super) const NARROWEST: f64 = 1e-4;
+
+/// Combustion chamber over a piston.
+#[derive(Debug, Clone)]
+pub struct Chamber {
+    proportions: Proportions,
+    crank_radius: f64,
+    bore: f64,
+    /// Position of the piston at its highest point, crank radii.
+    highest: f64,
+    /// Travel of the piston, crank radii.
+    travel: f64,
+    compression_ratio: f64,
+    /// Crank angles of the piston's highest and lowest point, degrees.
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+    pub(super) strokes: Strokes,
+}
+
+impl Chamber {
+    /// Chamber of a cylinder of this bore, m, at this ratio of largest to smallest volume.
+    pub fn new(
+        cylinder: &Cylinder,
+        bore: f64,
+        compression_ratio: f64,
+        strokes: Strokes,
+    ) -> Result<Self> {
+        limits::length("bore", bore)?;
+        within("compression_ratio", compression_ratio, 1.001, 1000.0)?;
+        let proportions = cylinder.proportions();
+        let Proportions { rod, offset, .. } = proportions;
+        // Where rod and crank are in line.
+        let top = (offset / (rod + 1.0)).asin().to_degrees();
+        let bottom = 180.0 + (offset / (rod - 1.0)).asin().to_degrees();
+        let position = |angle: f64| {
+            let unit = cis_degrees(angle);
+            proportions.motion(unit.im, unit.re).position
+        };
+        let highest = position(top);
+        let travel = highest - position(bottom);
+        let crank_radius = cylinder.crank_radius();
+        Ok(Self {
+            proportions,
+            crank_radius,
+            bore,
+            highest,
+            travel,
+            compression_ratio,
+            top,
+            bottom,
+            strokes,
+        })
+    }
+
+    /// Piston area, m².
+    pub(super) fn area(&self) -> f64 {
+        0.25 * std::f64::consts::PI * self.bore * self.bore
+    }
+
+    /// Bore, m.
+    pub(super) fn bore(&self) -> f64 {
+        self.bore
+    }
+
+    /// Travel of the piston, m.
+    pub(super) fn stroke(&self) -> f64 {
+        self.travel * self.crank_radius
+    }
+
+    /// Ratio of largest to smallest volume.
+    pub(super) fn compression_ratio(&self) -> f64 {
+        self.compression_ratio
+    }
+
+    /// Volume over the clearance volume.
+    pub(super) fn ratio(&self, angle: f64) -> f64 {
+        let unit = cis_degrees(angle);
+        let down = self.highest - self.proportions.motion(unit.im, unit.re).position;
+        1.0 + (self.compression_ratio - 1.0) * down / self.travel
+    }
+
+    /// Clearance volume, m³.
+    pub(super) fn clearance(&self) -> f64 {
+        self.area() * self.stroke() / (self.compression_ratio - 1.0)
+    }
+
+    /// Angle between the piston's highest and lowest point at which the volume is so many clearances.
+    pub(super) fn angle_of(&self, ratio: f64) -> f64 {
+        let (mut low, mut high) = (self.top, self.bottom);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if self.ratio(middle) < ratio { low = middle } else { high = middle }
+        }
+        0.5 * (low + high)
+    }
+}
+
+/// Points of a cycle as they are put together, panel by panel.
+#[derive(Debug, Default)]
+pub(super) struct Curves {
+    theta_deg: Vec<f64>,
+    pressure: Vec<f64>,
+}
+
+impl Curves {
+    /// Append a smooth curve, its panels halved until its polynomials are exact to rounding.
+    pub fn add(&mut self, from: f64, to: f64, of: impl Fn(f64) -> f64) -> Result<()> {
+        let mut parts = vec![(from, to)];
+        while let Some((low, high)) = parts.pop() {
+            let values: Vec<f64> = angles(low, high).map(&of).collect();
+            if high - low < NARROWEST || is_resolved(&values) {
+                self.panel(low, high, &values)?;
+            } else {
+                let middle = 0.5 * (low + high);
+                parts.extend([(middle, high), (low, middle)]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Append a panel by its values at the Chebyshev points; an empty one is left out.
+    pub fn panel(&mut self, low: f64, high: f64, values: &[f64]) -> Result<()> {
+        if high <= low {
+            return Ok(());
+        }
+        if self.theta_deg.len() + values.len() > MOST_POINTS {
+            let hint = "pressure changes too fast; give a longer burn, or a smaller m";
+            return Err(Error::value("points", format!("more than {MOST_POINTS}"), hint));
+        }
+        self.theta_deg.extend(angles(low, high));
+        self.pressure.extend(values);
+        Ok(())
+    }
+
+    /// The cycle of these panels.
+    pub fn cycle(self, name: String, strokes: Strokes) -> Result<Cycle> {
+        let Self { theta_deg, pressure } = self;
+        let strokes = strokes.number();
+        Cycle::new(Given { name, strokes, theta_deg, pressure, degree: Some(DEGREE) })
+    }
+}
+
+/// Chebyshev points of a panel, ascending, its edges exact.
+pub(super) fn angles(low: f64, high: f64) -> impl Iterator<Item = f64> {
+    (0..=DEGREE).map(move |k| match k {
+        0 => low,
+        DEGREE => high,
+        k => 0.5 * (low + high) - 0.5 * (high - low) * node(k, DEGREE),
+    })
+}
+
+/// Whether the polynomial through values at Chebyshev points has converged.
+pub(super) fn is_resolved(values: &[f64]) -> bool {
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let last = [DEGREE - 1, DEGREE].map(|n| coefficient(values, n).abs());
+    last[0].max(last[1]) <= RESOLVED * largest
+}
+
+/// Polytropic compression and expansion with ideal combustion at constant volume and pressure.
+#[derive(Debug, Clone)]
+pub struct Ideal {
+    /// Pressure after over before the combustion at constant volume; 1 for none.
+    pub pressure_ratio: f64,
+    /// Volume after over before the combustion at constant pressure; 1 for none.
+    pub cutoff_ratio: f64,
+    /// Exponent of compression.
+    pub compression_exponent: f64,
+    /// Exponent of expansion.
+    pub expansion_exponent: f64,
+    /// Absolute pressure before compression, and in a four-stroke's intake stroke, Pa.
+    pub intake_pressure: f64,
+    /// Absolute pressure in a four-stroke's exhaust stroke, Pa.
+    pub exhaust_pressure: f64,
+}
+
+impl Ideal {
+    /// The cycle; combustion and exchange of gas are where the piston stands still.
+    pub fn cycle(&self, chamber: &Chamber, name: String) -> Result<Cycle> {
+        let ratio = chamber.compression_ratio;
+        within("pressure_ratio", self.pressure_ratio, 1.0, 1000.0)?;
+        within("cutoff_ratio", self.cutoff_ratio, 1.0, ratio)?;
+        exponent("compression_exponent", self.compression_exponent)?;
+        exponent("expansion_exponent", self.expansion_exponent)?;
+        let intake = absolute("intake_pressure", self.intake_pressure)?;
+        let exhaust = absolute("exhaust_pressure", self.exhaust_pressure)?;
+        let compressed =
+            |angle: f64| intake * (ratio / chamber.ratio(angle)).powf(self.compression_exponent);
+        let highest = self.pressure_ratio * compressed(chamber.top);
+        let cutoff = match self.cutoff_ratio {
+            1.0 => chamber.top,
+            clearances => chamber.angle_of(clearances),
+        };
+        let expanded = |angle: f64| {
+            highest * (self.cutoff_ratio / chamber.ratio(angle)).powf(self.expansion_exponent)
+        };
+        let mut curves = Curves::default();
+        let (top, bottom) = (chamber.top, chamber.bottom);
+        if cutoff > top {
+            curves.add(top, cutoff, |_| highest)?;
+        }
+        curves.add(cutoff, bottom, expanded)?;
+        let period = period_deg(chamber.strokes);
+        if chamber.strokes == Strokes::Four {
+            curves.add(bottom, top + 360.0, |_| exhaust)?;
+            curves.add(top + 360.0, bottom + 360.0, |_| intake)?;
+        }
+        curves.add(bottom + (period - 360.0), top + period, compressed)?;
+        curves.cycle(name, chamber.strokes)
+    }
+}
+
+/// A figure within a range.
+pub(super) fn within(argument: &str, value: f64, least: f64, most: f64) -> Result<f64> {
+    if (least..=most).contains(&value) {
+        return Ok(value);
+    }
+    Err(Error::figure(argument, value, format!("give a number from {least} to {most}")))
+}
+
+/// A polytropic exponent, or a ratio of heat capacities.
+pub(super) fn exponent(argument: &str, value: f64) -> Result<f64> {
+    within(argument, value, 1.0, 2.0)
+}
+
+/// An absolute pressure above zero, Pa.
+pub(super) fn absolute(argument: &str, value: f64) -> Result<f64> {
+    if (1.0..=1e10).contains(&value) {
+        return Ok(value);
+    }
+    Err(Error::figure(argument, value, "give absolute pressure in Pa, 1 to 1e10"))
+}
