@@ -20,6 +20,7 @@ from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
+from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import sweep
@@ -50,6 +51,7 @@ __all__ = [
     "compare",
     "counterweights",
     "design",
+    "flywheel",
     "match_parts",
     "presets",
     "rank",

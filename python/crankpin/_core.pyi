@@ -14,6 +14,7 @@ __all__ = [
     "BankAngles",
     "CrankAngles",
     "Cycle",
+    "CycleGrid",
     "Engine",
     "Firing",
     "InputError",
@@ -232,6 +233,23 @@ def fit_shafts(
 ) -> tuple[list[tuple[tuple[float, float], list[_Weight], _Turning]], float | None]: ...
 def pair_heights(forward: complex, backward: complex, torque: complex) -> list[float]: ...
 def shared(forces: Sequence[tuple[complex, float]], front: float, rear: float) -> list[complex]: ...
+
+@final
+class CycleGrid:
+    def __new__(cls, period_deg: float, knots: _Real) -> CycleGrid: ...
+    @property
+    def edges_deg(self) -> _Real: ...
+    @property
+    def nodes_deg(self) -> _Real: ...
+    def speed(
+        self,
+        torque: _Real,
+        load: _Real,
+        engine: Engine | None,
+        rpm: float,
+        inertia: float | None,
+        irregularity: float,
+    ) -> tuple[list[_Real], list[float]]: ...
 
 @final
 class Balance:

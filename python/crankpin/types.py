@@ -13,6 +13,7 @@ from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
 from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.sweeps.sweep import Sweep
@@ -41,6 +42,7 @@ __all__ = [
     "Ellipse",
     "ErrorBound",
     "Firing",
+    "Flywheel",
     "Gap",
     "Match",
     "OrderBalance",

@@ -128,6 +128,7 @@ SUBJECTS: dict[str, Any] = {
     "sweep of a spectrum": cp.sweep(I4, rpm=1e3, spectrum={1: 1.0}),
     "counterweights": cp.counterweights(V6, planes="webs", angles_deg=[0, 120, 240]),
     "bob weight": cp.bob_weight(V6),
+    "flywheel": cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
     "balance shafts": cp.balance_shafts(I4, (-2, 2)),
     "balancer options": cp.balancer_options(V6, rpm=1000, most_shafts=1),
     "designs": cp.design(
@@ -158,6 +159,7 @@ RESULTS_MADE_ELSEWHERE = {
     "Counterweights",
     "Designs",
     "Firing",
+    "Flywheel",
     "Ranking",
     "Waveform",
     "Sweep",

@@ -139,6 +139,12 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "counterweights-ellipses": lambda **place: cp.counterweights(V6_90, planes="ends").plot(
         kind="ellipses", **place
     ),
+    "flywheel": lambda **place: cp.flywheel(
+        lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
+        load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
+        rpm=150,
+        inertia=80.0,
+    ).plot(**place),
     "bob-weight": lambda **place: cp.bob_weight(V6_90).plot(**place),
     "bob-weights": _bob_weights,
     "search": lambda **place: cp.search_arrangements(14).within(40, 70).plot(**place),

@@ -114,6 +114,7 @@ OBJECTS: dict[str, Any] = {
     "Counterweights, bay by bay": cp.counterweights(
         V6, planes="webs", target="internal", factor=0.4, bound=0.1
     ),
+    "Flywheel": cp.flywheel(([0, 120, 360], [300, 500, 300]), rpm=600, inertia=2.0),
     "BobWeight": cp.bob_weight(V6, 0.52, oil=0.004),
     "TwoPlaneCorrection": cp.two_plane_correction(
         [120, 80], [30, 200], measured_z=[0.0, 0.4], correction_z=[0.05, 0.35]
@@ -516,7 +517,7 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
     tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking", "Waveform")
-    tables += ("Counterweights", "BearingLoads", "BobWeight", "TwoPlane", "Sweep of", "Sweep")
+    tables += ("Counterweights", "BearingLoads", "BobWeight", "Flywheel", "TwoPlane", "Sweep")
     if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 

@@ -14,6 +14,7 @@ mod convert;
 mod design;
 mod engine;
 mod firing;
+mod flywheel;
 mod internal;
 mod interrupt;
 mod matching;
@@ -48,6 +49,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<design::Merit>()?;
     module.add_class::<pressure::Cycle>()?;
     module.add_class::<internal::Internal>()?;
+    module.add_class::<flywheel::CycleGrid>()?;
     module.add_function(wrap_pyfunction!(convert::exact_angle, module)?)?;
     module.add_function(wrap_pyfunction!(convert::near_miss, module)?)?;
     module.add_function(wrap_pyfunction!(balance::angular_speed, module)?)?;

@@ -3,6 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
+use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Cylinder};
 use crate::load::{Loads, Source};
 use crate::numbers::angle::Angle;
@@ -129,6 +130,28 @@ impl Kinematics {
             }
         }
         Self { pistons, unbalances }
+    }
+
+    /// Adds the moment of inertia of pistons and rods as seen from the crank at a block of angles, kg·m²,
+    /// and its slope: with I the kinetic energy is ½I·ω², and inertia torque −½I′·ω².
+    pub fn add_inertia(&self, angles: &CrankAngles, [inertia, slope]: [&mut [f64]; 2]) {
+        for pistons in &self.pistons {
+            let units = Units::at_speed(angles, 0..angles.len(), pistons.ratio);
+            let (proportions, [_, speed]) = (pistons.cylinder.proportions(), pistons.senses());
+            for i in 0..angles.len() {
+                let crank = units.crank(pistons.phase, i);
+                let motion = proportions.motion_at(&crank);
+                let mut add = |of: f64, velocity: f64, acceleration: f64| {
+                    inertia[i] += of * velocity * velocity;
+                    slope[i] += 2.0 * speed * of * velocity * acceleration;
+                };
+                add(pistons.second_moment, motion.velocity, motion.acceleration);
+                if pistons.rod_inertia != 0.0 {
+                    let swing = Swing::new(&proportions, &crank);
+                    add(pistons.rod_inertia, swing.velocity, swing.acceleration);
+                }
+            }
+        }
     }
 }
 

@@ -5,6 +5,7 @@ pub(crate) mod amplitude;
 pub mod balance;
 mod choice;
 pub mod exact;
+pub mod flywheel;
 pub mod internal;
 mod kinematics;
 pub mod peaks;

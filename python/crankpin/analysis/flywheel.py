@@ -1,0 +1,314 @@
+"""Flywheels: the speed of a crank over a cycle, and the moment of inertia that keeps it even."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Column, Table
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.waveform import Waveform
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin.model.engine import Engine
+
+Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
+"""Torque over crank angle: a function of degrees, or angles and torques."""
+TWO_TURNS = 720.0
+"""Period, degrees, of functions: whole and half orders come round in it."""
+EQUAL = 1e-9
+"""Relative difference up to which a ratio of periods is whole."""
+APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
+"""Textbooks' approximations, both with the mean moment of inertia."""
+
+
+def flywheel(
+    drive: Curve,
+    *,
+    rpm: float,
+    inertia: float | None = None,
+    irregularity: float | None = None,
+    load: Curve | None = None,
+    period_deg: float | None = None,
+) -> Flywheel:
+    """Return the speed over a cycle with a flywheel, or the flywheel that keeps it even.
+
+    The speed follows from the first integral of the equation of motion,
+    ½J(θ)ω² = E₀ + ∫(T − T_load)dθ, exact for any fluctuation.
+
+    Parameters
+    ----------
+    drive
+        A turning-moment diagram, the torque on the crank, N·m: a function of an array of crank
+        angles in degrees, or a pair of angles, degrees, and torques, between which it is linear. An
+        angle that is given twice is one at which the torque jumps.
+    rpm
+        Mean crank speed: turns over the time that they take.
+    inertia
+        Moment of inertia of all that turns with the crank, kg·m²: crankshaft, flywheel, big ends of
+        the rods and what is driven.
+    irregularity
+        Largest less smallest speed, over the mean speed, to find the moment of inertia for, in
+        place of ``inertia``.
+    load
+        Torque of the load over crank angle, as ``drive``; by default constant. At a constant mean
+        speed its mean is that of the drive: only its variation about its mean counts.
+    period_deg
+        Period of a turning-moment diagram, degrees; by default that of the angles given, the last
+        of which stands for the first, and 720 of a function.
+
+    Returns
+    -------
+    Flywheel
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, both or neither of ``inertia`` and ``irregularity`` are
+        given, or the crank would stop within the cycle.
+
+    Examples
+    --------
+    Khurmi and Gupta, Theory of Machines, example 16.12: 5000 + 600 sin 2θ N·m against
+    5000 + 500 sin θ N·m, with 500 kg at a radius of gyration of 0.4 m, at 150 rpm:
+
+    >>> import numpy as np
+    >>> import crankpin as cp
+    >>> found = cp.flywheel(
+    ...     lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg)),
+    ...     load=lambda deg: 5000 + 500 * np.sin(np.radians(deg)),
+    ...     rpm=150,
+    ...     inertia=500 * 0.4**2,
+    ... )
+    >>> round(found.energy, 3), round(100 * found.irregularity, 3)
+    (1204.167, 6.161)
+    >>> round(100 * found.approximations[0], 3)  # the book's, 1 % too low
+    6.1
+
+    The moment of inertia that keeps the speed within 1 %:
+
+    >>> torque = lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg))
+    >>> round(cp.flywheel(torque, rpm=150, irregularity=0.01).inertia, 2)
+    243.17
+    """
+    if isinstance(drive, Waveform):
+        raise InputError(
+            "drive = a waveform: its crank torque contains the inertia torque, which would count "
+            "twice beside the inertia of pistons and rods that varies; give the torque of the gas"
+        )
+    if (inertia is None) == (irregularity is None):
+        given = (
+            f"inertia = {inputs.shorten(inertia)}, irregularity = {inputs.shorten(irregularity)}"
+        )
+        raise InputError(f"{given}: give one of them")
+    torque = _diagram("drive", drive, period_deg)
+    against = None if load is None else _diagram("load", load, None)
+    period = torque.period or TWO_TURNS
+    knots = torque.knots
+    if against is not None:
+        repeats = round(period / against.period) if against.period else 1
+        if against.period and abs(repeats * against.period - period) > EQUAL * period:
+            raise InputError(
+                f"load has a period of {against.period:.10g}°: give one of which {period:.10g}°, "
+                "that of the drive, is a multiple"
+            )
+        turns = np.arange(max(repeats, 1)) * (against.period or 0.0)
+        knots = np.concatenate([knots, *(against.knots + start for start in turns)])
+    grid = _core.CycleGrid(period, knots)
+    nodes, edges = grid.nodes_deg, grid.edges_deg
+    (speed, moving, of_inertia), figures = grid.speed(
+        torque.at(nodes),
+        np.zeros(nodes.shape) if against is None else against.at(nodes),
+        None,
+        inputs.number("rpm", rpm),
+        inputs.optional_number("inertia", inertia),
+        0.0 if irregularity is None else inputs.number("irregularity", irregularity),
+    )
+    found, uneven, energy, mean, acceleration, *approximate = figures
+    return Flywheel(
+        None,
+        inputs.number("rpm", rpm),
+        found,
+        uneven,
+        energy,
+        mean,
+        acceleration,
+        (approximate[0], approximate[1]),
+        edges,
+        speed / _core.angular_speed(1.0),
+        torque.at(edges),
+        np.full(edges.shape, mean) if against is None else against.at(edges),
+        of_inertia,
+        moving,
+    )
+
+
+class Flywheel(Tabled):
+    """Speed of a crank over a cycle, with the moment of inertia that turns with it.
+
+    Made by :func:`crankpin.flywheel`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import crankpin as cp
+    >>> found = cp.flywheel(
+    ...     lambda deg: 300 - 400 * np.cos(np.radians(2 * deg)), rpm=1500, inertia=2.0
+    ... )
+    >>> round(float(found.speed_rpm.min()), 2), round(float(found.speed_rpm.max()), 2)
+    (1493.93, 1506.09)
+    """
+
+    engine: Engine | None
+    """The engine whose pistons and rods move; None for a turning-moment diagram."""
+    rpm: float
+    """Mean crank speed: turns over the time that they take."""
+    inertia: float
+    """Moment of inertia of all that turns with the crank, kg·m²."""
+    irregularity: float
+    """Largest less smallest speed, over the mean speed."""
+    energy: float
+    """Largest less smallest work of drive and load over the cycle, J: fluctuation of energy."""
+    mean_torque: float
+    """Mean torque of the drive, N·m."""
+    acceleration: float
+    """Largest angular acceleration, either way, rad/s²."""
+    approximations: tuple[float, float]
+    """Irregularity from the mean moment of inertia: of the gas torque alone, and of gas and inertia
+    torque together."""
+    theta_deg: NDArray[np.float64]
+    """Crank angles of one period, degrees: (n_theta,)."""
+    speed_rpm: NDArray[np.float64]
+    """Speed there, rpm."""
+    torque: NDArray[np.float64]
+    """Torque of the drive there, N·m; the gas's of an engine."""
+    load: NDArray[np.float64]
+    """Torque of the load there, N·m."""
+    inertia_torque: NDArray[np.float64]
+    """Torque on the crank of the inertia of pistons and rods at the mean speed, N·m."""
+    moving_inertia: NDArray[np.float64]
+    """Moment of inertia of pistons and rods as seen from the crank, kg·m²."""
+
+    @property
+    def errors(self) -> tuple[float, float]:
+        """Relative errors of the approximations."""
+        first, second = (each / self.irregularity - 1.0 for each in self.approximations)
+        return first, second
+
+    @property
+    def table(self) -> Table:
+        """Table of the figures; below it the approximations and their errors."""
+        figures = (
+            ("moment of inertia", self.inertia, "kg·m²"),
+            ("irregularity", 100.0 * self.irregularity, "%"),
+            ("lowest speed", float(self.speed_rpm.min()), "rpm"),
+            ("highest speed", float(self.speed_rpm.max()), "rpm"),
+            ("fluctuation of energy", self.energy, "J"),
+            ("mean torque", self.mean_torque, "N·m"),
+            ("largest acceleration", self.acceleration, "rad/s²"),
+        )
+        names, values, units = zip(*figures, strict=True)
+        columns = (
+            Column("figure", names),
+            Column("value", values, digits=6),
+            Column("unit", units),
+        )
+        return Table(self.title, columns, below=self._approximated())
+
+    def _approximated(self) -> Table:
+        # Without pistons there is one.
+        names = APPROXIMATIONS if self.engine is not None else ("torque",)
+        pairs = list(zip(self.approximations, self.errors, strict=True))[: len(names)]
+        return Table(
+            "Textbooks' irregularity, fluctuation of energy over mean inertia and speed squared",
+            (
+                Column("of", names),
+                Column("irregularity", tuple(100.0 * value for value, _ in pairs), "%"),
+                Column("error", tuple(100.0 * error for _, error in pairs), "%"),
+            ),
+        )
+
+    @property
+    def title(self) -> str:
+        """Title of table and picture."""
+        name = "turning-moment diagram" if self.engine is None else labels.name_of(self.engine)
+        return f"{labels.cut(name)}: speed over a cycle at {self.rpm:g} rpm"
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        **style: Any,  # noqa: ANN401 - of lines
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
+        """Draw torque over the cycle with its mean, and below it the speed; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes for the speed alone; by default both panels are drawn in a new figure.
+        figure
+            Figure or SubFigure for the panels.
+        **style
+            ``label`` and properties of matplotlib lines.
+        """
+        return draw(self, ax, figure=figure, **style)
+
+
+# --- turning-moment diagrams ---------------------------------------------------------------------
+
+
+class _Diagram(NamedTuple):
+    at: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    """Torque at crank angles in degrees."""
+    period: float | None
+    """Period, degrees; None where any will do."""
+    knots: NDArray[np.float64]
+    """Angles at which it bends or jumps."""
+
+
+def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
+    period = inputs.optional_number("period_deg", period_deg)
+    if period is not None and not 0.0 < period <= inputs.MOST_ITEMS * TWO_TURNS:
+        raise InputError(f"period_deg = {period}: give the period of the torque, such as 720")
+    if callable(given):
+
+        def of_function(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+            found = inputs.array(name, given(theta.copy()))
+            if found.shape not in ((), theta.shape):
+                shape = f"values of shape {found.shape} for {theta.shape}"
+                raise InputError(f"{name} returned {shape}: give one torque for each angle")
+            return np.ascontiguousarray(np.broadcast_to(found, theta.shape))
+
+        return _Diagram(of_function, period, np.empty(0))
+    hint = "give a function of degrees, or (angles in degrees, torques in N·m)"
+    pair = inputs.items(name, given, hint)
+    if len(pair) != 2:
+        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
+    theta, torque = (inputs.vector(name, each) for each in pair)
+    if len(theta) != len(torque) or len(theta) < 2:
+        raise InputError(f"{name} has {len(theta)} angles and {len(torque)} torques: {hint}")
+    span = float(theta[-1] - theta[0])
+    if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
+        raise InputError(f"{name} = {inputs.shorten(given)}: give ascending angles")
+    period = span if period is None else period
+    if span > period * (1.0 + EQUAL):
+        raise InputError(f"period_deg = {period}: the angles span {span:.10g}°; give no less")
+    if span < period * (1.0 - EQUAL):
+        theta, torque = np.append(theta, theta[0] + period), np.append(torque, torque[0])
+    start = float(theta[0])
+
+    def of_table(where: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.interp((where - start) % period + start, theta, torque)
+
+    return _Diagram(of_table, period, theta)

@@ -1,0 +1,546 @@
+//! Speed of a crank over a cycle, and the moment of inertia that keeps it even.
+//!
+//! The first integral of the equation of motion, ½J(θ)ω² = E₀ + ∫(T − `T_load`)dθ, with
+//! J = J₀ + Σ m·s′² + Σ (I − m·a·b)·φ′² of pistons and rods. T is the torque of the gas alone: inertia
+//! torque is what the change of J makes of the speed, and counted with T it would count twice.
+
+use crate::engine::Engine;
+use crate::load::{Alike, Loads};
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::{CrankAngles, parts};
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::numbers::memory;
+use crate::readings::balance::angular_speed;
+use crate::readings::kinematics::{BLOCK, Kinematics};
+
+/// Widest cell, degrees. Extremes between edges are those of a cubic, which misses a wave of order 12
+/// by 3e-7 of its height.
+const STEP: f64 = 0.5;
+/// Gauss-Legendre points of a cell, in halves of its width from its middle, beside the middle itself.
+const GAUSS: f64 = 0.774_596_669_241_483_4;
+/// Cells evaluated between two looks at cancellation.
+const PIECE: usize = 1 << 12;
+/// Lowest square of a speed, over its mean, at which an engine runs.
+const SLOWEST: f64 = 1e-4;
+/// Largest irregularity that can be asked for.
+const MOST_IRREGULAR: f64 = 0.5;
+/// Part of the work of a drive below which its fluctuation is rounding.
+const ROUNDING: f64 = 1e-13;
+/// Steps of iterations that gain digits with each.
+const STEPS: usize = 200;
+
+/// Crank angles of one period at which torque is evaluated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleGrid {
+    /// Edges of the cells, degrees, from 0 to the period: torque may jump there.
+    pub edges_deg: Vec<f64>,
+    /// Three points inside each cell, degrees.
+    pub nodes_deg: Vec<f64>,
+}
+
+impl CycleGrid {
+    /// A grid of one period, with edges at `knots` besides those of its own.
+    pub fn new(period_deg: f64, knots: &[f64], cancel: &Cancel) -> Result<Self> {
+        if !(STEP..=limits::LONGEST_AXIS as f64).contains(&period_deg) {
+            let hint = "give the period of the torque in degrees, such as 720";
+            return Err(Error::figure("period_deg", period_deg, hint));
+        }
+        let cells = (period_deg / STEP).ceil();
+        let mut edges_deg = memory::room(knots.len() + cells as usize + 1)?;
+        edges_deg.extend((0..cells as usize).map(|k| period_deg * (k as f64 / cells)));
+        for piece in knots.chunks(PIECE) {
+            cancel.check()?;
+            for &knot in piece {
+                edges_deg.push(limits::finite("theta_deg", knot)?.rem_euclid(period_deg));
+            }
+        }
+        edges_deg.sort_unstable_by(f64::total_cmp);
+        // Knots beside an edge by no more than rounding.
+        edges_deg.dedup_by(|next, edge| *next - *edge <= 1e-9 * STEP);
+        edges_deg.push(period_deg);
+        let mut nodes_deg = memory::room(3 * (edges_deg.len() - 1))?;
+        for pair in edges_deg.windows(2) {
+            let (middle, half) = (f64::midpoint(pair[0], pair[1]), 0.5 * (pair[1] - pair[0]));
+            nodes_deg.extend([middle - GAUSS * half, middle, middle + GAUSS * half]);
+        }
+        Ok(Self { edges_deg, nodes_deg })
+    }
+}
+
+/// Moment of inertia of all that turns with the crank, given or wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Evenness {
+    /// This moment of inertia, kg·m².
+    Inertia(f64),
+    /// The least that keeps the irregularity, (largest − least)/mean speed, down to this.
+    Irregularity(f64),
+}
+
+/// What drives a crank, and what it drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive<'a> {
+    /// Crank angles of one period.
+    pub grid: &'a CycleGrid,
+    /// Torque of the gas at the nodes of the grid, N·m.
+    pub torque: &'a [f64],
+    /// Torque of the load there, N·m, of which the variation about its mean counts.
+    pub load: &'a [f64],
+    /// Engine whose pistons and rods move; none for a constant moment of inertia.
+    pub engine: Option<&'a Engine>,
+    /// Mean crank speed: turns over the time that they take.
+    pub rpm: f64,
+}
+
+/// Speed over a cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedFluctuation {
+    /// Moment of inertia of all that turns with the crank, kg·m².
+    pub inertia: f64,
+    /// Moment of inertia of pistons and rods at the edges of the grid, kg·m².
+    pub moving_inertia: Vec<f64>,
+    /// Torque of their inertia on the crank at the mean speed, N·m.
+    pub inertia_torque: Vec<f64>,
+    /// Speed at the edges, rad/s.
+    pub speed: Vec<f64>,
+    /// Largest angular acceleration, either way, rad/s².
+    pub acceleration: f64,
+    /// Largest less smallest speed, over the mean speed.
+    pub irregularity: f64,
+    /// Mean torque of the gas, N·m.
+    pub mean_torque: f64,
+    /// Largest less smallest work of gas and load, J.
+    pub energy: f64,
+    /// Irregularity by two approximations with the mean moment of inertia: of the gas torque alone, and
+    /// of gas and inertia torque together.
+    pub approximations: [f64; 2],
+}
+
+impl Drive<'_> {
+    /// Speed over the cycle.
+    pub fn speed(&self, evenness: Evenness, cancel: &Cancel) -> Result<SpeedFluctuation> {
+        let omega = angular_speed(self.rpm)?;
+        if omega == 0.0 {
+            return Err(Error::figure("rpm", self.rpm, "give a speed above 0"));
+        }
+        let motion = Motion::new(self, omega, cancel)?;
+        let (inertia, run) = match evenness {
+            Evenness::Inertia(inertia) => {
+                let given = limits::inertia("inertia", inertia)?;
+                if given < 0.0 {
+                    return Err(Error::figure("inertia", given, "give zero or more"));
+                }
+                (given, motion.run(given, cancel)?)
+            }
+            Evenness::Irregularity(wanted) => motion.inertia_for(wanted, cancel)?,
+        };
+        let mean_inertia = inertia + motion.mean_moving();
+        let over = mean_inertia * omega * omega;
+        let work = range(motion.cells.iter().map(|cell| cell.work));
+        let turning = range(motion.cells.iter().map(|cell| cell.work_with_inertia(omega)));
+        let half = -0.5 * omega * omega;
+        let mut moving_inertia = memory::room(motion.cells.len() + 1)?;
+        let mut inertia_torque = memory::room(motion.cells.len() + 1)?;
+        for cell in &motion.cells {
+            moving_inertia.push(cell.moving.ends[0]);
+            inertia_torque.push(half * cell.moving.slopes[0]);
+        }
+        moving_inertia.push(moving_inertia[0]);
+        inertia_torque.push(inertia_torque[0]);
+        Ok(SpeedFluctuation {
+            inertia,
+            moving_inertia,
+            inertia_torque,
+            speed: run.speed,
+            acceleration: run.acceleration,
+            irregularity: run.irregularity,
+            mean_torque: motion.mean_torque,
+            energy: work,
+            approximations: [work, turning].map(|energy| energy / over),
+        })
+    }
+}
+
+/// Values and slopes of a function at the ends of a cell.
+#[derive(Debug, Clone, Copy)]
+struct Cubic {
+    ends: [f64; 2],
+    /// Per radian.
+    slopes: [f64; 2],
+    /// Width of the cell, radians.
+    width: f64,
+}
+
+impl Cubic {
+    /// Least and largest value of the cubic that has them.
+    fn extremes(&self) -> [f64; 2] {
+        let [from, to] = self.ends;
+        let [rise, fall] = self.slopes.map(|slope| slope * self.width);
+        // Slope over the width: a + 2bx + cx².
+        let (a, b, c) =
+            (rise, 3.0 * (to - from) - 2.0 * rise - fall, 3.0 * (rise + fall - 2.0 * (to - from)));
+        let root = (b * b - a * c).sqrt();
+        // The larger of the roots' numerators loses no digits; where there is none it is not a number.
+        let q = -(b + root.copysign(b));
+        let value = |x: f64| from + x * (a + x * (b + x * c / 3.0));
+        let inside = [q / c, a / q].into_iter().filter(|x| (0.0..=1.0).contains(x)).map(value);
+        inside.fold([from.min(to), from.max(to)], |[low, high], x| [low.min(x), high.max(x)])
+    }
+}
+
+/// Largest less smallest value over all cells.
+fn range(cells: impl Iterator<Item = Cubic>) -> f64 {
+    let all = [f64::INFINITY, f64::NEG_INFINITY];
+    let [low, high] = cells
+        .map(|cell| cell.extremes())
+        .fold(all, |[low, high], [least, most]| [low.min(least), high.max(most)]);
+    high - low
+}
+
+/// Part of a cycle between two edges.
+struct Cell {
+    /// Work of gas and load from the start of the cycle; its slopes are torques.
+    work: Cubic,
+    /// Moment of inertia of pistons and rods.
+    moving: Cubic,
+}
+
+impl Cell {
+    /// Work of gas, load and inertia torque at a constant speed.
+    fn work_with_inertia(&self, omega: f64) -> Cubic {
+        let with = |work: [f64; 2], moving: [f64; 2]| {
+            [0, 1].map(|k| work[k] - 0.5 * omega * omega * moving[k])
+        };
+        Cubic {
+            ends: with(self.work.ends, self.moving.ends),
+            slopes: with(self.work.slopes, self.moving.slopes),
+            width: self.work.width,
+        }
+    }
+
+    /// Half the square of the speed, ω²/2, for a flywheel and the energy at the start.
+    fn half_square(&self, inertia: f64, energy: f64) -> Cubic {
+        let total = self.moving.ends.map(|moving| inertia + moving);
+        let ends = [0, 1].map(|k| (energy + self.work.ends[k]) / total[k]);
+        let slopes =
+            [0, 1].map(|k| (self.work.slopes[k] - ends[k] * self.moving.slopes[k]) / total[k]);
+        Cubic { ends, slopes, width: self.work.width }
+    }
+}
+
+/// Work and moving masses over a cycle.
+struct Motion {
+    cells: Vec<Cell>,
+    mean_torque: f64,
+    /// Work of torque and load without their signs.
+    size: f64,
+    /// Mean speed, rad/s.
+    omega: f64,
+}
+
+/// Speeds for one moment of inertia.
+struct Run {
+    speed: Vec<f64>,
+    acceleration: f64,
+    irregularity: f64,
+}
+
+impl Motion {
+    fn new(drive: &Drive, omega: f64, cancel: &Cancel) -> Result<Self> {
+        let edges = &drive.grid.edges_deg;
+        for (argument, values) in [("torque", drive.torque), ("load", drive.load)] {
+            if values.len() != drive.grid.nodes_deg.len() {
+                return Err(Error::Length {
+                    argument: argument.to_owned(),
+                    found: values.len(),
+                    reference: "nodes_deg".to_owned(),
+                    expected: drive.grid.nodes_deg.len(),
+                    item: "crank angle",
+                });
+            }
+            for &value in values {
+                limits::finite(argument, value)?;
+            }
+        }
+        let [values, slopes] = moving(drive.engine, edges, cancel)?;
+        let period = edges[edges.len() - 1].to_radians();
+        let width = |k: usize| (edges[k + 1] - edges[k]).to_radians();
+        let mean = |values: &[f64]| {
+            let of_cell = |(k, three): (usize, &[f64])| width(k) * mean_of(three);
+            let sum: f64 = values.chunks_exact(3).enumerate().map(of_cell).sum();
+            sum / period
+        };
+        let means = [mean(drive.torque), mean(drive.load)];
+        let (mut cells, mut work) = (memory::room(edges.len() - 1)?, 0.0);
+        for k in 0..edges.len() - 1 {
+            if k % PIECE == 0 {
+                cancel.check()?;
+            }
+            let [low, middle, high] = [0, 1, 2]
+                .map(|j| (drive.torque[3 * k + j] - means[0]) - (drive.load[3 * k + j] - means[1]));
+            // The parabola through the three, at the edges.
+            let (odd, even) =
+                ((high - low) / (2.0 * GAUSS), (high + low - 2.0 * middle) / (2.0 * GAUSS * GAUSS));
+            let next = work + width(k) * mean_of(&[low, middle, high]);
+            let cubic = |ends, slopes| Cubic { ends, slopes, width: width(k) };
+            cells.push(Cell {
+                work: cubic([work, next], [middle - odd + even, middle + odd + even]),
+                moving: cubic([values[k], values[k + 1]], [slopes[k], slopes[k + 1]]),
+            });
+            work = next;
+        }
+        let sizes = drive.torque.iter().chain(drive.load).map(|torque| torque.abs());
+        let size = sizes.sum::<f64>() / drive.torque.len() as f64 * period;
+        Ok(Self { cells, mean_torque: means[0], size, omega })
+    }
+
+    fn period(&self) -> f64 {
+        self.cells.iter().map(|cell| cell.work.width).sum()
+    }
+
+    fn mean_moving(&self) -> f64 {
+        let of_cell = |cell: &Cell| {
+            let Cubic { ends, slopes, width } = cell.moving;
+            width * (0.5 * (ends[0] + ends[1]) + width * (slopes[0] - slopes[1]) / 12.0)
+        };
+        self.cells.iter().map(of_cell).sum::<f64>() / self.period()
+    }
+
+    /// The speeds with a flywheel, at the mean speed: by Newton's method on the energy at the start.
+    fn run(&self, inertia: f64, cancel: &Cancel) -> Result<Run> {
+        let lowest = self.cells.iter().map(|cell| cell.work.ends[0]).fold(0.0, f64::min);
+        let square = 0.5 * self.omega * self.omega;
+        let least = self.cells.iter().map(|cell| cell.moving.ends[0]).fold(f64::INFINITY, f64::min);
+        if inertia + least <= 0.0 {
+            return Err(Error::figure("inertia", inertia, "give the flywheel's, above 0 kg·m²"));
+        }
+        let wanted = self.period() / self.omega;
+        let mut energy = (inertia + self.mean_moving()) * square - lowest;
+        for _ in 0..STEPS {
+            cancel.check()?;
+            // The time of a period, and its slope by the energy.
+            let (mut time, mut slope) = (0.0, 0.0);
+            for cell in &self.cells {
+                let half = cell.half_square(inertia, energy);
+                let slowness = half.ends.map(|half| (2.0 * half).sqrt().recip());
+                let steep = [0, 1].map(|k| -half.slopes[k] * slowness[k].powi(3));
+                time += half.width
+                    * (0.5 * (slowness[0] + slowness[1])
+                        + half.width * (steep[0] - steep[1]) / 12.0);
+                slope -= half.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
+            }
+            let next = energy + (wanted - time) / slope;
+            // The time is convex in the energy and grows without limit as the crank stops.
+            let next = if next > -lowest { next } else { f64::midpoint(energy, -lowest) };
+            // What is left is the square of this, or this times the error of the slope.
+            let done = (next - energy).abs() <= 1e-11 * next.abs();
+            energy = next;
+            if done {
+                return self.checked(inertia, energy);
+            }
+        }
+        Err(stops(inertia))
+    }
+
+    fn checked(&self, inertia: f64, energy: f64) -> Result<Run> {
+        let square = 0.5 * self.omega * self.omega;
+        let mut speed = memory::room(self.cells.len() + 1)?;
+        let (mut low, mut high, mut acceleration) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        for cell in &self.cells {
+            let half = cell.half_square(inertia, energy);
+            let [least, most] = half.extremes();
+            (low, high) = (low.min(least), high.max(most));
+            acceleration = half.slopes.iter().fold(acceleration, |most, each| most.max(each.abs()));
+            speed.push((2.0 * half.ends[0]).sqrt());
+        }
+        if low < SLOWEST * square {
+            return Err(stops(inertia));
+        }
+        speed.push(speed[0]);
+        let irregularity = ((2.0 * high).sqrt() - (2.0 * low).sqrt()) / self.omega;
+        Ok(Run { speed, acceleration, irregularity })
+    }
+
+    /// The least flywheel that keeps an irregularity: it is nearly as one over the inertia.
+    fn inertia_for(&self, wanted: f64, cancel: &Cancel) -> Result<(f64, Run)> {
+        if !(limits::SMALLEST..=MOST_IRREGULAR).contains(&wanted) {
+            let hint =
+                format!("give (largest − least)/mean speed, such as 0.01, to {MOST_IRREGULAR}");
+            return Err(Error::figure("irregularity", wanted, hint));
+        }
+        let moving = self.mean_moving();
+        let energy = range(self.cells.iter().map(|cell| cell.work_with_inertia(self.omega)));
+        if energy <= ROUNDING * self.size {
+            let hint = "the torque does not vary, and no flywheel is needed; give inertia";
+            return Err(Error::figure("irregularity", wanted, hint));
+        }
+        let mut total = energy / (self.omega * self.omega * wanted);
+        for _ in 0..STEPS {
+            let inertia = (total - moving).max(0.0);
+            let Ok(run) = self.run(inertia, cancel) else {
+                cancel.check()?;
+                total = 2.0 * total.max(moving);
+                continue;
+            };
+            let ratio = run.irregularity / wanted;
+            if (ratio - 1.0).abs() <= 1e-12 || ratio < 1.0 && inertia == 0.0 {
+                return Ok((inertia, run));
+            }
+            total = total.max(moving) * ratio;
+        }
+        let hint = "no flywheel was found that keeps it; give inertia";
+        Err(Error::figure("irregularity", wanted, hint))
+    }
+}
+
+fn stops(inertia: f64) -> Error {
+    Error::figure("inertia", inertia, "the crank nearly stops within a cycle; give more")
+}
+
+/// Mean of a function over a cell from its values at the three points.
+fn mean_of(three: &[f64]) -> f64 {
+    (5.0 * (three[0] + three[2]) + 8.0 * three[1]) / 18.0
+}
+
+/// Moment of inertia of an engine's pistons and rods as seen from the crank, and its slope per radian.
+fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
+    let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
+    let Some(engine) = engine else { return Ok(found) };
+    let loads = Loads::new(engine, engine.reference(None)?, Alike::Proportions);
+    let kinematics = Kinematics::new(&loads);
+    for part in parts(0..edges_deg.len(), BLOCK) {
+        cancel.check()?;
+        let angles = CrankAngles::new(&edges_deg[part.clone()])?;
+        let [values, slopes] = &mut found;
+        kinematics.add_inertia(&angles, [&mut values[part.clone()], &mut slopes[part]]);
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::engine::Placement;
+    use crate::gear::slider_crank::Cylinder;
+    use crate::numbers::angle::Angle;
+
+    fn grid(knots: &[f64]) -> CycleGrid {
+        CycleGrid::new(360.0, knots, &Cancel::new()).unwrap()
+    }
+
+    fn at(grid: &CycleGrid, torque: impl Fn(f64) -> f64) -> Vec<f64> {
+        grid.nodes_deg.iter().map(|degrees| torque(degrees.to_radians())).collect()
+    }
+
+    fn run(
+        grid: &CycleGrid,
+        torque: &[f64],
+        engine: Option<&Engine>,
+        how: Evenness,
+    ) -> SpeedFluctuation {
+        let load = vec![0.0; torque.len()];
+        let drive = Drive { grid, torque, load: &load, engine, rpm: 300.0 };
+        drive.speed(how, &Cancel::new()).unwrap()
+    }
+
+    fn single(rod_inertia: f64) -> Engine {
+        let cylinder = Cylinder::new(0.05, 0.15, 2.0, 0.01).unwrap();
+        let cylinder = cylinder.with_rod_inertia_excess(rod_inertia).unwrap();
+        let bank = Angle::from_degrees(90.0).unwrap();
+        let place = Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
+        Engine::new("", "", vec![place]).unwrap()
+    }
+
+    #[test]
+    fn a_sine_of_torque_swings_by_its_work() {
+        // ∫A sin 2θ dθ swings by A. ω² = ω₀² − (A/J) cos 2θ, of which √(1 ± A/(Jω₀²)) are the ends.
+        let grid = grid(&[]);
+        let torque = at(&grid, |theta| 100.0 + 40.0 * (2.0 * theta).sin());
+        let found = run(&grid, &torque, None, Evenness::Inertia(2.0));
+        // Cubics over half a degree: (2·0.0087)⁴/384 of what waves, 2.4e-10.
+        assert!((found.energy - 40.0).abs() < 40.0 * 3e-10, "{}", found.energy);
+        assert!((found.mean_torque - 100.0).abs() < 1e-10);
+        let omega = 10.0 * PI;
+        let [low, high] = [0, 180].map(|k| found.speed[k]);
+        assert!((high * high - low * low - 40.0).abs() < 1e-7);
+        assert!((found.irregularity * omega - (high - low)).abs() < 1e-9);
+        // ω is the mean over time: Σ of the times of the cells is a turn's.
+        let time: f64 = found.speed[1..].iter().map(|speed| (PI / 360.0) / speed).sum();
+        assert!((time - 0.2).abs() < 1e-12);
+        assert_eq!(found.approximations[0], found.approximations[1]);
+        assert!((found.acceleration - 20.0).abs() < 20.0 * 1e-4);
+    }
+
+    #[test]
+    fn jumps_at_knots_are_exact() {
+        // 10 N·m above the mean over a third of a turn, 5 below it elsewhere.
+        let grid = grid(&[100.1, 220.1]);
+        let torque =
+            at(
+                &grid,
+                |theta| if (100.1..220.1).contains(&theta.to_degrees()) { 30.0 } else { 15.0 },
+            );
+        let found = run(&grid, &torque, None, Evenness::Inertia(1.0));
+        assert!((found.energy - 10.0 * 2.0 * PI / 3.0).abs() < 1e-11, "{}", found.energy);
+        assert!((found.acceleration - 10.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn without_torque_the_kinetic_energy_is_constant() {
+        for rod_inertia in [0.0, 3e-3] {
+            let (grid, engine) = (grid(&[]), single(rod_inertia));
+            let found = run(
+                &grid,
+                &vec![0.0; grid.nodes_deg.len()],
+                Some(&engine),
+                Evenness::Inertia(0.05),
+            );
+            let energies: Vec<f64> = found
+                .speed
+                .iter()
+                .zip(&found.moving_inertia)
+                .map(|(speed, moving)| (0.05 + moving) * speed * speed)
+                .collect();
+            assert!(energies.iter().all(|energy| (energy / energies[0] - 1.0).abs() < 1e-14));
+            // Inertia torque is the slope of the energy at a constant speed, by central differences.
+            let step = PI / 360.0;
+            for k in 1..720 {
+                let [before, after] = [k - 1, k + 1].map(|k| found.moving_inertia[k]);
+                let slope = (after - before) / (2.0 * step);
+                let torque = -0.5 * (10.0 * PI).powi(2) * slope;
+                // h²/6 of a third derivative: 1.3e-5 times a few
+                assert!((found.inertia_torque[k] - torque).abs() < 1e-4 * 2.0 * 0.0025 * 987.0);
+            }
+            let rod = found.moving_inertia[0];
+            assert!((rod > 1e-4) == (rod_inertia > 0.0), "{rod}");
+        }
+    }
+
+    #[test]
+    fn an_irregularity_gives_its_inertia_back() {
+        let (grid, engine) = (grid(&[]), single(0.0));
+        let torque = at(&grid, |theta| 20.0 + 30.0 * theta.sin() - 8.0 * (3.0 * theta).cos());
+        for wanted in [0.3, 0.05, 1e-4] {
+            let fit = run(&grid, &torque, Some(&engine), Evenness::Irregularity(wanted));
+            let again = run(&grid, &torque, Some(&engine), Evenness::Inertia(fit.inertia));
+            assert!((again.irregularity / wanted - 1.0).abs() < 1e-11);
+            assert_eq!(again.speed, fit.speed);
+        }
+    }
+
+    #[test]
+    fn a_crank_that_would_stop_is_an_error() {
+        let grid = grid(&[]);
+        let torque = at(&grid, |theta| 1e4 * theta.sin());
+        let load = vec![0.0; torque.len()];
+        let drive = Drive { grid: &grid, torque: &torque, load: &load, engine: None, rpm: 300.0 };
+        for how in [Evenness::Inertia(0.1), Evenness::Inertia(0.0), Evenness::Irregularity(0.9)] {
+            assert!(drive.speed(how, &Cancel::new()).is_err());
+        }
+        let cancel = Cancel::new();
+        cancel.raise();
+        assert_eq!(drive.speed(Evenness::Inertia(1e3), &cancel), Err(Error::Cancelled));
+    }
+}

@@ -1,0 +1,74 @@
+//! Speed of a crank over a cycle.
+
+use crankpin_core::flywheel::{self, Drive, Evenness};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::frozen;
+use crate::engine::Engine;
+use crate::interrupt;
+
+/// Crank angles of one period at which torque is evaluated.
+#[pyclass(frozen, module = "crankpin._core")]
+pub struct CycleGrid(flywheel::CycleGrid);
+
+/// Arrays over the edges: speed, moving inertia, inertia torque; figures: inertia, irregularity, energy,
+/// mean torque, acceleration, and the two approximations of the irregularity.
+type Speed<'py> = ([Bound<'py, PyArray1<f64>>; 3], [f64; 7]);
+
+#[pymethods]
+impl CycleGrid {
+    /// Edges at these knots besides the grid's own.
+    #[new]
+    fn new(py: Python<'_>, period_deg: f64, knots: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let knots = knots.as_slice()?;
+        interrupt::run(py, |cancel| flywheel::CycleGrid::new(period_deg, knots, cancel)).map(Self)
+    }
+
+    /// Edges of the cells, degrees.
+    #[getter]
+    fn edges_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        frozen(py, self.0.edges_deg.clone().into())
+    }
+
+    /// Points inside the cells, degrees.
+    #[getter]
+    fn nodes_deg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        frozen(py, self.0.nodes_deg.clone().into())
+    }
+
+    /// Speed over the cycle, from torques at the nodes and a moment of inertia or an irregularity.
+    #[expect(clippy::too_many_arguments, reason = "the wrapper in Python has defaults for them")]
+    fn speed<'py>(
+        &self,
+        py: Python<'py>,
+        torque: PyReadonlyArray1<'py, f64>,
+        load: PyReadonlyArray1<'py, f64>,
+        engine: Option<&Bound<'py, Engine>>,
+        rpm: f64,
+        inertia: Option<f64>,
+        irregularity: f64,
+    ) -> PyResult<Speed<'py>> {
+        let evenness = inertia.map_or(Evenness::Irregularity(irregularity), Evenness::Inertia);
+        let engine = engine.map(|engine| &*engine.get().0);
+        let (torque, load) = (torque.as_slice()?, load.as_slice()?);
+        let found = interrupt::run(py, |cancel| {
+            let drive = Drive { grid: &self.0, torque, load, engine, rpm };
+            drive.speed(evenness, cancel)
+        })?;
+        let [gas_alone, with_inertia_torque] = found.approximations;
+        Ok((
+            [found.speed, found.moving_inertia, found.inertia_torque]
+                .map(|values| frozen(py, values.into())),
+            [
+                found.inertia,
+                found.irregularity,
+                found.energy,
+                found.mean_torque,
+                found.acceleration,
+                gas_alone,
+                with_inertia_torque,
+            ],
+        ))
+    }
+}

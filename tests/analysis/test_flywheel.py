@@ -1,0 +1,209 @@
+"""Does the speed over a cycle solve the equation of motion? Are textbooks' figures met?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+from conftest import I4
+from rederivation import flywheel as rederived
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+CUBIC = 3e-9
+"""Relative error of extremes of cubics over half a degree, of waves of order 4: (4·0.0087)⁴/384."""
+SOLVER = 1e-8
+"""Relative error that the time integration leaves in speeds, at rtol = 1e-11 over 1e3 steps."""
+
+
+def wave(mean: float, **parts: float) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """A mean with sines and cosines: ``sin2=600`` is 600 sin 2θ."""
+
+    def torque(deg: NDArray[np.float64]) -> NDArray[np.float64]:
+        terms = [
+            size * getattr(np, name[:3])(np.radians(float(name[3:]) * deg))
+            for name, size in parts.items()
+        ]
+        return mean + np.sum(terms, axis=0)
+
+    return torque
+
+
+# --- printed figures ------------------------------------------------------------------------------
+
+
+def test_khurmi_16_11() -> None:
+    """20000 + 9500 sin 2θ − 5700 cos 2θ at 180 rpm, 1 %: 11078 N·m; 3121 kg·m² (3118.106)."""
+    found = cp.flywheel(
+        wave(20000, sin2=9500, cos2=-5700), rpm=180, irregularity=0.01, period_deg=180
+    )
+    assert found.energy == pytest.approx(11078.81, abs=0.005)
+    textbook = found.energy / (0.01 * (180 * np.pi / 30) ** 2)
+    assert textbook == pytest.approx(3118.106, abs=5e-4)
+    # One sine is symmetric: what the textbook neglects is of the square of 1 %.
+    assert found.inertia == pytest.approx(textbook, rel=1e-4)
+
+
+def test_khurmi_16_12() -> None:
+    """5000 + 600 sin 2θ against 5000 + 500 sin θ, 80 kg·m², 150 rpm: 1204 N·m, 6.1 %.
+
+    The companion's largest acceleration, 3.46 rad/s², is wrong: 12.203.
+    """
+    found = cp.flywheel(
+        wave(5000, sin2=600), load=wave(5000, sin1=500), rpm=150, inertia=500 * 0.4**2
+    )
+    assert found.energy == pytest.approx(1204.167, abs=5e-4)
+    assert 100 * found.approximations[0] == pytest.approx(6.10038, abs=5e-6)
+    # Between two speeds equally far from the mean it is exact, which here is not the mean of time.
+    low, high = found.speed_rpm.min(), found.speed_rpm.max()
+    assert 2 * (high - low) / (high + low) * (high + low) ** 2 / 4 / 150**2 == pytest.approx(
+        0.0610038, abs=5e-7
+    )
+    assert found.acceleration == pytest.approx(12.203, abs=5e-4)
+
+
+def test_sarkar_6_10() -> None:
+    """15000 + 8000 sin 2θ against 15000 + 6000 cos θ: 15125 N·m (printed 1370.28)."""
+    given: dict[str, Any] = {"load": wave(15000, cos1=6000), "rpm": 200, "inertia": 1e4}
+    found = cp.flywheel(wave(15000, sin2=8000), **given)
+    assert found.energy == pytest.approx(15125.0, rel=CUBIC)
+
+
+def test_sarkar_6_6() -> None:
+    """1000 + 300 sin 2θ − 500 cos 2θ, 400 kg at 0.4 m, 250 rpm: 1.329298 % (printed 0.342)."""
+    found = cp.flywheel(wave(1000, sin2=300, cos2=-500), rpm=250, inertia=400 * 0.4**2)
+    assert 100 * found.approximations[0] == pytest.approx(1.329298, abs=5e-7)
+
+
+# --- the equation of motion -----------------------------------------------------------------------
+
+
+def test_speeds_of_a_diagram_solve_the_equation_of_motion() -> None:
+    drive, load = wave(300, sin2=200, cos1=-90), wave(300, sin3=120)
+    found = cp.flywheel(drive, load=load, rpm=600, inertia=0.3, period_deg=360)
+    places = np.arange(0, len(found.theta_deg), 40)
+    theta = np.radians(found.theta_deg[places])
+
+    def net(angle: float) -> float:
+        deg = np.array([np.degrees(angle)])
+        return float((drive(deg) - load(deg))[0])
+
+    expected = rederived.speeds(net, 0.3, (), 600 * np.pi / 30, theta)
+    speed = found.speed_rpm[places] * np.pi / 30
+    np.testing.assert_allclose(speed[:-1], expected, rtol=SOLVER)
+    assert found.irregularity > 0.1
+
+
+# --- diagrams -------------------------------------------------------------------------------------
+
+
+def test_a_table_is_linear_between_its_angles_and_may_jump() -> None:
+    """30 N·m over a third of a turn, 15 elsewhere: 10 above the mean over 2π/3."""
+    theta, torque = [10.3, 130.3, 130.3, 370.3, 370.3], [30, 30, 15, 15, 30]
+    found = cp.flywheel((theta, torque), rpm=600, inertia=1.0)
+    assert found.mean_torque == pytest.approx(20.0, rel=1e-12)
+    assert found.energy == pytest.approx(10.0 * 2.0 * np.pi / 3.0, rel=1e-12)
+    assert found.acceleration == pytest.approx(10.0, rel=1e-12)
+    # A triangle of height 10 is above its mean of 5 over half a turn, by 2.5 on average.
+    triangle = cp.flywheel(([0, 180, 360], [0, 10, 0]), rpm=600, inertia=1.0)
+    assert triangle.energy == pytest.approx(2.5 * np.pi, rel=1e-12)
+
+
+def test_an_open_table_is_closed_over_its_period() -> None:
+    theta = np.arange(0.0, 360.0, 10.0)
+    torque = 100 + 50 * np.sin(np.radians(theta))
+    closed = cp.flywheel((np.append(theta, 360), np.append(torque, 100)), rpm=600, inertia=1.0)
+    opened = cp.flywheel((theta, torque), rpm=600, inertia=1.0, period_deg=360)
+    assert opened.energy == pytest.approx(closed.energy, rel=1e-12)
+
+
+def test_a_load_may_come_round_more_often() -> None:
+    """A load of a period of half a turn is that of a function with it."""
+    by_function = cp.flywheel(
+        wave(100, sin1=50), load=lambda deg: np.abs((deg % 180) - 90), rpm=600, inertia=1.0
+    )
+    by_table = cp.flywheel(
+        wave(100, sin1=50), load=([0, 90, 180], [90, 0, 90]), rpm=600, inertia=1.0
+    )
+    # Bends of the function are at edges of the grid.
+    np.testing.assert_allclose(by_table.speed_rpm, by_function.speed_rpm, rtol=1e-12)
+    with pytest.raises(cp.InputError, match="multiple"):
+        cp.flywheel(wave(1), load=([0, 100], [1, 1]), rpm=600, inertia=1.0)
+
+
+def test_the_mean_of_the_load_does_not_count() -> None:
+    one, other = (
+        cp.flywheel(wave(100, sin1=50), load=wave(mean, cos2=20), rpm=600, inertia=1.0)
+        for mean in (0.0, 500.0)
+    )
+    np.testing.assert_allclose(one.speed_rpm, other.speed_rpm, rtol=1e-12)
+
+
+@pytest.mark.parametrize("wanted", [1e-4, 0.02, 0.3])
+def test_an_irregularity_is_kept(wanted: float) -> None:
+    fit = cp.flywheel(wave(100, sin1=50, cos3=20), rpm=600, irregularity=wanted)
+    found = cp.flywheel(wave(100, sin1=50, cos3=20), rpm=600, inertia=fit.inertia)
+    assert found.irregularity == pytest.approx(wanted, rel=1e-11)
+    assert found == fit.replace(irregularity=found.irregularity)
+    speeds = found.speed_rpm
+    assert (speeds.max() - speeds.min()) / 600 == pytest.approx(wanted, rel=1e-3)
+
+
+def test_inertia_torque_is_not_counted_twice() -> None:
+    with pytest.raises(cp.InputError, match="count twice"):
+        cp.flywheel(I4.waveform(3000), rpm=3000, inertia=0.1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"inertia": None}, "give one of them"),
+        ({"irregularity": 0.01}, "give one of them"),
+        ({"inertia": 0.0}, "above 0"),
+        ({"inertia": -1.0}, "zero or more"),
+        ({"inertia": 1e-3}, "stops"),
+        ({"inertia": None, "irregularity": 0.7}, "such as 0.01"),
+        ({"inertia": None, "irregularity": 0.0}, "such as 0.01"),
+        ({"rpm": 0}, "above 0"),
+        ({"period_deg": -1}, "such as 720"),
+        ({"drive": ([0, 360], [1, np.nan])}, "finite"),
+        ({"drive": ([0, 360], [1, 1, 1])}, "2 angles and 3 torques"),
+        ({"drive": ([360, 0], [1, 1])}, "ascending"),
+        ({"drive": ([0, 720], [1, 1]), "period_deg": 360}, "span 720"),
+        ({"drive": "torque"}, "function of degrees"),
+        ({"drive": lambda deg: deg[:3]}, "one torque for each angle"),
+        ({"drive": wave(10), "inertia": None, "irregularity": 0.1}, "does not vary"),
+    ],
+)
+def test_what_makes_no_flywheel_is_rejected(changes: dict[str, Any], message: str) -> None:
+    given: dict[str, Any] = {"drive": wave(100, sin1=500), "rpm": 600, "inertia": 1.0} | changes
+    with pytest.raises(cp.InputError, match=message):
+        cp.flywheel(given.pop("drive"), **given)
+
+
+# --- pictures and tables --------------------------------------------------------------------------
+
+
+def test_the_picture_has_torque_and_speed() -> None:
+    found = cp.flywheel(wave(100, sin1=50), load=wave(100, sin2=10), rpm=600, inertia=1.0)
+    above, below = found.plot()[:, 0]
+    torque, load = (line.get_ydata() for line in above.lines)
+    np.testing.assert_array_equal(torque, found.torque)
+    np.testing.assert_array_equal(load, found.load)
+    np.testing.assert_array_equal(below.lines[0].get_ydata(), found.speed_rpm)
+    assert set(below.lines[1].get_ydata()) == {600.0}
+
+
+def test_the_table_has_the_figures() -> None:
+    found = cp.flywheel(wave(5000, sin2=600), load=wave(5000, sin1=500), rpm=150, inertia=80.0)
+    figures = dict(zip(*(column.values for column in found.table.columns[:2]), strict=True))
+    assert figures["fluctuation of energy"] == found.energy
+    assert figures["highest speed"] == found.speed_rpm.max()
+    below = found.table.below
+    assert below is not None
+    assert below["error"].values == (100 * (found.approximations[0] / found.irregularity - 1),)
