@@ -215,7 +215,7 @@ class Counterweights(Tabled):
                     size *= max(abs(z - self.engine.reference_z) for _, z in self.places)
                 stays = abs(complex(getattr(self.residual[1], name).forward))
                 forward = "remains" if stays > size else "undecided"
-            found[name] = {"forward": forward, "backward": before.backward}
+            found[name] = {"forward": forward, "backward": before.backward[1]}
         return found
 
     def _meets(self, name: str) -> bool:
