@@ -159,6 +159,10 @@ PICTURES: dict[str, Callable[..., Any]] = {
         quantity="force", **place
     ),
     "balancer-options": lambda **place: cp.balancer_options(V6_90, rpm=5000).plot(**place),
+    "cycle": cp.Cycle.example().plot,
+    "cycle-volume": lambda **place: cp.Cycle.example().plot(
+        cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086), **place
+    ),
     "bearing-loads": LOADED.plot,
     "bearing-loads-curves": lambda **place: LOADED.plot(kind="curves", **place),
     "bearing-loads-crankpin": lambda **place: LOADED.plot(

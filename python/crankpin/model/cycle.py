@@ -13,13 +13,15 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.model import checks
+from crankpin.model import checks, cycle_files
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
+    from pathlib import Path
     from typing import Unpack
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -140,6 +142,78 @@ class Cycle(Tabled):
     def core(self) -> _core.Cycle:
         """Points as the core takes them, checked."""
         return _core.Cycle(self.theta_deg, self.pressure, self.strokes, self.name, self.degree)
+
+    @classmethod
+    def load(
+        cls,
+        path: str | Path,
+        *,
+        pressure_unit: str | None = None,
+        angle_unit: Literal["deg", "rad"] | None = None,
+        gauge: bool | None = None,
+        atmosphere: float = ATMOSPHERE,
+        tdc_deg: float = 0.0,
+        columns: tuple[int | str, int | str] = (0, 1),
+        strokes: int | None = None,
+        name: str | None = None,
+    ) -> Cycle:
+        """Return the cycle in a text file with columns of crank angle and pressure.
+
+        Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
+        unless columns are separated by commas too. Lines before the numbers, and lines that begin
+        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header.
+
+        Parameters
+        ----------
+        path
+            ``.csv``, ``.tsv``, ``.txt``, ``.dat`` or ``.asc``.
+        pressure_unit
+            ``"Pa"``, ``"hPa"``, ``"kPa"``, ``"MPa"``, ``"mbar"``, ``"bar"`` or ``"psi"``; by
+            default what the header names.
+        angle_unit
+            ``"deg"`` or ``"rad"``; by default what the header names, else degrees.
+        gauge
+            True for pressure above that of the atmosphere, False for absolute pressure; by default
+            what the header says.
+        atmosphere
+            Pressure added to gauge pressure, Pa.
+        tdc_deg
+            Angle of the firing top dead centre as the file counts angles, degrees.
+        columns
+            Numbers from 0, or names, of the columns of angle and pressure.
+        strokes
+            4 or 2; by default 4, or what :meth:`save` has written.
+        name
+            By default the name of the file, or what :meth:`save` has written.
+
+        Raises
+        ------
+        InputError
+            If the file states no unit, or not whether pressure is absolute, and the arguments do
+            neither; if it has no such columns; or as for :class:`Cycle`.
+        OSError
+            If the file cannot be read.
+        """
+        return cls(
+            *cycle_files.load(
+                path,
+                pressure_unit=pressure_unit,
+                angle_unit=angle_unit,
+                gauge=gauge,
+                atmosphere=atmosphere,
+                tdc_deg=tdc_deg,
+                columns=columns,
+                strokes=strokes,
+                name=name,
+            )
+        )
+
+    def save(self, path: str | Path) -> None:
+        """Write the points to a text file, ``.csv`` or the like, that reads back as an equal cycle.
+
+        Blanks and line breaks in the name become single blanks.
+        """
+        cycle_files.save(self, path)
 
     @classmethod
     def otto(
@@ -581,6 +655,32 @@ class Cycle(Tabled):
                 Column("pressure", tuple(self.pressure.tolist()), "Pa", digits=7),
             ),
         )
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        cylinder: Cylinder | None = None,
+        label: str | None = None,
+        **style: Any,  # noqa: ANN401 - of lines
+    ) -> Axes:
+        """Draw pressure over crank angle, or over volume.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        cylinder
+            Cylinder with a bore, to draw pressure over the volume swept.
+        label
+            Entry of the legend; by default the name.
+        style
+            Properties of the line, as matplotlib takes them.
+        """
+        from crankpin.analysis import drawing  # noqa: PLC0415 - matplotlib is imported when used
+
+        found: Axes = drawing.draw(self, ax, cylinder=cylinder, label=label, **style)
+        return found
 
 
 def area(cylinder: Cylinder) -> float:

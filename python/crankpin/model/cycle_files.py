@@ -1,0 +1,217 @@
+"""Tables of cylinder pressure over crank angle in text files."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from crankpin.model.cycle import Cycle
+
+ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".asc")
+HINT = "name a text file, .csv, .tsv, .txt, .dat or .asc"
+
+PRESSURE_UNITS = {
+    "Pa": 1.0,
+    "hPa": 1e2,
+    "kPa": 1e3,
+    "MPa": 1e6,
+    "mbar": 1e2,
+    "bar": 1e5,
+    "psi": 6894.757293168361,
+}
+"""Unit → Pa."""
+ANGLE_UNITS = {"deg": 1.0, "rad": 180.0 / np.pi}
+"""Unit → degrees."""
+
+_PRESSURE = re.compile(r"(?<![a-z])([hkm]?pa|m?bar|psi)(?=[agd]?(?![a-z]))", re.IGNORECASE)
+_GAUGE = re.compile(r"gauge|gage|relative|bar_?g\b|psi_?g\b|pa_?g\b|\(g\)", re.IGNORECASE)
+_ABSOLUTE = re.compile(r"abs|bar_?a\b|psi_?a\b|pa_?a\b|\(a\)", re.IGNORECASE)
+_RADIANS = re.compile(r"(?<![a-z])rad(ians?)?(?![a-z])", re.IGNORECASE)
+_FACT = re.compile(r"# (name|strokes|degree): ?(.*)")
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
+_COMMA_NUMBER = re.compile(_NUMBER.replace(r"\.", "[.,]"))
+
+Column: TypeAlias = int | str
+
+
+class _Text(NamedTuple):
+    """Parts of a file: facts of our own ones, cells of the header and of the lines of numbers."""
+
+    facts: dict[str, str]
+    header: list[str]
+    rows: list[list[str]]
+
+
+def load(
+    path: str | Path,
+    *,
+    pressure_unit: str | None,
+    angle_unit: str | None,
+    gauge: bool | None,
+    atmosphere: float,
+    tdc_deg: float,
+    columns: tuple[Column, Column],
+    strokes: int | None,
+    name: str | None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], int, str, int | None]:
+    """Return the fields of the cycle in a file: see :meth:`Cycle.load`."""
+    file = inputs.file_path(path, ENDINGS, HINT)
+    with file.open("rb") as opened:
+        found = opened.read(_core.LONGEST_FILE + 1)
+    if len(found) > _core.LONGEST_FILE:
+        raise InputError(
+            f"path = {inputs.shorten(str(path))}: more than {_core.LONGEST_FILE} bytes"
+        )
+    try:
+        text = found.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = found.decode("latin-1")  # a degree sign of an old program
+    split = _split(text)
+    place = [
+        _place(split.header, column) for column in inputs.items("columns", columns, "give two")
+    ]
+    if len(place) != 2:
+        raise InputError(f"columns = {inputs.shorten(columns)}: give two, of angle and pressure")
+    angles, pressures = (_numbers(split.rows, k) for k in place)
+    # Names with blanks of columns separated by blanks cannot be told apart.
+    apart = len(split.header) == len(split.rows[0])
+    heads = [split.header[k] if apart else " ".join(split.header) for k in place]
+    radians = bool(_RADIANS.search(heads[0]))
+    unit = angle_unit or ("rad" if radians else "deg")
+    angles *= ANGLE_UNITS[inputs.one_of("angle_unit", unit, ANGLE_UNITS)]
+    angles -= inputs.finite("tdc_deg", tdc_deg)
+    pressures *= PRESSURE_UNITS[_pressure_unit(pressure_unit, heads[1])]
+    if _is_gauge(gauge, heads[1]):
+        pressures += inputs.finite("atmosphere", atmosphere)
+    return (
+        angles,
+        pressures,
+        _fact(split.facts, "strokes") or 4 if strokes is None else strokes,
+        split.facts.get("name", file.stem) if name is None else name,
+        _fact(split.facts, "degree"),
+    )
+
+
+def save(cycle: Cycle, path: str | Path) -> None:
+    """Write a cycle to a file that reads back as an equal one."""
+    file = inputs.file_path(path, ENDINGS, HINT)
+    separator = "\t" if file.suffix.lower() == ".tsv" else ","
+    facts = {"name": " ".join(cycle.name.split()), "strokes": cycle.strokes, "degree": cycle.degree}
+    lines = [f"# {key}: {value}" for key, value in facts.items() if value is not None]
+    lines.append(f"crank angle deg{separator}absolute pressure Pa")
+    pairs = zip(cycle.theta_deg.tolist(), cycle.pressure.tolist(), strict=True)
+    lines += [f"{angle!r}{separator}{pressure!r}" for angle, pressure in pairs]
+    file.write_text("\n".join([*lines, ""]), encoding="utf-8")
+
+
+def _fact(facts: dict[str, str], name: str) -> int | None:
+    value = facts.get(name)
+    if value is not None and not value.isdecimal():
+        raise InputError(f"path: {name}: {inputs.shorten(value)} is no whole number")
+    return None if value is None else int(value[:9])
+
+
+def _split(text: str) -> _Text:
+    facts: dict[str, str] = {}
+    header = ""
+    rows: list[list[str]] = []
+    pattern: tuple[str | None, bool] | None = None
+    for line in text.splitlines():
+        stripped = line.strip()
+        if rule := _FACT.fullmatch(stripped):
+            facts[rule[1]] = rule[2]
+            continue
+        if pattern is None:
+            pattern = _separator(stripped)
+            if pattern is None:
+                header = stripped.lstrip("#%!/ ") if stripped else header
+                continue
+        if not stripped or stripped[0] in "#%!":
+            continue
+        rows.append(_cells(stripped, *pattern))
+    if pattern is None:
+        raise InputError("path: the file has no line of two numbers; give angle and pressure")
+    return _Text(facts, _cells(header, pattern[0], comma=False), rows)
+
+
+def _separator(line: str) -> tuple[str | None, bool] | None:
+    """Return what separates the cells of a line of numbers and whether decimals have commas."""
+    for separator in ("\t", ";", ",", None):
+        cells = [cell.strip() for cell in line.split(separator)]
+        cells = [cell for cell in cells if cell]
+        if len(cells) < 2 or not all(map(_COMMA_NUMBER.fullmatch, cells)):
+            continue
+        comma = any("," in cell for cell in cells)
+        if (
+            separator == ","
+            and len(cells) == 4
+            and all(cell.lstrip("+-").isdigit() for cell in cells)
+        ):
+            hint = "are decimals written with commas? Separate columns by semicolons or tabs"
+            raise InputError(f"path: {inputs.shorten(line)} are four whole numbers; {hint}")
+        return separator, comma
+    return None
+
+
+def _cells(line: str, separator: str | None, comma: bool) -> list[str]:
+    cells = [cell.strip().strip('"') for cell in line.split(separator)]
+    return [cell.replace(",", ".") for cell in cells] if comma else cells
+
+
+def _place(header: Sequence[str], column: object) -> int:
+    if isinstance(column, str):
+        if column not in header:
+            listed = ", ".join(map(repr, header[:10])) or "none"
+            raise InputError(
+                f"columns: there is no {inputs.shorten(column)}; the file has {listed}"
+            )
+        return header.index(column)
+    place = inputs.whole("columns", column)
+    if not 0 <= place < 1000:
+        raise InputError(f"columns = {place}: give numbers from 0, or names")
+    return place
+
+
+def _numbers(rows: list[list[str]], place: int) -> NDArray[np.float64]:
+    values = np.empty(len(rows))
+    for k, row in enumerate(rows):
+        try:
+            values[k] = float(row[place].replace("D", "e").replace("d", "e"))
+        except (ValueError, IndexError):
+            shown = inputs.shorten(" ".join(row))
+            raise InputError(
+                f"path: line {k + 1} of the numbers, {shown}, has no number in column {place}"
+            ) from None
+    return values
+
+
+def _pressure_unit(given: str | None, head: str) -> str:
+    if given is not None:
+        return inputs.one_of("pressure_unit", given, PRESSURE_UNITS)
+    found = {match[1].lower() for match in _PRESSURE.finditer(head)}
+    if len(found) != 1:
+        listed = " or ".join(f'"{unit}"' for unit in PRESSURE_UNITS)
+        raise InputError(f"pressure_unit = None: the file does not name one; give {listed}")
+    (unit,) = found
+    return next(each for each in PRESSURE_UNITS if each.lower() == unit)
+
+
+def _is_gauge(given: bool | None, head: str) -> bool:
+    if given is not None:
+        return inputs.flag("gauge", given)
+    if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
+        hint = "give True for pressure above the atmosphere's, False for absolute pressure"
+        raise InputError(f"gauge = None: the file does not say which it is; {hint}")
+    return bool(_GAUGE.search(head))

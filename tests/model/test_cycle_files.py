@@ -1,0 +1,146 @@
+"""Are tables of pressure read as they say, whatever program wrote them?"""
+
+# ruff: noqa: ANN401 - options of any type
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import numpy as np
+import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+THETA = np.arange(0.0, 720.0, 2.0)
+PRESSURE = 1e5 + 3.9e6 * np.exp(20 * (np.cos(np.radians((THETA - 12) / 2)) - 1))
+ABSOLUTE: dict[str, Any] = {"pressure_unit": "Pa", "gauge": False}
+
+
+def written(
+    folder: Path, header: str, separator: str = ",", scale: float = 1.0, **options: Any
+) -> Path:
+    angles = options.get("angles", THETA)
+    pressures = options.get("pressures", PRESSURE) / scale
+    lines = [
+        f"{angle:.10g}{separator}{pressure:.12g}"
+        for angle, pressure in zip(angles, pressures, strict=True)
+    ]
+    if options.get("comma"):
+        lines = [line.replace(".", ",") for line in lines]
+    path = folder / options.get("name", "bench.csv")
+    path.write_text("\n".join([header, *lines]), options.get("encoding", "utf-8"))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("header", "scale", "above"),
+    [
+        ("crank angle [deg],pressure [Pa abs]", 1.0, 0.0),
+        ("angle,p_cyl (kPa absolute)", 1e3, 0.0),
+        ("angle,p_cyl / MPa (abs.)", 1e6, 0.0),
+        ("CA,cylinder pressure bara", 1e5, 0.0),
+        ("CA,cylinder pressure [barg]", 1e5, 101325.0),
+        ("CA,psig", 6894.757293168361, 101325.0),
+        ("CA,gauge pressure mbar", 100.0, 101325.0),
+        ("°KW,Druck hPa (relative)", 100.0, 101325.0),
+    ],
+)
+def test_units_and_gauge_pressure_are_read_from_the_header(
+    tmp_path: Path, header: str, scale: float, above: float
+) -> None:
+    path = written(tmp_path, header, scale=scale, pressures=PRESSURE - above)
+    cycle = cp.Cycle.load(path)
+    # Twelve digits are written.
+    np.testing.assert_allclose(cycle.pressure, PRESSURE, rtol=1e-10)
+    np.testing.assert_array_equal(cycle.theta_deg, THETA)
+    assert cycle.name == "bench"
+
+
+@pytest.mark.parametrize("separator", [";", "\t", " ", "   "])
+def test_decimal_commas_are_recognised(tmp_path: Path, separator: str) -> None:
+    angles = THETA + 0.5
+    path = written(tmp_path, f"angle{separator}p", separator, 1e5, comma=True, angles=angles)
+    cycle = cp.Cycle.load(path, pressure_unit="bar", gauge=False)
+    np.testing.assert_array_equal(cycle.theta_deg, angles)
+    np.testing.assert_allclose(cycle.pressure, PRESSURE, rtol=1e-10)
+
+
+def test_angles_from_any_event_in_radians_and_columns_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "run 7.txt"
+    lines = [
+        f"{k}\t{np.radians(angle + 114):.15g}\t{pressure / 1e5:.12g}"
+        for k, (angle, pressure) in enumerate(zip(THETA, PRESSURE, strict=True))
+    ]
+    head = ["% bench of today", "", "row\tphi rad\tp bar abs"]
+    path.write_bytes("\ufeff".encode() + "\r\n".join([*head, *lines]).encode())
+    cycle = cp.Cycle.load(path, columns=("phi rad", "p bar abs"), tdc_deg=114)
+    np.testing.assert_allclose(cycle.theta_deg, THETA, atol=1e-9)
+    assert cycle == cp.Cycle.load(path, columns=(1, 2), tdc_deg=114)
+    again = cp.Cycle.load(
+        path, columns=(1, 2), tdc_deg=114, angle_unit="rad", pressure_unit="bar", gauge=False
+    )
+    assert cycle == again
+
+
+def test_old_encodings_are_read(tmp_path: Path) -> None:
+    path = written(tmp_path, "Kurbelwinkel °,Druck Pa abs", encoding="latin-1")
+    assert len(cp.Cycle.load(path).theta_deg) == 360
+
+
+@pytest.mark.parametrize(
+    "cycle",
+    [
+        cp.Cycle(THETA, PRESSURE, name="a table, of θ"),
+        cp.Cycle(THETA[:180], PRESSURE[:180] + PRESSURE[180:], strokes=2),
+        cp.Cycle.example(),
+    ],
+    ids=["table", "two-stroke", "computed"],
+)
+@pytest.mark.parametrize("ending", [".csv", ".tsv"])
+def test_what_is_saved_reads_back_as_an_equal_cycle(
+    tmp_path: Path, cycle: cp.Cycle, ending: str
+) -> None:
+    path = tmp_path / f"cycle{ending}"
+    cycle.save(path)
+    assert cp.Cycle.load(path) == cycle
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "message"),
+    [
+        ("angle,p\n0,1e5\n", {}, "pressure_unit = None: the file does not name one"),
+        ("angle,p Pa\n0,1e5\n", {}, "gauge = None: the file does not say"),
+        ("angle,p\n0,1e5\n", {"pressure_unit": "atm"}, "pressure_unit = 'atm': give \"Pa\""),
+        ("angle,p\n0,1e5\n", ABSOLUTE, "theta_deg = 1 points"),
+        ("", ABSOLUTE, "no line of two numbers"),
+        ("angle,p\n0,1e5\n1,high\n", ABSOLUTE, "line 2 of the numbers, '1 high', has no number"),
+        ("angle,p\n0,1e5\n1\n", ABSOLUTE, "line 2 of the numbers, '1', has no number in column 1"),
+        ("angle,p\n0,0,1,5\n", ABSOLUTE, "decimals written with commas"),
+        ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": ("angle", "q")}, "there is no 'q'"),
+        ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": (0,)}, "give two"),
+        ("angle,p\n0,1e5\n", {**ABSOLUTE, "gauge": "yes"}, "gauge = 'yes': give True or False"),
+        ("angle,p\n0,1e5\n", {**ABSOLUTE, "tdc_deg": np.nan}, "tdc_deg = nan: give a finite"),
+        ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "degree: 'x' is no whole number"),
+        ("# strokes: 9\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 9: give 4"),
+    ],
+)
+def test_files_that_are_no_cycle_are_named(
+    tmp_path: Path, text: str, options: dict[str, Any], message: str
+) -> None:
+    path = tmp_path / "wrong.csv"
+    path.write_text(text, "utf-8")
+    with pytest.raises(cp.InputError, match=message):
+        cp.Cycle.load(path, **options)
+
+
+def test_paths_are_checked_and_files_bounded(tmp_path: Path) -> None:
+    with pytest.raises(cp.InputError, match=r"path = 'cycle\.xlsx': name a text file"):
+        cp.Cycle.load("cycle.xlsx")
+    with pytest.raises(FileNotFoundError):
+        cp.Cycle.load(tmp_path / "none.csv")
+    endless = tmp_path / "endless.csv"
+    endless.symlink_to("/dev/zero")
+    with pytest.raises(cp.InputError, match="more than 16777216 bytes"):
+        cp.Cycle.load(endless)
