@@ -448,11 +448,11 @@ impl<'a> Internal<'a> {
                 let gas = self.gas.map_or(0.0, |gas| gas(i, theta));
                 self.rods[i].forces(&CrankPosition::new(unit.im, unit.re), gas).compression < 0.0
             };
-            let steps = (0..=cycle_deg * STEPS).map(|k| f64::from(k) / f64::from(STEPS));
-            let mut last = (0.0, in_tension(0.0));
-            let (starts, mut changes) = (last.1, Vec::new());
-            for theta in steps.skip(1) {
-                let here = (theta, in_tension(theta));
+            let starts = in_tension(0.0);
+            let (mut last, mut changes) = ((0.0, starts), Vec::new());
+            for k in 1..=cycle_deg * STEPS {
+                let theta = f64::from(k) / f64::from(STEPS);
+                let here = (theta, if theta < cycle { in_tension(theta) } else { starts });
                 if here.1 != last.1 {
                     let (mut low, mut high) = (last.0, here.0);
                     // Halving a step so often reaches the last place of 720.
