@@ -20,6 +20,7 @@ COMMANDS = {
     "peaks": ["--quick"],
     "search": ["--quick"],
     "orders": ["--quick"],
+    "bearings": ["--quick"],
     "stability": [],
 }
 """Each a file beside this one that takes ``--out``, with what makes it quick."""

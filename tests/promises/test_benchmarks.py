@@ -17,6 +17,7 @@ pytest.importorskip("matplotlib")
 
 from typing import TYPE_CHECKING
 
+import bearings
 import harmonics
 import orders
 import peaks
@@ -146,6 +147,14 @@ def test_orders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     timed = [row for row in rows if row["kind"] == "time"]
     # rounding of twelve forces of some 1e4 N
     assert all(float(row["error"]) <= float(row["bound"]) + 1e-10 for row in timed)
+
+
+def test_bearings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = run(bearings, tmp_path, monkeypatch, "bearings")
+    assert tuple(rows[0]) == bearings.HEADER
+    assert {row["method"] for row in rows} == {"NumPy", "crankpin"}
+    # rounding of some ten operations, of numbers of the size of the largest
+    assert all(float(row["error"]) < 1e-14 for row in rows)
 
 
 def test_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -232,6 +232,7 @@ impl Proportions {
             velocity: velocity - sin,
             acceleration: acceleration - cos,
             slope,
+            secant: steepness,
         }
     }
 }
@@ -273,6 +274,8 @@ pub struct Motion {
     /// tan φ of the rod's angle to the bore: above zero where its crankpin end lies on the side to
     /// which the crankpin swings after top dead centre.
     pub slope: f64,
+    /// 1/cos φ.
+    pub secant: f64,
 }
 
 /// [`Cylinder::slack`] of a rod and an offset, in crank radii.

@@ -18,7 +18,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, Array3, Axis};
+use ndarray::{Array2, Array3, ArrayViewMut, Axis, Dimension};
 
 use crate::Complex64;
 use crate::engine::Engine;
@@ -31,7 +31,7 @@ use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
-use crate::numbers::{limits, memory};
+use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
 use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
 
@@ -139,8 +139,8 @@ struct Turning {
 
 /// Forces of one cylinder; vectors along u and w.
 struct RodForces {
-    crankpin: Complex64,
-    wrist_pin: Complex64,
+    crankpin: [f64; 2],
+    wrist_pin: [f64; 2],
     across: f64,
     compression: f64,
 }
@@ -158,19 +158,21 @@ impl DrivenRod {
     #[inline(always)]
     fn forces(&self, crank: &CrankPosition, gas: f64) -> RodForces {
         let motion = self.proportions.motion_at(crank);
-        let secant = (1.0 + motion.slope * motion.slope).sqrt();
         let towards_crank = gas + self.reciprocating * motion.acceleration;
         let mut across = motion.slope * towards_crank;
         if self.couple != 0.0 {
-            across -= self.couple * secant * Swing::new(&self.proportions, crank).acceleration;
+            let swing = Swing::new(&self.proportions, crank);
+            across -= self.couple * motion.secant * swing.acceleration;
         }
         let on_wrist_pin = gas + self.piston * motion.acceleration;
-        let centrifugal = Complex64::new(crank.cos, crank.sin) * self.rotating;
         RodForces {
-            crankpin: Complex64::new(-towards_crank, across) + centrifugal,
-            wrist_pin: Complex64::new(on_wrist_pin, -across),
+            crankpin: [
+                self.rotating * crank.cos - towards_crank,
+                self.rotating * crank.sin + across,
+            ],
+            wrist_pin: [on_wrist_pin, -across],
             across,
-            compression: (on_wrist_pin + motion.slope * across) / secant,
+            compression: (on_wrist_pin + motion.slope * across) / motion.secant,
         }
     }
 
@@ -180,8 +182,8 @@ impl DrivenRod {
         let along = match axes {
             TurningAxes::Crank => Complex64::new(crank.cos, crank.sin),
             TurningAxes::Rod => {
-                let slope = self.proportions.motion_at(crank).slope;
-                Complex64::new(1.0, -slope) / (1.0 + slope * slope).sqrt()
+                let motion = self.proportions.motion_at(crank);
+                Complex64::new(1.0, -motion.slope) / motion.secant
             }
         };
         self.bore * along
@@ -202,11 +204,11 @@ impl RodColumns {
     fn fill(&mut self, rod: &DrivenRod, units: &Units) {
         for k in 0..BLOCK {
             let forces = rod.forces(&units.crank(rod.phase, k), self.gas[k]);
-            for ([x, y], force) in [
-                (&mut self.crankpin, rod.bore * forces.crankpin),
-                (&mut self.wrist_pin, rod.bore * forces.wrist_pin),
-            ] {
-                (x[k], y[k]) = (force.re, force.im);
+            let pairs =
+                [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
+            for ([x, y], [u, w]) in pairs {
+                x[k] = rod.bore.re * u - rod.bore.im * w;
+                y[k] = rod.bore.im * u + rod.bore.re * w;
             }
             self.across[k] = forces.across;
             self.compression[k] = forces.compression;
@@ -233,7 +235,10 @@ impl<'a> Internal<'a> {
         let loads = Loads::new(engine, 0.0, Alike::Dimensions);
         let (pistons, turn) = loads.list.split_at(engine.placements().len());
         let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
-        let all = |loads: &[Load]| loads.iter().map(|load| turning(load, load.weight)).collect();
+        let all = |loads: &[Load]| {
+            let unbalances = loads.iter().filter(|load| load.source == Source::Unbalance);
+            unbalances.map(|load| turning(load, load.weight)).collect()
+        };
         let mut found = Self {
             rods: Vec::new(),
             on_crank: all(of_crank),
@@ -298,7 +303,8 @@ impl<'a> Internal<'a> {
     /// Loads at crank angles in degrees.
     pub fn loads(&self, theta_deg: &[f64], cancel: &Cancel) -> Result<BearingLoads> {
         let (rods, mains, count) = (self.rods.len(), self.mains.len(), theta_deg.len());
-        check_angles(theta_deg, 7 * rods + 2 * mains, cancel)?;
+        let numbers = 7 * rods + 2 * mains;
+        check_angles(theta_deg, numbers, cancel)?;
         let mut found = BearingLoads {
             crankpin: vectors(rods, count)?,
             wrist_pin: vectors(rods, count)?,
@@ -307,12 +313,17 @@ impl<'a> Internal<'a> {
             rod: scalars(rods, count)?,
             gas: scalars(rods, count)?,
         };
-        let mut columns = RodColumns::ZERO;
-        let mut on_mains: Vec<[AngleColumn; 2]> = Vec::new();
-        each_block(theta_deg, cancel, |range, units| {
-            on_mains.clear();
-            on_mains.resize(mains, [AngleColumn::ZERO; 2]);
-            for (i, rod) in self.rods.iter().enumerate() {
+        let blocks = blocks(theta_deg, cancel)?;
+        let vectors = found.crankpin.outer_iter_mut().zip(found.wrist_pin.outer_iter_mut());
+        let scalars = found.side_thrust.outer_iter_mut().zip(found.rod.outer_iter_mut());
+        let rows = vectors.zip(scalars).zip(found.gas.outer_iter_mut()).enumerate();
+        let rows = rows.map(|(i, (((crankpin, wrist_pin), (across, rod)), gas))| {
+            (i, [crankpin, wrist_pin].map(slice), [across, rod, gas].map(slice))
+        });
+        each(rows.collect(), 2 * rods * count, cancel, |(i, mut vectors, mut scalars)| {
+            let mut columns = RodColumns::ZERO;
+            for (range, units) in &blocks {
+                cancel.check()?;
                 if let Some(gas) = self.gas {
                     for (value, &theta) in columns.gas.iter_mut().zip(&theta_deg[range.clone()]) {
                         *value = gas(i, theta);
@@ -320,30 +331,47 @@ impl<'a> Internal<'a> {
                 }
                 vectorised(
                     #[inline(always)]
-                    || columns.fill(rod, units),
+                    || columns.fill(&self.rods[i], units),
                 );
-                for (main, share) in self.levers(rod.z) {
-                    for (sum, force) in on_mains[main].iter_mut().zip(&columns.crankpin) {
-                        for (sum, force) in sum.iter_mut().zip(&force[..]) {
-                            *sum += share * force;
-                        }
+                let pairs = [&columns.crankpin, &columns.wrist_pin];
+                for (row, [x, y]) in vectors.iter_mut().zip(pairs) {
+                    let row = row[2 * range.start..2 * range.end].chunks_exact_mut(2);
+                    for (pair, (x, y)) in row.zip(x.iter().zip(&y[..])) {
+                        pair.copy_from_slice(&[*x, *y]);
                     }
                 }
-                write_vectors(&mut found.crankpin, i, &range, &columns.crankpin);
-                write_vectors(&mut found.wrist_pin, i, &range, &columns.wrist_pin);
-                write(&mut found.side_thrust, i, &range, &columns.across);
-                write(&mut found.rod, i, &range, &columns.compression);
-                write(&mut found.gas, i, &range, &columns.gas);
-            }
-            for load in &self.on_crank {
-                for (main, share) in self.levers(load.z) {
-                    let [x, y] = &mut on_mains[main];
-                    units.add_turning(load.at_start * share, 1, [&mut x[..], &mut y[..]]);
+                let values = [&columns.across, &columns.compression, &columns.gas];
+                for (row, column) in scalars.iter_mut().zip(values) {
+                    row[range.clone()].copy_from_slice(&column[..range.len()]);
                 }
             }
-            for (j, columns) in on_mains.iter().enumerate() {
-                write_vectors(&mut found.main, j, &range, columns);
+            Ok(())
+        })?;
+        let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
+        each(rows, mains * count, cancel, |(main, row)| {
+            let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
+            let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
+            let turning: Complex64 = turning.sum();
+            let carried = self.rods.iter().zip(found.crankpin.outer_iter());
+            let carried =
+                carried.filter_map(|(rod, force)| Some((share(rod.z)?, force.to_slice()?)));
+            let carried: Vec<_> = carried.collect();
+            for (range, units) in &blocks {
+                cancel.check()?;
+                let (start, end) = (2 * range.start, 2 * range.end);
+                let row = &mut row[start..end];
+                for (share, force) in &carried {
+                    for (sum, force) in row.iter_mut().zip(&force[start..]) {
+                        *sum += share * force;
+                    }
+                }
+                let units = units.cos.iter().zip(&units.sin[..]);
+                for (pair, (cos, sin)) in row.chunks_exact_mut(2).zip(units) {
+                    pair[0] += turning.re * cos - turning.im * sin;
+                    pair[1] += turning.re * sin + turning.im * cos;
+                }
             }
+            Ok(())
         })?;
         Ok(found)
     }
@@ -363,16 +391,20 @@ impl<'a> Internal<'a> {
             Bearing::WristPin => (loads.wrist_pin, axes),
             Bearing::Main => (loads.main, TurningAxes::Crank),
         };
-        each_block(theta_deg, cancel, |range, units| {
-            for (row, mut values) in vectors.outer_iter_mut().enumerate() {
-                let rod = &self.rods[if bearing == Bearing::Main { 0 } else { row }];
-                let mut block = values.slice_axis_mut(Axis(0), range.clone().into());
-                for (k, mut pair) in block.outer_iter_mut().enumerate() {
+        let (blocks, numbers) = (blocks(theta_deg, cancel)?, vectors.len());
+        let rows = vectors.outer_iter_mut().map(slice).enumerate().collect();
+        each(rows, numbers, cancel, |(row, values)| {
+            let rod = &self.rods[if bearing == Bearing::Main { 0 } else { row }];
+            for (range, units) in &blocks {
+                cancel.check()?;
+                let pairs = values[2 * range.start..2 * range.end].chunks_exact_mut(2);
+                for (k, pair) in pairs.enumerate() {
                     let axis = rod.axis(&units.crank(rod.phase, k), axes);
                     let seen = Complex64::new(pair[0], pair[1]) * axis.conj();
-                    (pair[0], pair[1]) = (seen.re, seen.im);
+                    pair.copy_from_slice(&[seen.re, seen.im]);
                 }
             }
+            Ok(())
         })?;
         Ok(vectors)
     }
@@ -484,22 +516,38 @@ impl<'a> Internal<'a> {
     }
 }
 
-/// Call a function for each block of crank angles, with `e^{iθ}`.
-fn each_block(
-    theta_deg: &[f64],
-    cancel: &Cancel,
-    mut work: impl FnMut(Range<usize>, &Units),
-) -> Result<()> {
-    for range in parts(0..theta_deg.len(), BLOCK) {
+/// `e^{iθ}` of crank angles, in blocks, and where each is in the list.
+fn blocks(theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<(Range<usize>, Units)>> {
+    let ranges = parts(0..theta_deg.len(), BLOCK);
+    let mut blocks = memory::room(ranges.len())?;
+    for range in ranges {
         cancel.check()?;
         let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
         let units = vectorised(
             #[inline(always)]
             || Units::new(&angles, 0..angles.len(), Order::FIRST),
         );
-        work(range, &units);
+        blocks.push((range, units));
     }
-    Ok(())
+    Ok(blocks)
+}
+
+/// Do some work for each row, in parallel where so many numbers are worth it.
+fn each<T: Send>(
+    rows: Vec<T>,
+    numbers: usize,
+    cancel: &Cancel,
+    work: impl Fn(T) -> Result<()> + Send + Sync,
+) -> Result<()> {
+    if pool::worth(numbers) {
+        return pool::map(cancel, rows, work).map(drop);
+    }
+    rows.into_iter().try_for_each(work)
+}
+
+/// The numbers of a row.
+fn slice<D: Dimension>(row: ArrayViewMut<'_, f64, D>) -> &mut [f64] {
+    row.into_slice().unwrap_or_default()
 }
 
 /// Rejects crank angles, or results of so many numbers an angle.
@@ -521,28 +569,4 @@ fn scalars(rows: usize, count: usize) -> Result<Array2<f64>> {
 
 fn shape_error(error: &ndarray::ShapeError) -> Error {
     Error::value("theta_deg", "its length", error.to_string())
-}
-
-fn write(to: &mut Array2<f64>, row: usize, range: &Range<usize>, column: &AngleColumn) {
-    let count = to.ncols();
-    if let Some(values) = to.as_slice_mut() {
-        let start = row * count + range.start;
-        values[start..start + range.len()].copy_from_slice(&column[..range.len()]);
-    }
-}
-
-fn write_vectors(
-    to: &mut Array3<f64>,
-    row: usize,
-    range: &Range<usize>,
-    [x, y]: &[AngleColumn; 2],
-) {
-    let count = to.dim().1;
-    if let Some(values) = to.as_slice_mut() {
-        let start = 2 * (row * count + range.start);
-        let pairs = values[start..start + 2 * range.len()].chunks_exact_mut(2);
-        for (pair, (x, y)) in pairs.zip(x.iter().zip(&y[..])) {
-            pair.copy_from_slice(&[*x, *y]);
-        }
-    }
 }
