@@ -340,6 +340,8 @@ def test_shafts_are_fitted_anew_at_other_bank_angles() -> None:
         ({"tie_rtol": 1.0}, "tie_rtol"),
         ({"by": None}, "by = None"),
         ({"by": "[1].moment.size"}, "by = "),
+        ({"by": "[0.5].torque.peak"}, "designs have no gas pressure"),
+        ({"by": "total.torque.gas.peak"}, "designs have no gas pressure"),
         ({"by": lambda b: b.rpm}, "rank the engines"),
         ({"by": "unevenness_deg"}, "rank the engines"),
         ({"orders": [2], "bank_angle_deg": 60}, "needs order 1"),

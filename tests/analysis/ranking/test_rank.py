@@ -12,6 +12,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from conftest import IJESC
+from crankpin.analysis.ranking import objectives
 from matplotlib import pyplot as plt
 from rederivation import ijesc
 
@@ -497,3 +498,19 @@ def test_some_arrangements_of_a_search() -> None:
         cp.rank(chosen, cylinder=cylinder, rpm=3000, by="total.moment.peak")
     with pytest.raises(cp.InputError, match=r"spacing = 0\.1: is for arrangements"):
         cp.rank(engines, spacing=0.1, rpm=3000, by="total.moment.peak")
+
+
+def test_objectives_take_half_orders_and_parts_of_torque() -> None:
+    for path, order, quantity, head in (
+        ("[0.5].crank_torque.peak", 0.5, "crank_torque", "order-0.5 crank torque"),
+        ("[1.5].torque.gas.peak", 1.5, "torque.gas", "order-1.5 roll torque of gas pressure"),
+        ("total.torque.inertia.peak", None, "torque.inertia", None),
+        ("[2.0].torque.peak", 2, "torque", "order-2 roll torque"),
+    ):
+        found = objectives.named(path)
+        assert (found.order, found.quantity) == (order, quantity)
+        assert type(found.order) is type(order)
+        assert head is None or found.head == head
+    for wrong in ("[0.25].torque.peak", "[0].torque.peak", "total.moment.gas.peak"):
+        with pytest.raises(cp.InputError, match=r"^by = "):
+            objectives.named(wrong)

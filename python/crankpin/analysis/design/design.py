@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
+from crankpin._support.quantities import PARTS
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance
 from crankpin.analysis.design import optima
@@ -225,8 +226,14 @@ class Search:
             # Totals guide the optimiser; those of the result have all orders.
             orders = balance(one_cylinder(question), rpm, rtol=GUIDING).orders
         self._totals = orders
+        for each in objectives:
+            if each.quantity in PARTS or (each.order or 1) % 1:
+                hint = "give whole orders of whole quantities, or rank fired engines"
+                raise InputError(f'by = "{each.label}": designs have no gas pressure; {hint}')
         self._smooth = [
-            (each.quantity, each.what, each.order) for each in objectives if each.quantity
+            (each.quantity, each.what, None if each.order is None else int(each.order))
+            for each in objectives
+            if each.quantity
         ]
         unnamed = [each.label for each in objectives if not each.quantity]
         if unnamed and any(family.variables for family in self._families):

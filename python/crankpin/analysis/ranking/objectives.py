@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+from crankpin._support.quantities import KINDS, PLANE_VECTORS
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.sweeps.sweep import sweep
@@ -18,6 +19,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from crankpin._support.inputs import Order
     from crankpin.analysis.sweeps.sweep import Sweep
 
 Measure: TypeAlias = Callable[[Balance], float]
@@ -41,10 +43,10 @@ class Objective(NamedTuple):
     """Computes it from a sweep of several engines at one speed: (n_engines, …)."""
     of_balance: Measure | None = None
     """Where ``of_sweep`` is None: computes it from one engine at one bank angle."""
-    order: int | None = None
+    order: Order | None = None
     """The order that it reads."""
     quantity: str = ""
-    """``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; empty for a function."""
+    """``"force"``, ``"torque.gas"`` or another name of the registry; empty for a function."""
     what: str = ""
     """``"peak"``, ``"peak_xy"``, ``"forward"`` or ``"backward"``; empty for a function."""
 
@@ -140,11 +142,11 @@ COMMON = (
     "[2].moment.peak",
     "unevenness_deg",
 )
-"""Names of objectives; any order may take the place of 1 and 2."""
+"""Names of objectives; any order may take the place of 1 and 2, a part as torque.gas of torque."""
 _PATH = re.compile(
-    r"(?:total|\[([1-9][0-9]{0,8})\])"
+    r"(?:total|\[([1-9][0-9]{0,8}(?:\.[05])?|0\.5)\])"
     rf"\.(?:({'|'.join(PLANE_VECTORS)})\.(peak|peak_xy|forward|backward)"
-    rf"|({'|'.join(set(QUANTITIES) - set(PLANE_VECTORS))})\.(peak))"
+    rf"|({'|'.join(name for name in KINDS if name not in PLANE_VECTORS)})\.(peak))"
 )
 
 
@@ -157,13 +159,13 @@ def named(label: str) -> Objective:
     if not found or (found[1] is None and found[3] in ("forward", "backward")):
         inputs.one_of("by", label, COMMON)
     assert found is not None  # noqa: S101 - else refused above
-    order = None if found[1] is None else int(found[1])
+    order = None if found[1] is None else inputs.order(float(found[1]))
     quantity, what = found[2] or found[4], found[3] or found[5]
-    name = QUANTITIES[quantity].words
+    name = KINDS[quantity].words
     head = f"{'total' if order is None else f'order-{order}'} {name}"
     head += {"peak": "", "peak_xy": " along x or y"}.get(what, f", {what}")
     sort = {
-        "peak": "longest" if QUANTITIES[quantity].planar else "largest",
+        "peak": "longest" if KINDS[quantity].planar else "largest",
         "peak_xy": "larger peak along (about) x and y of",
         "forward": "forward part of",
         "backward": "backward part of",
@@ -174,10 +176,10 @@ def named(label: str) -> Objective:
 
     def of_sweep(swept: Sweep) -> NDArray[np.float64]:
         source = swept.total if order is None else swept[order]
-        values = np.abs(getattr(getattr(source, quantity), what))
+        values = np.abs(attrgetter(f"{quantity}.{what}")(source))
         return np.asarray(values.max(axis=-1) if what == "peak_xy" else values)
 
-    kind = QUANTITIES[quantity]
+    kind = KINDS[quantity]
     return Objective(label, head, words, kind.unit, of_sweep, None, order, quantity, what)
 
 
