@@ -4,6 +4,8 @@
 //! scale with ω², so that one fit serves every speed. Forces are in kg·m here, moments and torques in
 //! kg·m²: over ω².
 
+mod angle_lists;
+mod discs;
 mod least_squares;
 mod nonnegative;
 pub mod shafts;

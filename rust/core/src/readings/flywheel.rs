@@ -123,7 +123,7 @@ impl Drive<'_> {
         if omega == 0.0 {
             return Err(Error::figure("rpm", self.rpm, "give a speed above 0"));
         }
-        let motion = Motion::new(self, omega, cancel)?;
+        let motion = WorkCurve::new(self, omega, cancel)?;
         let (inertia, run) = match evenness {
             Evenness::Inertia(inertia) => {
                 let given = limits::inertia("inertia", inertia)?;
@@ -229,7 +229,7 @@ impl Cell {
 }
 
 /// Work and moving masses over a cycle.
-struct Motion {
+struct WorkCurve {
     cells: Vec<Cell>,
     mean_torque: f64,
     /// Work of torque and load without their signs.
@@ -245,7 +245,7 @@ struct Run {
     irregularity: f64,
 }
 
-impl Motion {
+impl WorkCurve {
     fn new(drive: &Drive, omega: f64, cancel: &Cancel) -> Result<Self> {
         let edges = &drive.grid.edges_deg;
         for (argument, values) in [("torque", drive.torque), ("load", drive.load)] {
