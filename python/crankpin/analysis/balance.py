@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder, ErrorBound
@@ -134,6 +134,11 @@ class Balance(ByOrder, Tabled):
         return self.__dict__["_omitted"]  # type: ignore[no-any-return]
 
     @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return self.within[0].fired if self.within is not None else self.engine.fired
+
+    @property
     def error_bound(self) -> ErrorBound:
         """Upper bounds on what the orders in ``omitted`` and above add at any crank angle.
 
@@ -168,10 +173,12 @@ class Balance(ByOrder, Tabled):
     def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         inputs.one_of("quantity", quantity, QUANTITIES)
-        orders = inputs.orders([order]) or []
+        if order % 1:
+            return not self.fired or QUANTITIES[quantity].planar  # inertia has whole orders
+        orders = [int(order)]
         if self.request.pairs is not None or quantity == "crank_torque":
             return False
-        if quantity == "torque" and any(self.request.aside):
+        if quantity == "torque" and (self.fired or any(self.request.aside)):
             return False
         core = engine_core(self.engine)
         vanishes = _core.vanishing(core, orders, self.request.reference_z)[0][0]
@@ -187,9 +194,9 @@ class Balance(ByOrder, Tabled):
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         core: _core.Balance = self.__dict__["_source"]
-        planar, on_crank = QUANTITIES[quantity].planar, quantity == "crank_torque"
+        planar = KINDS[quantity].planar
         readers: dict[str, Callable[[], Any]] = {
-            "zero_bound": lambda: core.zero_bound(quantity if planar else "torque"),
+            "zero_bound": lambda: core.zero_bound(quantity),
             "peak_xy": lambda: np.abs(self.read(quantity, "phasors")),
         }
         if planar:
@@ -203,9 +210,10 @@ class Balance(ByOrder, Tabled):
             }
         else:
             readers |= {
-                "phasors": core.crank_torque if on_crank else core.roll_torque,
+                "phasors": lambda: core.torque(quantity),
                 "peak": readers["peak_xy"],
-                "total_peak": lambda: core.torque_sum_peak(on_crank),
+                "total_peak": lambda: core.torque_sum_peak(quantity),
+                "mean": lambda: core.torque_mean(quantity),
             }
         found: NDArray[Any] = readers[what]()
         return found

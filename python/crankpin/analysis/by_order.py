@@ -169,7 +169,9 @@ class ByOrder(Keyed, Quantities):
             bound = (abs(x) + abs(y)) * self.read("force", "zero_bound")
             return self._compute(quantity, what) + bound
         phasors = self.read(quantity, "phasors")
-        return np.abs(phasors) if what == "peak" else total_peaks(self.orders, phasors)
+        if what == "peak":
+            return np.abs(phasors)
+        return total_peaks(self.orders, phasors, self.read(quantity, "mean"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
@@ -189,7 +191,7 @@ class ByOrder(Keyed, Quantities):
 
     def at_orders(self, orders: tuple[Order, ...]) -> Self:
         """Return the same result at the orders given."""
-        wanted = inputs.orders(orders)
+        wanted = inputs.half_orders(orders)
         if wanted is None:
             raise InputError(f"orders = {inputs.shorten(orders)}: give orders, such as (1, 2)")
         return self.with_request(self.request.at_orders(tuple(wanted)))
@@ -273,7 +275,19 @@ class ByOrder(Keyed, Quantities):
         return export.to_xarray(self, self.named(quantities), split_complex=split_complex)
 
 
-def total_peaks(orders: tuple[Order, ...], phasors: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """Return the largest magnitude over θ of the sum of all orders: (…), of (…, n_orders)."""
+def total_peaks(
+    orders: tuple[Order, ...], phasors: NDArray[np.complex128], mean: Any = 0.0,  # noqa: ANN401
+) -> NDArray[np.float64]:  # fmt: skip
+    """Return the largest magnitude over θ of a mean and all orders: (…), of (…, n_orders)."""
     flat = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
-    return _core.peaks_of_sums(list(orders), flat).reshape(phasors.shape[:-1])
+    found = (
+        [
+            _core.peaks_of_sums(list(orders), row[np.newaxis], float(each))
+            for row, each in zip(
+                flat, np.broadcast_to(mean, phasors.shape[:-1]).ravel(), strict=True
+            )
+        ]
+        if np.any(mean)
+        else [_core.peaks_of_sums(list(orders), flat, 0.0)]
+    )
+    return np.concatenate(found).reshape(phasors.shape[:-1])

@@ -65,6 +65,7 @@ def _parts(engine: Engine) -> Iterator[tuple[str, str, Engine]]:
         alone = _core.Engine.from_lists(
             [parts], [tdc[k]], None, [bore[k]], None, [z[k]], [rotating[k]], "", ""
         )
+        alone = alone.keeping([core.details[k]], [], None).fired_as(core, [k])
         yield str(k + 1), banks[k + 1], Engine(alone)
     # Counterweights follow crankpins: those of cylinders without masses.
     massless = [

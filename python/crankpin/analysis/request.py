@@ -45,7 +45,7 @@ class Request(Record):
         default_rtol: float = 1e-9,
     ) -> Request:
         """Return a request, or raise an InputError that names the argument at fault."""
-        wanted = inputs.orders(orders)
+        wanted = inputs.half_orders(orders)
         if wanted is not None and rtol is not None:
             raise InputError(
                 f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; leave out rtol or orders'

@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
 from crankpin.analysis.balance import error_bound, mean_piston_speed
@@ -82,7 +82,7 @@ class OverAngle:
 
     @property
     def torque(self) -> NDArray[np.float64]:
-        """Roll torque of the inertia forces on the block about +z, N·m: (…, n_theta).
+        """Roll torque on the block about +z, N·m: (…, n_theta).
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
@@ -90,7 +90,7 @@ class OverAngle:
 
     @property
     def crank_torque(self) -> NDArray[np.float64]:
-        """Torque of the inertia forces on the crank about +z, N·m: (…, n_theta).
+        """Torque on the crank about +z, N·m: (…, n_theta).
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
@@ -196,7 +196,7 @@ class Waveform(OverAngle, Tabled):
         check_request(self.request, "Engine.waveform")
         request = self.request
         theta = inputs.copied(self.theta_deg)
-        *arrays, balance = _core.waveform(
+        *arrays, gas, balance = _core.waveform(
             engine_core(self.engine),
             self.rpm,
             theta,
@@ -207,9 +207,10 @@ class Waveform(OverAngle, Tabled):
             request.pairs,
             request.torque,
         )
-        self.__dict__.update(
-            theta_deg=theta, _by_name=dict(zip(QUANTITIES, arrays, strict=True)), _balance=balance
-        )
+        by_name = dict(zip(QUANTITIES, arrays, strict=True))
+        for name, values in zip(("torque", "crank_torque"), gas or (), strict=False):
+            by_name |= {f"{name}.gas": values, f"{name}.inertia": read_only(by_name[name] - values)}
+        self.__dict__.update(theta_deg=theta, _by_name=by_name, _balance=balance)
         super().__post_init__()
 
     @property
@@ -234,6 +235,11 @@ class Waveform(OverAngle, Tabled):
         if self._summed is None:
             return ErrorBound(0.0, 0.0, 0.0 if known else None)
         return error_bound(self._summed, torque_known=known)
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return self.engine.fired
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]

@@ -15,6 +15,7 @@ from crankpin._support.absent import AbsentError
 from crankpin._support.record import read_only
 from crankpin.model import checks, crankpins
 from crankpin.model import shafts as rotating
+from crankpin.model.cycle import ATMOSPHERE, Cycle
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
@@ -212,6 +213,41 @@ class EngineData:
         given = self._core.reference_z
         return self._core.middle if given is None else given
 
+    @property
+    def cycles(self) -> tuple[Cycle | None, ...] | None:
+        """Pressure in each cylinder over its cycle, None where it has none; None without any."""
+        cores = self._core.cycles
+        if cores is None:
+            return None
+        known: dict[_core.Cycle, Cycle] = {}
+        for core in cores:
+            if core is not None and core not in known:
+                known[core] = Cycle._of(core)
+        return tuple(None if core is None else known[core] for core in cores)
+
+    @property
+    def crankcase(self) -> float | None:
+        """Absolute pressure in the crankcase, Pa; None without cycles."""
+        return self._core.crankcase
+
+    @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted."""
+        return self._core.crankcase is not None
+
+    @property
+    def firing_deg(self) -> NDArray[np.float64]:
+        """Crank angles of the firing top dead centres, degrees: (n_cylinders,).
+
+        In [0, 720) for a four-stroke, [0, 360) for a two-stroke; undefined without cycles.
+        """
+        angles = self._core.firing_deg
+        if angles is None:
+            raise AbsentError(
+                "firing_deg is undefined for this engine: it has no cycles; use firing().angles_deg"
+            )
+        return read_only(np.array(angles))
+
     # --- banks and throws -----------------------------------------------------------------------
 
     @property
@@ -299,6 +335,8 @@ class EngineData:
         shafts: Iterable[Shaft] | None = None,
         mains: ArrayLike | Literal["kept"] | None = KEPT,
         reference_z: float | Literal["kept"] | None = KEPT,
+        cycle: Cycle | Sequence[Cycle | None] | Literal["kept"] | None = KEPT,
+        crankcase: float | None = None,
         firing_order: str | Iterable[int] | None = None,
         strokes: int | None = None,
         name: str | None = None,
@@ -312,6 +350,8 @@ class EngineData:
         ----------
         mains, reference_z
             None for the defaults of :attr:`mains` and :attr:`reference_z`.
+        cycle, crankcase
+            As in :meth:`with_cycle`.
 
         Examples
         --------
@@ -339,13 +379,18 @@ class EngineData:
         core = rotating.with_counterweights(core, weights)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
         count = self.strokes if strokes is None else inputs.strokes(strokes)
-        return type(self)(
+        changed = type(self)(
             core,
             self._core.name if name is None else name,
             self.source if source is None else source,
             allowed(core, self.firing_order, count) if firing_order is None else firing_order,
             count,
         )
+        cycles: Any = self.cycles if _is_kept(cycle) else cycle
+        if cycles is None:
+            return changed
+        above = self.crankcase if crankcase is None else crankcase
+        return changed.with_cycle(cycles, crankcase=ATMOSPHERE if above is None else above)
 
     def with_counterweights(self, counterweights: Iterable[Unbalance]) -> Self:
         """Return the same engine with these counterweights in place of those it has.
@@ -385,6 +430,52 @@ class EngineData:
             Balance shafts; see :class:`crankpin.Shaft`.
         """
         return type(self)(rotating.with_shafts(self._core, shafts))
+
+    def with_cycle(
+        self, cycle: Cycle | Sequence[Cycle | None] | None, *, crankcase: float = ATMOSPHERE
+    ) -> Self:
+        """Return the same engine with gas pressure in its cylinders, by its firing order.
+
+        Balances and waveforms count it: ``torque`` and ``crank_torque`` have the parts ``gas`` and
+        ``inertia``, half orders and a ``mean``. Gas pressure makes no force and no rocking moment,
+        since its forces on head, wall and bearings cancel.
+
+        Parameters
+        ----------
+        cycle
+            Pressure over a cycle, for all cylinders or one for each; None for a cylinder without
+            gas load, as with its valves open. None for an engine without gas pressure.
+        crankcase
+            Absolute pressure below the pistons, Pa.
+
+        Raises
+        ------
+        InputError
+            If the engine has no firing order (the message has those that the crank allows), a
+            cylinder no bore, or a cycle other strokes than the engine.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import crankpin as cp
+        >>> theta = np.arange(-360, 360)
+        >>> cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(-(((theta - 15) / 30) ** 2)))
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cycle)
+        >>> b = i4.balance(rpm=3000, orders=[0.5, 2])
+        >>> round(b.crank_torque.mean, 1), b.crank_torque.peak.round(1)
+        (0.0, array([0., 0.]))
+        """
+        if cycle is None:
+            return type(self)(self._core.without_cycles())
+        hint = "give a crankpin.Cycle, or one or None for each cylinder"
+        one = isinstance(cycle, Cycle)
+        each = [cycle] * len(self) if one else inputs.items("cycle", cycle, hint)
+        for k, of_cylinder in enumerate(each):
+            if not (of_cylinder is None or isinstance(of_cylinder, Cycle)):
+                raise InputError(f"cycle[{k}] = {inputs.shorten(of_cylinder)}: {hint}")
+        cores = [None if each_cycle is None else each_cycle.core for each_cycle in each]
+        return type(self)(self._core.with_cycles(cores, inputs.number("crankcase", crankcase)))
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
         """Return the same engine with its two banks at another angle about the same bisector.

@@ -8,6 +8,8 @@
 //!   conj(½·ρ²·A·e^{−i(β + nφ)}); its torques are amplitudes times e^{−inφ};
 //! - an unbalance U has, at n = |ρ|, ρ²·U·e^{i(β − nφ)}, all of it forward, if ρ > 0, and the backward
 //!   part conj(ρ²·U·e^{−i(β + nφ)}) if ρ < 0;
+//! - pressure has only a torque, an amplitude times e^{−inφ}, φ the crank angle of the firing, also at
+//!   half orders;
 //! - the moment is i·(z − z₀) times the force; a force at a = x + iy makes a roll torque of Im(ā·F).
 //!
 //! [`superpose`] sums these, and nothing else does. A reading of the list is an [`Arithmetic`]: it
@@ -21,10 +23,12 @@
 //!
 //! When a bank turns by δ, whatever belongs to it is multiplied as [`Turn`] says.
 
+use std::sync::Arc;
+
 use crate::Complex64;
 use crate::engine::{Crank, Engine, Hold, first_equal};
 use crate::gear::slider_crank::Cylinder;
-use crate::gear::{Gear, GearKind};
+use crate::gear::{Gear, GearKind, Pressure};
 use crate::numbers::angle::Angle;
 use crate::numbers::order::Order;
 use crate::wrench::Planar;
@@ -43,19 +47,24 @@ pub(crate) enum Source {
     },
     /// A mass off the axis of a shaft.
     Unbalance,
+    /// Pressure on a piston, which makes torque alone: forces on head, wall and bearings cancel.
+    Pressure {
+        /// Index into [`Loads::gears`].
+        gear: usize,
+    },
 }
 
 /// A periodic load on the engine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub source: Source,
-    /// m·r of a piston, the unbalance of a shaft, kg·m.
+    /// m·r of a piston, the unbalance of a shaft, kg·m; area times crank radius of pressure, m³.
     pub weight: f64,
     /// Direction of the force when the crank stands at `phase`, from +x.
     pub direction: Angle,
     /// Unit vector of that direction, x + iy.
     unit: Complex64,
-    /// Crank angle.
+    /// Crank angle; of pressure half of that of the firing, which half orders turn by whole numbers.
     pub phase: Angle,
     /// Place along the crank, m.
     pub z: f64,
@@ -79,6 +88,8 @@ pub(crate) enum Harmonic {
     Torque(usize),
     /// Of the torque of a gear's rod inertia.
     Rod(usize),
+    /// Of the torque of the pressure on a gear's piston.
+    Gas(usize),
 }
 
 /// What a term scales with.
@@ -87,7 +98,6 @@ pub(crate) enum Scale {
     /// The square of the speed of the crank, ω²: inertia.
     Speed,
     /// Nothing: gas pressure, whatever the speed.
-    #[expect(dead_code, reason = "of pressure")]
     Given,
 }
 
@@ -96,6 +106,7 @@ impl Harmonic {
     pub fn scale(self) -> Scale {
         match self {
             Self::One | Self::Force(_) | Self::Torque(_) | Self::Rod(_) => Scale::Speed,
+            Self::Gas(_) => Scale::Given,
         }
     }
 }
@@ -115,6 +126,8 @@ pub(crate) enum Weight {
     ArmX,
     /// m·r or unbalance times y of its axis.
     ArmY,
+    /// Area times crank radius.
+    Volume,
 }
 
 /// Factor of a load's part: `halves`/2 · i^`quarters`.
@@ -178,15 +191,21 @@ pub(crate) fn superpose<A: Arithmetic>(
     wanted: Wanted,
 ) -> Vec<Term<A::Sum>> {
     let mut terms = Vec::new();
-    // Every load so far has whole orders only.
-    let Some(whole) = order.as_whole() else { return terms };
     for at @ (_, load) in loads.list.iter().enumerate().filter(|(_, load)| load.acts_at(order)) {
         let bank = load.bank.filter(|_| wanted.by_bank);
-        let phase = arithmetic.phase(at, -i64::from(whole));
+        if let Source::Pressure { gear } = load.source {
+            if wanted.roll {
+                let phase = arithmetic.phase(at, -i64::from(order.halves()));
+                let sum = &mut term_of(&mut terms, Harmonic::Gas(gear), bank).roll;
+                arithmetic.add(sum, at, Weight::Volume, &phase, Times { halves: 2, quarters: 0 });
+            }
+            continue;
+        }
+        let phase = arithmetic.phase(at, -i64::from(order.halves() / 2));
         let square = load.ratio * load.ratio;
         let (harmonic, halves) = match load.source {
             Source::Piston { gear, .. } => (Harmonic::Force(gear), square),
-            Source::Unbalance => (Harmonic::One, 2 * square),
+            _ => (Harmonic::One, 2 * square),
         };
         let arm = wanted.roll && load.axis != Complex64::default();
         if wanted.planar || arm {
@@ -275,7 +294,7 @@ impl Arithmetic for Phasors {
         times: Times,
     ) {
         let (weight, size) = match (weight, load.source) {
-            (Weight::Force, _) => (load.weight, load.weight),
+            (Weight::Force | Weight::Volume, _) => (load.weight, load.weight),
             // Rounding of a lever is relative to what it is the difference of.
             (Weight::Moment, _) => (
                 load.weight * (load.z - self.reference),
@@ -287,7 +306,7 @@ impl Arithmetic for Phasors {
                 (second_moment, second_moment)
             }
             (Weight::Rod, Source::Piston { rod_inertia, .. }) => (rod_inertia, rod_inertia.abs()),
-            (Weight::Torque | Weight::Rod, Source::Unbalance) => (0.0, 0.0),
+            (Weight::Torque | Weight::Rod, _) => (0.0, 0.0),
         };
         sum.value += times.of(*unit) * weight;
         sum.size += 0.5 * f64::from(times.halves) * size;
@@ -349,15 +368,24 @@ impl Loads {
             }
         };
         let crank = |i: usize| &engine.cranks()[engine.crank_of(i)];
+        // A spectrum does not determine a motion, against which pressure would act.
+        let gas = engine.gas().filter(|_| spectrum.is_none());
+        let cycle_of = |i: usize| gas.and_then(|gas| gas.cycle_of[i]);
         let count = engine.placements().len();
-        let gear_of =
-            first_equal((0..count).map(|i| (alike_to[engine.gear_of(i)], crank(i).ratio)));
+        let gear_of = first_equal(
+            (0..count).map(|i| (alike_to[engine.gear_of(i)], crank(i).ratio, cycle_of(i))),
+        );
         let mut gears: Vec<Gear> = Vec::new();
         for (i, &gear) in gear_of.iter().enumerate() {
             if gear == gears.len() {
                 let (cylinder, ratio) = (cylinders[engine.gear_of(i)], crank(i).ratio);
-                let given = |spectrum| Gear { kind: GearKind::Given(spectrum), ratio };
-                gears.push(spectrum.cloned().map_or_else(|| Gear::of(cylinder, ratio), given));
+                let pressure = gas.zip(cycle_of(i)).map(|(gas, cycle)| Pressure {
+                    cycle: Arc::clone(&gas.cycles[cycle]),
+                    crankcase: gas.crankcase,
+                });
+                let kind = spectrum.cloned().map(GearKind::Given);
+                let kind = kind.unwrap_or_else(|| Gear::of(cylinder, ratio).kind);
+                gears.push(Gear { kind, ratio, pressure });
             }
         }
         // A load on the crank of a cylinder.
@@ -402,7 +430,14 @@ impl Loads {
                 ..on_main(Source::Unbalance, unbalance.amount, unbalance.angle, unbalance.z)
             })
         });
-        Self { list: pistons.chain(on_crank).chain(on_shafts).collect(), gears, reference }
+        let in_cylinders = (0..count).filter_map(|i| {
+            let (gas, _, weight) = (gas?, cycle_of(i)?, engine.swept_by_radius(i)?);
+            let source = Source::Pressure { gear: gear_of[i] };
+            let load = on_main(source, weight, Angle::ZERO, engine.placements()[i].z);
+            Some(Load { phase: gas.phases[i].half(), ..on_crank_of(i, load) })
+        });
+        let list = pistons.chain(on_crank).chain(on_shafts).chain(in_cylinders);
+        Self { list: list.collect(), gears, reference }
     }
 
     /// Complex sums of one order, by harmonic and, if wanted, by bank.
@@ -453,6 +488,7 @@ impl Load {
         match self.source {
             Source::Piston { .. } => order.halves().is_multiple_of(2 * self.ratio.unsigned_abs()),
             Source::Unbalance => order.halves() == 2 * self.ratio.unsigned_abs(),
+            Source::Pressure { .. } => true,
         }
     }
 

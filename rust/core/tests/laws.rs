@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use common::random::{angles, cylinders, engines, vees};
 use common::{by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
-use crankpin_core::balance::{Vector, balance};
+use crankpin_core::balance::{TorquePart, Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
@@ -245,7 +245,7 @@ proptest! {
             let loads = engine.placements().len() + engine.crank_unbalances().count();
             let factor = (loads as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
             let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
-            let bounds = [force, moment, balance.torque_zero_bound(k)];
+            let bounds = [force, moment, balance.torque_zero_bound(TorquePart::Whole, k)];
             for (bound, terms) in bounds.into_iter().zip(terms) {
                 prop_assert!((bound - terms * factor).abs() <= 1e-12 * terms * factor);
             }
@@ -273,7 +273,7 @@ proptest! {
             prop_assert!(close(found.peak(vector, &Cancel::new()).unwrap(), largest(&|[x, y]| x.hypot(y))));
         }
         let torques = [&wave.torque, &wave.crank_torque];
-        for (peak, torque) in found.torque_peaks(&Cancel::new()).unwrap().into_iter().zip(torques) {
+        for (peak, torque) in [false, true].map(|on_crank| found.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()).into_iter().zip(torques) {
             let torque = torque.iter().flatten();
             prop_assert!(close(peak, torque.map(|t| t.abs()).fold(0.0, f64::max)));
         }

@@ -8,7 +8,7 @@ use common::{
     alone, by_orders, changed, in_line, mixed, places, plain, random, scales, there, turning,
     weighted, whole, xy,
 };
-use crankpin_core::balance::Vector;
+use crankpin_core::balance::{TorquePart, Vector};
 use crankpin_core::peaks::PeakFinder;
 use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
@@ -91,7 +91,7 @@ impl OfBalance {
                     balance.wrenches.iter().map(|wrench| of(&wrench.torque())).collect();
                 return Self {
                     turning: phasors.iter().map(|&p| [p, Complex64::default()]).collect(),
-                    bounds: all.map(|k| balance.torque_zero_bound(k)).collect(),
+                    bounds: all.map(|k| balance.torque_zero_bound(TorquePart::Whole, k)).collect(),
                     lengths: phasors.iter().map(|p| p.norm()).collect(),
                     phasors,
                 };

@@ -1,25 +1,20 @@
 //! Phasors per order.
 
 use crankpin_core as core;
-use crankpin_core::balance::{Orders, Request, Vector};
+use crankpin_core::balance::{Orders, Request, TorquePart, Vector};
 use crankpin_core::wrench::Ellipse;
-use crankpin_core::{Complex64, Error, Order};
+use crankpin_core::{Complex64, Error};
 use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen, python_error};
+use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
 use crate::engine::Engine;
 use crate::interrupt;
 
 /// Which orders: a list, or a tolerance to choose them by.
-pub fn orders(orders: Option<Vec<u32>>, rtol: f64) -> PyResult<Orders> {
-    orders.map_or(Ok(Orders::Auto { rtol }), |orders| Orders::whole(&orders)).or_raise()
-}
-
-/// Orders as whole numbers: no load has others.
-pub fn numbers(orders: &[Order]) -> Vec<u32> {
-    orders.iter().filter_map(|order| order.as_whole()).collect()
+pub fn orders(orders: Option<Vec<OrderNumber>>, rtol: f64) -> PyResult<Orders> {
+    orders.map_or(Ok(Orders::Auto { rtol }), |given| convert::orders(&given).map(Orders::Given))
 }
 
 /// How an engine shakes at one speed.
@@ -34,7 +29,7 @@ pub fn balance(
     py: Python<'_>,
     engine: &Bound<'_, Engine>,
     rpm: f64,
-    orders: Option<Vec<u32>>,
+    orders: Option<Vec<OrderNumber>>,
     rtol: f64,
     reference_z: Option<f64>,
     spectrum: Option<Vec<(u32, Complex64)>>,
@@ -58,6 +53,23 @@ pub fn angular_speed(rpm: f64) -> PyResult<f64> {
 pub fn ellipse(parts: Vec<(Complex64, Complex64)>) -> Vec<(f64, f64, f64)> {
     let axes = parts.into_iter().map(|(forward, backward)| Ellipse::new(forward, backward));
     axes.map(|e| (e.major, e.minor, e.tilt)).collect()
+}
+
+/// Which part of a torque a quantity is.
+fn part(quantity: &str) -> Option<TorquePart> {
+    match quantity.split_once('.').unwrap_or((quantity, "")) {
+        ("torque" | "crank_torque", "") => Some(TorquePart::Whole),
+        ("torque" | "crank_torque", "inertia") => Some(TorquePart::Inertia),
+        ("torque" | "crank_torque", "gas") => Some(TorquePart::Gas),
+        _ => None,
+    }
+}
+
+/// Part of a torque, and whether it is that on the crank.
+fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
+    let hint = "give \"torque\" or \"crank_torque\", or a part such as \"torque.gas\"";
+    let part = part(quantity).ok_or_else(|| Error::value("quantity", quantity, hint));
+    Ok((part.or_raise()?, quantity.starts_with("crank")))
 }
 
 fn vector(quantity: &str) -> PyResult<Vector> {
@@ -84,12 +96,12 @@ impl Balance {
 #[pymethods]
 impl Balance {
     #[getter]
-    fn orders(&self) -> Vec<u32> {
+    fn orders(&self) -> Vec<OrderNumber> {
         numbers(&self.0.orders)
     }
 
     #[getter]
-    fn omitted(&self) -> Vec<u32> {
+    fn omitted(&self) -> Vec<OrderNumber> {
         numbers(&self.0.omitted)
     }
 
@@ -126,8 +138,8 @@ impl Balance {
         py: Python<'py>,
         quantity: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        if quantity == "torque" {
-            return Ok(self.each(py, |k| self.0.torque_zero_bound(k)));
+        if let Some(part) = part(quantity) {
+            return Ok(self.each(py, |k| self.0.torque_zero_bound(part, k)));
         }
         let vector = vector(quantity)?;
         Ok(self.each(py, |k| self.0.zero_bound(vector, k)))
@@ -156,17 +168,28 @@ impl Balance {
         interrupt::run(py, |cancel| self.0.peak(vector, cancel))
     }
 
-    fn roll_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
-        self.each(py, |k| self.0.wrenches[k].torque().roll)
+    /// Torque on the block (`"torque"`) or on the crank, or a part of it: `"torque.gas"`.
+    fn torque<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let (part, on_crank) = torque(quantity)?;
+        Ok(self.each(py, |k| {
+            let torque = self.0.torque(part, k);
+            if on_crank { torque.crank } else { torque.roll }
+        }))
     }
 
-    fn crank_torque<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<Complex64>> {
-        self.each(py, |k| self.0.wrenches[k].torque().crank)
+    /// Largest torque of the mean and all orders together.
+    fn torque_sum_peak(&self, py: Python<'_>, quantity: &str) -> PyResult<f64> {
+        let (part, on_crank) = torque(quantity)?;
+        interrupt::run(py, |cancel| self.0.torque_peak(part, on_crank, cancel))
     }
 
-    /// Largest torque of all orders together, on the block or on the crank.
-    fn torque_sum_peak(&self, py: Python<'_>, on_crank: bool) -> PyResult<f64> {
-        let peaks = interrupt::run(py, |cancel| self.0.torque_peaks(cancel))?;
-        Ok(peaks[usize::from(on_crank)])
+    /// Mean torque.
+    fn torque_mean(&self, quantity: &str) -> PyResult<f64> {
+        let (part, on_crank) = torque(quantity)?;
+        Ok(self.0.mean(part)[usize::from(on_crank)])
     }
 }

@@ -109,6 +109,32 @@ pub fn cylinder((radius, rod, mass, offset, rod_inertia): Parts) -> PyResult<cor
         .or_raise()
 }
 
+/// An order as Python has it: a whole number, or a half as a float.
+#[derive(FromPyObject, IntoPyObject, Clone, Copy)]
+pub enum OrderNumber {
+    /// Whole.
+    Whole(u32),
+    /// A half.
+    Half(f64),
+}
+
+/// The core's orders.
+pub fn orders(orders: &[OrderNumber]) -> PyResult<Vec<core::Order>> {
+    let order = |number: &OrderNumber| match *number {
+        OrderNumber::Whole(order) => core::Order::whole(order),
+        OrderNumber::Half(order) => core::Order::from_number(order),
+    };
+    orders.iter().map(order).collect::<core::Result<_>>().or_raise()
+}
+
+/// Orders for Python.
+pub fn numbers(orders: &[core::Order]) -> Vec<OrderNumber> {
+    let number = |order: &core::Order| {
+        order.as_whole().map_or_else(|| OrderNumber::Half(order.number()), OrderNumber::Whole)
+    };
+    orders.iter().map(number).collect()
+}
+
 /// A `NumPy` array that owns the values and cannot be written to.
 pub fn frozen<T: Element, D: Dimension>(
     py: Python<'_>,

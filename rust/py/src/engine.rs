@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::engine::{Details, Hold, Placement, Shaft, Unbalance, file};
+use crankpin_core::engine::{Details, Gas, Hold, Placement, Shaft, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error};
 use ndarray::Array1;
@@ -13,6 +13,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen, python_error};
+use crate::interrupt;
+use crate::pressure::Cycle;
 
 /// An engine of the core.
 #[pyclass(frozen, eq, module = "crankpin._core", from_py_object)]
@@ -445,6 +447,69 @@ impl Engine {
         let right = self.0.banks().map_or(0, |banks| banks.right);
         let count = self.0.placements().len();
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
+    }
+
+    /// The engine with a cycle of each cylinder, or none, and a crankcase pressure, firing in its own
+    /// firing order.
+    fn with_cycles(
+        &self,
+        py: Python<'_>,
+        cycles: Vec<Option<PyRef<'_, Cycle>>>,
+        crankcase: f64,
+    ) -> PyResult<Self> {
+        let mut known: Vec<Arc<core::Cycle>> = Vec::new();
+        let mut cycle_of = Vec::with_capacity(cycles.len());
+        for cycle in cycles {
+            cycle_of.push(cycle.map(|cycle| {
+                known.iter().position(|other| **other == cycle.0).unwrap_or_else(|| {
+                    known.push(Arc::new(cycle.0.clone()));
+                    known.len() - 1
+                })
+            }));
+        }
+        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
+        let gas = Gas { cycles: known, cycle_of, crankcase, phases: firing.phases() };
+        self.0.with_gas(gas).or_raise().map(Self::from)
+    }
+
+    /// The engine with what another has of pressure in some of its cylinders, by index.
+    fn fired_as(&self, other: &Self, cylinders: Vec<usize>) -> PyResult<Self> {
+        let (Some(gas), strokes) = (other.0.gas(), other.0.strokes()) else {
+            return Ok(self.clone());
+        };
+        let gas = Gas {
+            cycle_of: cylinders.iter().map(|&i| gas.cycle_of[i]).collect(),
+            phases: cylinders.iter().map(|&i| gas.phases[i]).collect(),
+            ..gas.clone()
+        };
+        let engine = self.0.firing_as("", strokes).and_then(|engine| engine.with_gas(gas));
+        engine.or_raise().map(Self::from)
+    }
+
+    /// The engine without pressure in its cylinders.
+    fn without_cycles(&self) -> Self {
+        self.0.without_gas().into()
+    }
+
+    /// The cycle of each cylinder, or none.
+    #[getter]
+    fn cycles(&self) -> Option<Vec<Option<Cycle>>> {
+        let gas = self.0.gas()?;
+        let cycle = |index: &Option<usize>| index.map(|k| Cycle((*gas.cycles[k]).clone()));
+        Some(gas.cycle_of.iter().map(cycle).collect())
+    }
+
+    /// Absolute pressure in the crankcase, Pa.
+    #[getter]
+    fn crankcase(&self) -> Option<f64> {
+        self.0.gas().map(|gas| gas.crankcase)
+    }
+
+    /// Crank angles at which the cylinders fire, within a cycle, degrees.
+    #[getter]
+    fn firing_deg(&self) -> Option<Vec<f64>> {
+        let gas = self.0.gas()?;
+        Some(gas.phases.iter().map(|phase| phase.degrees()).collect())
     }
 
     #[getter]

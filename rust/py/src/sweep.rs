@@ -2,13 +2,12 @@
 
 use crankpin_core as core;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
-use crankpin_core::{Cancel, Complex64, Error, Order, memory};
+use crankpin_core::{Cancel, Complex64, Error, memory};
 use ndarray::Array1;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
-use crate::balance::numbers;
-use crate::convert::{OrRaise, frozen, python_error};
+use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
 use crate::waveform::CrankAngles;
@@ -89,7 +88,7 @@ impl Sweep {
         rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
         pin_offset: Option<PyReadonlyArray1<'_, f64>>,
         rpm: PyReadonlyArray1<'_, f64>,
-        orders: Option<Vec<u32>>,
+        orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         reference_z: Option<f64>,
         spectrum: Option<Vec<(u32, Complex64)>>,
@@ -111,7 +110,7 @@ impl Sweep {
         };
         let engines = engines.iter().map(|engine| engine.with_spectrum(spectrum.clone()));
         let engines = engines.collect::<PyResult<Vec<_>>>()?;
-        let orders = orders.map(|orders| Order::all_whole(&orders)).transpose().or_raise()?;
+        let orders = orders.map(|orders| convert::orders(&orders)).transpose()?;
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
@@ -139,12 +138,12 @@ impl Sweep {
     }
 
     #[getter]
-    fn orders(&self) -> Vec<u32> {
+    fn orders(&self) -> Vec<OrderNumber> {
         numbers(self.sweep.orders())
     }
 
     #[getter]
-    fn omitted(&self) -> Vec<u32> {
+    fn omitted(&self) -> Vec<OrderNumber> {
         numbers(self.sweep.omitted())
     }
 

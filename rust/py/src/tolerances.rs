@@ -2,12 +2,12 @@
 
 use crankpin_core as core;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES, largest_sums};
-use crankpin_core::{Complex64, Error, Order, Request};
+use crankpin_core::{Complex64, Error, Request};
 use ndarray::{Array, Array3, IntoDimension};
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen, python_error};
+use crate::convert::{self, OrRaise, OrderNumber, frozen, python_error};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -98,15 +98,16 @@ impl Tolerances {
     }
 }
 
-/// Largest magnitude over the turn of each row of peak phasors, one of each order.
+/// Largest magnitude over the turn of a mean and each row of peak phasors, one of each order.
 #[pyfunction]
 pub fn peaks_of_sums<'py>(
     py: Python<'py>,
-    orders: Vec<u32>,
+    orders: Vec<OrderNumber>,
     phasors: PyReadonlyArray2<'_, Complex64>,
+    mean: f64,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let orders = Order::all_whole(&orders).or_raise()?;
+    let orders = convert::orders(&orders)?;
     let phasors = phasors.as_slice()?;
-    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, cancel))?;
+    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, mean, cancel))?;
     Ok(frozen(py, peaks.into()))
 }

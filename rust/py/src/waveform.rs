@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::balance::{self, Balance};
-use crate::convert::{OrRaise, frozen};
+use crate::convert::{OrRaise, OrderNumber, frozen};
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -22,12 +22,14 @@ impl CrankAngles {
     }
 }
 
-/// Force, moment, roll torque, crank torque, and the balance whose orders were summed.
+/// Force, moment, roll torque, crank torque, what gas pressure adds to the torques, and the balance
+/// whose orders were summed.
 type Parts<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Option<Bound<'py, PyArray1<f64>>>,
     Option<Bound<'py, PyArray1<f64>>>,
+    Option<[Bound<'py, PyArray1<f64>>; 2]>,
     Option<Balance>,
 );
 
@@ -40,7 +42,7 @@ pub fn waveform<'py>(
     rpm: f64,
     theta_deg: PyReadonlyArray1<'py, f64>,
     summed: bool,
-    orders: Option<Vec<u32>>,
+    orders: Option<Vec<OrderNumber>>,
     rtol: f64,
     reference_z: Option<f64>,
     spectrum: Option<Vec<(u32, Complex64)>>,
@@ -61,6 +63,7 @@ pub fn waveform<'py>(
         frozen(py, waveform.moment),
         waveform.torque.map(|values| frozen(py, values)),
         waveform.crank_torque.map(|values| frozen(py, values)),
+        waveform.gas.map(|both| both.map(|values| frozen(py, values))),
         waveform.balance.map(Balance),
     ))
 }

@@ -142,7 +142,8 @@ def tolerances(
     if not 1 <= count <= MOST_SAMPLES:
         raise InputError(f"samples = {inputs.shorten(samples)}: give 1 to {MOST_SAMPLES}")
     request = Request.checked(
-        orders=orders, rtol=rtol, spectrum=None, torque=torque, default_rtol=1e-4,
+        orders=inputs.orders(orders) or "auto", rtol=rtol, spectrum=None, torque=torque,
+        default_rtol=1e-4,
     )  # fmt: skip
     speed = inputs.number("rpm", rpm)
     kept, bound = _orders(engine, speed, request)

@@ -64,8 +64,14 @@ impl Engine {
         for (i, place) in turned.placements.iter_mut().enumerate() {
             let pin = place.pin();
             let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
+            // The shorter way.
+            let half_turn = Angle::QUARTER_TURN + Angle::QUARTER_TURN;
+            let turn = (bore - place.bank + half_turn).reduced() - half_turn;
             place.bank = bore.reduced();
             if hold == Hold::Pins {
+                if let Some(gas) = &mut turned.gas {
+                    gas.turn(i, turn, self.strokes.turns());
+                }
                 place.tdc = (place.bank - pin).reduced();
             }
         }

@@ -1,12 +1,15 @@
 //! Engines as TOML and JSON, with a schema version; what is written reads back as the same engine.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Placement, Shaft, Unbalance};
+use super::{Crank, Details, Engine, Gas, Placement, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
+use crate::pressure::{ATMOSPHERE, Cycle};
 
 /// Version of the schema that this file reads and writes.
 pub const SCHEMA: u32 = 1;
@@ -43,6 +46,13 @@ struct EngineFile {
     /// Cranks besides the main one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     cranks: Vec<OtherCrank>,
+    /// Absolute pressure in the crankcase, Pa, of an engine with cycles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    crankcase: Option<f64>,
+    /// Pressure in cylinders over a cycle; `tdc_deg` of the placements are those of firing then, of two
+    /// turns in a four-stroke.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    cycles: Vec<Cycle>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -113,6 +123,9 @@ struct Place {
     /// Number of the crank: 0 is the main one, from 1 those of the list.
     #[serde(default, skip_serializing_if = "is_main")]
     crank: usize,
+    /// Number of the cycle, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cycle: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<PartsEntry>,
 }
@@ -252,12 +265,13 @@ impl EngineFile {
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
         let place = |(i, p): (usize, &Placement)| Place {
-            tdc_deg: Degrees::of(p.tdc),
+            tdc_deg: Degrees::of(engine.gas().map_or(p.tdc, |gas| gas.phases[i])),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
             rotating_mass: p.rotating_mass,
             bank: numbered.then(|| number(engine.bank_of(i))),
             crank: engine.crank_of(i),
+            cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
             cylinder: (!shared).then_some(parts[i]),
         };
         Ok(Self {
@@ -276,7 +290,40 @@ impl EngineFile {
                 .iter()
                 .map(|&Crank { axis: [x, y], ratio }| OtherCrank { x, y, ratio })
                 .collect(),
+            crankcase: engine.gas().map(|gas| gas.crankcase),
+            cycles: engine.gas().map_or_else(Vec::new, |gas| {
+                gas.cycles.iter().map(|cycle| Cycle::clone(cycle)).collect()
+            }),
         })
+    }
+
+    /// Pressure in the cylinders, whose top dead centres are those of firing.
+    fn gas(&self, tdcs: &[Angle], strokes: Strokes) -> Result<Option<Gas>> {
+        if self.cycles.is_empty() {
+            let numbered = self.placements.iter().position(|place| place.cycle.is_some());
+            return match (numbered, self.crankcase) {
+                (Some(i), _) => {
+                    let hint = "is the number of one of the cycles, of which there are none";
+                    Err(Error::value(format!("placements[{i}].cycle"), "given", hint))
+                }
+                (None, Some(pressure)) => {
+                    let hint = "is of an engine with cycles; leave it out";
+                    Err(Error::figure("crankcase", pressure, hint))
+                }
+                (None, None) => Ok(None),
+            };
+        }
+        let cycle = |(i, place): (usize, &Place)| {
+            let hint = "give the number of a cycle, from 1";
+            let index = place.cycle.map(|number| number.checked_sub(1).ok_or(number)).transpose();
+            index.map_err(|number| Error::value(format!("placements[{i}].cycle"), number, hint))
+        };
+        Ok(Some(Gas {
+            cycles: self.cycles.iter().cloned().map(Arc::new).collect(),
+            cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
+            crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
+            phases: tdcs.iter().map(|tdc| tdc.reduced_to(strokes.turns())).collect(),
+        }))
     }
 
     fn engine(self) -> Result<Engine> {
@@ -303,6 +350,9 @@ impl EngineFile {
             })
         });
         let placements: Vec<Placement> = placements.collect::<Result<_>>()?;
+        let tdcs: Vec<Angle> = placements.iter().map(|place| place.tdc).collect();
+        let strokes = Strokes::from_number(self.strokes)?;
+        let gas = self.gas(&tdcs, strokes)?;
         let details = self.placements.iter().map(|place| {
             place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
         });
@@ -326,13 +376,14 @@ impl EngineFile {
         let shafts = self.shafts.iter().enumerate();
         let shafts = shafts.map(|(i, shaft)| shaft.shaft(&format!("shafts[{i}]")));
         engine
-            .firing_as(self.firing_order, Strokes::from_number(self.strokes)?)?
+            .firing_as(self.firing_order, strokes)?
             .with_details(details)?
             .with_mains(self.mains)?
             .with_reference(self.reference_z)?
             .with_cranks(cranks, crank_of)?
             .with_counterweights(unbalances(&self.counterweights, "counterweights")?)?
             .with_shafts(shafts.collect::<Result<_>>()?)
+            .and_then(|engine| gas.map_or(Ok(engine.clone()), |gas| engine.with_gas(gas)))
     }
 }
 
@@ -410,7 +461,8 @@ fn sized(format: &'static str, text: &str) -> Result<()> {
 
 /// Rejects arrays in place of objects, which serde would read by position.
 fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
-    const LISTS: [&str; 5] = ["cranks", "placements", "counterweights", "shafts", "unbalances"];
+    const LISTS: [&str; 6] =
+        ["cranks", "placements", "counterweights", "shafts", "unbalances", "cycles"];
     let Some(table) = value.as_object() else {
         let reason = format!("{place}: give an object, {{ }}");
         return Err(Error::File { format: "JSON", reason });
@@ -420,7 +472,7 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
             check_tables(value, key)?;
         }
         let Some(list) = value.as_array() else { continue };
-        if key == "mains" {
+        if ["mains", "theta_deg", "pressure"].contains(&key.as_str()) {
             continue; // of numbers
         }
         if !LISTS.contains(&key.as_str()) {

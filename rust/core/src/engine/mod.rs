@@ -6,11 +6,13 @@
 mod banks;
 pub mod file;
 mod firing_order;
+mod gas;
 pub mod layout;
 mod shaft;
 
 use self::banks::right_bank;
 pub use self::banks::{Banks, Hold, bank_angle_in_range};
+pub use self::gas::Gas;
 use self::layout::Strokes;
 pub use self::shaft::{Crank, Shaft, Unbalance};
 use crate::gear::slider_crank::Cylinder;
@@ -78,6 +80,8 @@ pub struct Engine {
     crank_of: Vec<usize>,
     counterweights: Vec<Unbalance>,
     shafts: Vec<Shaft>,
+    /// Pressure in the cylinders, where it counts.
+    gas: Option<Gas>,
     /// Of each cylinder.
     details: Vec<Details>,
     /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
@@ -147,6 +151,7 @@ impl Engine {
             crank_of: vec![0; count],
             counterweights: Vec::new(),
             shafts: Vec::new(),
+            gas: None,
             details: vec![Details::default(); count],
             mains: Vec::new(),
             reference_z: None,
@@ -322,6 +327,10 @@ impl Engine {
         for place in &mut turned.placements {
             place.tdc = (place.tdc + turn).reduced();
         }
+        if let Some(gas) = &mut turned.gas {
+            let turns = self.strokes.turns();
+            (0..self.placements.len()).for_each(|i| gas.turn(i, turn, turns));
+        }
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
             weight.angle = (weight.angle - turn).reduced();
@@ -351,7 +360,9 @@ impl Engine {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
         }
-        Ok(Self { cranks, crank_of, ..self.clone() })
+        let engine = Self { cranks, crank_of, ..self.clone() };
+        engine.check_gas()?;
+        Ok(engine)
     }
 
     /// The same engine with these counterweights on the crankshaft instead of those it has.
@@ -388,7 +399,9 @@ impl Engine {
                 limits::not_negative("rod.to_crankpin", to_crankpin)?;
             }
         }
-        Ok(Self { details, ..self.clone() })
+        let engine = Self { details, ..self.clone() };
+        engine.check_gas()?;
+        Ok(engine)
     }
 
     /// The same engine with main bearings at these places; none where they are not known.

@@ -8,6 +8,8 @@ pub mod rod;
 pub mod slider_crank;
 pub mod spectrum;
 
+use std::sync::Arc;
+
 use self::harmonics::rod::TorqueHarmonics;
 use self::slider_crank::{Cylinder, Proportions};
 use self::spectrum::Spectrum;
@@ -15,6 +17,7 @@ use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::pressure::{Cycle, GasTorque};
 
 /// Source of the amplitudes of a cylinder's loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +25,16 @@ pub(crate) struct Gear {
     pub kind: GearKind,
     /// Speed of its crank over that of the main one, negative where it turns the other way.
     pub ratio: i32,
+    /// Pressure in the cylinder, where it counts.
+    pub pressure: Option<Pressure>,
+}
+
+/// Pressure above and below a piston.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pressure {
+    pub cycle: Arc<Cycle>,
+    /// Absolute pressure in the crankcase, Pa.
+    pub crankcase: f64,
 }
 
 /// Kind of a gear.
@@ -42,7 +55,7 @@ impl Gear {
     /// The slider-crank of a cylinder on a crank of this speed.
     pub fn of(cylinder: Cylinder, ratio: i32) -> Self {
         let proportions = cylinder.proportions();
-        Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio }
+        Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio, pressure: None }
     }
 
     /// Harmonics of the force; zero at orders that it does not have.
@@ -65,6 +78,52 @@ impl Gear {
     /// The same of the rod's inertia beyond that of its two masses.
     pub fn rod_torque(&self, orders: &[Order], cancel: &Cancel) -> Result<TorqueHarmonics> {
         self.torque_by(orders, |own, proportions| harmonics::rod::torque(proportions, own, cancel))
+    }
+
+    /// Factors of the torques on the block and on the main crank: turning the other way mirrors the
+    /// torque on the block, and power is torque times speed.
+    pub fn senses(&self) -> [f64; 2] {
+        [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
+    }
+
+    /// Torque of the pressure over piston area and crank radius, Pa, on the block and on the main
+    /// crank: harmonics and mean. The forces are internal, so that either balances the other.
+    pub fn gas(&self, orders: &[Order], cancel: &Cancel) -> Result<(TorqueHarmonics, [f64; 2])> {
+        let Some(Pressure { cycle, crankcase }) = &self.pressure else {
+            let zero = vec![Complex64::default(); orders.len()];
+            return Ok((TorqueHarmonics { roll: zero.clone(), crank: zero }, [0.0; 2]));
+        };
+        let [on_block, on_crank] = self.senses();
+        let GasTorque { mean, phasors } = cycle.torque(self, *crankcase, orders, cancel)?;
+        let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
+        let crank = phasors.iter().map(|phasor| phasor * on_crank).collect();
+        Ok((TorqueHarmonics { roll, crank }, [-on_block * mean, on_crank * mean]))
+    }
+
+    /// Bounds of the sum of all harmonics of the torque of the pressure above each order up to one.
+    pub fn gas_tails(&self, highest: Order, cancel: &Cancel) -> Result<Vec<f64>> {
+        let (Some(Pressure { cycle, crankcase }), GearKind::SliderCrank { proportions, .. }) =
+            (&self.pressure, &self.kind)
+        else {
+            return Ok(vec![0.0; highest.halves() as usize]);
+        };
+        cycle.tails(proportions, *crankcase, highest, cancel)
+    }
+
+    /// Largest torque of the pressure over piston area and crank radius, Pa, among those at whole
+    /// degrees.
+    pub fn largest_gas(&self) -> Option<f64> {
+        let (Some(Pressure { cycle, crankcase }), GearKind::SliderCrank { proportions, .. }) =
+            (&self.pressure, &self.kind)
+        else {
+            return None;
+        };
+        let torque = |degrees: u32| {
+            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+            let pressure = cycle.pressure_deg(f64::from(degrees)) - crankcase;
+            (pressure * proportions.motion(sin, cos).velocity).abs()
+        };
+        Some((0..720).map(torque).fold(0.0, f64::max))
     }
 
     /// Whether it is a slider-crank whose piston has no offset.
@@ -92,7 +151,7 @@ impl Gear {
     pub fn replaced(&self, rod_ratio: Option<f64>, pin_offset: Option<f64>) -> Result<Self> {
         let GearKind::SliderCrank { cylinder, .. } = self.kind else { return Ok(self.clone()) };
         let proportions = cylinder.proportions_with(rod_ratio, pin_offset)?;
-        Ok(Self { kind: GearKind::SliderCrank { cylinder, proportions }, ratio: self.ratio })
+        Ok(Self { kind: GearKind::SliderCrank { cylinder, proportions }, ..self.clone() })
     }
 
     fn torque_by(
@@ -112,11 +171,10 @@ impl Gear {
         })?;
         let mut crank = self.spread(orders, |_| Ok(crank))?;
         if self.ratio != 1 {
-            // Turning the other way mirrors the torque on the block; power is torque times speed.
-            let speed = f64::from(self.ratio);
+            let [on_block, on_crank] = self.senses();
             for (roll, crank) in roll.iter_mut().zip(&mut crank) {
-                *roll *= speed.signum();
-                *crank *= speed.abs();
+                *roll *= on_block;
+                *crank *= on_crank;
             }
         }
         Ok(TorqueHarmonics { roll, crank })

@@ -106,7 +106,7 @@ fn pistons_alike_share_a_gear() {
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
     let given =
         Loads::new(&engine().with_spectrum(spectrum.clone()), REFERENCE, Alike::Proportions);
-    assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1 }]);
+    assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1, pressure: None }]);
     let weights = given.list.into_iter().map(|load| load.weight);
     assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);
 }

@@ -32,6 +32,11 @@ impl CrankAngles {
         Self { reduced: reduced.collect() }
     }
 
+    /// Degrees, reduced to [−360, 360].
+    pub(crate) fn degrees(&self) -> &[f64] {
+        &self.reduced
+    }
+
     /// Number of angles.
     #[must_use]
     pub fn len(&self) -> usize {

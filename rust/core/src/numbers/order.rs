@@ -29,6 +29,15 @@ impl Order {
         Err(out_of_range(0.5 * f64::from(halves)))
     }
 
+    /// From a number, whole or half.
+    pub fn from_number(order: f64) -> Result<Self> {
+        let halves = 2.0 * order;
+        if halves.fract() == 0.0 && (1.0..=2.0 * f64::from(HIGHEST_ORDER)).contains(&halves) {
+            return Self::from_halves(halves as u32);
+        }
+        Err(out_of_range(order))
+    }
+
     /// Whole orders from a list.
     pub fn all_whole(orders: &[u32]) -> Result<Vec<Self>> {
         orders.iter().map(|&order| Self::whole(order)).collect()

@@ -73,7 +73,6 @@ struct Node {
 impl Cycle {
     /// Torque on the crank of a gear over piston area and crank radius, of the pressure above the
     /// crankcase's: its mean, and its phasors at orders of the gear's own crank.
-    #[allow(dead_code, reason = "read by the gas loads of engines")]
     pub(crate) fn torque(
         &self,
         gear: &Gear,
@@ -82,14 +81,6 @@ impl Cycle {
         cancel: &Cancel,
     ) -> Result<GasTorque> {
         self.torque_of(slider_crank(gear)?, crankcase, orders, cancel)
-    }
-
-    /// [`Self::tails`] above one order; infinite for a gear without a motion.
-    #[allow(dead_code, reason = "read by the gas loads of engines")]
-    pub(crate) fn tail(&self, gear: &Gear, crankcase: f64, above: Order) -> f64 {
-        let tails = slider_crank(gear)
-            .and_then(|proportions| self.tails(proportions, crankcase, above, &Cancel::new()));
-        tails.map_or(f64::INFINITY, |tails| tails[tails.len() - 1])
     }
 
     /// Torque on a crank over piston area and crank radius, of the pressure above the crankcase's.

@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::load::{Harmonic, Loads, Scale, Wanted};
+use crate::load::{Harmonic, Loads, Scale, Source, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -11,13 +11,14 @@ use crate::wrench::{Planar, Wrench, rounding, snapped};
 /// Wrenches of the given orders, in their order, those of inertia over ω²; what vanishes to within
 /// rounding is zero.
 ///
-/// Torque is zero where it is not wanted; a spectrum of forces does not determine it.
+/// Torque is zero where it is not wanted; a spectrum of forces does not determine it. The means are
+/// those of the torques of pressure on the block and on the crank.
 pub(crate) fn wrenches(
     loads: &Loads,
     torque: bool,
     orders: &[Order],
     cancel: &Cancel,
-) -> Result<Vec<Wrench>> {
+) -> Result<(Vec<Wrench>, [f64; 2])> {
     let gears = GearHarmonics::new(loads, torque, orders, cancel)?;
     let unbalanced = loads.unbalance_orders();
     let wrench = |(k, &order): (usize, &Order)| {
@@ -49,7 +50,8 @@ pub(crate) fn wrenches(
         }
         Ok(wrench)
     };
-    orders.iter().enumerate().map(wrench).collect()
+    let wrenches = orders.iter().enumerate().map(wrench).collect::<Result<_>>()?;
+    Ok((wrenches, gears.mean(loads)))
 }
 
 /// Harmonics of every gear at some orders.
@@ -57,19 +59,33 @@ pub(crate) struct GearHarmonics {
     force: Vec<Vec<Complex64>>,
     /// Torques of the masses, and of rods that have inertia.
     torque: Vec<(TorqueHarmonics, Option<TorqueHarmonics>)>,
+    /// Torques of pressure, and their means.
+    gas: Vec<(TorqueHarmonics, [f64; 2])>,
 }
 
 impl GearHarmonics {
     pub fn new(loads: &Loads, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
-        let (mut force, mut torques) = (Vec::new(), Vec::new());
+        let (mut force, mut torques, mut gas) = (Vec::new(), Vec::new(), Vec::new());
         for (k, gear) in loads.gears.iter().enumerate() {
             force.push(gear.force(orders, cancel)?);
             if torque {
                 let rod = loads.has_rod_inertia(k).then(|| gear.rod_torque(orders, cancel));
                 torques.push((gear.torque(orders, cancel)?, rod.transpose()?));
+                gas.push(gear.gas(orders, cancel)?);
             }
         }
-        Ok(Self { force, torque: torques })
+        Ok(Self { force, torque: torques, gas })
+    }
+
+    /// Mean torques of pressure on the block and on the crank.
+    fn mean(&self, loads: &Loads) -> [f64; 2] {
+        let mut mean = [0.0; 2];
+        for load in &loads.list {
+            let Source::Pressure { gear } = load.source else { continue };
+            let Some((_, of_gear)) = self.gas.get(gear) else { continue };
+            mean = [0, 1].map(|k| mean[k] + load.weight * of_gear[k]);
+        }
+        mean
     }
 
     fn have_force(&self, k: usize) -> bool {
@@ -85,6 +101,7 @@ impl GearHarmonics {
             Harmonic::One => [Complex64::new(1.0, 0.0), Complex64::new(1.0, 0.0), zero],
             Harmonic::Force(gear) => [self.force[gear][k], self.force[gear][k], zero],
             Harmonic::Torque(gear) => of_torque(&self.torque[gear].0),
+            Harmonic::Gas(gear) => of_torque(&self.gas[gear].0),
             Harmonic::Rod(gear) => self.torque[gear].1.as_ref().map_or([zero; 3], of_torque),
         }
     }

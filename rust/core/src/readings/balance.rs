@@ -10,7 +10,7 @@ use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
 use crate::readings::choice;
 use crate::readings::peaks::PeakFinder;
-use crate::wrench::{Planar, Wrench, rounding};
+use crate::wrench::{Planar, Torque, Wrench, rounding};
 
 /// Which orders to report.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +18,8 @@ pub enum Orders {
     /// These.
     Given(Vec<Order>),
     /// A few that leave out at most this part of the largest m·r·ω² of a cylinder (times the longest
-    /// lever for moments, and the crank radius for torque).
+    /// lever for moments, and the crank radius for torque), and of the torque of gas pressure at most
+    /// this part of a cylinder's largest, but a thousandth of it if the tolerance is smaller.
     Auto {
         /// Relative tolerance.
         rtol: f64,
@@ -53,6 +54,8 @@ pub struct Balance {
     pub omitted: Vec<Order>,
     /// Wrench of each order; what vanishes to within rounding is zero.
     pub wrenches: Vec<Wrench>,
+    /// Mean torques on the block and on the crank, of pressure alone.
+    pub mean: [f64; 2],
     /// Bounds of what the orders left out add to force, moment and either torque at any crank
     /// angle; 0 for orders that were asked for by number.
     pub error_bound: [f64; 3],
@@ -60,6 +63,17 @@ pub struct Balance {
     pub has_torque: bool,
     /// Number of loads, on which rounding depends.
     loads: usize,
+}
+
+/// Part of a torque.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TorquePart {
+    /// All of it.
+    Whole,
+    /// Of inertia forces.
+    Inertia,
+    /// Of gas pressure.
+    Gas,
 }
 
 /// Force or moment.
@@ -87,10 +101,27 @@ impl Balance {
         self.planar(vector, k).size * rounding(self.loads, self.orders[k].number())
     }
 
-    /// Bound of the rounding error of the k-th order of torque.
+    /// A part of the torques of the k-th order.
     #[must_use]
-    pub fn torque_zero_bound(&self, k: usize) -> f64 {
-        self.wrenches[k].torque().size * rounding(self.loads, self.orders[k].number())
+    pub fn torque(&self, part: TorquePart, k: usize) -> Torque {
+        let wrench = &self.wrenches[k];
+        match part {
+            TorquePart::Whole => wrench.torque(),
+            TorquePart::Inertia => wrench.inertia,
+            TorquePart::Gas => wrench.gas,
+        }
+    }
+
+    /// Mean torques of a part on the block and on the crank: those of inertia are zero.
+    #[must_use]
+    pub fn mean(&self, part: TorquePart) -> [f64; 2] {
+        if part == TorquePart::Inertia { [0.0; 2] } else { self.mean }
+    }
+
+    /// Bound of the rounding error of the k-th order of a part of the torques.
+    #[must_use]
+    pub fn torque_zero_bound(&self, part: TorquePart, k: usize) -> f64 {
+        self.torque(part, k).size * rounding(self.loads, self.orders[k].number())
     }
 
     /// Peak phasors along (about) x and y of the k-th order.
@@ -112,12 +143,16 @@ impl Balance {
         PeakFinder::new(&self.orders)?.of_vector(&x, &y, cancel)
     }
 
-    /// Largest roll torque and crank torque of the sum of all orders.
-    pub fn torque_peaks(&self, cancel: &Cancel) -> Result<[f64; 2]> {
-        let finder = PeakFinder::new(&self.orders)?;
-        let roll: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque().roll).collect();
-        let crank: Vec<_> = self.wrenches.iter().map(|wrench| wrench.torque().crank).collect();
-        Ok([finder.along_axis(&roll, cancel)?, finder.along_axis(&crank, cancel)?])
+    /// Largest magnitude of a part of the torque on the block or on the crank: of the mean and all
+    /// orders together.
+    pub fn torque_peak(&self, part: TorquePart, on_crank: bool, cancel: &Cancel) -> Result<f64> {
+        let mean = self.mean(part)[usize::from(on_crank)];
+        let torque = |k: usize| {
+            let Torque { roll, crank, .. } = self.torque(part, k);
+            if on_crank { crank } else { roll }
+        };
+        let phasors: Vec<_> = (0..self.orders.len()).map(torque).collect();
+        PeakFinder::about_mean(&self.orders)?.beside_mean(mean, &phasors, cancel)
     }
 
     fn by_component(&self, vector: Vector) -> [Vec<Complex64>; 2] {
@@ -151,11 +186,12 @@ pub fn balance(
     let mut balance = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let wrenches = wrenches(&loads, torque, orders, cancel)?;
+            let (wrenches, mean) = wrenches(&loads, torque, orders, cancel)?;
             Balance {
                 orders: orders.clone(),
                 omitted: Vec::new(),
                 wrenches,
+                mean,
                 error_bound: [0.0; 3],
                 has_torque: torque,
                 loads: loads.list.len(),
@@ -163,11 +199,13 @@ pub fn balance(
         }
         Orders::Auto { rtol } => {
             let chosen = choice::within(*rtol, engine, &loads, torque, cancel)?;
+            let [force, moment, inertia, gas] = chosen.error_bound;
             Balance {
                 orders: chosen.orders,
                 omitted: chosen.omitted,
                 wrenches: chosen.wrenches,
-                error_bound: chosen.error_bound.map(|bound| bound * square),
+                mean: chosen.mean,
+                error_bound: [force * square, moment * square, inertia * square + gas],
                 has_torque: torque,
                 loads: loads.list.len(),
             }

@@ -6,6 +6,7 @@
 //! together.
 
 use crate::engine::Engine;
+use crate::engine::layout::Strokes;
 use crate::gear::{Gear, GearKind, harmonics};
 use crate::load::{Loads, Source};
 use crate::numbers::cancel::Cancel;
@@ -19,16 +20,26 @@ use crate::wrench::Wrench;
 /// the rounding error.
 const NEGLIGIBLE: f64 = 1e-17;
 
-/// Orders chosen for an engine, over ω² so that they serve any speed.
+/// Part of the largest torque of pressure on a cylinder that orders may leave out, at least: those of
+/// pressure decline slowly.
+const LEAST_OF_GAS: f64 = 1e-3;
+/// Highest order of the torque of pressure that is evaluated; that of a cycle in which it jumps declines
+/// like 1/n.
+const HIGHEST_OF_GAS: u32 = 192;
+
+/// Orders chosen for an engine, those of inertia over ω² so that they serve any speed.
 pub(crate) struct Chosen {
     /// Orders kept, ascending.
     pub orders: Vec<Order>,
-    /// Their wrenches over ω².
+    /// Their wrenches, those of inertia over ω².
     pub wrenches: Vec<Wrench>,
+    /// Mean torques of pressure on the block and on the crank.
+    pub mean: [f64; 2],
     /// Orders left out that are not zero.
     pub omitted: Vec<Order>,
-    /// Bounds over ω² of what all orders left out add to force, moment and torque.
-    pub error_bound: [f64; 3],
+    /// Bounds of what all orders left out add: over ω² to force, moment and torque of inertia, and to
+    /// the torque of pressure.
+    pub error_bound: [f64; 4],
 }
 
 /// The orders of an engine that leave out at most `rtol`.
@@ -41,12 +52,22 @@ pub(crate) fn within(
 ) -> Result<Chosen> {
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
-    let orders = candidates(rtol, NEGLIGIBLE, &scales, loads, &loads.gears, torque)?;
-    let all = wrenches(loads, torque, &orders, cancel)?;
-    let sizes: Vec<[f64; 3]> = all.iter().map(sizes).collect();
-    let mut error_bound = tail(loads, orders.last(), torque, &loads.gears);
-    let kept = few(&sizes, &scales.map(|scale| rtol * scale), &mut error_bound);
-    let mut chosen = Chosen { orders: vec![], wrenches: vec![], omitted: vec![], error_bound };
+    let mut orders = candidates(rtol, NEGLIGIBLE, &scales, loads, &loads.gears, torque)?;
+    let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.gears);
+    let mut gas = GasOrders::default();
+    if torque {
+        gas = GasOrders::new(rtol.max(LEAST_OF_GAS), loads, cancel)?;
+        orders.extend(&gas.orders);
+        orders.sort_unstable();
+        orders.dedup();
+    }
+    let (all, mean) = wrenches(loads, torque, &orders, cancel)?;
+    let sizes: Vec<[f64; 4]> = all.iter().map(sizes).collect();
+    let mut error_bound = [force, moment, inertia, gas.tail];
+    let [force, moment, torque] = scales.map(|scale| rtol * scale);
+    let kept = few(&sizes, &[force, moment, torque, gas.allowed], &mut error_bound);
+    let mut chosen =
+        Chosen { orders: vec![], wrenches: vec![], mean, omitted: vec![], error_bound };
     for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
         if kept {
             chosen.orders.push(order);
@@ -173,6 +194,7 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
                 }
                 GearKind::Given(spectrum) => (spectrum.largest(), 0.0),
             },
+            Source::Pressure { .. } => continue,
             Source::Unbalance => {
                 let arm = engine.largest_crank_radius().max(load.axis.norm());
                 (load.weight, load.weight * arm)
@@ -187,9 +209,60 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
     [force, force * lever, torque]
 }
 
-/// Sizes of force, moment and the larger torque.
-fn sizes(wrench: &Wrench) -> [f64; 3] {
-    [wrench.force.peak(), wrench.moment.peak(), wrench.torque().peak()]
+/// Sizes of force, moment and the larger torques of inertia and of pressure.
+fn sizes(wrench: &Wrench) -> [f64; 4] {
+    let Wrench { force, moment, inertia, gas } = wrench;
+    [force.peak(), moment.peak(), inertia.peak(), gas.peak()]
+}
+
+/// Orders of the torque of pressure to evaluate.
+#[derive(Default)]
+pub(crate) struct GasOrders {
+    /// Up to where the rest is a quarter of what may be left out, or to the highest.
+    pub orders: Vec<Order>,
+    /// Bound of the sum of those above.
+    pub tail: f64,
+    /// What may be left out, N·m.
+    pub allowed: f64,
+}
+
+impl GasOrders {
+    /// Of an engine; what may be left out is this part of the largest torque of a cylinder.
+    pub fn new(rtol: f64, loads: &Loads, cancel: &Cancel) -> Result<Self> {
+        let mut weights = vec![0.0; loads.gears.len()];
+        let (mut largest, mut step) = (0.0_f64, 2);
+        for load in &loads.list {
+            let Source::Pressure { gear: k } = load.source else { continue };
+            let Some(of_cylinder) = loads.gears[k].largest_gas() else { continue };
+            weights[k] += load.weight;
+            largest = largest.max(load.weight * of_cylinder);
+            if loads.gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four)
+            {
+                step = 1;
+            }
+        }
+        let allowed = rtol * largest;
+        if allowed == 0.0 {
+            return Ok(Self::default());
+        }
+        let mut highest = 24;
+        loop {
+            let mut tails = vec![0.0; 2 * highest as usize];
+            for (gear, weight) in loads.gears.iter().zip(&weights).filter(|(_, w)| **w > 0.0) {
+                let found = gear.gas_tails(Order::whole(highest)?, cancel)?;
+                tails.iter_mut().zip(found).for_each(|(sum, tail)| *sum += weight * tail);
+            }
+            let enough = tails.iter().position(|&tail| tail <= 0.25 * allowed);
+            let Some(last) = enough.or((highest == HIGHEST_OF_GAS).then_some(tails.len() - 1))
+            else {
+                highest *= 2;
+                continue;
+            };
+            let halves = (1..=last as u32 + 1).filter(|halves| halves % step == 0);
+            let orders = halves.map(Order::from_halves).collect::<Result<_>>()?;
+            return Ok(Self { orders, tail: tails[last], allowed });
+        }
+    }
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
+use crate::gear::Gear;
 use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Cylinder};
+use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
 use crate::load::{Loads, Source};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
@@ -42,6 +43,7 @@ impl DerefMut for AngleColumn {
 pub(crate) struct Kinematics {
     pub pistons: Vec<Pistons>,
     pub unbalances: Vec<Unbalances>,
+    pub pressures: Vec<Pressures>,
 }
 
 /// Pistons of one gear and top dead centre.
@@ -64,6 +66,21 @@ pub(crate) struct Pistons {
     pub rod_inertia: f64,
 }
 
+/// Pistons under pressure of one gear that fire together.
+pub(crate) struct Pressures {
+    gear_index: usize,
+    firing: Angle,
+    /// The gear, a slider-crank with pressure.
+    pub gear: Gear,
+    pub proportions: Proportions,
+    /// Degrees at which they fire.
+    pub firing_deg: f64,
+    /// `e^{−iφ}` of it.
+    pub phase: Complex64,
+    /// Σ area × crank radius, m³.
+    pub volume: f64,
+}
+
 impl Pistons {
     /// Factors of the torques on the block and on the main crank.
     pub fn senses(&self) -> [f64; 2] {
@@ -84,6 +101,7 @@ pub(crate) struct Unbalances {
 impl Kinematics {
     pub fn new(loads: &Loads) -> Self {
         let (mut pistons, mut unbalances) = (Vec::<Pistons>::new(), Vec::<Unbalances>::new());
+        let mut pressures = Vec::<Pressures>::new();
         let cylinders = loads.cylinders();
         for load in &loads.list {
             let ratio = load.ratio;
@@ -127,9 +145,26 @@ impl Kinematics {
                     }
                     unbalances[k].roll += load.axis.conj() * force;
                 }
+                Source::Pressure { gear } => {
+                    let same = |p: &Pressures| (p.gear_index, p.firing) == (gear, load.phase);
+                    let k = pressures.iter().position(same).unwrap_or_else(|| {
+                        pressures.push(Pressures {
+                            gear_index: gear,
+                            firing: load.phase,
+                            gear: loads.gears[gear].clone(),
+                            proportions: cylinders[gear].proportions(),
+                            // Its phase is half of it.
+                            firing_deg: 2.0 * load.phase.degrees(),
+                            phase: load.phase.cis(-2),
+                            volume: 0.0,
+                        });
+                        pressures.len() - 1
+                    });
+                    pressures[k].volume += load.weight;
+                }
             }
         }
-        Self { pistons, unbalances }
+        Self { pistons, unbalances, pressures }
     }
 
     /// Adds the moment of inertia of pistons and rods as seen from the crank at a block of angles, kg·m²,

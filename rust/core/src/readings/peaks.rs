@@ -42,9 +42,19 @@ pub struct PeakFinder {
 impl PeakFinder {
     /// For sums of these orders.
     pub fn new(orders: &[Order]) -> Result<Self> {
-        let halves = || orders.iter().map(|order| order.halves());
-        let common = halves().fold(0, divisor).max(1);
-        let waves = memory::collected(halves().map(|n| n / common))?;
+        Self::with(orders, false)
+    }
+
+    /// For sums of a mean and these orders.
+    pub fn about_mean(orders: &[Order]) -> Result<Self> {
+        Self::with(orders, true)
+    }
+
+    fn with(orders: &[Order], mean: bool) -> Result<Self> {
+        let common = orders.iter().map(|order| order.halves()).fold(0, divisor).max(1);
+        let mut waves = memory::room(orders.len() + 1)?;
+        waves.extend(mean.then_some(0));
+        waves.extend(orders.iter().map(|order| order.halves() / common));
         let degree = 2 * waves.iter().copied().max().unwrap_or(1) as usize;
         let mut points = POINTS_PER_WAVE * degree;
         let tabled = points * waves.len() <= MOST_COSINES;
@@ -65,6 +75,14 @@ impl PeakFinder {
     /// max over θ of |Re Σ Pₙ e^{inθ}|, phasors in the order of the orders.
     pub fn along_axis(&self, phasors: &[Complex64], cancel: &Cancel) -> Result<f64> {
         self.longest([phasors], cancel)
+    }
+
+    /// max over θ of |mean + Re Σ Pₙ e^{inθ}|, of a grid about a mean.
+    pub fn beside_mean(&self, mean: f64, phasors: &[Complex64], cancel: &Cancel) -> Result<f64> {
+        let mut all = memory::room(phasors.len() + 1)?;
+        all.push(Complex64::new(mean, 0.0));
+        all.extend_from_slice(phasors);
+        self.along_axis(&all, cancel)
     }
 
     /// max over θ of the length of the vector (Re Σ Xₙ e^{inθ}, Re Σ Yₙ e^{inθ}).
@@ -230,7 +248,7 @@ impl<const N: usize> VectorSum<'_, N> {
             for (&wave, phasor) in self.finder.waves.iter().zip(*row) {
                 let phasor = phasor * self.scale;
                 from[wave as usize] += unit * phasor;
-                from[count - wave as usize] += unit * phasor.conj();
+                from[(count - wave as usize) % count] += unit * phasor.conj();
             }
         }
         let mut to: Vec<Complex64> = memory::zeros(count)?;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::gear::Pressure;
 use crate::gear::rod::Swing;
 use crate::load::{Alike, Loads};
 use crate::numbers::cancel::Cancel;
@@ -16,7 +17,7 @@ use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
-use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
+use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Pressures, Units};
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +28,10 @@ pub struct Waveform {
     pub moment: Array2<f64>,
     /// Roll torque on the block about +z, N·m: (`n_theta`,).
     pub torque: Option<Array1<f64>>,
-    /// Inertia torque on the crank about +z, N·m: (`n_theta`,).
+    /// Torque on the crank about +z, N·m: (`n_theta`,).
     pub crank_torque: Option<Array1<f64>>,
+    /// What gas pressure adds to both, of an engine with cycles.
+    pub gas: Option<[Array1<f64>; 2]>,
     /// The orders summed; none for exact kinematics.
     pub balance: Option<Balance>,
 }
@@ -48,14 +51,17 @@ pub fn exact(
     let reference = engine.reference(request.reference_z)?;
     let loads = Loads::new(engine, reference, Alike::Proportions);
     let kinematics = Kinematics::new(&loads);
-    let memory = in_blocks(theta_deg, request.torque, cancel, |angles, rows| {
+    let memory = in_blocks(theta_deg, torques(engine, request.torque), cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
             || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
         );
+        if request.torque {
+            kinematics.pressures.iter().for_each(|pressures| rows.add_pressure(pressures, angles));
+        }
         Ok(())
     })?;
-    memory.waveform(None, request.torque)
+    memory.waveform(None)
 }
 
 /// As a sum of orders.
@@ -67,20 +73,29 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
-    let memory = in_blocks(theta_deg, balance.has_torque, cancel, |angles, rows| {
-        vectorised(
-            #[inline(always)]
-            || rows.add_orders(&balance, angles),
-        );
-        Ok(())
-    })?;
-    let torque = balance.has_torque;
-    memory.waveform(Some(balance), torque)
+    let memory =
+        in_blocks(theta_deg, torques(engine, balance.has_torque), cancel, |angles, rows| {
+            vectorised(
+                #[inline(always)]
+                || rows.add_orders(&balance, angles),
+            );
+            Ok(())
+        })?;
+    memory.waveform(Some(balance))
 }
 
-/// Force x, y, moment x, y, roll and crank torque.
+/// Number of torques: on the block and on the crank, and what pressure adds to them.
+fn torques(engine: &Engine, wanted: bool) -> usize {
+    match (wanted, engine.gas()) {
+        (false, _) => 0,
+        (true, None) => 2,
+        (true, Some(_)) => 4,
+    }
+}
+
+/// Force x, y, moment x, y, roll and crank torque, and what pressure adds to these.
 struct WaveformRows {
-    columns: [AngleColumn; 6],
+    columns: [AngleColumn; 8],
 }
 
 impl WaveformRows {
@@ -103,7 +118,7 @@ impl WaveformRows {
                 self.add::<false>(pistons, square, units);
             }
         }
-        let [force_x, force_y, moment_x, moment_y, roll, _] = &mut self.columns;
+        let [force_x, force_y, moment_x, moment_y, roll, ..] = &mut self.columns;
         for unbalances in &kinematics.unbalances {
             let units = Units::at_speed(angles, 0..angles.len(), unbalances.ratio);
             let [force, moment] = unbalances.planar.map(|sum| sum * square);
@@ -119,7 +134,7 @@ impl WaveformRows {
 
     #[inline(always)]
     fn add<const TORQUE: bool>(&mut self, pistons: &Pistons, square: f64, units: &Units) {
-        let [force_x, force_y, moment_x, moment_y, roll, crank] = &mut self.columns;
+        let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
         let (proportions, arm) = (pistons.cylinder.proportions(), pistons.arm * square);
         let senses = pistons.senses().map(|sense| sense * square);
@@ -146,14 +161,37 @@ impl WaveformRows {
         }
     }
 
+    fn add_pressure(&mut self, pressures: &Pressures, angles: &CrankAngles) {
+        let Some(Pressure { cycle, crankcase }) = &pressures.gear.pressure else { return };
+        let units = Units::new(angles, 0..angles.len(), Order::FIRST);
+        let [on_block, on_crank] = pressures.gear.senses();
+        for (i, θ) in angles.degrees().iter().enumerate() {
+            let motion = pressures.proportions.motion_at(&units.crank(pressures.phase, i));
+            let gauge = cycle.pressure_deg(θ - pressures.firing_deg) - crankcase;
+            // The piston's way down is minus its distance from the crank.
+            let torque = -gauge * motion.velocity * pressures.volume;
+            for (column, torque) in [(4, -on_block * torque), (5, on_crank * torque)] {
+                self.columns[column][i] += torque;
+                self.columns[column + 2][i] += torque;
+            }
+        }
+    }
+
     #[inline(always)]
     fn add_orders(&mut self, balance: &Balance, angles: &CrankAngles) {
+        for (k, mean) in balance.mean.into_iter().enumerate() {
+            for column in [4 + k, 6 + k] {
+                self.columns[column].iter_mut().for_each(|torque| *torque += mean);
+            }
+        }
         for (k, &order) in balance.orders.iter().enumerate() {
             let Units { cos, sin } = Units::new(angles, 0..angles.len(), order);
             let ([force_x, force_y], [moment_x, moment_y]) =
                 (balance.xy(Vector::Force, k), balance.xy(Vector::Moment, k));
-            let torque = &balance.wrenches[k].torque();
-            let phasors = [force_x, force_y, moment_x, moment_y, torque.roll, torque.crank];
+            let (torque, gas) = (balance.wrenches[k].torque(), balance.wrenches[k].gas);
+            let torques = [torque.roll, torque.crank, gas.roll, gas.crank];
+            let [a, b, c, d] = torques;
+            let phasors = [force_x, force_y, moment_x, moment_y, a, b, c, d];
             for (column, phasor) in self.columns.iter_mut().zip(phasors) {
                 if phasor == Complex64::default() {
                     continue;
@@ -166,25 +204,28 @@ impl WaveformRows {
     }
 }
 
-/// Results in memory: force and moment in pairs of x and y, roll and crank torque if wanted.
+/// Results in memory: force and moment in pairs of x and y, and the torques that there are.
 struct Memory {
     pairs: [Vec<f64>; 2],
-    torques: [Vec<f64>; 2],
+    torques: Vec<Vec<f64>>,
 }
 
 impl Memory {
-    fn waveform(self, balance: Option<Balance>, torque: bool) -> Result<Waveform> {
+    fn waveform(self, balance: Option<Balance>) -> Result<Waveform> {
         let pairs = |values: Vec<f64>| {
             let shape = (values.len() / 2, 2);
             Array2::from_shape_vec(shape, values)
                 .map_err(|error| Error::value("theta_deg", format!("{shape:?}"), error.to_string()))
         };
-        let ([force, moment], [roll, crank]) = (self.pairs, self.torques);
+        let [force, moment] = self.pairs;
+        let mut torques = self.torques.into_iter().map(Array1::from);
+        let (torque, crank_torque) = (torques.next(), torques.next());
         Ok(Waveform {
             force: pairs(force)?,
             moment: pairs(moment)?,
-            torque: torque.then(|| Array1::from(roll)),
-            crank_torque: torque.then(|| Array1::from(crank)),
+            torque,
+            crank_torque,
+            gas: torques.next().zip(torques.next()).map(|(roll, crank)| [roll, crank]),
             balance,
         })
     }
@@ -193,53 +234,57 @@ impl Memory {
 /// Run over the crank angles in blocks, in parallel.
 fn in_blocks(
     theta_deg: &[f64],
-    torque: bool,
+    torques: usize,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Send + Sync,
 ) -> Result<Memory> {
     let hint = "split theta_deg into parts";
-    limits::result_size("theta_deg", &[theta_deg.len(), 12], size_of::<f64>(), hint)?;
+    limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
     if theta_deg.len() <= 4 * BLOCK {
-        return fill_blocks(theta_deg, torque, cancel, add);
+        return fill_blocks(theta_deg, torques, cancel, add);
     }
     // Results are allocated there too: an allocator that keeps an arena for each thread then reuses
     // their memory, which halves the time of a hundred thousand angles.
-    pool::run(cancel, || fill_blocks(theta_deg, torque, cancel, add))
+    pool::run(cancel, || fill_blocks(theta_deg, torques, cancel, add))
 }
 
 fn fill_blocks(
     theta_deg: &[f64],
-    torque: bool,
+    torques: usize,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Sync,
 ) -> Result<Memory> {
-    let (angles, torques) = (theta_deg.len(), if torque { theta_deg.len() } else { 0 });
+    let angles = theta_deg.len();
     let mut memory = Memory {
         pairs: [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?],
-        torques: [memory::zeros(torques)?, memory::zeros(torques)?],
+        torques: (0..torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?,
     };
     let mut pairs = memory.pairs.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
-    let mut torques = memory.torques.each_mut().map(|values| values.chunks_mut(BLOCK));
+    let mut torques: Vec<_> =
+        memory.torques.iter_mut().map(|values| values.chunks_mut(BLOCK)).collect();
     let tasks = theta_deg.chunks(BLOCK).map(|thetas| {
         let pairs = pairs.each_mut().map(|chunks| chunks.next().unwrap_or_default());
-        let torques = torques.each_mut().map(|chunks| chunks.next().unwrap_or_default());
-        (thetas, pairs, torques)
+        let mut of_block: [&mut [f64]; 4] = Default::default();
+        for (out, chunks) in of_block.iter_mut().zip(&mut torques) {
+            *out = chunks.next().unwrap_or_default();
+        }
+        (thetas, pairs, of_block)
     });
     let mut listed = memory::room(tasks.len())?;
     listed.extend(tasks);
     let tasks = listed;
-    let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 2])| {
+    let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 4])| {
         cancel.check()?;
-        let mut rows = WaveformRows { columns: [const { AngleColumn::ZERO }; 6] };
+        let mut rows = WaveformRows { columns: [const { AngleColumn::ZERO }; 8] };
         add(&CrankAngles::of_checked(thetas), &mut rows)?;
-        let [force_x, force_y, moment_x, moment_y, roll, crank] = &rows.columns;
+        let [force_x, force_y, moment_x, moment_y, torque_columns @ ..] = &rows.columns;
         for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {
             for (pair, (x, y)) in out.chunks_exact_mut(2).zip(x.iter().zip(&y[..])) {
                 pair.copy_from_slice(&[*x, *y]);
             }
         }
-        for (out, column) in torques.into_iter().zip([roll, crank]) {
+        for (out, column) in torques.into_iter().zip(torque_columns) {
             out.copy_from_slice(&column[..out.len()]);
         }
         Ok(())
@@ -299,7 +344,7 @@ mod tests {
                 }
                 Ok(())
             };
-            let result = in_blocks(&thetas, true, &cancel, add).map(drop);
+            let result = in_blocks(&thetas, 2, &cancel, add).map(drop);
             (result, blocks.into_inner())
         };
         assert_eq!(run(0), (Ok(()), 4));

@@ -181,7 +181,7 @@ pub fn closed_form(
         let (motion, square) = match load.source {
             Source::Piston { .. } => (LoadMotion::Along, 1),
             Source::Unbalance if load.ratio > 0 => (LoadMotion::Forward, load.ratio * load.ratio),
-            Source::Unbalance => (LoadMotion::Backward, load.ratio * load.ratio),
+            _ => (LoadMotion::Backward, load.ratio * load.ratio),
         };
         let weight = weight.checked_mul(&Ratio::from(i128::from(square))).ok_or_else(too_long)?;
         let argument = if motion == LoadMotion::Along { "bank_deg" } else { "angle_deg" };

@@ -61,6 +61,8 @@ impl TypedProportions {
 fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
     engine.check_one_crank("an exact sum")?;
     let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions);
+    // Pressure is no rational multiple of anything.
+    loads.list.retain(|load| !matches!(load.source, Source::Pressure { .. }));
     let same = first_equal(loads.cylinders().iter().map(TypedProportions::of));
     for load in &mut loads.list {
         if let Source::Piston { gear, .. } = &mut load.source {

@@ -165,7 +165,9 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<usize> {
         let gear = match harmonic {
-            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) => slowest.get(k),
+            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) | Harmonic::Gas(k) => {
+                slowest.get(k)
+            }
             Harmonic::One => None,
         };
         let kind = discriminant(&harmonic);
@@ -204,6 +206,7 @@ impl Sweep {
             Harmonic::Torque(_) => rod_ratio <= TORQUE_GROWS,
             Harmonic::Rod(_) => rod_ratio <= ROD_TORQUE_GROWS,
             Harmonic::Force(_) | Harmonic::One => true,
+            Harmonic::Gas(_) => false,
         };
         if gear.is_centred() && grows {
             return values(gear, |value| Factor::AtMost(value.norm()));

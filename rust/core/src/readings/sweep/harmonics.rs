@@ -59,7 +59,9 @@ impl Sweep {
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }
-        let (Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k)) = harmonic else {
+        let (Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) | Harmonic::Gas(k)) =
+            harmonic
+        else {
             for [re, _] in &mut columns {
                 re.fill(1.0);
             }
@@ -120,6 +122,7 @@ pub(super) fn of(
     let force = match harmonic {
         Harmonic::Torque(_) => return gear.torque(orders, cancel),
         Harmonic::Rod(_) => return gear.rod_torque(orders, cancel),
+        Harmonic::Gas(_) => return Ok(gear.gas(orders, cancel)?.0),
         Harmonic::One => vec![Complex64::new(1.0, 0.0); orders.len()],
         Harmonic::Force(_) => gear.force(orders, cancel)?,
     };

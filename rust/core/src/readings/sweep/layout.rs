@@ -110,7 +110,8 @@ impl Quantity {
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let own = matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_));
+        let own =
+            matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_) | Harmonic::Gas(_));
         match self {
             Self::Force | Self::Moment if own => None,
             Self::Force => Some(term.force),

@@ -97,7 +97,9 @@ impl Sweep {
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         Ok(Self {
             references: references.collect::<Result<_>>()?,
-            torque: engines.iter().all(|engine| engine.spectrum().is_none()),
+            torque: engines
+                .iter()
+                .all(|engine| engine.spectrum().is_none() && engine.gas().is_none()),
             engines,
             axes,
             orders,
@@ -291,6 +293,8 @@ impl Sweep {
         }
         let reason = if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             "a force spectrum does not determine it; compute without `spectrum`"
+        } else if self.engines.iter().any(|engine| engine.gas().is_some()) {
+            "sweeps do not count gas pressure yet; use balance at each point"
         } else {
             "torque=False was given; leave it out"
         };

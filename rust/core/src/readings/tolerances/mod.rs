@@ -138,6 +138,11 @@ impl Tolerances {
         cancel: &Cancel,
     ) -> Result<Self> {
         engine.check_one_crank("tolerances")?;
+        if request.torque && engine.gas().is_some() {
+            return Err(Error::NoTorque(
+                "tolerances do not count gas pressure; leave out torque, or the engine's cycles",
+            ));
+        }
         check_pins(engine, pin_of)?;
         for (figure, spreads) in Parameter::ALL.into_iter().zip(spreads) {
             check_spreads(engine, pin_of, figure, spreads)?;

@@ -282,8 +282,8 @@ impl Arithmetic for Samples<'_> {
             Weight::Moment => std::slice::from_ref(&changes.moment),
             Weight::Torque => &changes.torque[0],
             Weight::Rod => &changes.torque[1],
-            // What deviates sits on the axis of the crank.
-            Weight::ArmX | Weight::ArmY => return,
+            // What deviates sits on the axis of the crank, and gas does not deviate.
+            Weight::ArmX | Weight::ArmY | Weight::Volume => return,
         };
         sum.resize(values.len(), ZEROS);
         let unit = times.of(*unit);

@@ -2,6 +2,7 @@ use ndarray::Array2;
 
 use super::*;
 use crate::Order;
+use crate::balance::TorquePart;
 use crate::engine::{Placement, Shaft, Unbalance};
 use crate::{Angle, Cylinder};
 
@@ -106,7 +107,9 @@ fn without_spreads_a_sample_is_the_balance_bit_for_bit() {
         }
         let [force, moment] =
             [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-        let [roll, crank] = known.torque_peaks(&Cancel::new()).unwrap();
+        let [roll, crank] = [false, true].map(|on_crank| {
+            known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
+        });
         let peaks = [force, moment, roll, crank];
         assert_eq!(found.peaks, [peaks; 2]);
     }
@@ -182,7 +185,9 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             }
             let [force, moment] =
                 [Vector::Force, Vector::Moment].map(|v| known.peak(v, &Cancel::new()).unwrap());
-            let [roll, crank] = known.torque_peaks(&Cancel::new()).unwrap();
+            let [roll, crank] = [false, true].map(|on_crank| {
+                known.torque_peak(TorquePart::Whole, on_crank, &Cancel::new()).unwrap()
+            });
             let peaks = [force, moment, roll, crank];
             for (found, known) in found.peaks[s].iter().zip(peaks) {
                 assert!((found - known).abs() <= 1e-12 * known, "{s}: {found} {known}");
@@ -255,7 +260,7 @@ fn sums_of_many_rows_peak_as_each_by_itself() {
     let orders = Order::all_whole(&ORDERS).unwrap();
     let rows: Vec<Complex64> =
         (0..1200).map(|k| Complex64::cis(0.7 * f64::from(k)) / f64::from(1 + k % 7)).collect();
-    let found = largest_sums(&orders, &rows, &Cancel::new()).unwrap();
+    let found = largest_sums(&orders, &rows, 0.0, &Cancel::new()).unwrap();
     let finder = PeakFinder::new(&orders).unwrap();
     for (found, row) in found.iter().zip(rows.chunks(4)) {
         assert_eq!(Ok(*found), finder.along_axis(row, &Cancel::new()));

@@ -6,17 +6,23 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
-use crate::readings::balance::{Balance, Vector};
+use crate::readings::balance::{Balance, TorquePart, Vector};
 use crate::readings::peaks::PeakFinder;
 
-/// Largest magnitude over the turn of each sum of orders: rows of peak phasors, one of each order.
-pub fn largest_sums(orders: &[Order], phasors: &[Complex64], cancel: &Cancel) -> Result<Vec<f64>> {
+/// Largest magnitude over the turn of each sum of a mean and orders: rows of peak phasors, one of each
+/// order.
+pub fn largest_sums(
+    orders: &[Order],
+    phasors: &[Complex64],
+    mean: f64,
+    cancel: &Cancel,
+) -> Result<Vec<f64>> {
     order::check_list(orders)?;
-    let finder = PeakFinder::new(orders)?;
+    let finder = PeakFinder::about_mean(orders)?;
     let rows: Vec<&[Complex64]> = phasors.chunks_exact(orders.len()).collect();
     let chunks = pool::map(cancel, rows.chunks(CHUNK).collect(), |rows| {
         cancel.check()?;
-        rows.iter().map(|row| finder.along_axis(row, cancel)).collect::<Result<Vec<_>>>()
+        rows.iter().map(|row| finder.beside_mean(mean, row, cancel)).collect::<Result<Vec<_>>>()
     })?;
     Ok(chunks.concat())
 }
@@ -40,9 +46,10 @@ impl Totals {
             .chain(orders.clone().map(|k| torque(k).roll))
             .chain(orders.map(|k| torque(k).crank))
             .collect();
-        let [roll, crank] = nominal.torque_peaks(cancel)?;
+        let [roll, crank] =
+            [false, true].map(|c| nominal.torque_peak(TorquePart::Whole, c, cancel));
         let [force, moment] = [Vector::Force, Vector::Moment].map(|v| nominal.peak(v, cancel));
-        Ok(Self { phasors, peaks: [force?, moment?, roll, crank] })
+        Ok(Self { phasors, peaks: [force?, moment?, roll?, crank?] })
     }
 
     /// Longest force and moment, largest torques of phasors in the order of the nominal ones.

@@ -115,11 +115,11 @@ impl Proof {
         };
         let piston = |load: &Load, of: fn(f64, f64) -> f64| match load.source {
             Source::Piston { second_moment, rod_inertia, .. } => of(second_moment, rod_inertia),
-            Source::Unbalance => 0.0,
+            _ => 0.0,
         };
         let arms = loads.list.iter().flat_map(|load| match load.source {
             Source::Unbalance => [load.weight * load.axis.re, load.weight * load.axis.im],
-            Source::Piston { .. } => [0.0; 2],
+            _ => [0.0; 2],
         });
         let bores = loads.list.iter().map(|load| load.direction);
         let motions = loads.cylinders();
@@ -208,8 +208,9 @@ impl Proof {
                 let named = [Channel::Masses, Channel::OddOfMasses];
                 self.torque_channels(motion, view, named, both(motion))
             }
-            // In that of the gear.
+            // In that of the gear; gas is not among these loads.
             Harmonic::Rod(_) if view.gears => vec![],
+            Harmonic::Gas(_) => vec![],
             Harmonic::Rod(motion) => {
                 let named = [Channel::Rod, Channel::OddOfRod];
                 self.torque_channels(motion, view, named, both(motion))
@@ -222,7 +223,9 @@ impl Proof {
         use load::Weight;
         let i = share.load;
         let (list, (unit, weight)) = match share.weight {
-            Weight::Force | Weight::Moment => (SymbolWeights::Planar, self.planar.of[i]),
+            Weight::Force | Weight::Moment | Weight::Volume => {
+                (SymbolWeights::Planar, self.planar.of[i])
+            }
             Weight::Torque if view.gears => (SymbolWeights::Gear, (0, Ratio::ONE)),
             Weight::Torque => (SymbolWeights::Masses, self.masses.of[i]),
             Weight::Rod => (SymbolWeights::Rod, self.rods.of[i]),

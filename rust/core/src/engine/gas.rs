@@ -1,0 +1,101 @@
+//! Gas pressure in the cylinders of an engine: cycles, and the crank angles at which they fire.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use super::{Engine, check_each_cylinder};
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
+use crate::pressure::Cycle;
+
+/// Pressure in the cylinders of an engine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gas {
+    /// Cycles that differ; cylinders refer to them by index.
+    pub cycles: Vec<Arc<Cycle>>,
+    /// Index of each cylinder's cycle; none where pressure never differs from the crankcase's.
+    pub cycle_of: Vec<Option<usize>>,
+    /// Absolute pressure in the crankcase, Pa.
+    pub crankcase: f64,
+    /// Crank angle at which each cylinder is at its firing top dead centre, within a cycle.
+    pub phases: Vec<Angle>,
+}
+
+impl Gas {
+    /// Moves the firing of a cylinder on by an angle.
+    pub(super) fn turn(&mut self, cylinder: usize, by: Angle, turns: i64) {
+        let phase = &mut self.phases[cylinder];
+        *phase = (*phase + by).reduced_to(turns);
+    }
+}
+
+impl Engine {
+    /// Pressure in the cylinders, if it counts.
+    #[must_use]
+    pub fn gas(&self) -> Option<&Gas> {
+        self.gas.as_ref()
+    }
+
+    /// The same engine with pressure in its cylinders, or without where no cylinder has a cycle.
+    ///
+    /// [`crate::Firing::phases`] are the phases of an engine's firing order.
+    pub fn with_gas(&self, gas: Gas) -> Result<Self> {
+        check_each_cylinder("cycle", gas.cycle_of.len(), self.placements.len())?;
+        check_each_cylinder("phases", gas.phases.len(), self.placements.len())?;
+        limits::not_negative("crankcase", gas.crankcase)?;
+        let firing = gas.cycle_of.iter().any(Option::is_some);
+        let engine = Self { gas: firing.then_some(gas), ..self.clone() };
+        engine.check_gas()?;
+        Ok(engine)
+    }
+
+    /// The same engine without pressure in its cylinders.
+    #[must_use]
+    pub fn without_gas(&self) -> Self {
+        Self { gas: None, ..self.clone() }
+    }
+
+    /// Rejects cylinders whose pressure has no torque that is known.
+    pub(super) fn check_gas(&self) -> Result<()> {
+        let Some(gas) = &self.gas else { return Ok(()) };
+        for (i, cycle) in gas.cycle_of.iter().enumerate() {
+            let Some(cycle) = *cycle else { continue };
+            let Some(cycle) = gas.cycles.get(cycle) else {
+                let hint = format!("give the index of a cycle, below {}", gas.cycles.len());
+                return Err(Error::value(format!("cycle_of[{i}]"), cycle, hint));
+            };
+            if cycle.strokes() != self.strokes {
+                let hint = format!(
+                    "the engine's strokes are {}: give a cycle of as many, or the engine strokes={}",
+                    self.strokes.number(),
+                    cycle.strokes().number()
+                );
+                let argument = format!("cycle[{i}].strokes");
+                return Err(Error::value(argument, cycle.strokes().number(), hint));
+            }
+            if self.details[i].bore.is_none() {
+                let hint = "gas pressure needs the bore; give bore=… to each Cylinder, m";
+                return Err(Error::value(format!("cylinder[{i}].bore"), "None", hint));
+            }
+            let ratio = self.cranks[self.crank_of[i]].ratio;
+            if ratio.abs() != 1 {
+                let hint = "gas pressure counts on cranks of ratio 1 or -1, whose cycles are the \
+                            main crank's";
+                return Err(Error::value(
+                    format!("cranks[{}].ratio", self.crank_of[i]),
+                    ratio,
+                    hint,
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Area of a piston times its crank radius, m³; none where the bore is not known.
+    #[must_use]
+    pub fn swept_by_radius(&self, cylinder: usize) -> Option<f64> {
+        let radius = self.placements[cylinder].cylinder.crank_radius();
+        self.details[cylinder].bore.map(|bore| 0.25 * PI * bore * bore * radius)
+    }
+}
