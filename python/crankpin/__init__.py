@@ -28,6 +28,7 @@ from crankpin.analysis.throws import throws
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.model.cycle import Cycle
+from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
 from crankpin.model.presets import presets
@@ -35,6 +36,7 @@ from crankpin.model.shafts import Shaft, Unbalance
 
 __all__ = [
     "Cycle",
+    "CycleMap",
     "Cylinder",
     "Engine",
     "InputError",

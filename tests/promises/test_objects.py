@@ -83,6 +83,7 @@ def designs(**options: Any) -> cp.types.Designs:
 OBJECTS: dict[str, Any] = {
     "Cylinder": OFFSET,
     "Cycle": cp.Cycle(np.arange(0.0, 720.0, 20.0), np.linspace(1e5, 3e6, 36)),
+    "CycleMap": cp.CycleMap([1000], [0, 1], [[cp.Cycle.example(), cp.Cycle.example("diesel")]]),
     "Engine": V6,
     "Engine of odd angles": ODD,
     "Balance": balance(),
@@ -720,6 +721,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
         field
         for kind in (
             cp.Cycle,
+            cp.CycleMap,
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,

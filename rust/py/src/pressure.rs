@@ -129,6 +129,14 @@ impl Cycle {
         interrupt::run(py, |cancel| wiebe.cycle(&chamber, name, cancel)).map(Self)
     }
 
+    /// Weighted sum of cycles.
+    #[staticmethod]
+    fn blend(cycles: Vec<(f64, Bound<'_, Self>)>, name: String) -> PyResult<Self> {
+        let parts: Vec<_> =
+            cycles.iter().map(|(weight, cycle)| (*weight, &cycle.get().0)).collect();
+        core::Cycle::blend(&parts, name).or_raise().map(Self)
+    }
+
     fn __len__(&self) -> usize {
         self.0.given().theta_deg.len()
     }

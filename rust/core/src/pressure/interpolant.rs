@@ -136,15 +136,61 @@ impl Panels {
 
     /// Value at any angle, degrees.
     pub fn value(&self, angle: f64) -> f64 {
+        self.beside(angle, angle)
+    }
+
+    /// Value at an angle of the polynomial that counts at another one.
+    fn beside(&self, angle: f64, at: f64) -> f64 {
         let (first, last) = (self.edges[0], self.edges[self.edges.len() - 1]);
-        let angle = first + (angle - first).rem_euclid(last - first);
+        let within = first + (at - first).rem_euclid(last - first);
+        let angle = within + (angle - at);
         let panel =
-            self.edges.partition_point(|&edge| edge <= angle).clamp(1, self.edges.len() - 1) - 1;
+            self.edges.partition_point(|&edge| edge <= within).clamp(1, self.edges.len() - 1) - 1;
         let (from, to) = (self.edges[panel], self.edges[panel + 1]);
         let place = ((angle - from) - (to - angle)) / (to - from);
         value_and_slope(self.panel(panel), place.clamp(-1.0, 1.0)).0
     }
 }
+
+/// Points of the weighted sum of piecewise polynomials of one period: angles, values, and their degree.
+///
+/// The panels of the sum lie between all edges, so that it is exact.
+pub(super) fn blend(parts: &[(f64, &Panels)]) -> (Vec<f64>, Vec<f64>, usize) {
+    let first = parts[0].1;
+    let (start, end) = (first.edges[0], first.edges[first.edges.len() - 1]);
+    let period = end - start;
+    let mut edges: Vec<f64> = parts
+        .iter()
+        .flat_map(|(_, panels)| &panels.edges)
+        .map(|edge| start + (edge - start).rem_euclid(period))
+        .chain([start])
+        .collect();
+    edges.sort_unstable_by(f64::total_cmp);
+    // Edges that only rounding parts are one.
+    edges.dedup_by(|later, before| *later - *before <= ROUNDED * period);
+    edges.retain(|edge| end - edge > ROUNDED * period);
+    edges.push(end);
+    let degree = parts.iter().map(|(_, panels)| panels.degree).max().unwrap_or(CUBIC);
+    let (mut angles, mut values) = (Vec::new(), Vec::new());
+    for pair in edges.windows(2) {
+        let middle = 0.5 * (pair[0] + pair[1]);
+        for k in 0..=degree {
+            let angle = match k {
+                0 => pair[0],
+                k if k == degree => pair[1],
+                k => middle - 0.5 * (pair[1] - pair[0]) * node(k, degree),
+            };
+            angles.push(angle);
+            let sum: f64 =
+                parts.iter().map(|(weight, panels)| weight * panels.beside(angle, middle)).sum();
+            values.push(sum);
+        }
+    }
+    (angles, values, degree)
+}
+
+/// Part of a period within which edges are one.
+const ROUNDED: f64 = 1e-12;
 
 /// Chebyshev point `k` of a degree, descending from 1.
 pub(super) fn node(k: usize, degree: usize) -> f64 {

@@ -154,6 +154,20 @@ impl Cycle {
         self.panels.value(theta_deg)
     }
 
+    /// The weighted sum of cycles of one period: polynomials between all of their edges.
+    pub fn blend(parts: &[(f64, &Self)], name: String) -> Result<Self> {
+        let Some(&(_, first)) = parts.first() else {
+            return Err(Error::value("cycles", "[]", "give at least one"));
+        };
+        if parts.iter().any(|(_, cycle)| cycle.strokes != first.strokes) {
+            return Err(Error::value("cycles", "of 2 and 4 strokes", "give cycles of one period"));
+        }
+        let panels: Vec<_> = parts.iter().map(|&(weight, cycle)| (weight, &cycle.panels)).collect();
+        let (theta_deg, pressure, degree) = interpolant::blend(&panels);
+        let strokes = first.given.strokes;
+        Self::new(Given { name, strokes, theta_deg, pressure, degree: Some(degree) })
+    }
+
     /// The table with every other point alone, from the first or the second on; none for polynomials
     /// and tables too short for it.
     #[must_use]

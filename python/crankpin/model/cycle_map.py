@@ -1,0 +1,179 @@
+"""Cycles over speed and load."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.model.cycle import ATMOSPHERE, Cycle
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Order
+    from crankpin.model.cylinder import Cylinder
+
+
+class CycleMap(Tabled):
+    """Cycles at speeds and loads, and linear interpolation of pressure between them.
+
+    Parameters
+    ----------
+    rpm, load
+        Crank speeds and loads of the cycles, ascending: (n_rpm,), (n_load,). Loads are in any
+        unit, such as 0 to 1 or imep.
+    cycles
+        Cycles of one period: a row for each speed, a cycle in it for each load.
+
+    Raises
+    ------
+    InputError
+        If speeds or loads are not ascending, or there is not one cycle for each pair.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    >>> cycles = [
+    ...     [cp.Cycle.wiebe(cylinder, compression_ratio=10, heat=heat) for heat in (300, 1200)]
+    ... ]
+    >>> half = cp.CycleMap([3000], [0, 1], cycles).at(rpm=3000, load=0.5)
+    >>> round((half.imep(cylinder) - cycles[0][0].imep(cylinder)) / 1e5, 3)
+    4.587
+    """
+
+    rpm: NDArray[np.float64]
+    """Crank speeds: (n_rpm,)."""
+    load: NDArray[np.float64]
+    """Loads: (n_load,)."""
+    cycles: Sequence[Sequence[Cycle]]
+    """Cycles, by speed and load."""
+
+    def __post_init__(self) -> None:
+        for name in ("rpm", "load"):
+            axis = inputs.vector(name, getattr(self, name)).copy()
+            if not axis.size or not np.isfinite(axis).all() or (np.diff(axis) <= 0.0).any():
+                raise InputError(f"{name} = {inputs.shorten(axis)}: give ascending numbers")
+            object.__setattr__(self, name, read_only(axis))
+        hint = "give a list for each speed, of a crankpin.Cycle for each load"
+        rows = tuple(
+            tuple(inputs.items(f"cycles[{k}]", row, hint))
+            for k, row in enumerate(inputs.items("cycles", self.cycles, hint))
+        )
+        if len(rows) != len(self.rpm) or {*map(len, rows)} != {len(self.load)}:
+            shape = f"{len(self.rpm)} speeds and {len(self.load)} loads"
+            raise InputError(
+                f"cycles = {inputs.shorten([len(row) for row in rows])}: for {shape} {hint}"
+            )
+        for each in (cycle for row in rows for cycle in row):
+            if not isinstance(each, Cycle):
+                raise InputError(f"cycles: {inputs.shorten(each)} is no cycle; {hint}")
+            if each.strokes != rows[0][0].strokes:
+                raise InputError("cycles have 2 and 4 strokes: give cycles of one period")
+        object.__setattr__(self, "cycles", rows)
+
+    def at(self, *, rpm: float, load: float) -> Cycle:
+        """Return the cycle at a speed and a load.
+
+        Parameters
+        ----------
+        rpm, load
+            Within the map: nothing is extrapolated.
+        """
+        by_speed = _weights("rpm", self.rpm, inputs.number("rpm", rpm))
+        by_load = _weights("load", self.load, inputs.number("load", load))
+        parts = [
+            (float(w * v), self.cycles[k][j].core)
+            for k, w in enumerate(by_speed)
+            for j, v in enumerate(by_load)
+            if w * v
+        ]
+        (_, core), *others = parts
+        if others:
+            core = _core.Cycle.blend(parts, f"{rpm:.10g} rpm, load {load:.10g}")
+        return Cycle._of(core)
+
+    def torque_harmonics(
+        self,
+        cylinder: Cylinder,
+        orders: Order | Iterable[Order],
+        *,
+        rpm: ArrayLike,
+        load: ArrayLike,
+        crankcase: float = ATMOSPHERE,
+    ) -> NDArray[np.complex128]:
+        """Return the peak phasors of the torque on the crank at many speeds and loads, N·m.
+
+        Those of the cycles that :meth:`at` returns: harmonics are linear in pressure.
+
+        Parameters
+        ----------
+        cylinder, orders, crankcase
+            As in :meth:`Cycle.torque_harmonics`.
+        rpm, load
+            Speeds and loads within the map, of shapes that broadcast.
+
+        Returns
+        -------
+        array of the shape of the points and (n_orders,)
+        """
+        of_nodes = np.array(
+            [
+                [each.torque_harmonics(cylinder, orders, crankcase=crankcase) for each in row]
+                for row in self.cycles
+            ]
+        )
+        by_speed = _weights("rpm", self.rpm, inputs.array("rpm", rpm))
+        by_load = _weights("load", self.load, inputs.array("load", load))
+        try:
+            weights = by_speed[..., :, np.newaxis] * by_load[..., np.newaxis, :]
+        except ValueError:
+            shapes = f"{np.shape(rpm)} and load {np.shape(load)}"
+            raise InputError(f"rpm has shape {shapes}: give shapes that broadcast") from None
+        found: NDArray[np.complex128] = np.tensordot(weights, of_nodes, 2)
+        return found
+
+    @property
+    def table(self) -> Table:
+        """Peak pressure by speed and load."""
+        listed = [
+            (speed, load, cycle)
+            for speed, row in zip(self.rpm.tolist(), self.cycles, strict=True)
+            for load, cycle in zip(self.load.tolist(), row, strict=True)
+        ]
+        return Table(
+            "CycleMap over speed and load",
+            (
+                Column("speed", tuple(speed for speed, _, _ in listed), "rpm", digits=10),
+                Column("load", tuple(load for _, load, _ in listed), digits=10),
+                Column("peak pressure", tuple(float(c.pressure.max()) for *_, c in listed), "Pa"),
+                Column("cycle", tuple(cycle.name for *_, cycle in listed)),
+            ),
+        )
+
+
+def _weights(
+    name: str, axis: NDArray[np.float64], at: float | NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the weight of each value of an axis in linear interpolation: (…, n)."""
+    at = np.asarray(at)
+    if at.size and not (np.min(at) >= axis[0] and np.max(at) <= axis[-1]):
+        given = inputs.shorten(at.tolist())
+        raise InputError(f"{name} = {given}: the map has {axis[0]:g} to {axis[-1]:g}")
+    upper = np.clip(np.searchsorted(axis, at), min(1, len(axis) - 1), None)
+    lower = np.maximum(upper - 1, 0)
+    span = np.where(upper > lower, axis[upper] - axis[lower], 1.0)
+    share = (at - axis[lower]) / span
+    places = np.arange(len(axis))
+    weights = (places == lower[..., np.newaxis]) * (1.0 - share)[..., np.newaxis]
+    above = (upper > lower)[..., np.newaxis] & (places == upper[..., np.newaxis])
+    found: NDArray[np.float64] = weights + above * share[..., np.newaxis]
+    return found
