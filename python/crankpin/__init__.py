@@ -23,6 +23,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.ranking.rank import rank
+from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.throws import throws
 from crankpin.analysis.tolerances.match_parts import match_parts
@@ -59,6 +60,7 @@ __all__ = [
     "rank",
     "search_arrangements",
     "slider_crank_harmonics",
+    "star_diagram",
     "sweep",
     "throws",
     "tolerances",

@@ -49,6 +49,7 @@ __all__ = [
     "rod_parts",
     "roll_torque",
     "shared",
+    "star",
     "turning",
     "vanishing",
     "vee_throws",
@@ -493,8 +494,11 @@ def balance(
     spectrum: _Pairs | None,
     torque: bool,
 ) -> Balance: ...
+def star(
+    firing: Firing, halves: Sequence[int], weights: Sequence[float]
+) -> tuple[_Complex, _Complex, NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]: ...
 def vanishing(
-    engine: Engine, orders: Sequence[int], reference_z: float | None
+    engine: Engine, halves: Sequence[int], reference_z: float | None, firing: Firing | None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], list[str]]: ...
 
 _Fraction: TypeAlias = tuple[int, int]

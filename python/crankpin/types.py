@@ -16,6 +16,7 @@ from crankpin.analysis.firing import Firing, Gap
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
+from crankpin.analysis.star import StarDiagram
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
@@ -48,6 +49,7 @@ __all__ = [
     "OrderBalance",
     "Quantity",
     "Ranking",
+    "StarDiagram",
     "Sweep",
     "SweepWaveform",
     "Throws",

@@ -50,11 +50,17 @@ def zeros(b: cp.types.Balance) -> dict[str, np.ndarray]:
         "moment_forward": b.moment.forward == 0,
         "moment_backward": b.moment.backward == 0,
         "torque": b.torque == 0,
+        "gas_torque": cp.star_diagram(b.engine, b.orders, firing_order=_any_order(b)).peak == 0,
     }
 
 
+def _any_order(b: cp.types.Balance) -> str:
+    """At whole orders gas does not depend on the firing order."""
+    return b.engine.firing_order or b.engine.firing_orders()[0].firing_order
+
+
 def joined(pair: tuple[str, str]) -> str:
-    return pair[0] if pair[0] == "torque" else "_".join(pair)
+    return pair[0] if "torque" in pair[0] else "_".join(pair)
 
 
 # --- what vanishes ------------------------------------------------------------------------------
@@ -235,13 +241,13 @@ def part_of_turn(text: str) -> Fraction:
 
 
 def fifty_digits(engine: cp.Engine, order: int) -> dict[str, Any]:
-    """The nine sums, each over aₙ, from the exact angles, to 50 digits."""
+    """The ten sums, each over aₙ, from the exact angles, to 50 digits."""
     mpmath.mp.dps = 50
     tdc_text, bank_text = engine._core.exact_angles
     places = [Fraction(z).limit_denominator(10**6) for z in engine.z]
     middle = (max(places) + min(places)) / 2
     sums = {"force": [mpmath.mpc(0)] * 2, "moment": [mpmath.mpc(0)] * 2}
-    torque = mpmath.mpc(0)
+    torque = gas = mpmath.mpc(0)
     for k, cylinder in enumerate(engine.cylinders):
         tdc, bank = (
             2 * mpmath.pi * mpmath.mpf(turns.numerator) / turns.denominator
@@ -262,7 +268,8 @@ def fifty_digits(engine: cp.Engine, order: int) -> dict[str, Any]:
         sums["force"] = [sums["force"][0] + x, sums["force"][1] + y]
         sums["moment"] = [sums["moment"][0] - z * y, sums["moment"][1] + z * x]
         torque += w * phase
-    found = {"torque": torque}
+        gas += phase
+    found = {"torque": torque, "gas_torque": gas}
     for name, (x, y) in sums.items():
         found[f"{name}_x"], found[f"{name}_y"] = x, y
         found[f"{name}_forward"], found[f"{name}_backward"] = x + 1j * y, x - 1j * y

@@ -95,6 +95,7 @@ OBJECTS: dict[str, Any] = {
     "ErrorBound": balance().error_bound,
     "VanishingOrders": V6.vanishing_orders(),
     "VanishingOrders of odd angles": ODD.vanishing_orders([1, 2], reference_z=0.3),
+    "StarDiagram": cp.star_diagram(cp.Engine.preset("i6"), [0.5, 3], mode_shape=[1, 2, 3, 4, 5, 6]),
     "ClosedForm": V6.replace(cylinder=OFFSET.replace(pin_offset=0.0)).closed_form(1),
     "ClosedForm of a force": V6.closed_form(2, "force", reference_z=0.0),
     "Waveform": waveform(),

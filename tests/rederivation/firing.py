@@ -10,7 +10,9 @@ The cross-plane page's gaps and the IJESC paper's engine are at the end.
 
 from __future__ import annotations
 
+import cmath
 import itertools
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -135,3 +137,31 @@ def ijesc_tdc(lags: Sequence[float], v_angle: int) -> list[Fraction]:
     """Top dead centres of cylinders 1 to 6: at phi - gamma right (odd), phi + gamma left."""
     gamma = Fraction(v_angle, 2)
     return [Fraction(lag) + (gamma if i % 2 else -gamma) for i, lag in enumerate(lags)]
+
+
+# --- star diagrams ------------------------------------------------------------------------------
+
+
+def phase_vectors(
+    fire_deg: Sequence[Fraction | float], order: float, lengths: Sequence[float] | None = None
+) -> list[complex]:
+    """A vector for each cylinder: it lags by the order times the crank angle of its firing."""
+    weights = [1.0] * len(fire_deg) if lengths is None else lengths
+    return [
+        weight * cmath.exp(-1j * math.radians(float(Fraction(order) * Fraction(fire) % 360)))
+        for weight, fire in zip(weights, fire_deg, strict=True)
+    ]
+
+
+STAR_OF_BANKS = {
+    (30, 2): (1.732051, 1.732),
+    (30, 4.5): (1.847759, 1.77),
+    (60, 2.5): (1.931852, 1.932),
+    (60, 5.5): (0.517638, 0.517),
+    (45, 3.5): (1.961571, 1.961),
+}
+"""Sum of the two banks of a V12 (Rolls-Royce, 1932): bank angle and order → true and printed.
+
+The second bank fires a turn and the bank angle after the first. 1.77 is a slip: 2·cos 22.5° is
+1.848; the others are cut off after three decimals or rounded.
+"""

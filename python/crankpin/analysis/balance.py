@@ -175,13 +175,12 @@ class Balance(ByOrder, Tabled):
         inputs.one_of("quantity", quantity, QUANTITIES)
         if order % 1:
             return not self.fired or QUANTITIES[quantity].planar  # inertia has whole orders
-        orders = [int(order)]
         if self.request.pairs is not None or quantity == "crank_torque":
             return False
         if quantity == "torque" and (self.fired or any(self.request.aside)):
             return False
-        core = engine_core(self.engine)
-        vanishes = _core.vanishing(core, orders, self.request.reference_z)[0][0]
+        core, plane = engine_core(self.engine), self.request.reference_z
+        vanishes = _core.vanishing(core, [2 * int(order)], plane, None)[0][0]
         at = {"force": slice(0, 2), "moment": slice(4, 6), "torque": slice(8, 9)}
         return bool(vanishes[at[quantity]].all())
 

@@ -13,6 +13,7 @@ from crankpin._support import inputs, labels, optional
 from crankpin._support.absent import AbsentError
 from crankpin._support.record import Record, Tabled, read_only
 from crankpin._support.tables import Table
+from crankpin.analysis import firing as fires
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders
+    from crankpin._support.inputs import Order, Orders
     from crankpin.model.engine import Engine
 
 COMPONENTS = ("x", "y", "forward", "backward")
@@ -37,6 +38,7 @@ SUMS = {
     ("moment", "forward"): "M fwd",
     ("moment", "backward"): "M back",
     ("torque", "z"): "M_z",
+    ("gas_torque", "z"): "T gas",
 }
 """Sums of one order (quantity and component), as the core counts them → heads of columns."""
 
@@ -45,7 +47,7 @@ def vanishing_orders(
     engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
 ) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
-    listed = tuple(inputs.explicit_orders(orders))
+    listed = tuple(inputs.explicit_half_orders(orders))
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
@@ -56,7 +58,7 @@ class Verdicts(Record):
     vanishes where both components do, and has verdicts on its parts.
     """
 
-    orders: tuple[int, ...]
+    orders: tuple[Order, ...]
     """Multiples of crank speed."""
     words: tuple[str, ...]
     """Verdicts: (n_orders,)."""
@@ -103,24 +105,24 @@ class Verdicts(Record):
         return dict(self.parts)[name]
 
     @property
-    def vanishing(self) -> tuple[int, ...]:
+    def vanishing(self) -> tuple[Order, ...]:
         """Orders in which the sum is proved to vanish."""
         return self._orders_with("vanishes")
 
     @property
-    def remaining(self) -> tuple[int, ...]:
+    def remaining(self) -> tuple[Order, ...]:
         """Orders in which the sum is proved not to vanish."""
         return self._orders_with("remains")
 
     @property
-    def undecided(self) -> tuple[int, ...]:
+    def undecided(self) -> tuple[Order, ...]:
         """Orders in which neither is proved."""
         return self._orders_with("undecided")
 
-    def _orders_with(self, verdict: str) -> tuple[int, ...]:
+    def _orders_with(self, verdict: str) -> tuple[Order, ...]:
         return tuple(n for n, word in zip(self.orders, self.words, strict=True) if word == verdict)
 
-    def __getitem__(self, order: int) -> str:
+    def __getitem__(self, order: Order) -> str:
         """Return the verdict on one order.
 
         Raises
@@ -133,7 +135,7 @@ class Verdicts(Record):
             raise InputError(f"order = {inputs.shorten(order)}: decided were {known}")
         return self.words[self.orders.index(order)]
 
-    def __iter__(self) -> Iterator[int]:
+    def __iter__(self) -> Iterator[Order]:
         return iter(self.orders)
 
     def __len__(self) -> int:
@@ -150,12 +152,15 @@ class Verdicts(Record):
 class VanishingOrders(Tabled):
     """Orders in which sums are exactly zero, decided in integers.
 
-    Each order has nine sums: force and moment along (about) x and y, their parts that turn with the
-    crank and against it, and torque. Each is a sum of roots of unity with rational weights where
-    angles are rational parts of a turn, and masses and positions rational multiples of each other;
-    it is zero if and only if the cyclotomic polynomial divides it, which integers decide. Positions
-    and masses are taken for such multiples (denominator up to 10 000) within four units in the last
-    place: 0, 0.1, 0.2, 0.3 are equal steps, although 0.3 is not three times 0.1 in binary.
+    Each order has ten sums: force and moment along (about) x and y, their parts that turn with the
+    crank and against it, torque of inertia, and torque of gas of cylinders with one cycle. Inertia
+    has no half orders; those of gas follow from the engine's firing order.
+
+    Each is a sum of roots of unity with rational weights where angles are rational parts of a turn,
+    and masses and positions rational multiples of each other; it is zero if and only if the
+    cyclotomic polynomial divides it, which integers decide. Positions and masses are taken for such
+    multiples (denominator up to 10 000) within four units in the last place: 0, 0.1, 0.2, 0.3 are
+    equal steps, although 0.3 is not three times 0.1 in binary.
 
     A quantity with no rational relation to the others (an angle that is not rational, the harmonic
     of another slider-crank) is treated as an independent symbol: where several such symbols remain,
@@ -176,28 +181,38 @@ class VanishingOrders(Tabled):
     'remains'
     >>> bool(v.undecided.any())
     False
+
+    Of an odd-fire V6 the gas leaves 1½ too:
+
+    >>> odd = cp.Engine.preset("v6-90-odd-fire")
+    >>> odd.vanishing_orders([0.5, 1, 1.5, 2, 2.5, 3]).gas_torque.remaining
+    (1.5, 3)
     """
 
     engine: Engine
     """The engine."""
-    orders: tuple[int, ...]
+    orders: tuple[Order, ...]
     """Multiples of crank speed."""
     plane: float | None
     """The reference plane that was given, m, or None."""
     vanishes: NDArray[np.bool_] = field(init=False, compare=False)
-    """True where a sum is proved to be zero: (n_orders, 9)."""
+    """True where a sum is proved to be zero: (n_orders, 10)."""
     remains: NDArray[np.bool_] = field(init=False, compare=False)
-    """True where a sum is proved not to be zero: (n_orders, 9)."""
+    """True where a sum is proved not to be zero: (n_orders, 10)."""
     undecided: NDArray[np.bool_] = field(init=False, compare=False)
-    """True where neither is proved: (n_orders, 9)."""
+    """True where neither is proved: (n_orders, 10)."""
     within_rounding: NDArray[np.bool_] = field(init=False, compare=False)
-    """True where floating point finds a sum below its rounding error: (n_orders, 9)."""
+    """True where floating point finds a sum below its rounding error: (n_orders, 10)."""
     obstacles: tuple[str, ...] = field(init=False, compare=False)
     """Reasons why sums are undecided; empty where none is."""
 
     def __post_init__(self) -> None:
-        core = engine_core(self.engine)
-        vanishes, remains, within, obstacles = _core.vanishing(core, list(self.orders), self.plane)
+        core, firing = engine_core(self.engine), None
+        if any(order % 1 for order in self.orders):
+            # At whole orders a slip of a turn changes nothing.
+            firing = fires.firing(self.engine, None, None)._core
+        halves = [round(2 * order) for order in self.orders]
+        vanishes, remains, within, obstacles = _core.vanishing(core, halves, self.plane, firing)
         self.__dict__.update(
             vanishes=vanishes,
             remains=remains,
@@ -208,7 +223,7 @@ class VanishingOrders(Tabled):
 
     @property
     def sums(self) -> tuple[tuple[str, str], ...]:
-        """Quantity and component of the nine sums, the columns of the tables."""
+        """Quantity and component of the ten sums, the columns of the tables."""
         return tuple(SUMS)
 
     @property
@@ -228,8 +243,13 @@ class VanishingOrders(Tabled):
 
     @property
     def torque(self) -> Verdicts:
-        """Roll torque: verdicts."""
+        """Roll torque of inertia: verdicts."""
         return self._verdicts("torque", "z")
+
+    @property
+    def gas_torque(self) -> Verdicts:
+        """Torque of gas: verdicts, of alike cylinders with one cycle; see also ``star_diagram``."""
+        return self._verdicts("gas_torque", "z")
 
     def _verdicts(self, quantity: str, component: str) -> Verdicts:
         column = self.sums.index((quantity, component))

@@ -332,7 +332,8 @@ class Engine(Builders):
         Parameters
         ----------
         orders
-            Whole multiples of crank speed.
+            Multiples of crank speed. Half orders are those of gas and need the engine's firing
+            order.
         reference_z
             Plane about which moments are taken, m; by default midway between the first and the last
             cylinder.
@@ -344,7 +345,7 @@ class Engine(Builders):
         Raises
         ------
         InputError
-            If an argument is out of range.
+            If an argument is out of range, or a half order is given and the firing order unknown.
 
         Examples
         --------

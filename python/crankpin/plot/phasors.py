@@ -138,11 +138,11 @@ def _polygon(
         outwards = ((0.5 * (start + end) - middle) * across.conjugate()).real
         out = across if aside or outwards >= -1e-9 * longest else -across
         looks = {"color": inks[arms[k].group], "linewidth": 1.5} | style
-        _arrow(ax, start, end, aside * lane * across, **looks)
+        arrow(ax, start, end, aside * lane * across, **looks)
         place = aside * lane * across + 0.5 * lane * out
         names.append((arms[k].part, 0.5 * (start + end), place))
     if abs(total) > NOTHING * longest:
-        _arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
+        arrow(ax, 0j, total, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
     ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
     return lane * max(lanes), names
 
@@ -174,7 +174,7 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
         )
 
 
-def _arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
+def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
     """Draw an arrow between two points, moved aside by so many points of type."""
     inches = ax.get_figure(root=True).dpi_scale_trans  # type: ignore[union-attr]
     aside = ScaledTranslation(shift.real / 72.0, shift.imag / 72.0, inches)

@@ -17,7 +17,7 @@ use crate::interrupt;
 /// A way to fire, of the core.
 #[pyclass(frozen, eq, module = "crankpin._core")]
 #[derive(PartialEq)]
-pub struct Firing(core::Firing);
+pub struct Firing(pub core::Firing);
 
 /// Groups of cylinders by number.
 type Groups = Option<Vec<Vec<usize>>>;

@@ -74,6 +74,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(firing::inline_throws, module)?)?;
     module.add_function(wrap_pyfunction!(firing::vee_throws, module)?)?;
     module.add_function(wrap_pyfunction!(vanishing::vanishing, module)?)?;
+    module.add_function(wrap_pyfunction!(vanishing::star, module)?)?;
     module.add_function(wrap_pyfunction!(closed_form::closed_form, module)?)?;
     module.add_function(wrap_pyfunction!(search::arrangement, module)?)?;
     module.add_function(wrap_pyfunction!(waveform::waveform, module)?)?;

@@ -1,28 +1,47 @@
-//! Which orders vanish.
+//! Which orders vanish, and phase vectors of a firing order.
 
 use crankpin_core as core;
+use crankpin_core::exact::star::Stars;
 use crankpin_core::exact::vanishing::{QUANTITIES, Vanishing, Verdict};
-use ndarray::Array2;
-use numpy::PyArray2;
+use crankpin_core::{Complex64, Order};
+use ndarray::{Array1, Array2};
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::frozen;
+use crate::convert::{OrRaise, frozen};
 use crate::engine::Engine;
+use crate::firing::Firing;
 use crate::interrupt;
 
 type Table<'py> = Bound<'py, PyArray2<bool>>;
+type Column<'py> = Bound<'py, PyArray1<bool>>;
+/// Vectors by order and cylinder, their sums; proved to vanish, proved to remain, and of one phase.
+type Star<'py> = (
+    Bound<'py, PyArray2<Complex64>>,
+    Bound<'py, PyArray1<Complex64>>,
+    Column<'py>,
+    Column<'py>,
+    Column<'py>,
+);
 
-/// Proved to vanish, proved to remain, zero within rounding, each (`n_orders`, 9), and obstacles.
+/// Orders of so many halves.
+fn orders(halves: Vec<u32>) -> PyResult<Vec<Order>> {
+    halves.into_iter().map(Order::from_halves).collect::<core::Result<_>>().or_raise()
+}
+
+/// Proved to vanish, proved to remain, zero within rounding, each (`n_orders`, 10), and obstacles.
 #[pyfunction]
 pub fn vanishing<'py>(
     engine: &Bound<'py, Engine>,
-    orders: Vec<u32>,
+    halves: Vec<u32>,
     reference_z: Option<f64>,
+    firing: Option<&Firing>,
 ) -> PyResult<(Table<'py>, Table<'py>, Table<'py>, Vec<String>)> {
     let py = engine.py();
-    let engine = engine.get().0.clone();
+    let (engine, orders) = (&engine.get().0, orders(halves)?);
+    let firing = firing.map(|firing| &firing.0);
     let Vanishing { verdicts, within_rounding, obstacles, .. } = interrupt::run(py, |cancel| {
-        core::exact::vanishing::vanishing(&engine, &orders, reference_z, cancel)
+        core::exact::vanishing::vanishing(engine, &orders, reference_z, firing, cancel)
     })?;
     let table = |value: &dyn Fn(usize, usize) -> bool| {
         let shape = (verdicts.len(), QUANTITIES.len());
@@ -33,5 +52,35 @@ pub fn vanishing<'py>(
         table(&|k, quantity| verdicts[k][quantity] == Verdict::Remains),
         table(&|k, quantity| within_rounding[k][quantity]),
         obstacles,
+    ))
+}
+
+/// Phase vectors of cylinders of these weights, order by order.
+#[pyfunction]
+pub fn star<'py>(
+    py: Python<'py>,
+    firing: &Firing,
+    halves: Vec<u32>,
+    weights: Vec<f64>,
+) -> PyResult<Star<'py>> {
+    let (firing, orders, count) = (&firing.0, orders(halves)?, weights.len());
+    let stars = interrupt::run(py, |cancel| {
+        let stars = Stars::new(firing.phases(), weights, vec![0; count], cancel)?;
+        let at = |&order: &Order| {
+            cancel.check()?;
+            stars.at(order)
+        };
+        orders.iter().map(at).collect::<core::Result<Vec<_>>>()
+    })?;
+    let column = |value: &dyn Fn(&core::exact::star::Star) -> bool| {
+        frozen(py, stars.iter().map(value).collect::<Array1<bool>>())
+    };
+    let vectors = Array2::from_shape_fn((stars.len(), count), |(k, i)| stars[k].vectors[i]);
+    Ok((
+        frozen(py, vectors),
+        frozen(py, stars.iter().map(|star| star.sum).collect::<Array1<Complex64>>()),
+        column(&|star| star.verdict == Verdict::Vanishes),
+        column(&|star| star.verdict == Verdict::Remains),
+        column(&|star| star.is_major),
     ))
 }

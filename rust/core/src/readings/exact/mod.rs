@@ -1,9 +1,11 @@
-//! Exact answers: which orders vanish, with proof, and what the others are in closed form.
+//! Exact answers: which orders vanish, with proof, and what the others are in closed form; the phase
+//! vectors of a firing order.
 //!
 //! Both superpose the engine's loads with rational weights and roots of unity instead of doubles.
 
 pub mod closed_form;
 mod roots;
+pub mod star;
 pub mod vanishing;
 
 use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};

@@ -15,6 +15,9 @@
 //! which two sums of order 1 that are left have one size, decided in integers, and cancel. Doubles of
 //! it stand for it, as those of 360/7° do for that.
 //!
+//! Gas is a load of its own, whose harmonics nobody knows here: its torque vanishes where the phase
+//! vectors of the firing do ([`super::star`]).
+//!
 //! Which harmonics are known not to be zero:
 //! - a₁ = 1 + ib of any slider-crank;
 //! - without pin offset the even orders of the force: √(1 − λ² sin²θ) is a power series in λ² sin²θ
@@ -30,14 +33,18 @@
 mod terms;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
+use super::star::Stars;
 use super::whole;
 use crate::Complex64;
 use crate::engine::Engine;
+use crate::firing::Firing;
 use crate::gear::harmonics;
 use crate::gear::slider_crank::Cylinder;
+use crate::layout::Strokes;
 use crate::load::Load;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -79,12 +86,14 @@ pub enum ProofQuantity {
     MomentForward,
     /// Moment that turns against it.
     MomentBackward,
-    /// Roll torque; that on the crank vanishes with it.
+    /// Roll torque of inertia; that on the crank vanishes with it.
     Torque,
+    /// Torque of gas: cylinders that are alike have one cycle.
+    GasTorque,
 }
 
 /// All of them, in the order in which they are reported.
-pub const QUANTITIES: [ProofQuantity; 9] = [
+pub const QUANTITIES: [ProofQuantity; 10] = [
     ProofQuantity::ForceX,
     ProofQuantity::ForceY,
     ProofQuantity::ForceForward,
@@ -94,17 +103,18 @@ pub const QUANTITIES: [ProofQuantity; 9] = [
     ProofQuantity::MomentForward,
     ProofQuantity::MomentBackward,
     ProofQuantity::Torque,
+    ProofQuantity::GasTorque,
 ];
 
 /// What vanishes, order by order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vanishing {
     /// As asked for.
-    pub orders: Vec<u32>,
+    pub orders: Vec<Order>,
     /// One for each of [`QUANTITIES`], order by order.
-    pub verdicts: Vec<[Verdict; 9]>,
+    pub verdicts: Vec<[Verdict; 10]>,
     /// Whether each is within the bound of rounding errors in floating point.
-    pub within_rounding: Vec<[bool; 9]>,
+    pub within_rounding: Vec<[bool; 10]>,
     /// Why sums are undecided, where some are.
     pub obstacles: Vec<String>,
 }
@@ -342,24 +352,49 @@ fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
 
 /// What vanishes of an engine, at any speed, about the plane z = `reference_z` (default: half-way
 /// between the first and the last cylinder).
+///
+/// Half orders are those of gas, and need `firing`; at whole ones gas does not tell the turns apart.
 pub fn vanishing(
-    engine: &Engine,
-    orders: &[u32],
+    engine: &Arc<Engine>,
+    orders: &[Order],
     reference_z: Option<f64>,
+    firing: Option<&Firing>,
     cancel: &Cancel,
 ) -> Result<Vanishing> {
-    let listed = Order::all_whole(orders)?;
-    check_list(&listed)?;
+    check_list(orders)?;
+    let half = orders.iter().find(|order| order.as_whole().is_none());
+    if let (Some(half), None) = (half, firing) {
+        return Err(Error::value("orders", half, "half orders need a firing order"));
+    }
     let proof = Proof::new(engine, reference_z, cancel)?;
+    let in_a_turn =
+        || Firing::with_later(engine, Strokes::Two, &vec![false; engine.placements().len()]);
+    let firing = firing.map_or_else(in_a_turn, |firing| Ok(firing.clone()))?;
+    let gas = Stars::of_gas(&firing, cancel)?;
+    let mut within_rounding = within_rounding(engine, orders, reference_z, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
-    for (&order, &whole) in orders.iter().zip(&listed) {
-        let sums = proof.sums(whole);
-        let mut of_order = [Verdict::Undecided; 9];
-        for (verdict, quantity) in of_order.iter_mut().zip(QUANTITIES) {
+    for (&order, within) in orders.iter().zip(&mut within_rounding) {
+        let sums = proof.sums(order);
+        let mut of_order = [Verdict::Undecided; 10];
+        for (k, quantity) in QUANTITIES.into_iter().enumerate() {
             cancel.check()?;
-            let (found, error) = proof.verdict(&sums, quantity, order, cancel);
-            *verdict = found;
+            let (verdict, error) = match (quantity, order.as_whole()) {
+                (ProofQuantity::GasTorque, None) if firing.strokes() == Strokes::Two => {
+                    (Verdict::Vanishes, None)
+                }
+                (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
+                    |error| (Verdict::Undecided, Some(error)),
+                    |star| {
+                        within[k] = star.sum == Complex64::default();
+                        (star.verdict, None)
+                    },
+                ),
+                // Inertia repeats in every turn.
+                (_, None) => (Verdict::Vanishes, None),
+                (_, Some(whole)) => proof.verdict(&sums, quantity, whole, cancel),
+            };
+            of_order[k] = verdict;
             if let Some(text) = error.map(|error| error.to_string())
                 && !errors.contains(&text)
             {
@@ -370,24 +405,23 @@ pub fn vanishing(
     }
     let undecided = verdicts.iter().flatten().any(|&v| v == Verdict::Undecided);
     let mut obstacles = if undecided { proof.obstacles() } else { Vec::new() };
+    if verdicts.iter().any(|verdicts| verdicts[9] == Verdict::Undecided) && gas.are_unlike() {
+        obstacles.push("cylinders of different dimensions, whose gas torques have no ratio".into());
+    }
     obstacles.extend(errors);
-    Ok(Vanishing {
-        orders: orders.to_vec(),
-        verdicts,
-        within_rounding: within_rounding(engine, listed, reference_z, cancel)?,
-        obstacles,
-    })
+    Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })
 }
 
-/// What is zero within rounding, at no speed in particular.
+/// What is zero within rounding, at no speed in particular; gas is.
 fn within_rounding(
     engine: &Engine,
-    orders: Vec<Order>,
+    orders: &[Order],
     reference_z: Option<f64>,
     cancel: &Cancel,
-) -> Result<Vec<[bool; 9]>> {
+) -> Result<Vec<[bool; 10]>> {
     let request = Request { rpm: 60.0, reference_z, torque: true };
-    let found = balance::balance(engine, &request, &Orders::Given(orders), cancel)?;
+    let orders = Orders::Given(orders.to_vec());
+    let found = balance::balance(engine, &request, &orders, cancel)?;
     Ok((0..found.orders.len())
         .map(|k| {
             let zero = Complex64::default();
@@ -397,7 +431,7 @@ fn within_rounding(
                 [x, y, planar.forward, planar.backward_conj].map(|phasor| phasor == zero)
             };
             let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
-            [a, b, c, d, e, f, g, h, found.wrenches[k].torque().roll == zero]
+            [a, b, c, d, e, f, g, h, found.wrenches[k].torque().roll == zero, true]
         })
         .collect())
 }

@@ -7,9 +7,9 @@ use crate::gear::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 
-/// Harmonics by order and sample: of the force; of the torques of the masses on block and crank over
+/// Real and imaginary parts of harmonics by order and sample: of the force; of the torques of the masses on block and crank over
 /// m·r²·ω²; of the same of the rod's inertia over it and ω². Empty where there are none.
-pub(super) type Amplitudes = [Vec<Vec<Complex64>>; 5];
+pub(super) type Amplitudes = [Vec<[Vec<f64>; 2]>; 5];
 
 /// Harmonics of a cylinder for other crank radii and rod lengths, m.
 pub(super) fn amplitudes(
@@ -26,23 +26,27 @@ pub(super) fn amplitudes(
         // Many samples at once.
         let ratios: Vec<f64> = radii.iter().zip(rods).map(|(r, l)| r / l).collect();
         let mut values = vec![0.0; ratios.len() * orders.len()];
-        let columns = |values: &[f64], unit: Complex64| -> Vec<Vec<Complex64>> {
-            let column = |k| values.iter().skip(k).step_by(orders.len()).map(|v| unit * v);
-            (0..orders.len()).map(|k| column(k).collect()).collect()
+        let columns = |values: &[f64], factors: [f64; 2]| -> Vec<[Vec<f64>; 2]> {
+            let column =
+                |k, by: f64| values.iter().skip(k).step_by(orders.len()).map(move |v| by * v);
+            (0..orders.len()).map(|k| factors.map(|by| column(k, by).collect())).collect()
         };
         table::write_centred(&ratios, orders, None, &mut values, cancel)?;
-        found[0] = columns(&values, Complex64::ONE);
+        found[0] = columns(&values, [1.0, 0.0]);
         if wants_torque {
             torque_table::write_centred_roll(&ratios, orders, &mut values, cancel)?;
-            found[1] = columns(&values, Complex64::I);
-            found[2] = columns(&values, -Complex64::I);
+            found[1] = columns(&values, [0.0, 1.0]);
+            found[2] = columns(&values, [0.0, -1.0]);
         }
     }
     for (&radius, &length) in radii.iter().zip(rods).filter(|_| !centred || has_rod) {
         let proportions = Cylinder::new(radius, length, 0.0, offset)?.proportions();
         let mut push = |list: usize, harmonics: Vec<Complex64>| {
-            found[list].resize_with(orders.len(), Vec::new);
-            found[list].iter_mut().zip(harmonics).for_each(|(column, value)| column.push(value));
+            found[list].resize_with(orders.len(), Default::default);
+            for ([re, im], value) in found[list].iter_mut().zip(harmonics) {
+                re.push(value.re);
+                im.push(value.im);
+            }
         };
         let mut push_torque = |list, TorqueHarmonics { roll, crank }: TorqueHarmonics| {
             push(list, roll);

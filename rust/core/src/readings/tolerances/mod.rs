@@ -237,8 +237,8 @@ impl Tolerances {
                 for (vector, change, out, xy) in vectors {
                     let nominal = self.nominal.planar(vector, k);
                     let planar = Planar {
-                        forward: nominal.forward + change[0][i] * self.square,
-                        backward_conj: nominal.backward_conj + change[1][i] * self.square,
+                        forward: nominal.forward + at(&change[0], i) * self.square,
+                        backward_conj: nominal.backward_conj + at(&change[1], i) * self.square,
                         size: nominal.size,
                     };
                     let [x, y] = planar.xy(self.nominal.zero_bound(vector, k));
@@ -248,7 +248,8 @@ impl Tolerances {
                 if self.nominal.has_torque {
                     let nominal = self.nominal.wrenches[k].torque();
                     let nominal = [nominal.roll, nominal.crank];
-                    let sum = |which: usize| nominal[which] + sums.torque[which][i] * self.square;
+                    let sum =
+                        |which: usize| nominal[which] + at(&sums.torque[which], i) * self.square;
                     torque[i * orders + k] = [sum(0), sum(1)];
                     [torques[k], torques[orders + k]] = torque[i * orders + k];
                 }
@@ -270,6 +271,11 @@ fn thirds<T>(values: &mut [T]) -> [&mut [T]; 3] {
     let (first, rest) = values.split_at_mut(values.len() / 3);
     let (second, third) = rest.split_at_mut(rest.len() / 2);
     [first, second, third]
+}
+
+/// The complex number of one sample.
+fn at([re, im]: &[[f64; CHUNK]; 2], sample: usize) -> Complex64 {
+    Complex64::new(re[sample], im[sample])
 }
 
 /// One pin of each cylinder, counted from 0 without gaps.

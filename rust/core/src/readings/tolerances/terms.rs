@@ -19,10 +19,10 @@ use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// A number of each sample.
 type Reals = [f64; CHUNK];
-/// A complex number of each sample.
-pub(super) type Complexes = [Complex64; CHUNK];
+/// A complex number of each sample: real and imaginary parts.
+pub(super) type Complexes = [Reals; 2];
 
-const ZEROS: Complexes = [Complex64::ZERO; CHUNK];
+const ZEROS: Complexes = [[0.0; CHUNK]; 2];
 
 /// Sums of one order over ω².
 #[derive(Clone)]
@@ -86,7 +86,7 @@ impl Terms {
         };
         let nominal = engine.placements().iter().map(nominal).collect::<Result<_>>()?;
         let mut one = Amplitudes::default();
-        one[0] = vec![vec![Complex64::ONE]; orders.len()];
+        one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         Ok(Self {
             orders: orders.to_vec(),
             torque,
@@ -116,8 +116,8 @@ impl Terms {
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
         let harmonics = |(i, Placement { cylinder, .. }): (usize, &Placement)| {
             cancel.check()?;
-            let radius = radii[self.pin_of[i]].map(|change| cylinder.crank_radius() + change);
-            let rod = rods[i].map(|change| cylinder.rod_length() + change);
+            let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
+            let rod = around(cylinder.rod_length(), &rods[i]);
             amplitudes(cylinder, self.torque, (&radius, &rod), &self.orders, cancel)
         };
         let changed: Vec<Amplitudes> =
@@ -138,18 +138,17 @@ impl Terms {
             };
             let place = &self.places[i];
             let Placement { cylinder, rotating_mass, z, .. } = *place;
-            let radius = radii[pin].map(|change| cylinder.crank_radius() + change);
-            let lever = (places[i].map(|change| z + change - reference), z - reference);
+            let radius = around(cylinder.crank_radius(), &radii[pin]);
+            let lever = (around(-reference, &around(z, &places[i])), z - reference);
             if !is_piston {
-                let unbalance = product(&rotating[i].map(|change| rotating_mass + change), &radius);
+                let unbalance = product(around(rotating_mass, &rotating[i]), &radius);
                 let weights = vec![(unbalance, rotating_mass * cylinder.crank_radius())];
                 return Drawn { weights, lever, amplitudes: one, turns };
             }
-            let mass = masses[i].map(|change| cylinder.reciprocating_mass() + change);
-            let first_order = product(&mass, &radius);
+            let first_order = product(around(cylinder.reciprocating_mass(), &masses[i]), &radius);
             let weights = vec![
                 (first_order, cylinder.first_order()),
-                (product(&first_order, &radius), cylinder.second_moment()),
+                (product(first_order, &radius), cylinder.second_moment()),
                 fixed(cylinder.rod_inertia_excess()),
             ];
             let nominal = &self.nominal[i];
@@ -163,14 +162,15 @@ impl Terms {
             let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
             for term in superpose(&arithmetic, &self.loads, Order::whole(order)?, wanted) {
+                // Empty where nothing was added: an unbalance turns one way.
                 let planar = sums.force.iter_mut().chain(&mut sums.moment);
-                // A part may be empty: an unbalance turns one way.
-                let parts = term.force.iter().chain(&term.moment).map(|part| part.first());
-                let torque = sums.torque.iter_mut().zip(term.roll.iter().map(Some));
-                for (sum, part) in planar.zip(parts).chain(torque) {
-                    if let Some(part) = part {
+                for (sum, part) in planar.zip(term.force.iter().chain(&term.moment)) {
+                    if let Some(part) = part.first() {
                         add(sum, Complex64::ONE, part);
                     }
+                }
+                for (sum, part) in sums.torque.iter_mut().zip(&term.roll) {
+                    add(sum, Complex64::ONE, part);
                 }
             }
             Ok(sums)
@@ -184,9 +184,10 @@ impl Terms {
             vectorised(
                 #[inline(always)]
                 || {
-                    let (mut sin, mut cos) = ([0.0; CHUNK], [0.0; CHUNK]);
-                    sin_cos_degrees(&angles.map(|angle| angle * f64::from(n)), &mut sin, &mut cos);
-                    std::array::from_fn(|i| Complex64::new(cos[i], sin[i]))
+                    let [mut cos, mut sin] = ZEROS;
+                    let degrees = product([f64::from(n); CHUNK], angles);
+                    sin_cos_degrees(&degrees, &mut sin, &mut cos);
+                    [cos, sin]
                 },
             )
         };
@@ -204,47 +205,53 @@ struct Drawn<'a> {
     turns: Option<&'a [Complexes]>,
 }
 
-/// Complex weights of a load at one order, less the nominal ones.
-struct Changes {
-    force: Complexes,
-    moment: Complexes,
-    /// Of masses and of rod: on the block and on the crank.
-    torque: [Vec<Complexes>; 2],
-}
-
 impl Drawn<'_> {
-    /// At the order of this index.
-    fn changes(&self, k: usize) -> Changes {
-        vectorised(
-            #[inline(always)]
-            || {
-                let of = |list: usize, weight: usize| {
-                    let [now, before] = self.amplitudes.map(|lists| lists[list].get(k));
-                    let (weight, nominal) = self.weights.get(weight)?;
-                    let (now, base) = (now?, before?.first()? * nominal);
-                    let mut drawn = ZEROS;
-                    for (i, drawn) in drawn.iter_mut().enumerate() {
-                        *drawn = now[if now.len() == 1 { 0 } else { i }] * weight[i];
+    /// Complex weights at the order of this index, less the nominal ones: of the force, of the moment,
+    /// of the torques of masses and of rod on the block and on the crank.
+    fn changes(&self, k: usize) -> Vec<Complexes> {
+        let mut changes = Vec::with_capacity(6);
+        for list in 0..5 {
+            let [drawn, nominal] = self.amplitudes.map(|lists| lists[list].get(k));
+            let weight = self.weights.get(list.div_ceil(2));
+            let (Some(drawn), Some(nominal), Some((weight, before))) = (drawn, nominal, weight)
+            else {
+                break;
+            };
+            let mut change = [*weight; 2];
+            let mut levered = ZEROS;
+            vectorised(
+                #[inline(always)]
+                || {
+                    for (change, values) in change.iter_mut().zip(drawn) {
+                        match values[..] {
+                            [value] => multiply(change, &[value; CHUNK]),
+                            _ => multiply(change, values),
+                        }
                     }
                     if let Some(turns) = self.turns {
-                        drawn.iter_mut().zip(&turns[k]).for_each(|(drawn, turn)| *drawn *= turn);
+                        let ([re, im], [cos, sin]) = (&mut change, &turns[k]);
+                        for i in 0..CHUNK {
+                            let (x, y) = (re[i], im[i]);
+                            re[i] = x * cos[i] - y * sin[i];
+                            im[i] = x * sin[i] + y * cos[i];
+                        }
                     }
-                    Some((drawn, base))
-                };
-                let (mut force, base) = of(0, 0).unwrap_or((ZEROS, Complex64::ZERO));
-                let mut moment = force;
-                for (i, (force, moment)) in force.iter_mut().zip(&mut moment).enumerate() {
-                    *force -= base;
-                    *moment = *moment * self.lever.0[i] - base * self.lever.1;
-                }
-                let torque = [1, 2].map(|weight| {
-                    let lists = [2 * weight - 1, 2 * weight].into_iter();
-                    let less = |(drawn, base): (Complexes, _)| drawn.map(|drawn| drawn - base);
-                    lists.filter_map(|list| of(list, weight).map(less)).collect()
-                });
-                Changes { force, moment, torque }
-            },
-        )
+                    for part in 0..2 {
+                        let base = before * nominal[part][0];
+                        let (lever, at_rest) = &self.lever;
+                        for i in 0..CHUNK {
+                            levered[part][i] = change[part][i] * lever[i] - base * at_rest;
+                            change[part][i] -= base;
+                        }
+                    }
+                },
+            );
+            changes.push(change);
+            if list == 0 {
+                changes.push(levered);
+            }
+        }
+        changes
     }
 }
 
@@ -257,7 +264,7 @@ struct Samples<'a> {
 }
 
 impl Arithmetic for Samples<'_> {
-    type Unit = (Complex64, Rc<Changes>);
+    type Unit = (Complex64, Rc<Vec<Complexes>>);
     /// One, of torques those on the block and on the crank; none where nothing was added.
     type Sum = Vec<Complexes>;
 
@@ -277,14 +284,15 @@ impl Arithmetic for Samples<'_> {
         (unit, changes): &Self::Unit,
         times: Times,
     ) {
-        let values = match weight {
-            Weight::Force => std::slice::from_ref(&changes.force),
-            Weight::Moment => std::slice::from_ref(&changes.moment),
-            Weight::Torque => &changes.torque[0],
-            Weight::Rod => &changes.torque[1],
+        let range = match weight {
+            Weight::Force => 0..1,
+            Weight::Moment => 1..2,
+            Weight::Torque => 2..4,
+            Weight::Rod => 4..6,
             // What deviates sits on the axis of the crank, and gas does not deviate.
             Weight::ArmX | Weight::ArmY | Weight::Volume => return,
         };
+        let values = &changes[range];
         sum.resize(values.len(), ZEROS);
         let unit = times.of(*unit);
         sum.iter_mut().zip(values).for_each(|(sum, values)| add(sum, unit, values));
@@ -303,14 +311,33 @@ fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
     columns
 }
 
-fn product(a: &Reals, b: &Reals) -> Reals {
-    std::array::from_fn(|i| a[i] * b[i])
+/// A nominal value and its deviations.
+fn around(value: f64, deviations: &Reals) -> Reals {
+    let mut values = [value; CHUNK];
+    values.iter_mut().zip(deviations).for_each(|(value, deviation)| *value += deviation);
+    values
+}
+
+fn product(mut a: Reals, b: &Reals) -> Reals {
+    multiply(&mut a, b);
+    a
+}
+
+#[inline(always)]
+fn multiply(values: &mut Reals, factors: &[f64]) {
+    values.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
 }
 
 /// Adds a complex number times the values.
 fn add(sum: &mut Complexes, unit: Complex64, values: &Complexes) {
     vectorised(
         #[inline(always)]
-        || sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += unit * value),
+        || {
+            let ([sum_re, sum_im], [re, im]) = (sum, values);
+            for i in 0..CHUNK {
+                sum_re[i] += unit.re * re[i] - unit.im * im[i];
+                sum_im[i] += unit.re * im[i] + unit.im * re[i];
+            }
+        },
     );
 }

@@ -319,6 +319,7 @@ impl ProofQuantity {
             Self::MomentForward => vec![(m, 1)],
             Self::MomentBackward => vec![(n, 1)],
             Self::Torque => vec![(roll, 1)],
+            Self::GasTorque => vec![],
         }
     }
 }

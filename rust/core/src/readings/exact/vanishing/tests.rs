@@ -16,8 +16,21 @@ fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
     Engine::new("", "", places.iter().map(place).collect()).unwrap()
 }
 
+/// At whole orders, without a firing order.
+fn vanishing(
+    engine: &Engine,
+    orders: &[u32],
+    reference: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Vanishing> {
+    let orders = Order::all_whole(orders)?;
+    super::vanishing(&Arc::new(engine.clone()), &orders, reference, None, cancel)
+}
+
+/// All but that of gas.
 fn verdicts(engine: &Engine, order: u32) -> [Verdict; 9] {
-    vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().verdicts[0]
+    let found = vanishing(engine, &[order], None, &crate::Cancel::new()).unwrap().verdicts[0];
+    std::array::from_fn(|k| found[k])
 }
 
 const V: Verdict = Verdict::Vanishes;

@@ -1,0 +1,234 @@
+"""Star diagrams: phase vectors of the cylinders of a firing order, and their sums."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.record import Tabled
+from crankpin._support.tables import Column, Table
+from crankpin.analysis import firing as fires
+from crankpin.analysis.drawing import draw
+from crankpin.analysis.firing import Firing  # noqa: TC001 - a field
+from crankpin.analysis.request import engine_core
+from crankpin.analysis.vanishing import Verdicts
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
+
+    from crankpin._support.inputs import Order, Orders
+    from crankpin.model.engine import Engine
+
+HIGHEST = 12
+"""Highest order of a diagram whose orders are not given."""
+
+
+class StarDiagram(Tabled):
+    """Phase vectors of the cylinders of an engine, and their sums, order by order.
+
+    At order k the gas torque of a cylinder that fires at the crank angle φ has the phase
+    exp(−ikφ). Of cylinders with one cycle the sum of these vectors, times the torque's harmonic of
+    one cylinder, is the engine's; with the amplitudes of a torsional mode shape as their lengths it
+    is what excites the mode. ``d[1.5]`` is a sum.
+
+    Made by :func:`crankpin.star_diagram`.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> d = cp.star_diagram(cp.Engine.preset("v6-90-odd-fire"), orders=[0.5, 1, 1.5, 3])
+    >>> d.peak.round(6)
+    array([0.      , 0.      , 2.296101, 4.242641])
+    >>> d.verdicts[1.5], d.verdicts.vanishing
+    ('remains', (0.5, 1))
+    >>> d.major
+    ()
+    """
+
+    firing: Firing
+    """Order and angles of firing."""
+    orders: tuple[Order, ...]
+    """Multiples of crank speed, whole or half."""
+    mode_shape: tuple[float, ...]
+    """Length of each cylinder's vector, by number."""
+
+    @cached_property
+    def _core(self) -> tuple[NDArray[Any], ...]:
+        return _core.star(
+            self.firing._core, [round(2 * order) for order in self.orders], list(self.mode_shape)
+        )
+
+    @property
+    def engine(self) -> Engine:
+        """The engine."""
+        return self.firing.engine
+
+    @property
+    def vectors(self) -> NDArray[np.complex128]:
+        """Vectors by cylinder number: (n_orders, n_cylinders)."""
+        return self._core[0]
+
+    @property
+    def sums(self) -> NDArray[np.complex128]:
+        """Sums of the vectors, zero where they are proved to vanish or within rounding."""
+        return self._core[1]
+
+    @property
+    def peak(self) -> NDArray[np.float64]:
+        """Lengths of the sums: (n_orders,)."""
+        return np.abs(self.sums)
+
+    @cached_property
+    def verdicts(self) -> Verdicts:
+        """Verdicts on the sums by order: "vanishes", "remains" or "undecided", in integers."""
+        pairs = zip(self._core[2], self._core[3], strict=True)
+        words = ("vanishes" if zero else "remains" if not_zero else "undecided"
+                 for zero, not_zero in pairs)  # fmt: skip
+        return Verdicts(self.orders, tuple(words), tuple(map(bool, self.sums == 0.0)))
+
+    @property
+    def major(self) -> tuple[Order, ...]:
+        """Major orders: those at which the vectors of all cylinders have one direction."""
+        return tuple(n for n, major in zip(self.orders, self._core[4], strict=True) if major)
+
+    def __getitem__(self, order: Order) -> complex:
+        """Return the sum of an order.
+
+        Raises
+        ------
+        InputError
+            If the order is not among ``orders``.
+        """
+        return complex(self.sums[self.place(order)])
+
+    def __contains__(self, order: object) -> bool:
+        return order in self.orders
+
+    def __iter__(self) -> Iterator[Order]:
+        return iter(self.orders)
+
+    def __len__(self) -> int:
+        return len(self.orders)
+
+    def place(self, order: Order) -> int:
+        """Return the index of an order, or raise an InputError."""
+        if order not in self.orders:
+            known = labels.orders_text(self.orders)
+            raise InputError(f"order = {inputs.shorten(order)}: the diagram has {known}")
+        return self.orders.index(order)
+
+    @property
+    def table(self) -> Table:
+        """Length and direction of each sum, and what is proved of it."""
+        major, sums = self.major, self.sums
+        words = [
+            "major" if order in major else word
+            for order, word in zip(self.orders, self.verdicts.words, strict=True)
+        ]
+        longest = float(np.abs(self.mode_shape).sum())
+        share = 100.0 * self.peak / longest if longest else np.zeros(len(sums))
+        columns = (
+            Column("order", self.orders, digits=10),
+            Column("sum", tuple(self.peak.tolist())),
+            Column("share", tuple(share.tolist()), "%", decimals=1),
+            Column("direction", tuple(np.angle(sums, deg=True).tolist()), "°", decimals=1),
+            Column("", tuple(words)),
+        )
+        return Table(
+            f"{labels.name_of(self.engine)}: phase vectors, {self.firing.summary}", columns
+        )
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        order: Order | None = None,
+        **style: Any,  # noqa: ANN401 - of matplotlib's lines
+    ) -> Axes:
+        """Draw the vectors of an order from the centre, with their sum; return the axes.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; by default new ones.
+        order
+            One of ``orders``; by default the first whose sum remains and which is no major order.
+        **style
+            Passed on to the vectors, such as ``color=``.
+        """
+        return draw(self, ax, order=order, **style)  # type: ignore[no-any-return]
+
+
+def star_diagram(
+    engine: Engine,
+    orders: Orders | None = None,
+    *,
+    mode_shape: ArrayLike | None = None,
+    firing_order: str | Iterable[int] | None = None,
+    strokes: int | None = None,
+) -> StarDiagram:
+    """Return the phase vectors of an engine's cylinders and their sums, order by order.
+
+    Parameters
+    ----------
+    engine
+        The engine; its firing order is taken from it or given.
+    orders
+        Multiples of crank speed, halves among them in a four-stroke. By default all up to 12.
+    mode_shape
+        Amplitude of a torsional mode at each cylinder, by number; by default 1 for each.
+    firing_order, strokes
+        As in :meth:`Engine.firing`.
+
+    Returns
+    -------
+    StarDiagram
+
+    Raises
+    ------
+    InputError
+        If the firing order is neither given nor known, the crank does not allow it, or a half order
+        of a two-stroke is asked for.
+
+    Examples
+    --------
+    An inline-6 on its first torsional mode: order 3 is major, order 1½ is left by the mode.
+
+    >>> import crankpin as cp
+    >>> shape = [1, 0.95, 0.86, 0.73, 0.57, 0.39]
+    >>> d = cp.star_diagram(cp.Engine.preset("i6"), [0.5, 1.5, 3], mode_shape=shape)
+    >>> d
+    I6: phase vectors, 4-stroke 1-5-3-6-2-4, even, 120°
+    order      sum  share %  direction °
+      0.5  0.41581      9.2        -52.7  remains
+      1.5     1.12     24.9          0.0  remains
+        3      4.5    100.0          0.0  major
+    >>> cp.star_diagram(cp.Engine.preset("i6")).major
+    (3, 6, 9, 12)
+    """
+    engine_core(engine)
+    firing = fires.firing(engine, firing_order, strokes)
+    step = 2 if firing.strokes == 2 else 1
+    if orders is None:
+        listed = [inputs.order(0.5 * halves) for halves in range(step, 2 * HIGHEST + 1, step)]
+    else:
+        listed = inputs.explicit_half_orders(orders)
+    for order in listed:
+        if 2 * order % step:
+            hint = "the cycle of a two-stroke repeats in every turn; give whole orders"
+            raise InputError(f"orders = {order}: {hint}")
+    if len(set(listed)) < len(listed) or not listed:
+        raise InputError(f"orders = {inputs.shorten(listed)}: give each order once, one at least")
+    shape = np.ones(len(engine)) if mode_shape is None else inputs.vector("mode_shape", mode_shape)
+    if shape.size != len(engine) or not np.isfinite(shape).all():
+        hint = f"give a finite amplitude for each of the {len(engine)} cylinders"
+        raise InputError(f"mode_shape = {inputs.shorten(mode_shape)}: {hint}")
+    return StarDiagram(firing, tuple(listed), tuple(shape.tolist()))

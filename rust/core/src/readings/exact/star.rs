@@ -1,0 +1,190 @@
+//! Star diagrams: phase vectors of the cylinders at an order of their firing, and their sum.
+//!
+//! What repeats with the cycle of each cylinder, such as the torque of its gas, has at order k the phase
+//! `e^{−ik·fire}`, fire being the crank angle of its firing within two turns. Of cylinders whose cycles are
+//! alike the sum Σβ·e^{−ik·fire} says what is left, with weights β such as those of a mode shape. A slip
+//! of a turn changes the sign of a vector at half orders, and nothing at whole ones.
+
+use std::collections::BTreeMap;
+
+use super::roots::{PartOfTurn, parts_of_turn};
+use super::vanishing::Verdict;
+use super::whole;
+use crate::Complex64;
+use crate::engine::first_equal;
+use crate::firing::Firing;
+use crate::numbers::angle::Angle;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::{Error, Result};
+use crate::numbers::order::Order;
+use crate::numbers::rational::{Multiples, Ratio};
+use crate::numbers::ring::RootSum;
+use crate::wrench::{rounding, snapped};
+
+/// Phase vectors of one order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Star {
+    /// Vector of each cylinder: weight times `e^{−ik·fire}`.
+    pub vectors: Vec<Complex64>,
+    /// Their sum; zero where it is proved to vanish or within rounding.
+    pub sum: Complex64,
+    /// What is proved of the sum.
+    pub verdict: Verdict,
+    /// Whether all cylinders have one phase: a major order.
+    pub is_major: bool,
+}
+
+/// Angles of firing, and weights of cylinders.
+pub struct Stars {
+    fire: Vec<Angle>,
+    /// Halves of the angles, as parts of a turn.
+    halves: Vec<PartOfTurn>,
+    weights: Vec<f64>,
+    multiples: Multiples,
+    /// Groups of which only the vectors of one have a known ratio.
+    groups: Vec<usize>,
+}
+
+impl Stars {
+    /// Of angles of firing within two turns, with a weight for each cylinder. Cylinders of different
+    /// groups have vectors of no known ratio.
+    pub fn new(
+        fire: Vec<Angle>,
+        weights: Vec<f64>,
+        groups: Vec<usize>,
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        if weights.len() != fire.len() {
+            return Err(Error::Length {
+                argument: "mode_shape".into(),
+                found: weights.len(),
+                reference: "the engine".into(),
+                expected: fire.len(),
+                item: "cylinder",
+            });
+        }
+        let halves = parts_of_turn(fire.iter().map(|angle| angle.half()), true, cancel)?;
+        let multiples = Multiples::new(&weights, cancel)?;
+        Ok(Self { fire, halves, weights, multiples, groups })
+    }
+
+    /// Of an engine that fires so: alike cylinders have equal radius, rod, offset and bore.
+    pub fn of_gas(firing: &Firing, cancel: &Cancel) -> Result<Self> {
+        let engine = firing.engine();
+        let sizes = engine.placements().iter().zip(engine.details()).map(|(place, details)| {
+            let gear = &place.cylinder;
+            let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset()];
+            (sizes, details.bore)
+        });
+        let groups = first_equal(sizes);
+        let count = groups.len();
+        Self::new(firing.phases(), vec![1.0; count], groups, cancel)
+    }
+
+    /// Whether some cylinders are of different groups.
+    pub(super) fn are_unlike(&self) -> bool {
+        self.groups.iter().any(|group| *group != self.groups[0])
+    }
+
+    /// The vectors of an order.
+    pub fn at(&self, order: Order) -> Result<Star> {
+        let halves = order.halves();
+        let phase = |angle: &Angle| angle.half().cis(-i64::from(halves));
+        let weighted = self.fire.iter().zip(&self.weights);
+        let vectors: Vec<Complex64> =
+            weighted.map(|(angle, weight)| phase(angle) * weight).collect();
+        let turns = |k: usize| self.halves[k].turns * i128::from(halves);
+        let first = (turns(0), self.halves[0].symbol);
+        let is_major = (0..self.fire.len())
+            .all(|k| self.halves[k].symbol == first.1 && (turns(k) - first.0).is_integer());
+        let mut sums: BTreeMap<(usize, usize, usize), Vec<(Ratio, Ratio)>> = BTreeMap::new();
+        for (k, &(unit, weight)) in self.multiples.of.iter().enumerate() {
+            let key = (self.groups[k], unit, self.halves[k].symbol);
+            sums.entry(key).or_default().push((-turns(k), weight));
+        }
+        let mut left = 0;
+        for terms in sums.values() {
+            let (weights, _) = whole(&terms.iter().map(|term| term.1).collect::<Vec<_>>())?;
+            let roots = terms.iter().zip(weights);
+            let roots: Vec<_> = roots
+                .map(|((turns, _), weight)| (*turns.numer(), *turns.denom(), weight))
+                .collect();
+            left += usize::from(!RootSum::new(&roots, 1)?.vanishes()?);
+        }
+        let verdict = match left {
+            0 => Verdict::Vanishes,
+            1 => Verdict::Remains,
+            _ => Verdict::Undecided,
+        };
+        let size: f64 = self.weights.iter().map(|weight| weight.abs()).sum();
+        let bound = match verdict {
+            Verdict::Vanishes => f64::INFINITY,
+            Verdict::Remains => 0.0,
+            Verdict::Undecided => rounding(self.fire.len(), order.number()) * size,
+        };
+        let sum = snapped(vectors.iter().sum(), bound);
+        Ok(Star { vectors, sum, verdict, is_major })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stars(fire: &[f64], weights: &[f64]) -> Stars {
+        let fire = fire.iter().map(|&degrees| Angle::from_degrees(degrees).unwrap()).collect();
+        Stars::new(fire, weights.to_vec(), vec![0; weights.len()], &Cancel::new()).unwrap()
+    }
+
+    fn at(stars: &Stars, halves: u32) -> Star {
+        stars.at(Order::from_halves(halves).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn even_firing_leaves_multiples_of_half_the_number_of_cylinders() {
+        for count in 1..=16_u32 {
+            let fire: Vec<f64> =
+                (0..count).map(|k| 720.0 * f64::from(k) / f64::from(count)).collect();
+            let stars = stars(&fire, &vec![1.0; count as usize]);
+            for halves in 1..=40 {
+                let star = at(&stars, halves);
+                let expected = if halves % count == 0 { f64::from(count) } else { 0.0 };
+                assert!((star.sum.norm() - expected).abs() <= 1e-14 * f64::from(count));
+                assert_eq!(star.is_major, halves % count == 0, "{count} {halves}");
+                let [vanishes, remains] = [Verdict::Vanishes, Verdict::Remains];
+                assert_eq!(star.verdict, if expected == 0.0 { vanishes } else { remains });
+            }
+        }
+    }
+
+    #[test]
+    fn a_turn_changes_the_sign_at_half_orders() {
+        let [early, late] = [[0.0, 90.0], [0.0, 450.0]].map(|fire| stars(&fire, &[1.0; 2]));
+        for halves in 1..12 {
+            let sign = if halves % 2 == 1 { -1.0 } else { 1.0 };
+            let [early, late] = [&early, &late].map(|stars| at(stars, halves).vectors[1]);
+            assert_eq!(early * sign, late, "{halves}");
+        }
+    }
+
+    #[test]
+    fn angles_and_weights_without_a_ratio_are_symbols() {
+        // A step between two firings keeps a symbol: order 1 cancels, order 1/2 does not.
+        let odd = 300.0_f64.sqrt();
+        let pair = stars(&[odd, odd + 180.0], &[1.0; 2]);
+        assert_eq!(at(&pair, 2).verdict, Verdict::Vanishes);
+        assert_eq!(at(&pair, 1).verdict, Verdict::Remains);
+        let apart = stars(&[0.0, odd], &[1.0; 2]);
+        assert_eq!(at(&apart, 2).verdict, Verdict::Undecided);
+        assert!(!at(&apart, 2).is_major);
+        let root = stars(&[0.0, 180.0], &[1.0, 2.0_f64.sqrt()]);
+        assert_eq!(at(&root, 2).verdict, Verdict::Undecided);
+        let decimals = stars(&[0.0, 180.0, 180.0], &[0.3, 0.1, 0.2]);
+        assert_eq!(at(&decimals, 2).verdict, Verdict::Vanishes);
+        assert!(at(&decimals, 2).sum == Complex64::default());
+        let other = [0.0, 360.0].map(|degrees| Angle::from_degrees(degrees).unwrap()).to_vec();
+        let unlike = Stars::new(other, vec![1.0; 2], vec![0, 1], &Cancel::new()).unwrap();
+        assert_eq!(at(&unlike, 1).verdict, Verdict::Undecided);
+        assert!(Stars::new(Vec::new(), vec![1.0], vec![0], &Cancel::new()).is_err());
+    }
+}
