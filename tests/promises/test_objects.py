@@ -519,7 +519,15 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
     tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking", "Waveform")
-    tables += ("Counterweights", "BearingLoads", "BobWeight", "Flywheel", "TwoPlane", "Sweep")
+    tables += (
+        "Counterweights",
+        "BearingLoads",
+        "BobWeight",
+        "Flywheel",
+        "TwoPlane",
+        "Star",
+        "Sweep",
+    )
     if not name.startswith(tables):  # tables under a title
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 

@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.drawing import draw
@@ -84,7 +84,7 @@ class StarDiagram(Tabled):
     @property
     def peak(self) -> NDArray[np.float64]:
         """Lengths of the sums: (n_orders,)."""
-        return np.abs(self.sums)
+        return read_only(np.abs(self.sums))
 
     @cached_property
     def verdicts(self) -> Verdicts:

@@ -38,7 +38,7 @@ SUMS = {
     ("moment", "forward"): "M fwd",
     ("moment", "backward"): "M back",
     ("torque", "z"): "M_z",
-    ("gas_torque", "z"): "T gas",
+    ("gas_torque", "z"): "gas",
 }
 """Sums of one order (quantity and component), as the core counts them → heads of columns."""
 
