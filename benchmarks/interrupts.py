@@ -61,7 +61,7 @@ CALLS = {
         "cp.tolerances(v6, rpm=5000, rod_length=1e-4, samples=1_000_000).total.force"
     ),
     "proofs, 1000 cylinders": "long.vanishing_orders([1])",
-    "closed forms, 1000 cylinders": "long.closed_form([1])",
+    "closed forms, 1000 cylinders": "long.closed_form(1)",
     "firing orders of a V16": "v16.firing_orders()",
     "matching of 24 pistons": (
         "cp.match_parts(v12, np.linspace(0.39, 0.41, 24), sets=2, orders=[1, 2])"

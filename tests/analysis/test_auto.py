@@ -103,8 +103,9 @@ def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
                 # Each of the sums is rounded.
                 assert true <= bound * (1.0 + 1e-12), (rod_ratio, rtol, quantity)
                 assert bound <= rtol * scale[quantity] * (1.0 + 1e-12)
-                # A tenth of rounding is added for all that is above the last order looked at.
-                assert bound <= 10.0 * true + 1e-17 * scale[quantity], (rod_ratio, rtol, quantity)
+                # A hundredth of the tolerance is added for all that is above the last candidate.
+                rest = 0.01 * rtol * scale[quantity]
+                assert bound <= 10.0 * true + rest, (rod_ratio, rtol, quantity)
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:
@@ -187,14 +188,14 @@ def test_the_bound_holds_for_spectra(
         assert moment <= b.error_bound.moment * (1.0 + 1e-12)
 
 
-def test_what_cancels_at_every_order_has_a_bound_below_rounding() -> None:
-    """Only what is above the last order computed is left, bounded without the layout."""
+def test_what_cancels_at_every_order_has_a_bound_far_below_the_tolerance() -> None:
+    """Only what is above the last candidate is left, bounded without the layout."""
     boxer, i6 = cp.Engine.preset("boxer-6"), cp.Engine.preset("i6")
-    bounds = boxer.balance(RPM, orders="auto").error_bound
-    assert bounds.force <= 1e-17 * scales(boxer)["force"]
-    bounds = i6.balance(RPM, orders="auto").error_bound
-    assert bounds.moment <= 1e-17 * scales(i6)["moment"]
-    assert bounds.force > 1e-17 * scales(i6)["force"]
+    bounds = boxer.balance(RPM, orders="auto", rtol=1e-9).error_bound
+    assert bounds.force <= 1e-11 * scales(boxer)["force"]
+    bounds = i6.balance(RPM, orders="auto", rtol=1e-9).error_bound
+    assert bounds.moment <= 1e-11 * scales(i6)["moment"]
+    assert bounds.moment > 0.0
 
 
 # --- the fewest ---------------------------------------------------------------------------------

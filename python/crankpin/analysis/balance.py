@@ -128,8 +128,8 @@ class Balance(ByOrder, Tabled):
     def omitted(self) -> tuple[Order, ...]:
         """With ``orders="auto"``: orders that were left out although they are not zero.
 
-        All orders above add less than 1e-17 of the quantity that ``rtol`` is relative to;
-        ``error_bound`` includes them.
+        Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
+        includes them.
         """
         return self.__dict__["_omitted"]  # type: ignore[no-any-return]
 

@@ -141,8 +141,7 @@ class ByOrder(Keyed, Quantities):
             raise InputError(f"what = {inputs.shorten(what)}: give the name of an array")
         found: NDArray[Any] | None = self._kept.get((quantity, what))
         if found is None:
-            there = [what for _, _, what, _ in export.variables([quantity], fired=True)]
-            inputs.one_of("what", what, [*there, "turning"])
+            inputs.one_of("what", what, export.arrays(quantity))
             found = read_only(np.asarray(self._of_part(quantity, what)))
             found = self._kept.setdefault((quantity, what), found)
         return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -48,6 +49,12 @@ def variables(
                 name = quantity.replace(".", "_")
                 name = name if what == "phasors" else f"{name}_{what}"
                 yield name, quantity, what, tuple(d for d in dims if planar or d != "axis")
+
+
+@cache
+def arrays(quantity: str) -> tuple[str, ...]:
+    """Return the names of the arrays of a quantity."""
+    return (*(what for _, _, what, _ in variables([quantity], fired=True)), "turning")
 
 
 def to_xarray(

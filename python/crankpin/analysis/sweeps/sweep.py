@@ -175,7 +175,11 @@ class Sweep(ByOrder, Tabled):
     def __post_init__(self) -> None:
         super().__post_init__()
         request = check_request(self.request, "crankpin.sweep")
-        axes = {name: np.atleast_1d(values) for name, values in self.axes.items()}
+        axes = {
+            name: values if isinstance(values, np.ndarray) else np.array([values])
+            for name, values in self.axes.items()
+        }
+        dims = self.dims
         core = _core.Sweep(
             [engine_core(engine) for engine in self.engines],
             axes.get("bank_angle_deg"),
@@ -188,7 +192,7 @@ class Sweep(ByOrder, Tabled):
             request.reference_z,
             request.pairs,
             request.torque,
-            [self.names is not None, *(name in self.dims for name in AXES)],
+            [self.names is not None, *(name in dims for name in AXES)],
         )
         self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
 
@@ -416,8 +420,6 @@ class Sweep(ByOrder, Tabled):
             remedy = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
             raise InputError(f"exact = True: {remedy}")
         return SweepWaveform(self, theta, bool(exact))
-
-    # --- tables and pictures --------------------------------------------------------------------
 
     # --- tables and pictures --------------------------------------------------------------------
 

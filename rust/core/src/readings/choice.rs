@@ -16,9 +16,8 @@ use crate::numbers::order::Order;
 use crate::readings::amplitude::wrenches;
 use crate::wrench::Wrench;
 
-/// Orders above the last one evaluated add less than this part of a sum's largest term: a tenth of
-/// the rounding error.
-const NEGLIGIBLE: f64 = 1e-17;
+/// Orders above the last one evaluated add less than this part of the tolerance.
+const NEGLIGIBLE: f64 = 0.01;
 
 /// Part of the largest torque of pressure on a cylinder that orders may leave out, at least: those of
 /// pressure decline slowly.
@@ -52,7 +51,7 @@ pub(crate) fn within(
 ) -> Result<Chosen> {
     let rtol = limits::tolerance(rtol)?;
     let scales = scales(engine, loads);
-    let mut orders = candidates(rtol, NEGLIGIBLE, &scales, loads, &loads.gears, torque)?;
+    let mut orders = candidates(rtol, &scales, loads, &loads.gears, torque)?;
     let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.gears);
     let mut gas = GasOrders::default();
     if torque {
@@ -114,19 +113,18 @@ fn rod_share(loads: &Loads, of_gear: usize, scales: &[f64; 3]) -> f64 {
 
 /// Orders to evaluate, ascending.
 ///
-/// What higher orders add is at most `negligible` times `scales`, or, if no order achieves that, at
-/// most `rtol`/4 times these. `gears` are those of the loads, at the point of a sweep where their
+/// What higher orders add is at most [`NEGLIGIBLE`] times the tolerance, or, if no order achieves
+/// that, at most a quarter of it. `gears` are those of the loads, at the point of a sweep where their
 /// harmonics decrease most slowly.
 pub(crate) fn candidates(
     rtol: f64,
-    negligible: f64,
     scales: &[f64; 3],
     loads: &Loads,
     gears: &[Gear],
     torque: bool,
 ) -> Result<Vec<Order>> {
     let count = loads.list.len() as f64;
-    let (needed, enough) = (0.25 * rtol / count, negligible / count);
+    let (needed, enough) = (0.25 * rtol / count, NEGLIGIBLE * rtol / count);
     let mut orders = loads.unbalance_orders();
     for (k, gear) in gears.iter().enumerate() {
         let ratio = gear.ratio.unsigned_abs();

@@ -165,7 +165,9 @@ impl PeakFinder {
             } else if !last {
                 let mut halves = interval.halve(&|θ| vector.squared(Complex64::cis(θ)));
                 halves.sort_by_key(Interval::rises_then_falls);
-                rest.extend(halves);
+                for half in halves {
+                    memory::push(&mut rest, half)?;
+                }
             }
         }
         Ok(best)

@@ -25,32 +25,25 @@ pub struct Axes {
 impl Axes {
     /// ω² of each speed.
     pub(super) fn squares(&self, cancel: &Cancel) -> Result<Vec<f64>> {
-        /// Speeds between two checks for cancellation.
-        const PIECE: usize = 1 << 14;
         length("rpm", self.rpm.len())?;
         let mut squares = memory::room(self.rpm.len())?;
-        for piece in self.rpm.chunks(PIECE) {
-            cancel.check()?;
-            for &rpm in piece {
-                squares.push(angular_speed(rpm).map(|omega| omega * omega)?);
-            }
-        }
+        each(&self.rpm, cancel, |rpm| angular_speed(rpm).map(|omega| squares.push(omega * omega)))?;
         Ok(squares)
     }
 
     /// Rejects values out of range, and axes that engines or their spectra do not allow.
-    pub(super) fn check(&self, engines: &[Arc<Engine>]) -> Result<()> {
+    pub(super) fn check(&self, engines: &[Arc<Engine>], cancel: &Cancel) -> Result<()> {
         if let Some((angles, _)) = &self.bank_angle {
             length("bank_angle_deg", angles.len())?;
-            angles.iter().try_for_each(|&angle| bank_angle_in_range(angle).map(drop))?;
+            each(angles, cancel, |angle| bank_angle_in_range(angle).map(drop))?;
             engines.iter().try_for_each(|engine| engine.banks().map(drop))?;
         }
         for (name, values) in [("rod_ratio", &self.rod_ratio), ("pin_offset", &self.pin_offset)] {
             let Some(values) = values else { continue };
             length(name, values.len())?;
             if engines.iter().any(|engine| engine.spectrum().is_some()) {
-                let cure = "a spectrum replaces the slider-crank: leave out one of the two";
-                return Err(Error::value(name, "swept together with a spectrum", cure));
+                let hint = "a spectrum replaces the slider-crank: leave out one of the two";
+                return Err(Error::value(name, "swept together with a spectrum", hint));
             }
         }
         Ok(())
@@ -58,26 +51,27 @@ impl Axes {
 
     /// Checks that every slider-crank can turn, which all can if the extreme ones can; returns the
     /// largest rod ratio and the offset of largest magnitude, where they are swept.
-    pub(super) fn check_geometry(&self, engines: &[Arc<Engine>]) -> Result<[Option<f64>; 2]> {
+    pub(super) fn check_geometry(
+        &self,
+        engines: &[Arc<Engine>],
+        cancel: &Cancel,
+    ) -> Result<[Option<f64>; 2]> {
         let (ratios, offsets) = (self.rod_ratio.as_deref(), self.pin_offset.as_deref());
         if ratios.is_none() && offsets.is_none() {
             return Ok([None; 2]);
         }
-        let (extreme_ratios, extreme_offsets) = (ends(ratios), ends(offsets));
+        let (extreme_ratios, extreme_offsets) = (ends(ratios, cancel)?, ends(offsets, cancel)?);
         for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
-            let each = |ratio, offset| cylinder.proportions_with(ratio, offset).map(drop);
-            let extremes = extreme_ratios.iter().try_for_each(|&ratio| {
-                extreme_offsets.iter().try_for_each(|&offset| each(ratio, offset))
-            });
-            let Err(error) = extremes else { continue };
+            let at = |ratio, offset| cylinder.proportions_with(ratio, offset).map(drop);
+            let at_extreme_offsets =
+                |ratio| extreme_offsets.iter().try_for_each(|&offset| at(ratio, offset));
+            let Err(error) = extreme_ratios.into_iter().try_for_each(at_extreme_offsets) else {
+                continue;
+            };
             // Report the first offending value.
-            let some = |values: Option<&[f64]>, k: usize| values.map(|values| values[k]);
-            for k in 0..ratios.map_or(1, <[f64]>::len) {
-                extreme_offsets.iter().try_for_each(|&offset| each(some(ratios, k), offset))?;
-            }
-            for k in 0..offsets.map_or(1, <[f64]>::len) {
-                each(some(ratios, 0), some(offsets, k))?;
-            }
+            each(ratios.unwrap_or_default(), cancel, |ratio| at_extreme_offsets(Some(ratio)))?;
+            let ratio = ratios.map(|ratios| ratios[0]);
+            each(offsets.unwrap_or_default(), cancel, |offset| at(ratio, Some(offset)))?;
             return Err(error);
         }
         let [least, most] = extreme_offsets;
@@ -88,13 +82,25 @@ impl Axes {
 
 /// The least and the largest value of an axis, or twice a value that is no number; nothing where it
 /// is not swept.
-fn ends(values: Option<&[f64]>) -> [Option<f64>; 2] {
-    let Some(values) = values else { return [None; 2] };
-    if values.iter().any(|value| value.is_nan()) {
-        return [Some(f64::NAN); 2];
+fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
+    let Some(values) = values else { return Ok([None; 2]) };
+    let (mut least, mut most, mut is_nan) = (f64::INFINITY, f64::NEG_INFINITY, false);
+    each(values, cancel, |value| {
+        (least, most, is_nan) = (least.min(value), most.max(value), is_nan || value.is_nan());
+        Ok(())
+    })?;
+    Ok(if is_nan { [Some(f64::NAN); 2] } else { [Some(least), Some(most)] })
+}
+
+/// Applies a check to each value, looking at `cancel` between pieces.
+fn each(values: &[f64], cancel: &Cancel, mut check: impl FnMut(f64) -> Result<()>) -> Result<()> {
+    /// Values between two looks.
+    const PIECE: usize = 1 << 14;
+    for piece in values.chunks(PIECE) {
+        cancel.check()?;
+        piece.iter().try_for_each(|&value| check(value))?;
     }
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    [Some(least), Some(values.iter().copied().fold(f64::NEG_INFINITY, f64::max))]
+    Ok(())
 }
 
 /// Rejects an empty axis and one of too many values.

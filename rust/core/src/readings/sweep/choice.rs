@@ -37,8 +37,6 @@ use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::readings::choice::{candidates, few, scales, tail};
 
-/// Orders above the last one evaluated add less than this part of the tolerance.
-const NEGLIGIBLE: f64 = 0.01;
 /// Rod ratio up to which every order of the torque of masses without offset grows with it.
 const TORQUE_GROWS: f64 = 0.95;
 /// The same of the torque of rods.
@@ -72,8 +70,7 @@ impl Sweep {
             let gears = loads.gears.iter().map(|gear| gear.replaced(ratio, offset));
             let gears: Vec<Gear> = gears.collect::<Result<_>>()?;
             let scales = scales(engine, loads);
-            let negligible = NEGLIGIBLE * rtol;
-            sweep.orders.extend(candidates(rtol, negligible, &scales, loads, &gears, torque)?);
+            sweep.orders.extend(candidates(rtol, &scales, loads, &gears, torque)?);
             slowest.push(gears);
             allowed.extend(quantities.iter().map(|quantity| rtol * scales[quantity.bound()]));
         }

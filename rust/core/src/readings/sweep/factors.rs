@@ -43,11 +43,17 @@ pub(super) struct Waves {
 }
 
 impl Waves {
-    pub fn new(sweep: &Sweep, quantity: Quantity, angles: Range<usize>) -> Result<Self> {
+    pub fn new(
+        sweep: &Sweep,
+        quantity: Quantity,
+        angles: Range<usize>,
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let (mut waves, mut places) = (Vec::new(), BTreeMap::new());
         let mut of_order = memory::room(sweep.orders.len())?;
         let mut degrees: Vec<f64> = memory::zeros(angles.len())?;
         for &order in &sweep.orders {
+            cancel.check()?;
             // No bank turns by 0 times an angle.
             let bank_angle = sweep.axes.bank_angle.as_ref();
             let multiples = bank_angle.map_or([0; 2], |(_, hold)| quantity.turn(order, *hold));
@@ -59,17 +65,19 @@ impl Waves {
                 }
                 let mut wave = Columns::zeros(angles.len())?;
                 let (cos, sin) = wave.values.split_at_mut(wave.length);
-                let half = 0.5 * multiple as f64;
                 if multiple == 0 {
                     cos.fill(1.0);
                 } else {
-                    for (out, angle) in degrees.iter_mut().zip(&sweep.bank_angles()[angles.clone()])
-                    {
-                        *out = half * angle;
-                    }
+                    let (half, bank_angles) = (0.5 * multiple as f64, sweep.bank_angles());
                     vectorised(
                         #[inline(always)]
-                        || sin_cos_degrees(&degrees, sin, cos),
+                        || {
+                            for (out, angle) in degrees.iter_mut().zip(&bank_angles[angles.clone()])
+                            {
+                                *out = half * angle;
+                            }
+                            sin_cos_degrees(&degrees, sin, cos);
+                        },
                     );
                 }
                 memory::push(&mut waves, wave)?;
@@ -100,6 +108,7 @@ impl Coefficients {
         let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
+            cancel.check()?;
             let mut columns = Columns::zeros(count)?;
             for sum in sums {
                 let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };

@@ -97,7 +97,7 @@ impl<F: Sync> Job<'_, F> {
             self.each((0..sweep.engines.len()).collect(), large, layout)?;
         self.cancel.expect(sweep.engines.len() * angles * points);
         for angle_slab in slabs(angles) {
-            let waves = Waves::new(sweep, self.quantity, angle_slab.clone())?;
+            let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
                 let coefficients = |(gears, layout): &(Vec<Gear>, Layout)| {
                     let (quantity, points) = (self.quantity, point_slab.clone());

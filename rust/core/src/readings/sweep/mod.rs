@@ -92,8 +92,8 @@ impl Sweep {
         order::check_list(&orders)?;
         axes::not_empty("engines", engines.len())?;
         let squares = axes.squares(cancel)?;
-        axes.check(&engines)?;
-        let extremes = axes.check_geometry(&engines)?;
+        axes.check(&engines, cancel)?;
+        let extremes = axes.check_geometry(&engines, cancel)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         Ok(Self {
             references: references.collect::<Result<_>>()?,
@@ -179,8 +179,8 @@ impl Sweep {
 
     /// Rejects a result of numbers of this many bytes that is too large for one call.
     pub fn check_size(&self, quantity: Quantity, figure: Figure, bytes: usize) -> Result<()> {
-        let cure = "sweep one axis in parts, or use to_dask";
-        limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, cure)
+        let hint = "sweep one axis in parts, or use to_dask";
+        limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, hint)
     }
 
     /// Peak phasors of each order, along (about) x and y or as forward and backward parts.

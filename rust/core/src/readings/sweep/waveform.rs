@@ -28,8 +28,8 @@ impl Sweep {
     /// Lengths of the axes of [`Self::waveforms`], if there is room for so much.
     pub fn waveform_shape(&self, quantity: Quantity, angles: usize) -> Result<Vec<usize>> {
         let shape = [&self.shape()[..], &[angles], quantity.shape()].concat();
-        let cure = "sweep one axis in parts, or split theta_deg";
-        limits::result_size("sweep", &shape, size_of::<f64>(), cure)?;
+        let hint = "sweep one axis in parts, or split theta_deg";
+        limits::result_size("sweep", &shape, size_of::<f64>(), hint)?;
         Ok(shape)
     }
 
@@ -107,8 +107,8 @@ impl Sweep {
 
     fn by_kinematics(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
         if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
-            let cure = "exact kinematics needs the slider-crank; sum orders";
-            return Err(Error::value("spectrum", "given", cure));
+            let hint = "exact kinematics needs the slider-crank; sum orders";
+            return Err(Error::value("spectrum", "given", hint));
         }
         let [_, angles, ratios, offsets, speeds] = self.shape();
         let list = |values: &Option<Vec<f64>>, k: usize| values.as_ref().map(|values| values[k]);
