@@ -344,10 +344,11 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                 Column(
                     part or self.kind.symbols[0],
                     (each.mean, *peaks.tolist(), each[ALL].peak),
+                    self.unit,
                 ),
                 Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
             ]
-        return Table(f"{self.kind.words}, {self.unit}", tuple(columns), note)
+        return Table(self.kind.words, tuple(columns), note)
 
     def __repr__(self) -> str:
         name = self.kind.words

@@ -8,7 +8,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import engines, hardware, making, outputs, shaking
+from crankpin.cli import engines, hardware, loads, making, outputs, shaking
 from crankpin.cli.arguments import PROG, Given, Parser
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ COMMANDS = (
     shaking.add_sweep,
     shaking.add_rank,
     engines.add_firing,
+    loads.add_torque,
+    loads.add_bearings,
     hardware.add_counterweights,
     hardware.add_bob_weight,
     hardware.add_shafts,

@@ -54,6 +54,13 @@ UNITS: dict[str, dict[str, Decimal]] = {
     "kg·m": UNBALANCES,
     "°": {"°": Decimal(1), "deg": Decimal(1)},
     "rpm": {"rpm": Decimal(1)},
+    "Pa": {
+        "Pa": Decimal(1),
+        "kPa": Decimal(1000),
+        "MPa": Decimal(10**6),
+        "bar": Decimal(10**5),
+        "psi": Decimal("6894.757293168"),
+    },
     "": {"%": Decimal("0.01")},
 }
 """Unit that the library takes, empty for ratios → the units that may be typed behind a number."""
@@ -105,6 +112,17 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "N=A,…",
         "help": "one cylinder's force over ω² in each order, kg·m, in place of its slider-crank: "
         "1=9.0,2=3.75",
+    },
+    "--cycle": {
+        "metavar": "FILE",
+        "help": "cylinder pressure over crank angle: a file, or petrol or diesel for an example "
+        "(default: %(default)s)",
+    },
+    "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
+    "--crankcase": {
+        "metavar": "P",
+        "default": "101325",
+        "help": "absolute pressure below the pistons, Pa or 1.01bar (default: %(default)s)",
     },
     "--seed": {"default": "0", "help": "seed of the random numbers (default: %(default)s)"},
     "--units": {

@@ -1,0 +1,108 @@
+"""Do the commands for torque and bearing loads print the library's numbers?"""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import TYPE_CHECKING
+
+import crankpin as cp
+import matplotlib as mpl
+import numpy as np
+import pytest
+from crankpin.cli import main
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CAPTURE = pytest.CaptureFixture[str]
+
+
+def printed(capsys: CAPTURE, typed: str) -> str:
+    """What a run that succeeds prints."""
+    assert main(typed.split()) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+@pytest.fixture(autouse=True)
+def _agg() -> None:
+    mpl.use("agg")
+
+
+def fired(name: str, kind: str = "petrol", bore: float | None = None) -> cp.Engine:
+    """A preset with an example's pressure; bores as wide as the strokes unless given."""
+    engine = cp.Engine.preset(name)
+    cylinders = [each.replace(bore=bore or each.stroke) for each in engine.cylinders]
+    return engine.replace(cylinder=cylinders).with_cycle(cp.Cycle.example(kind))
+
+
+def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
+    loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
+    assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.table.text()}\n"
+    for load, peaks in (("main", loads.peak("main")), ("crankpin", loads.peak("crankpin"))):
+        rows = [
+            *csv.reader(
+                io.StringIO(printed(capsys, f"bearings v6-60 --rpm 4000 --load {load} --csv"))
+            )
+        ]
+        column = rows[0].index("peak N" if load == "main" else "crankpin N")
+        assert [float(row[column]) for row in rows[1:]] == peaks.tolist()
+
+
+def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE) -> None:
+    table = cp.bearing_loads(fired("i4", "diesel", 0.1), rpm=1500).table.text()
+    out = printed(capsys, "bearings i4 --rpm 1500 --cycle diesel --bore 100mm")
+    assert out.startswith(table)
+    assert table not in printed(capsys, "bearings i4 --rpm 1500")
+    assert "taken to equal the stroke" not in out
+    assert "taken to equal the stroke" in printed(capsys, "bearings i4 --cycle petrol")
+
+
+@pytest.mark.parametrize("on", ["crank", "block"])
+def test_torque_is_that_of_the_library(capsys: CAPTURE, on: str) -> None:
+    balance = fired("v6-90-odd-fire").balance(2000, orders=[0.5, 1, 1.5, 3])
+    quantity = balance.crank_torque if on == "crank" else balance.torque
+    typed = f"torque v6-90-odd-fire --rpm 2000 --orders 0.5,1,1.5,3 --on {on}"
+    out = printed(capsys, typed)
+    assert quantity.table.text().split("\n", 1)[1] in out
+    assert out.splitlines()[0].startswith("V6 90°")
+    head, *rows = csv.reader(io.StringIO(printed(capsys, f"{typed} --csv")))
+    assert head[:3] == [
+        "order",
+        balance.crank_torque.kind.symbols[0] if on == "crank" else "|M_z|",
+        "phase °",
+    ]
+    assert [row[0] for row in rows] == ["mean", "0.5", "1", "1.5", "3", "all"]
+    assert float(rows[3][1]) == quantity[1.5].peak
+    assert float(rows[3][2]) == np.angle(quantity[1.5].phasor, deg=True)
+
+
+@pytest.mark.parametrize(
+    ("command", "pictures"),
+    [("torque", ["curves", "spectrum"]), ("bearings", ["polar", "curves", "bending"])],
+)
+def test_pictures_are_written(
+    capsys: CAPTURE, tmp_path: Path, command: str, pictures: list[str]
+) -> None:
+    sizes = set()
+    for picture in pictures:
+        file = tmp_path / f"{picture}.png"
+        printed(capsys, f"{command} i4 --picture {picture} --plot {file}")
+        sizes.add(file.read_bytes())
+    assert len(sizes) == len(pictures)
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        ("torque i4 --cycle nowhere.csv", "nowhere.csv"),
+        ("torque i4 --crankcase 1.2bars", "--crankcase = 1.2bars: give a number"),
+        ("torque i4 --orders 0.25", "--orders = 0.25: give multiples of crank speed"),
+        ("bearings i4 --load piston", "--load"),
+    ],
+)
+def test_errors_name_the_option(capsys: CAPTURE, typed: str, message: str) -> None:
+    assert main(typed.split()) == 2
+    assert message in capsys.readouterr().err
