@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.quantity import Quantity
+    from crankpin.model.cycle import Cycle
     from crankpin.model.engine import Engine, Hold
     from crankpin.model.shafts import Unbalance
 
@@ -23,6 +24,8 @@ HIGHEST_ORDER = 24
 """Highest order of the pistons whose phasors a page has."""
 CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
+PRESSURE_STEP = 0.5
+"""Degrees between the samples of a cycle, between which a page interpolates."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,6 +113,7 @@ def figures(engine: Engine, rpm: float, *, spectrum: Spectrum | None) -> dict[st
             for shaft in engine.shafts
         ],
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
+        "gas": _gas(engine),
         "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
     }
 
@@ -125,15 +129,19 @@ def core_numbers(
     ratios = {abs(shaft.ratio) for shaft in engine.shafts}
     orders = sorted({*range(1, HIGHEST_ORDER + 1), *ratios, *(spectrum or ())})
     balance = changed.balance(settings.rpm, orders=orders, spectrum=spectrum, torque=False)
+    turns = 180.0 * changed.strokes if changed.fired else 360.0
     waveform = changed.waveform(
         settings.rpm,
-        theta_deg=np.arange(0.0, 361.0, CURVE_STEP),
+        theta_deg=np.arange(0.0, turns + 1.0, CURVE_STEP),
         orders=None if spectrum is None else orders,
         spectrum=spectrum,
         torque=spectrum is None,
     )
     planar = {"force": balance.force, "moment": balance.moment}
-    none = [None] * len(waveform.theta_deg)
+    turn = waveform.theta_deg <= 360.0
+    torques = {"torque": "torque"}
+    if changed.fired:
+        torques |= {"gas": "torque.gas", "inertia": "torque.inertia"}
     return {
         "settings": dataclasses.asdict(settings),
         "orders": [
@@ -141,14 +149,33 @@ def core_numbers(
             for k, order in enumerate(balance.orders)
         ],
         "curve": {
-            "force": np.asarray(waveform.force).tolist(),
-            "moment": np.asarray(waveform.moment).tolist(),
-            "torque": none if spectrum is not None else np.asarray(waveform.torque).tolist(),
+            "force": waveform.force[turn].tolist(),
+            "moment": waveform.moment[turn].tolist(),
+            **{
+                name: [None] if spectrum is not None else waveform.read(quantity).tolist()
+                for name, quantity in torques.items()
+            },
         },
     }
 
 
+def _gas(engine: Engine) -> dict[str, Any] | None:
+    """Return the pressures of each cycle over its period, the first repeated at the end."""
+    if engine.cycles is None:
+        return None
+    cycles = _distinct_cycles(engine)
+    theta = np.arange(0.0, 180.0 * engine.strokes + PRESSURE_STEP, PRESSURE_STEP)
+    pascals = [each.pressure_at(theta).round().astype(int).tolist() for each in cycles]
+    return {"crankcase": engine.crankcase, "cycles": pascals}
+
+
+def _distinct_cycles(engine: Engine) -> list[Cycle]:
+    return list(dict.fromkeys(each for each in engine.cycles or () if each is not None))
+
+
 def _cylinders(engine: Engine) -> list[dict[str, Any]]:
+    cycles = engine.cycles or (None,) * len(engine)
+    places = {each: k for k, each in enumerate(_distinct_cycles(engine))}
     banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
     return [
         {
@@ -163,14 +190,17 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             "tdc_deg": tdc,
             "bank_deg": bore,
             "z": z,
+            "bore": cylinder.bore,
+            "cycle": None if cycle is None else places[cycle],
         }
-        for number, (cylinder, tdc, bore, z, rotating) in enumerate(
+        for number, (cylinder, tdc, bore, z, rotating, cycle) in enumerate(
             zip(
                 engine.cylinders,
                 engine.tdc_deg.tolist(),
                 engine.bank_deg.tolist(),
                 engine.z.tolist(),
                 engine.rotating_mass.tolist(),
+                cycles,
                 strict=True,
             ),
             start=1,

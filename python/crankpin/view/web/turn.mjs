@@ -13,9 +13,9 @@ const BETWEEN = 0.03;
 
 /** Forces, moments and torques of a turn, its last sample that of the first; with gas of a cycle. */
 export function turn(engine, orders) {
-  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], pressures: [] };
+  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [] };
   for (let theta = 0; theta <= (engine.gas ? engine.cycle : 360); theta += STEP) {
-    const { force, moment, torque, inertia, gas, cylinders } = poseAt(engine, orders, theta);
+    const { force, moment, torque, inertia, gas } = poseAt(engine, orders, theta);
     if (theta <= 360) {
       curve.force.push(force);
       curve.moment.push(moment);
@@ -23,7 +23,6 @@ export function turn(engine, orders) {
     curve.torque.push(torque);
     curve.inertia.push(inertia);
     curve.gas.push(gas);
-    curve.pressures.push(cylinders.map(({ pressure }) => pressure));
   }
   return curve;
 }

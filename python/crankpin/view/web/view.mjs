@@ -7,6 +7,7 @@ import { Ends } from "./ends.mjs";
 import { configure, ownSettings, strokesAt } from "./engine.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
+import { pressureAt } from "./gas.mjs";
 import { Handle } from "./handle.mjs";
 import { Header } from "./header.mjs";
 import { phasors, shown } from "./orders.mjs";
@@ -239,7 +240,7 @@ export class View {
     }));
     const known = curve.torque[0] !== null;
     const span = engine.gas ? engine.cycle : 360;
-    const torques = engine.gas ? ["gas", "inertia", "torque"] : ["torque"];
+    const torques = engine.gas && known ? ["gas", "inertia", "torque"] : ["torque"];
     histories.push({
       title: STRINGS.torque, scale: scales.torque,
       largest: torques.length > 1
@@ -256,14 +257,16 @@ export class View {
 
   /** The history of the pressures in all cylinders. */
   pressures(span) {
-    const fired = this.engine.cylinders.flatMap(({ gas }, k) => (gas ? [k] : []));
-    const largest = Math.max(...fired.map((k) => Math.max(...this.engine.cylinders[k].gas.samples)));
+    const { cylinders } = this.engine;
+    const fired = cylinders.flatMap(({ gas }, k) => (gas ? [k] : []));
+    const largest = Math.max(...fired.flatMap((k) => cylinders[k].gas.samples));
+    const angles = Array.from({ length: span / 2 + 1 }, (_, k) => 2 * k);
     return {
       title: STRINGS.pressure, positive: true, largest, missing: "",
       scale: scaleFor(largest, STRINGS.units.pressure),
       curves: fired.map((k) => ({
         name: "pressure", span, value: (pose) => pose.cylinders[k].pressure,
-        samples: this.curve.pressures.map((each) => each[k]),
+        samples: angles.map((angle) => pressureAt(cylinders[k].gas, angle)),
       })),
     };
   }
