@@ -27,8 +27,8 @@ def add_torque(commands: Commands) -> None:
         "torque of gas pressure and inertia by half orders, with phases",
         example="torque i4 --rpm 1500 --bore 86mm --plot torque.png",
         run=_torque,
-        note="Order n is |T|·cos(n·θ + phase), θ from cylinder 1's top dead centre. The engine needs\n"
-        "a firing order.",
+        note="Order n is |T|·cos(n·θ + phase), θ from cylinder 1's top dead centre.\n"
+        "The engine needs a firing order.",
     )
     shared(fired, "name", "--rpm", "--orders", "--rtol")
     fired.add_argument("--on", choices=tuple(ON), default="crank", help="default: %(default)s")
