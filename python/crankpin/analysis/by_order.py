@@ -153,7 +153,9 @@ class ByOrder(Keyed, Quantities):
             return self._about_point(quantity, what)
         if part == "inertia" and what != "mean":
             return self.read(whole, what)
-        return np.zeros_like(self.read(whole, "total_peak" if what == "mean" else what))
+        if what == "mean":
+            return np.zeros(self.read(whole, "peak").shape[:-1])
+        return np.zeros_like(self.read(whole, what))
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         """Compute an array; roll torque about a point beside the crank from that about its axis."""
@@ -169,7 +171,7 @@ class ByOrder(Keyed, Quantities):
             return self._compute(quantity, what) + bound
         phasors = self.read(quantity, "phasors")
         if what == "peak":
-            return np.abs(phasors)
+            return np.asarray(np.abs(phasors))
         return total_peaks(self.orders, phasors, self.read(quantity, "mean"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
