@@ -26,8 +26,8 @@ type Loads<'py> = (
 );
 
 impl Internal {
-    fn core(&self) -> crankpin_core::Result<internal::Internal<'_>> {
-        internal::Internal::new(&self.engine, self.rpm, None)
+    fn core(&self) -> crankpin_core::Result<internal::Internal> {
+        internal::Internal::new(&self.engine, self.rpm)
     }
 }
 
@@ -36,7 +36,7 @@ impl Internal {
     #[new]
     fn new(engine: &Bound<'_, Engine>, rpm: f64, mains: Vec<f64>) -> PyResult<Self> {
         let engine = engine.get().0.with_mains(mains).or_raise()?;
-        internal::Internal::new(&engine, rpm, None).or_raise()?;
+        internal::Internal::new(&engine, rpm).or_raise()?;
         Ok(Self { engine, rpm })
     }
 

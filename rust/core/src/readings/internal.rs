@@ -17,6 +17,7 @@
 //! is carried by the two nearest, one of which is pulled.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use ndarray::{Array2, Array3, ArrayViewMut, Axis, Dimension};
 
@@ -32,25 +33,21 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
+use crate::pressure::Cycle;
 use crate::readings::balance::angular_speed;
 use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
 
 /// Largest share of a load outside the end bearings that one carries: rounding is that times larger.
 const MOST_SHARE: f64 = 1e6;
 
-/// Gas force on the piston of a cylinder, by its index, towards the crank, at a crank angle in
-/// degrees, N.
-pub type GasForce<'a> = dyn Fn(usize, f64) -> f64 + Sync + 'a;
-
 /// An engine at a speed, for the loads inside it.
-pub struct Internal<'a> {
+pub struct Internal {
     rods: Vec<DrivenRod>,
     /// On the crank besides what rods bring to its pins.
     on_crank: Vec<Turning>,
     on_shafts: Vec<Turning>,
     /// Places of the main bearings, ascending, m.
     mains: Vec<f64>,
-    gas: Option<&'a GasForce<'a>>,
 }
 
 /// Loads of bearings and walls at given crank angles, N; vectors along x and y, fixed in the engine.
@@ -127,6 +124,19 @@ struct DrivenRod {
     rotating: f64,
     /// J·ω²/l, N.
     couple: f64,
+    /// Pressure on the piston, where it counts.
+    gas: Option<PistonGas>,
+}
+
+/// Pressure on a piston.
+struct PistonGas {
+    cycle: Arc<Cycle>,
+    /// Crank angle of the firing top dead centre, degrees.
+    phase: f64,
+    /// Absolute, Pa.
+    crankcase: f64,
+    /// m².
+    area: f64,
 }
 
 /// A force that turns at a multiple of crank speed.
@@ -152,6 +162,24 @@ struct RodColumns {
     across: AngleColumn,
     compression: AngleColumn,
     gas: AngleColumn,
+}
+
+impl PistonGas {
+    /// Of a cylinder of an engine.
+    fn of(engine: &Engine, cylinder: usize) -> Option<Self> {
+        let gas = engine.gas()?;
+        let cycle = Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]);
+        let radius = engine.placements()[cylinder].cylinder.crank_radius();
+        let area = engine.swept_by_radius(cylinder)? / radius;
+        let phase = gas.phases[cylinder].degrees();
+        Some(Self { cycle, phase, crankcase: gas.crankcase, area })
+    }
+
+    /// Force on the piston towards the crank, N.
+    fn force(&self, theta_deg: f64) -> f64 {
+        let pressure = self.cycle.pressure((theta_deg - self.phase).to_radians());
+        self.area * (pressure - self.crankcase)
+    }
 }
 
 impl DrivenRod {
@@ -216,10 +244,14 @@ impl RodColumns {
     }
 }
 
-impl<'a> Internal<'a> {
-    /// Of an engine whose main bearings are known, with the gas forces given.
-    pub fn new(engine: &Engine, rpm: f64, gas: Option<&'a GasForce<'a>>) -> Result<Self> {
+impl Internal {
+    /// Of an engine whose main bearings are known.
+    pub fn new(engine: &Engine, rpm: f64) -> Result<Self> {
         engine.check_one_crank("bearing_loads")?;
+        if engine.spectrum().is_some() {
+            let hint = "bearing loads need the slider-crank; leave out the spectrum";
+            return Err(Error::value("spectrum", "given", hint));
+        }
         if engine.mains().is_empty() {
             return Err(Error::value("mains", "none", "give the places of the main bearings"));
         }
@@ -244,7 +276,6 @@ impl<'a> Internal<'a> {
             on_crank: all(of_crank),
             on_shafts: all(of_shafts),
             mains: engine.mains().to_vec(),
-            gas,
         };
         for (i, load) in pistons.iter().enumerate() {
             let Source::Piston { rod_inertia, .. } = load.source else { continue };
@@ -266,6 +297,7 @@ impl<'a> Internal<'a> {
                 piston: piston * square,
                 rotating: rotating * square,
                 couple: rod_inertia * square / length,
+                gas: PistonGas::of(engine, i),
             });
         }
         let far = |z: &f64| found.levers(*z).iter().any(|(_, share)| share.abs() > MOST_SHARE);
@@ -324,9 +356,9 @@ impl<'a> Internal<'a> {
             let mut columns = RodColumns::ZERO;
             for (range, units) in &blocks {
                 cancel.check()?;
-                if let Some(gas) = self.gas {
+                if let Some(gas) = &self.rods[i].gas {
                     for (value, &theta) in columns.gas.iter_mut().zip(&theta_deg[range.clone()]) {
-                        *value = gas(i, theta);
+                        *value = gas.force(theta);
                     }
                 }
                 vectorised(
@@ -473,12 +505,12 @@ impl<'a> Internal<'a> {
         /// Steps in a degree, between which a rod changes sign once at most.
         const STEPS: u32 = 4;
         let cycle = f64::from(cycle_deg);
-        let of_rod = |i: usize| {
+        let of_rod = |rod: &DrivenRod| {
             cancel.check()?;
             let in_tension = |theta: f64| {
-                let unit = cis_degrees(theta) * self.rods[i].phase;
-                let gas = self.gas.map_or(0.0, |gas| gas(i, theta));
-                self.rods[i].forces(&CrankPosition::new(unit.im, unit.re), gas).compression < 0.0
+                let unit = cis_degrees(theta) * rod.phase;
+                let gas = rod.gas.as_ref().map_or(0.0, |gas| gas.force(theta));
+                rod.forces(&CrankPosition::new(unit.im, unit.re), gas).compression < 0.0
             };
             let starts = in_tension(0.0);
             let (mut last, mut changes) = ((0.0, starts), Vec::new());
@@ -504,7 +536,7 @@ impl<'a> Internal<'a> {
             }
             Ok(changes.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect())
         };
-        (0..self.rods.len()).map(of_rod).collect()
+        self.rods.iter().map(of_rod).collect()
     }
 
     /// Main bearings that carry a load at some place, and their shares of it.
