@@ -28,6 +28,7 @@ from crankpin.analysis.sweeps.sweep import sweep
 from crankpin.analysis.throws import throws
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
+from crankpin.analysis.torsional_excitation import torsional_excitation
 from crankpin.model.cycle import Cycle
 from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
@@ -64,6 +65,7 @@ __all__ = [
     "sweep",
     "throws",
     "tolerances",
+    "torsional_excitation",
     "two_plane_correction",
     "types",
 ]

@@ -22,6 +22,7 @@ from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.analysis.throws import Throws
 from crankpin.analysis.tolerances.match_parts import Match
 from crankpin.analysis.tolerances.samples import Tolerances
+from crankpin.analysis.torsional_excitation import TorsionalExcitation
 from crankpin.analysis.vanishing import VanishingOrders, Verdicts
 from crankpin.analysis.waveform import Waveform
 
@@ -54,6 +55,7 @@ __all__ = [
     "SweepWaveform",
     "Throws",
     "Tolerances",
+    "TorsionalExcitation",
     "TwoPlaneCorrection",
     "VanishingOrders",
     "Verdicts",

@@ -98,6 +98,7 @@ OBJECTS: dict[str, Any] = {
     "StarDiagram": cp.star_diagram(cp.Engine.preset("i6"), [0.5, 3], mode_shape=[1, 2, 3, 4, 5, 6]),
     "ClosedForm": V6.replace(cylinder=OFFSET.replace(pin_offset=0.0)).closed_form(1),
     "ClosedForm of a force": V6.closed_form(2, "force", reference_z=0.0),
+    "TorsionalExcitation": cp.torsional_excitation(V6, rpm=3000, orders=[1, 2]),
     "Waveform": waveform(),
     "Waveform, auto": waveform(orders="auto"),
     "BearingLoads": cp.bearing_loads(V6, 5000, THETA),

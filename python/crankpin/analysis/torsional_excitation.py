@@ -1,0 +1,165 @@
+"""Torque of each cylinder on the crank per order: what programs for torsional vibration take."""
+
+from __future__ import annotations
+
+import functools
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
+from crankpin._support.record import Tabled, read_only
+from crankpin._support.tables import Column, Table
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from crankpin._support.inputs import Order
+
+HIGHEST = 12
+"""Highest order by default, as in the tables of classification societies."""
+
+
+ROUNDING = 1e-9
+"""Part of the largest torque up to which sums over cylinders are that of the engine."""
+
+
+class TorsionalExcitation(Tabled):
+    """Torque of each cylinder's gas and masses on the crank, per order.
+
+    Made by :func:`crankpin.torsional_excitation`.
+    """
+
+    engine: Engine
+    """Engine that was asked about."""
+    rpm: float
+    """Crank speed."""
+    orders: tuple[Order, ...]
+    """Multiples of crank speed."""
+    torque: NDArray[np.complex128]
+    """Peak phasors of ``Re(P exp(ikθ))``, θ the engine's crank angle, N·m: (n_cylinders, n_orders).
+    Positive torque drives the crank."""
+    mean: NDArray[np.float64]
+    """Mean torque of each cylinder, N·m: (n_cylinders,)."""
+
+    @functools.cached_property
+    def angular_frequency(self) -> NDArray[np.float64]:
+        """Angular frequencies of the orders, rad/s: (n_orders,)."""
+        omega = inputs.angular_speed(self.rpm)
+        return read_only(np.array(self.orders, dtype=np.float64) * omega)
+
+    @property
+    def table(self) -> Table:
+        """Amplitude and phase by cylinder and order; ``table.csv()`` is a file of it."""
+        frequency = self.angular_frequency.tolist()
+        rows = [
+            (number + 1, order, frequency[k], abs(phasor), math.atan2(phasor.imag, phasor.real))
+            for number, phasors in enumerate(self.torque.tolist())
+            for k, (order, phasor) in enumerate(zip(self.orders, phasors, strict=True))
+        ]
+        heads = (
+            ("cylinder", ""),
+            ("order", ""),
+            ("frequency", "rad/s"),
+            ("amplitude", "N·m"),
+            ("phase", "rad"),
+        )
+        columns = (
+            Column(name, values, unit)
+            for (name, unit), values in zip(heads, zip(*rows, strict=True), strict=True)
+        )
+        title = f"{labels.name_of(self.engine)}: torque on the crank, {self.rpm:.10g} rpm"
+        return Table(f"TorsionalExcitation of {title}", tuple(columns))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the excitation as plain lists.
+
+        ``rpm``, ``orders``, ``angular_frequency`` in rad/s; by cylinder ``mean`` in N·m and, with a
+        list over orders in each, ``amplitude`` in N·m and ``phase`` in rad. openTorsion's
+        ``PeriodicExcitation.add_sines`` takes them with the node of a cylinder.
+        """
+        return {
+            "rpm": self.rpm,
+            "orders": list(self.orders),
+            "angular_frequency": self.angular_frequency.tolist(),
+            "mean": self.mean.tolist(),
+            "amplitude": np.abs(self.torque).tolist(),
+            "phase": np.angle(self.torque).tolist(),
+        }
+
+
+def torsional_excitation(
+    engine: Engine, *, rpm: float, orders: Order | Iterable[Order] | None = None
+) -> TorsionalExcitation:
+    """Return the torque of each cylinder on the crank per order, of gas and masses.
+
+    Parameters
+    ----------
+    engine
+        Engine of one crank, with or without cycles.
+    rpm
+        Crank speed.
+    orders
+        Multiples of crank speed; by default up to 12, halves among them for a fired four-stroke.
+
+    Returns
+    -------
+    TorsionalExcitation
+        Phasors about the engine's crank angle, firing order included: their sums over cylinders
+        are ``engine.balance(rpm).crank_torque``.
+
+    Raises
+    ------
+    InputError
+        If the engine has a crank besides the main one.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    >>> found = cp.torsional_excitation(i4, rpm=3000, orders=[0.5, 2])
+    >>> abs(found.torque[:, 0]).round(1)
+    array([99.2, 99.2, 99.2, 99.2])
+    """
+    if not isinstance(engine, Engine):
+        raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
+    speed = inputs.angular_speed(rpm)
+    cycles = engine.cycles
+    listed = orders
+    if listed is None:
+        step = 1 if cycles is None or engine.strokes == 2 else 0.5
+        listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
+    chosen = inputs.explicit_half_orders(listed)
+    whole = [int(each) for each in chosen if each % 1 == 0]
+    exponents = np.array(chosen, dtype=np.float64)
+    torque = np.zeros((len(engine), len(chosen)), dtype=np.complex128)
+    mean = np.zeros(len(engine))
+    for k, cylinder in enumerate(engine.cylinders):
+        if whole and cylinder.reciprocating_mass:
+            scale = cylinder.reciprocating_mass * (cylinder.crank_radius * speed) ** 2
+            _, on_crank = cylinder.torque_harmonics(whole)
+            tdc = np.exp(-1j * np.radians(engine.tdc_deg[k]) * np.array(whole))
+            torque[k, exponents % 1 == 0] += scale * on_crank * tdc
+        cycle = None if cycles is None else cycles[k]
+        if cycle is not None and engine.crankcase is not None:
+            gas = cycle.torque_harmonics(cylinder, chosen, crankcase=engine.crankcase)
+            torque[k] += gas * np.exp(-1j * np.radians(engine.firing_deg[k]) * exponents)
+            mean[k] = cycle.mean_torque(cylinder)
+    total = engine.balance(rpm, orders=chosen).crank_torque.phasor
+    largest = float(np.abs(torque).sum(axis=0).max(initial=0.0))
+    if (np.abs(torque.sum(axis=0) - total) > ROUNDING * largest).any():
+        hint = "its torque is no sum over cylinders of one crank; give an engine of one crank"
+        raise InputError(f"engine = {inputs.shorten(labels.name_of(engine))}: {hint}")
+    return TorsionalExcitation(
+        engine,
+        inputs.number("rpm", rpm),
+        tuple(inputs.order(each) for each in chosen),
+        torque,
+        mean,
+    )
