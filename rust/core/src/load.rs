@@ -431,10 +431,10 @@ impl Loads {
             })
         });
         let in_cylinders = (0..count).filter_map(|i| {
-            let (gas, _, weight) = (gas?, cycle_of(i)?, engine.swept_by_radius(i)?);
+            let (_, weight) = (cycle_of(i)?, engine.swept_by_radius(i)?);
             let source = Source::Pressure { gear: gear_of[i] };
             let load = on_main(source, weight, Angle::ZERO, engine.placements()[i].z);
-            Some(Load { phase: gas.phases[i].half(), ..on_crank_of(i, load) })
+            Some(Load { phase: engine.firing_phase(i).half(), ..on_crank_of(i, load) })
         });
         let list = pistons.chain(on_crank).chain(on_shafts).chain(in_cylinders);
         Self { list: list.collect(), gears, reference }

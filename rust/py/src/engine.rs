@@ -468,7 +468,7 @@ impl Engine {
             }));
         }
         let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
-        let gas = Gas { cycles: known, cycle_of, crankcase, phases: firing.phases() };
+        let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
         self.0.with_gas(gas).or_raise().map(Self::from)
     }
 
@@ -479,7 +479,7 @@ impl Engine {
         };
         let gas = Gas {
             cycle_of: cylinders.iter().map(|&i| gas.cycle_of[i]).collect(),
-            phases: cylinders.iter().map(|&i| gas.phases[i]).collect(),
+            later: cylinders.iter().map(|&i| gas.later[i]).collect(),
             ..gas.clone()
         };
         let engine = self.0.firing_as("", strokes).and_then(|engine| engine.with_gas(gas));
@@ -508,8 +508,9 @@ impl Engine {
     /// Crank angles at which the cylinders fire, within a cycle, degrees.
     #[getter]
     fn firing_deg(&self) -> Option<Vec<f64>> {
-        let gas = self.0.gas()?;
-        Some(gas.phases.iter().map(|phase| phase.degrees()).collect())
+        self.0.gas()?;
+        let count = self.0.placements().len();
+        Some((0..count).map(|i| self.0.firing_phase(i).degrees()).collect())
     }
 
     #[getter]

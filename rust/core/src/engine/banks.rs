@@ -61,19 +61,15 @@ impl Engine {
         let vee = self.banks()?;
         let (middle, half) = (vee.bisector(), bank_angle.half());
         let mut turned = self.clone();
-        for (i, place) in turned.placements.iter_mut().enumerate() {
-            let pin = place.pin();
+        for i in 0..self.placements.len() {
             let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
-            // The shorter way.
-            let half_turn = Angle::QUARTER_TURN + Angle::QUARTER_TURN;
-            let turn = (bore - place.bank + half_turn).reduced() - half_turn;
-            place.bank = bore.reduced();
             if hold == Hold::Pins {
-                if let Some(gas) = &mut turned.gas {
-                    gas.turn(i, turn, self.strokes.turns());
-                }
-                place.tdc = (place.bank - pin).reduced();
+                // The shorter way: firing goes along.
+                let turn = (bore - turned.placements[i].bank + Angle::HALF_TURN).reduced()
+                    - Angle::HALF_TURN;
+                turned.delay(i, turn);
             }
+            turned.placements[i].bank = bore.reduced();
         }
         Ok(turned)
     }

@@ -49,8 +49,7 @@ struct EngineFile {
     /// Absolute pressure in the crankcase, Pa, of an engine with cycles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     crankcase: Option<f64>,
-    /// Pressure in cylinders over a cycle; `tdc_deg` of the placements are those of firing then, of two
-    /// turns in a four-stroke.
+    /// Pressure in cylinders over a cycle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     cycles: Vec<Cycle>,
 }
@@ -126,6 +125,9 @@ struct Place {
     /// Number of the cycle, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cycle: Option<usize>,
+    /// Whether it fires at the top dead centre of the second turn.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    second_turn: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<PartsEntry>,
 }
@@ -265,13 +267,14 @@ impl EngineFile {
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
         let place = |(i, p): (usize, &Placement)| Place {
-            tdc_deg: Degrees::of(engine.gas().map_or(p.tdc, |gas| gas.phases[i])),
+            tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
             rotating_mass: p.rotating_mass,
             bank: numbered.then(|| number(engine.bank_of(i))),
             crank: engine.crank_of(i),
             cycle: engine.gas().and_then(|gas| gas.cycle_of[i]).map(|cycle| cycle + 1),
+            second_turn: engine.gas().is_some_and(|gas| gas.later[i]),
             cylinder: (!shared).then_some(parts[i]),
         };
         Ok(Self {
@@ -297,8 +300,8 @@ impl EngineFile {
         })
     }
 
-    /// Pressure in the cylinders, whose top dead centres are those of firing.
-    fn gas(&self, tdcs: &[Angle], strokes: Strokes) -> Result<Option<Gas>> {
+    /// Pressure in the cylinders.
+    fn gas(&self) -> Result<Option<Gas>> {
         if self.cycles.is_empty() {
             let numbered = self.placements.iter().position(|place| place.cycle.is_some());
             return match (numbered, self.crankcase) {
@@ -322,7 +325,7 @@ impl EngineFile {
             cycles: self.cycles.iter().cloned().map(Arc::new).collect(),
             cycle_of: self.placements.iter().enumerate().map(cycle).collect::<Result<_>>()?,
             crankcase: self.crankcase.unwrap_or(ATMOSPHERE),
-            phases: tdcs.iter().map(|tdc| tdc.reduced_to(strokes.turns())).collect(),
+            later: self.placements.iter().map(|place| place.second_turn).collect(),
         }))
     }
 
@@ -350,9 +353,7 @@ impl EngineFile {
             })
         });
         let placements: Vec<Placement> = placements.collect::<Result<_>>()?;
-        let tdcs: Vec<Angle> = placements.iter().map(|place| place.tdc).collect();
-        let strokes = Strokes::from_number(self.strokes)?;
-        let gas = self.gas(&tdcs, strokes)?;
+        let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
         let details = self.placements.iter().map(|place| {
             place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
         });

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use super::layout::Strokes;
 use super::{Engine, check_each_cylinder};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -18,16 +19,8 @@ pub struct Gas {
     pub cycle_of: Vec<Option<usize>>,
     /// Absolute pressure in the crankcase, Pa.
     pub crankcase: f64,
-    /// Crank angle at which each cylinder is at its firing top dead centre, within a cycle.
-    pub phases: Vec<Angle>,
-}
-
-impl Gas {
-    /// Moves the firing of a cylinder on by an angle.
-    pub(super) fn turn(&mut self, cylinder: usize, by: Angle, turns: i64) {
-        let phase = &mut self.phases[cylinder];
-        *phase = (*phase + by).reduced_to(turns);
-    }
+    /// Whether each cylinder fires at its top dead centre in the second turn of the cycle.
+    pub later: Vec<bool>,
 }
 
 impl Engine {
@@ -39,15 +32,36 @@ impl Engine {
 
     /// The same engine with pressure in its cylinders, or without where no cylinder has a cycle.
     ///
-    /// [`crate::Firing::phases`] are the phases of an engine's firing order.
+    /// [`crate::Firing::in_second_turn`] is what an engine's firing order says.
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
         check_each_cylinder("cycle", gas.cycle_of.len(), self.placements.len())?;
-        check_each_cylinder("phases", gas.phases.len(), self.placements.len())?;
+        check_each_cylinder("later", gas.later.len(), self.placements.len())?;
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         let engine = Self { gas: firing.then_some(gas), ..self.clone() };
         engine.check_gas()?;
         Ok(engine)
+    }
+
+    /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
+    #[must_use]
+    pub fn firing_phase(&self, cylinder: usize) -> Angle {
+        let later = self.gas.as_ref().is_some_and(|gas| gas.later[cylinder]);
+        self.placements[cylinder].tdc + Angle::whole_turns(i32::from(later))
+    }
+
+    /// Moves the top dead centre of a cylinder on by an angle, and its firing with it.
+    pub(super) fn delay(&mut self, cylinder: usize, by: Angle) {
+        let tdc = &mut self.placements[cylinder].tdc;
+        let moved = *tdc + by;
+        *tdc = moved.reduced();
+        let crossed = ((moved.degrees() - tdc.degrees()) / 360.0).round();
+        if let Some(gas) = &mut self.gas
+            && self.strokes == Strokes::Four
+            && crossed % 2.0 != 0.0
+        {
+            gas.later[cylinder] = !gas.later[cylinder];
+        }
     }
 
     /// The same engine without pressure in its cylinders.

@@ -324,13 +324,7 @@ impl Engine {
     pub fn with_first_tdc(&self, tdc: Angle) -> Self {
         let turn = tdc - self.placements[0].tdc;
         let mut turned = self.clone();
-        for place in &mut turned.placements {
-            place.tdc = (place.tdc + turn).reduced();
-        }
-        if let Some(gas) = &mut turned.gas {
-            let turns = self.strokes.turns();
-            (0..self.placements.len()).for_each(|i| gas.turn(i, turn, turns));
-        }
+        (0..self.placements.len()).for_each(|i| turned.delay(i, turn));
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
             weight.angle = (weight.angle - turn).reduced();

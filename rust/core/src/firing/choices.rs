@@ -87,7 +87,7 @@ impl Firing {
         Err(Error::value("firing_order", order, hint))
     }
 
-    /// The way in which an engine fires: the most even one in its own firing order.
+    /// The way in which an engine fires: the most even one in its own firing order, or the only one.
     pub fn own(engine: &Arc<Engine>, cancel: &Cancel) -> Result<Self> {
         let strokes = engine.strokes();
         if !engine.firing_order().is_empty() {
@@ -95,7 +95,10 @@ impl Firing {
         }
         let mut hint = "the engine has none; give it one, such as 1-3-4-2".to_owned();
         if can_list(engine.placements().len(), strokes) {
-            let possible = Self::all(engine, strokes, cancel)?;
+            let mut possible = Self::all(engine, strokes, cancel)?;
+            if possible.len() == 1 {
+                return Ok(possible.swap_remove(0));
+            }
             hint = format!("{hint}. Possible orders, most even first: {}", listed(&possible));
         }
         Err(Error::value("firing_order", "None", hint))

@@ -109,22 +109,26 @@ impl Firing {
         self.times.iter().map(|&time| self.within(top.reduced() + time)).collect()
     }
 
-    /// Crank angle at which each cylinder's crankpin points along its bore as it fires, by number,
-    /// within a cycle: its top dead centre in the turn in which it fires.
+    /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, by number.
     #[must_use]
-    pub fn phases(&self) -> Vec<Angle> {
+    pub fn in_second_turn(&self) -> Vec<bool> {
         let placements = self.engine.placements();
         let first = &placements[0];
-        let phase = |(place, time): (&Placement, &Angle)| {
-            let after_first = (place.tdc - first.tdc).reduced();
-            // Tops are highest points: with pin offsets they lie beside the dead centres.
+        let second = |(place, time): (&Placement, &Angle)| {
+            // Times are those of highest points, which with pin offsets lie beside the dead centres.
             let past = highest_after_tdc(place) - highest_after_tdc(first);
-            let turn = (time.degrees() - past - after_first.degrees()) / 360.0;
-            self.within(
-                first.tdc.reduced() + after_first + turns((turn.round() as i64).rem_euclid(2)),
-            )
+            let phase = first.tdc.reduced().degrees() + time.degrees() - past;
+            let turn = (phase - place.tdc.reduced().degrees()) / 360.0;
+            turn.round().rem_euclid(self.strokes.turns() as f64) != 0.0
         };
-        placements.iter().zip(&self.times).map(phase).collect()
+        placements.iter().zip(&self.times).map(second).collect()
+    }
+
+    /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
+    #[must_use]
+    pub fn phases(&self) -> Vec<Angle> {
+        let each = self.engine.placements().iter().zip(self.in_second_turn());
+        each.map(|(place, second)| place.tdc.reduced() + turns(i64::from(second))).collect()
     }
 
     /// True if all intervals are equal.

@@ -171,7 +171,7 @@ impl PistonGas {
         let cycle = Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]);
         let radius = engine.placements()[cylinder].cylinder.crank_radius();
         let area = engine.swept_by_radius(cylinder)? / radius;
-        let phase = gas.phases[cylinder].degrees();
+        let phase = engine.firing_phase(cylinder).degrees();
         Some(Self { cycle, phase, crankcase: gas.crankcase, area })
     }
 
