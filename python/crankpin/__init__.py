@@ -33,6 +33,7 @@ from crankpin.model.cycle import Cycle
 from crankpin.model.cycle_map import CycleMap
 from crankpin.model.cylinder import Cylinder, Rod, slider_crank_harmonics
 from crankpin.model.engine import Engine
+from crankpin.model.gas_torque import gas_torque_harmonics
 from crankpin.model.presets import presets
 from crankpin.model.shafts import Shaft, Unbalance
 
@@ -56,6 +57,7 @@ __all__ = [
     "counterweights",
     "design",
     "flywheel",
+    "gas_torque_harmonics",
     "match_parts",
     "presets",
     "rank",
