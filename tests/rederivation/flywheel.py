@@ -7,6 +7,7 @@ time derivatives of positions, by the rod's geometry alone; nothing is integrate
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -38,11 +39,11 @@ def moving(piston: Piston, theta: float) -> tuple[float, float]:
     """
     a = theta - piston.tdc
     r, rod, e = piston.radius, piston.rod, piston.offset
-    u, du, ddu = r * np.sin(a) - e, r * np.cos(a), -r * np.sin(a)
-    h = np.sqrt(rod * rod - u * u)
+    u, du, ddu = r * math.sin(a) - e, r * math.cos(a), -r * math.sin(a)
+    h = math.sqrt(rod * rod - u * u)
     dh = -u * du / h
     ddh = -(du * du + u * ddu + dh * dh) / h
-    dx, ddx = -r * np.sin(a) + dh, -r * np.cos(a) + ddh
+    dx, ddx = -r * math.sin(a) + dh, -r * math.cos(a) + ddh
     dphi = du / h
     ddphi = (ddu * h - du * dh) / (h * h)
     inertia = piston.mass * dx * dx + piston.rod_inertia * dphi * dphi
@@ -74,7 +75,7 @@ def speeds(
         return float(state[0] - theta[-1])
 
     at_end.terminal = True  # type: ignore[attr-defined]
-    limits = {"rtol": 1e-11, "atol": 1e-11, "method": "DOP853"}
+    limits = {"rtol": 1e-10, "atol": 1e-10, "method": "DOP853"}
 
     def run(start: float) -> object:
         state = [float(theta[0]), start]
@@ -85,7 +86,7 @@ def speeds(
     def late(start: float) -> float:
         return float(run(start).t[-1] - period / mean)  # type: ignore[attr-defined]
 
-    start = brentq(late, 0.5 * mean, 1.6 * mean, xtol=1e-12 * mean)
+    start = brentq(late, 0.5 * mean, 1.6 * mean, xtol=1e-11 * mean)
     found = run(start)
     times = [
         brentq(lambda t, angle=angle: float(found.sol(t)[0]) - angle, 0.0, found.t[-1], xtol=1e-14)  # type: ignore[attr-defined]

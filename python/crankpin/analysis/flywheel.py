@@ -13,14 +13,13 @@ from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.waveform import Waveform
+from crankpin.analysis.waveform import Waveform, waveform
+from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
-
-    from crankpin.model.engine import Engine
 
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike, ArrayLike]"
 """Torque over crank angle: a function of degrees, or angles and torques."""
@@ -33,7 +32,7 @@ APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
 
 
 def flywheel(
-    drive: Curve,
+    drive: Engine | Curve,
     *,
     rpm: float,
     inertia: float | None = None,
@@ -44,19 +43,21 @@ def flywheel(
     """Return the speed over a cycle with a flywheel, or the flywheel that keeps it even.
 
     The speed follows from the first integral of the equation of motion,
-    ½J(θ)ω² = E₀ + ∫(T − T_load)dθ, exact for any fluctuation.
+    ½J(θ)ω² = E₀ + ∫(T − T_load)dθ, exact for any fluctuation. Of an engine T is the torque of gas
+    pressure, and J varies with the motion of pistons and rods: that is their inertia torque, which
+    does not count in T a second time.
 
     Parameters
     ----------
     drive
-        A turning-moment diagram, the torque on the crank, N·m: a function of an array of crank
-        angles in degrees, or a pair of angles, degrees, and torques, between which it is linear. An
-        angle that is given twice is one at which the torque jumps.
+        A fired engine (:meth:`Engine.with_cycle`); or a turning-moment diagram, the torque on the
+        crank, N·m: a function of an array of crank angles in degrees, or a pair of angles, degrees,
+        and torques, between which it is linear. An angle given twice is one where torque jumps.
     rpm
         Mean crank speed: turns over the time that they take.
     inertia
         Moment of inertia of all that turns with the crank, kg·m²: crankshaft, flywheel, big ends of
-        the rods and what is driven.
+        the rods and what is driven; without pistons, small ends and the rods' swing.
     irregularity
         Largest less smallest speed, over the mean speed, to find the moment of inertia for, in
         place of ``inertia``.
@@ -74,8 +75,8 @@ def flywheel(
     Raises
     ------
     InputError
-        If an argument is out of range, both or neither of ``inertia`` and ``irregularity`` are
-        given, or the crank would stop within the cycle.
+        If an argument is out of range, the engine has no cycle, both or neither of ``inertia`` and
+        ``irregularity`` are given, or the crank would stop within the cycle.
 
     Examples
     --------
@@ -95,7 +96,15 @@ def flywheel(
     >>> round(100 * found.approximations[0], 3)  # the book's, 1 % too low
     6.1
 
-    The moment of inertia that keeps the speed within 1 %:
+    A flywheel for an inline-4 with a computed cycle, and how far textbooks' approximations are off:
+
+    >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    >>> wheel = cp.flywheel(i4, rpm=3000, irregularity=0.02)
+    >>> round(wheel.inertia, 4), [f"{100 * error:+.0f} %" for error in wheel.errors]
+    (0.0871, ['+93 %', '-1 %'])
+
+    The moment of inertia that keeps the speed of a diagram within 1 %:
 
     >>> torque = lambda deg: 5000 + 600 * np.sin(np.radians(2 * deg))
     >>> round(cp.flywheel(torque, rpm=150, irregularity=0.01).inertia, 2)
@@ -111,7 +120,11 @@ def flywheel(
             f"inertia = {inputs.shorten(inertia)}, irregularity = {inputs.shorten(irregularity)}"
         )
         raise InputError(f"{given}: give one of them")
-    torque = _diagram("drive", drive, period_deg)
+    engine = drive if isinstance(drive, Engine) else None
+    if engine is not None:
+        torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
+    else:
+        torque = _diagram("drive", drive, period_deg)
     against = None if load is None else _diagram("load", load, None)
     period = torque.period or TWO_TURNS
     knots = torque.knots
@@ -129,14 +142,14 @@ def flywheel(
     (speed, moving, of_inertia), figures = grid.speed(
         torque.at(nodes),
         np.zeros(nodes.shape) if against is None else against.at(nodes),
-        None,
+        None if engine is None else engine.core,
         inputs.number("rpm", rpm),
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),
     )
     found, uneven, energy, mean, acceleration, *approximate = figures
     return Flywheel(
-        None,
+        engine,
         inputs.number("rpm", rpm),
         found,
         uneven,
@@ -265,7 +278,7 @@ class Flywheel(Tabled):
         return draw(self, ax, figure=figure, **style)
 
 
-# --- turning-moment diagrams ---------------------------------------------------------------------
+# --- torque over crank angle ---------------------------------------------------------------------
 
 
 class _Diagram(NamedTuple):
@@ -275,6 +288,30 @@ class _Diagram(NamedTuple):
     """Period, degrees; None where any will do."""
     knots: NDArray[np.float64]
     """Angles at which it bends or jumps."""
+
+
+def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
+    """Return the torque of an engine's gas pressure on the crank."""
+    cycles = engine.cycles
+    if cycles is None:
+        name = inputs.shorten(labels.name_of(engine))
+        hint = "give it gas pressure with engine.with_cycle(…)"
+        raise InputError(f"drive = {name}: has no torque that drives it; {hint}")
+    if period_deg is not None:
+        given = inputs.shorten(period_deg)
+        raise InputError(f"period_deg = {given}: is that of the engine's cycle; leave it out")
+    # Where pressure jumps or bends, at the firing of each cylinder.
+    pairs = [
+        start + angle
+        for start, cycle in zip(engine.firing_deg.tolist(), cycles, strict=True)
+        if cycle is not None
+        for angle in cycle.theta_deg[1:][np.diff(cycle.theta_deg) == 0.0].tolist()
+    ]
+
+    def at(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        return waveform(engine, rpm, theta_deg=theta).read("crank_torque.gas")
+
+    return _Diagram(at, 180.0 * engine.strokes, np.array(pairs))
 
 
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:

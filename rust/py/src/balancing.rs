@@ -30,11 +30,15 @@ pub fn turning(engine: &Bound<'_, Engine>, ratio: i32) -> PyResult<Pair> {
     Ok((found.force, found.moment))
 }
 
-/// Roll torque of an order over ω².
+/// Roll torque of an order over ω², with that of gas pressure at a speed.
 #[pyfunction]
-pub fn roll_torque(engine: &Bound<'_, Engine>, order: u32) -> PyResult<Complex64> {
+pub fn roll_torque(
+    engine: &Bound<'_, Engine>,
+    order: u32,
+    rpm: Option<f64>,
+) -> PyResult<Complex64> {
     let core = &engine.get().0;
-    interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, cancel))
+    interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, rpm, cancel))
 }
 
 /// Plane, place among its angles and weight of each, whether they are proved to exert what was wanted,
@@ -81,7 +85,7 @@ pub fn least_weights(
 pub fn fit_shafts(
     engine: &Bound<'_, Engine>,
     wanted: Vec<WantedShaft>,
-    given: Vec<(u32, Complex64)>,
+    rpm: Option<f64>,
 ) -> PyResult<(Vec<FittedShaft>, Option<f64>)> {
     let words = [("both", Remove::Both), ("force", Remove::Force), ("moment", Remove::Moment)];
     let request = |(ratio, (x, y), planes, remove): WantedShaft| {
@@ -91,7 +95,7 @@ pub fn fit_shafts(
     let wanted = wanted.into_iter().map(request).collect::<PyResult<Vec<_>>>()?;
     let core = &engine.get().0;
     let (found, beyond) =
-        interrupt::run(engine.py(), |cancel| shafts::fit(core, &wanted, &given, cancel))?;
+        interrupt::run(engine.py(), |cancel| shafts::fit(core, &wanted, rpm, cancel))?;
     let each = found.iter().map(|each| {
         let unbalances = each.shaft.unbalances.iter().map(weight).collect();
         (each.shaft.axis.into(), unbalances, (each.exerts.force, each.exerts.moment))

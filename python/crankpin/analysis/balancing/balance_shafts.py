@@ -9,12 +9,12 @@ from crankpin._support import inputs
 from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.planes import Turning, ends
-from crankpin.analysis.balancing.shaft_requests import extra_torques, shaft_requests
+from crankpin.analysis.balancing.shaft_requests import shaft_requests
 from crankpin.analysis.request import engine_core
 from crankpin.model.shafts import Shaft, unbalance_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from crankpin.analysis.balancing.shaft_requests import Remove
     from crankpin.model.engine import Engine
@@ -29,7 +29,6 @@ def balance_shafts(
     planes: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
     bearings: Sequence[float] | Sequence[Sequence[float] | None] | None = None,
     remove: Remove | Sequence[Remove] = "both",
-    extra_torque: Mapping[int, complex] | None = None,
     rpm: float | None = None,
 ) -> BalanceShafts:
     """Fit balance shafts to an engine.
@@ -63,12 +62,10 @@ def balance_shafts(
         ``"both"``, ``"force"`` (by an unbalance that makes no moment about the
         engine's ``reference_z``) or ``"moment"`` (by a couple, without force): for all shafts, or a
         list with one for each. Shafts of the same ratio have the same.
-    extra_torque
-        Order → peak phasor of a torque on the block about +z that is not of inertia, such as gas
-        torque, N·m: free places cancel it together with the engine's roll torque.
     rpm
-        Crank speed at which ``extra_torque`` acts. The shafts' own torque scales with the square of
-        the speed: the places cancel both at this speed.
+        Crank speed, needed for a fired engine: its roll torque of gas pressure does not scale with
+        the square of the speed as that of shafts does, so that places cancel the whole at this
+        speed. What stays is that at this speed; by default it is over ω².
 
     Returns
     -------
@@ -111,11 +108,11 @@ def balance_shafts(
     """
     engine_core(engine)
     asked = shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
-    extra = extra_torques(extra_torque, rpm, {each.order for each in asked})
+    speed = inputs.optional_number("rpm", rpm)
     found, beyond = _core.fit_shafts(
         engine_core(engine),
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
-        [(order, torque / inputs.angular_speed(rpm) ** 2) for order, torque in extra.items()],
+        speed,
     )
     if beyond is not None:
         warn(
@@ -132,6 +129,5 @@ def balance_shafts(
         ),
         tuple(Turning(*exerts) for _, _, exerts in found),
         tuple(each.bearings or supports for each in asked),
-        tuple(extra.items()),
-        None if rpm is None else inputs.number("rpm", rpm),
+        speed,
     )

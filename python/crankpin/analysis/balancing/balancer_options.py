@@ -134,16 +134,15 @@ def balancer_options(
     is_relative = inputs.flag("relative", relative)
     objectives, limits = _objectives(by, target, one_unit=not is_relative)
     with_weights = inputs.flag("counterweights", counterweights)
-    most = inputs.whole("most_shafts", most_shafts)
+    speed, most = inputs.number("rpm", rpm), inputs.whole("most_shafts", most_shafts)
     if most < 0:
         raise InputError(f"most_shafts = {most}: give 0 or more")
     z = tuple(correction_planes.named(engine, planes).values())
     ratios = _ratios(
         inputs.explicit_orders(shaft_orders, "shaft_orders"), with_weights=with_weights
     )
-    weights = _counterweights(engine, z) if with_weights else ()
-    sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most)
-    speed = inputs.number("rpm", rpm)
+    weights = _counterweights(engine, z, speed) if with_weights else ()
+    sets = balancer_sets(engine, weights, ratios, _axes(places, ratios), most, speed)
     swept = sweep([each.fitted for each in sets], rpm=speed, orders=orders, rtol=rtol)
     values = np.column_stack([each.values(swept)[:, 0] for each in objectives])
     slack = TIED * np.abs(values).max(axis=0)
@@ -191,10 +190,10 @@ class Part(NamedTuple):
     remove: Remove
 
 
-def _counterweights(engine: Engine, z: tuple[float, ...]) -> tuple[Unbalance, ...]:
+def _counterweights(engine: Engine, z: tuple[float, ...], rpm: float) -> tuple[Unbalance, ...]:
     """Return counterweights at places z that remove the forward part of order 1."""
     # As a shaft that turns with the crank, on its axis.
-    ((_, weights, _),), _ = _core.fit_shafts(engine.core, [(1, (0.0, 0.0), z, "both")], [])
+    ((_, weights, _),), _ = _core.fit_shafts(engine.core, [(1, (0.0, 0.0), z, "both")], rpm)
     return tuple(map(unbalance_of, weights))
 
 
@@ -204,6 +203,7 @@ def balancer_sets(
     ratios: Sequence[int],
     places: Mapping[int, Axis],
     most_shafts: int,
+    rpm: float,
 ) -> list[BalancerOption]:
     """Return all sets with or without the counterweights and with a shaft of each ratio or none.
 
@@ -214,10 +214,11 @@ def balancer_sets(
     if count > MOST_SETS:
         remedy = f"give fewer orders, for {MOST_SETS} at most"
         raise InputError(f"shaft_orders make {count} sets of shafts: {remedy}")
-    choices = [
-        [None, *(Part(balance_shafts(engine, r, x=0, y=0, remove=what)[0], what) for what in all_)]
-        for r, all_ in removals.items()
-    ]
+    choices: list[list[Part | None]] = [[None] for _ in removals]
+    for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
+        for what in listed:
+            fit = balance_shafts(engine, ratio, x=0, y=0, remove=what, rpm=rpm)
+            parts.append(Part(fit[0], what))
     weighted = {
         weights: engine.with_counterweights([*engine.counterweights, *weights])
         for weights in dict.fromkeys([(), counterweights])
@@ -231,7 +232,7 @@ def balancer_sets(
             (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
             for each in chosen
         ]
-        fitted, _ = _core.fit_shafts(engine.core, wanted, [])
+        fitted, _ = _core.fit_shafts(engine.core, wanted, rpm)
         shafts = tuple(
             dataclasses.replace(each.shaft, x=x, y=y)
             for each, ((x, y), *_) in zip(chosen, fitted, strict=True)

@@ -15,7 +15,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.balance import UNIT_RPM, Balance, over_square
+from crankpin.analysis.balance import UNIT_RPM, Balance, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Shaft, degrees
@@ -73,10 +73,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
     """Force and moment of each shaft, over ω²."""
     bearings: tuple[tuple[float, float] | None, ...]
     """Places of the two bearings of each, front first, m; None if they are not known."""
-    extra_torque: tuple[tuple[int, complex], ...]
-    """Order and peak phasor, N·m, of given torques that are cancelled as well."""
     rpm: float | None
-    """Crank speed at which they act: shafts' own torques scale with its square."""
+    """Crank speed that was given; a fired engine's shafts cancel its roll torque at it."""
 
     @cached_property
     def fitted(self) -> Engine:
@@ -105,11 +103,14 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     @cached_property
     def residual(self) -> Balance:
-        """What stays of the shafts' orders, over ω²: at 1 rad/s, N are kg·m.
+        """What stays of the shafts' orders at ``rpm``; without it over ω²: at 1 rad/s, N are kg·m.
 
-        It includes the roll torque that the shafts' places make, not ``extra_torque``.
+        It includes the roll torque that the shafts' places make, and that of gas pressure.
         """
-        return over_square(self.fitted, self.orders, torque=True)
+        return self._of(self.fitted)
+
+    def _of(self, engine: Engine) -> Balance:
+        return balance(engine, UNIT_RPM if self.rpm is None else self.rpm, orders=self.orders)
 
     @cached_property
     def heights(self) -> dict[int, dict[str, float]]:
@@ -118,8 +119,8 @@ class BalanceShafts(Listed[Shaft], Tabled):
         A pair pushes along one line. With *up* along that line, its roll torque depends on the
         ``"difference"``, how much higher the shaft that turns with the crank stands than the other,
         and on ``"right_sum"``, the sum of the distances of both to the right of the crank axis, m;
-        ``"up_deg"`` is the direction of *up* from +x in [0°, 180°). ``extra_torque`` is counted, at
-        its speed. They do not depend on where the shafts of the fit are; at free places they are
+        ``"up_deg"`` is the direction of *up* from +x in [0°, 180°). Gas pressure is counted, at
+        ``rpm``. They do not depend on where the shafts of the fit are; at free places they are
         there.
 
         Examples
@@ -138,10 +139,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
             ]
             if _is_a_pair(pair):
                 forces = dict(pair)
-                torque = _core.roll_torque(self.engine.core, order)
-                if self.rpm is not None:
-                    square = inputs.angular_speed(self.rpm) ** 2
-                    torque += dict(self.extra_torque).get(order, 0j) / square
+                torque = _core.roll_torque(self.engine.core, order, self.rpm)
                 difference, right, up = _core.pair_heights(forces[order], forces[-order], torque)
                 up_deg = round(math.degrees(up), 13)
                 found[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}
@@ -223,10 +221,10 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column("phase", tuple(degrees(weight.angle_deg) for *_, weight in listed), "°"),
         )
         note = ""
-        if self.rpm is not None and self.extra_torque:
+        if self.engine.fired:
             note = (
-                f"Places count extra_torque at {self.rpm:g} rpm: it does not scale with the square "
-                "of the speed as the shafts' torques do, so that they hold at this speed."
+                f"Places count the torque of gas pressure at {self.rpm:g} rpm: it does not scale "
+                "with the square of the speed as the shafts' torques do."
             )
         title = f"{labels.cut(labels.name_of(self.engine))}: balance shafts"
         return Table(title, columns, note, below=self._loads())
@@ -269,13 +267,14 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts of force, moment and torque of the shafts' orders, before and after."""
-        states = (over_square(self.engine, self.orders, torque=True), self.residual)
+        states = (self._of(self.engine), self.residual)
+        square = inputs.angular_speed(states[0].rpm) ** 2
         found = []
         for order, quantity in itertools.product(self.orders, SHAKEN):
             pair = [getattr(each[order], quantity) for each in states]
             planar = QUANTITIES[quantity].planar
             for part in ("forward", "backward") if planar else ("",):
-                sizes = [float(abs(getattr(each, part or "phasor"))) for each in pair]
+                sizes = [float(abs(getattr(each, part or "phasor"))) / square for each in pair]
                 found.append(Part(order, quantity, part, *sizes))
         return tuple(found)
 

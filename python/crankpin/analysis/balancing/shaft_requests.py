@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any, Literal, TypeAlias, cast
 
 from crankpin._core import InputError
@@ -14,9 +14,6 @@ REMOVE: tuple[Remove, ...] = ("both", "force", "moment")
 
 MOST_SHAFTS = 100
 """Largest number of shafts fitted at once."""
-
-LARGEST = 1e20
-"""Largest torque over ω², kg·m²."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,11 +32,6 @@ class ShaftRequest:
     """Places of its two bearings, front first, m."""
     remove: Remove
     """What it has to remove."""
-
-    @property
-    def order(self) -> int:
-        """Order that it acts on."""
-        return abs(self.ratio)
 
 
 def shaft_requests(
@@ -64,44 +56,6 @@ def shaft_requests(
         if each.planes is not None and len(each.planes) < 2 and each.remove == "moment":
             message = "a couple takes two planes; give two, or remove the force"
             raise InputError(f"planes[{k}] = {list(each.planes)}: {message}")
-    return found
-
-
-def extra_torques(given: object, rpm: object, orders: set[int]) -> dict[int, complex]:
-    """Return order → peak phasor, N·m, of torques at this speed.
-
-    ``orders`` are those that shafts act on.
-    """
-    if given is None:
-        if rpm is not None:
-            raise InputError(f"rpm = {inputs.shorten(rpm)}: is that of extra_torque; give both")
-        return {}
-    remedy = "give a mapping order → peak phasor in N·m, such as {2: 35 - 12j}"
-    if not isinstance(given, Mapping):
-        raise InputError(f"extra_torque = {inputs.shorten(given)}: {remedy}")
-    if rpm is None:
-        raise InputError("rpm = None: extra_torque needs the crank speed at which it acts")
-    over = inputs.angular_speed(rpm) ** 2
-    if over == 0.0:
-        raise InputError(f"rpm = {inputs.shorten(rpm)}: give a speed above 0 with extra_torque")
-    found = {}
-    for order in inputs.explicit_orders(given, "extra_torque"):
-        if order not in orders:
-            there = " and ".join(map(str, sorted(orders)))
-            raise InputError(f"extra_torque[{order}]: shafts act on order {there} here")
-        try:
-            phasor = complex(given[order])
-        except (TypeError, ValueError) as error:
-            value = inputs.shorten(given[order])
-            raise InputError(
-                f"extra_torque[{order}] = {value}: {remedy} ({inputs.reason(error)})"
-            ) from None
-        # A NaN is not below the limit either.
-        if not abs(phasor) <= LARGEST * over:
-            raise InputError(
-                f"extra_torque[{order}] = {phasor}: give at most {LARGEST:g} kg·m² over ω²"
-            )
-        found[order] = phasor
     return found
 
 

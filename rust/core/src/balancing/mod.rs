@@ -14,8 +14,8 @@ pub mod weights;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
-use crate::readings::balance::{Orders, Request, balance};
+use crate::numbers::error::{Error, Result};
+use crate::readings::balance::{Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
 
 /// Force and moment that turn with a shaft, x + iy at θ = 0, over ω².
@@ -41,9 +41,30 @@ pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPa
     Ok(TurningPart::of(&over_square(engine, ratio.unsigned_abs(), false, cancel)?, ratio))
 }
 
-/// Phasor of an order of the roll torque on the block, over ω².
-pub fn roll_torque(engine: &Engine, order: u32, cancel: &Cancel) -> Result<Complex64> {
-    Ok(over_square(engine, order, true, cancel)?.inertia.roll)
+/// Phasor of an order of the roll torque on the block, over ω²; with that of gas pressure, which does
+/// not scale with speed, at the speed of a fired engine.
+pub fn roll_torque(
+    engine: &Engine,
+    order: u32,
+    rpm: Option<f64>,
+    cancel: &Cancel,
+) -> Result<Complex64> {
+    roll_of(engine, &over_square(engine, order, true, cancel)?, rpm)
+}
+
+/// The roll torque of an order's wrench over ω².
+fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex64> {
+    let omega = rpm.map(angular_speed).transpose()?;
+    match omega {
+        _ if engine.gas().is_none() => Ok(wrench.inertia.roll),
+        Some(omega) if omega > 0.0 => Ok(wrench.inertia.roll + wrench.gas.roll / (omega * omega)),
+        _ => {
+            let given = rpm.map_or_else(|| "None".to_owned(), |rpm| format!("{rpm:?}"));
+            let hint = "the torque of gas pressure does not scale with speed as that of shafts \
+                        does; give the crank speed, above 0, at which they cancel it";
+            Err(Error::value("rpm", given, hint))
+        }
+    }
 }
 
 fn over_square(engine: &Engine, order: u32, torque: bool, cancel: &Cancel) -> Result<Wrench> {

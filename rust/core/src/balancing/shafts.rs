@@ -57,11 +57,11 @@ const DECIMALS: f64 = 1e13;
 /// axes where they cancel roll torque, as far as these are within reach of the engine. With the
 /// distance, m, of the furthest place beyond that reach that would cancel more roll torque.
 ///
-/// `given` are torques on the block, over ω² at one speed, by order, that are cancelled as well.
+/// The roll torque of gas pressure is cancelled at a speed, which fired engines need.
 pub fn fit(
     engine: &Engine,
     wanted: &[ShaftRequest],
-    given: &[(u32, Complex64)],
+    rpm: Option<f64>,
     cancel: &Cancel,
 ) -> Result<(Vec<Fitted>, Option<f64>)> {
     let reference = engine.reference(None)?;
@@ -70,9 +70,8 @@ pub fn fit(
     let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
     for order in orders {
         let there = over_square(engine, order, true, cancel)?;
-        let (mut free, mut torque) = (Vec::new(), there.inertia.roll);
-        torque +=
-            given.iter().filter(|(n, _)| *n == order).map(|(_, extra)| extra).sum::<Complex64>();
+        let torque = super::roll_of(engine, &there, rpm)?;
+        let mut free = Vec::new();
         for ratio in [order as i32, -(order as i32)] {
             let same: Vec<usize> =
                 (0..wanted.len()).filter(|&k| wanted[k].ratio == ratio).collect();
@@ -111,7 +110,7 @@ fn place(
         shafts.iter().map(|(.., axis)| axis.map(Option::unwrap_or_default)).collect();
     let (mut rest, mut free) = (torque, Vec::new());
     for (k, &(ratio, force, axis)) in shafts.iter().enumerate() {
-        for (j, per_metre) in roll_of(ratio, force).into_iter().enumerate() {
+        for (j, per_metre) in roll_per_metre(ratio, force).into_iter().enumerate() {
             match axis[j] {
                 Some(given) => rest += per_metre * given,
                 None => free.push((k, j, per_metre)),
@@ -151,7 +150,7 @@ pub fn pair_heights(forward: Complex64, backward: Complex64, torque: Complex64) 
 }
 
 /// Roll torque's phasor for each metre of a shaft's axis along x and y: `x·F_y − y·F_x`.
-fn roll_of(ratio: i32, force: Complex64) -> [Complex64; 2] {
+fn roll_per_metre(ratio: i32, force: Complex64) -> [Complex64; 2] {
     // The force's phasors along x and y.
     let i = Complex64::i();
     let [x, y] = if ratio > 0 { [force, -i * force] } else { [force.conj(), i * force.conj()] };
