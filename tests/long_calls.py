@@ -97,6 +97,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "waveform from orders": lambda: (
         V8.waveform(5000, theta_deg=np.linspace(0, 720, 50_001), orders=range(1, 20)).force
     ),
+    "bearing loads": lambda: cp.bearing_loads(V8, 5000, np.linspace(0, 720, 50_001)).main,
     "waveforms of a sweep from orders": lambda: waveforms(exact=False),
     "waveforms of a sweep from kinematics": lambda: waveforms(exact=True),
     "vanishing orders": lambda: repr(V8.vanishing_orders()),

@@ -34,12 +34,13 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     """Compute what crankpins, wrist pins, cylinder walls and main bearings carry.
 
     Every cylinder is taken apart into piston, rod and crank; the rod's moment of inertia counts
-    where the cylinder has one, and gas pressure in an engine that has it
-    (:meth:`Engine.with_cycle`); ``engine.with_cycle(None)`` is without. The crank is taken as statically determinate between neighbouring
-    main bearings: each load on it is shared by the bearing in front of it and the one behind by the
-    lever rule, and one outside the end bearings is carried by the two nearest, one of which is
-    pulled. A real crankshaft is continuous, and bends over its bearings. The places of the bearings
-    are :attr:`Engine.mains`: those given, or else one between all throws.
+    where the cylinder has one, and gas pressure where the engine has it
+    (:meth:`Engine.with_cycle`); ``engine.with_cycle(None)`` is without. The crank is taken as
+    statically determinate between neighbouring main bearings: each load on it is shared by the
+    bearing in front of it and the one behind by the lever rule, and one outside the end bearings is
+    carried by the two nearest, one of which is pulled. A real crankshaft is continuous, and bends
+    over its bearings. The places of the bearings are :attr:`Engine.mains`: those given, or else one
+    between all throws.
 
     Parameters
     ----------
