@@ -177,6 +177,55 @@ def test_angles_that_are_no_parts_of_a_turn_are_undecided() -> None:
     assert found[1] != 0.0
 
 
+# --- fired engines ------------------------------------------------------------------------------
+
+CYCLE = cp.Cycle([0, 20, 60, 150, 300, 420, 540, 640, 700], 1e5 * np.array(
+    [40, 55, 20, 4, 1.1, 0.9, 1, 3, 20]))  # fmt: skip
+BORED = CYLINDER.replace(bore=0.086)
+
+
+@pytest.mark.parametrize("name", ["i3", "i4", "v6-90-odd-fire", "v-twin-90", "v8-crossplane"])
+def test_gas_torque_is_that_of_one_cylinder_times_the_star(name: str) -> None:
+    engine = cp.Engine.preset(name).replace(cylinder=BORED)
+    alone = inline([0], "1").replace(cylinder=BORED).with_cycle(CYCLE)
+    one = alone.balance(3000, orders=HALVES).crank_torque.gas
+    fired = engine.with_cycle(CYCLE)
+    found = fired.balance(3000, orders=HALVES).crank_torque.gas
+    star, proof = cp.star_diagram(engine, HALVES), fired.vanishing_orders(HALVES)
+    # Sums of at most 8 phasors, rounded relative to the largest of a cylinder.
+    largest = float(np.abs(np.asarray(one)).max())
+    np.testing.assert_allclose(
+        np.asarray(found), np.asarray(one) * star.sums, atol=1e-13 * len(engine) * largest
+    )
+    assert proof.gas_torque.words == star.verdicts.words
+    for order in HALVES:
+        assert (proof.gas_torque[order] == "vanishes") == (found[order].peak == 0.0)
+
+
+def test_a_misfire_leaves_every_half_order() -> None:
+    i4 = cp.Engine.preset("i4").replace(cylinder=BORED)
+    misfiring = i4.with_cycle([CYCLE, None, CYCLE, CYCLE])
+    assert misfiring.vanishing_orders(HALVES).gas_torque.remaining == tuple(HALVES)
+    assert i4.with_cycle(CYCLE).vanishing_orders(HALVES).gas_torque.remaining == tuple(
+        n for n in HALVES if n % 2 == 0
+    )
+    other = i4.with_cycle([CYCLE, CYCLE.replace(pressure=2 * CYCLE.pressure), CYCLE, CYCLE])
+    assert other.vanishing_orders([1, 2]).gas_torque.words == ("undecided", "undecided")
+
+
+def test_a_balance_says_which_zeros_of_a_fired_engine_are_proved() -> None:
+    b = (
+        cp.Engine.preset("i4")
+        .replace(cylinder=BORED)
+        .with_cycle(CYCLE)
+        .balance(3000, orders=HALVES)
+    )
+    for quantity in ("torque", "crank_torque"):
+        assert [n for n in HALVES if b.proved_zero(quantity, n)] == [n for n in HALVES if n % 2]
+        assert getattr(b, quantity)[0.5].status == "zero, proved"
+    assert b.proved_zero("force", 0.5)
+
+
 # --- results ------------------------------------------------------------------------------------
 
 

@@ -173,16 +173,16 @@ class Balance(ByOrder, Tabled):
     def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         inputs.one_of("quantity", quantity, QUANTITIES)
-        if order % 1:
-            return not self.fired or QUANTITIES[quantity].planar  # inertia has whole orders
-        if self.request.pairs is not None or quantity == "crank_torque":
-            return False
-        if quantity == "torque" and (self.fired or any(self.request.aside)):
+        planar = QUANTITIES[quantity].planar
+        if order % 1 and (planar or not self.fired):
+            return True  # inertia has whole orders
+        if self.request.pairs is not None or (quantity == "torque" and any(self.request.aside)):
             return False
         core, plane = engine_core(self.engine), self.request.reference_z
-        vanishes = _core.vanishing(core, [2 * int(order)], plane, None)[0][0]
-        at = {"force": slice(0, 2), "moment": slice(4, 6), "torque": slice(8, 9)}
-        return bool(vanishes[at[quantity]].all())
+        vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
+        # A torque of inertia on the crank vanishes with that on the block.
+        at = {"force": slice(0, 2), "moment": slice(4, 6)}
+        return bool(vanishes[at.get(quantity, slice(8, 10 if self.fired else 9))].all())
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         if self.within is None:

@@ -208,8 +208,8 @@ class VanishingOrders(Tabled):
 
     def __post_init__(self) -> None:
         core, firing = engine_core(self.engine), None
-        if any(order % 1 for order in self.orders):
-            # At whole orders a slip of a turn changes nothing.
+        if any(order % 1 for order in self.orders) and not self.engine.fired:
+            # An engine with cycles knows its firing; at whole orders a turn changes nothing.
             firing = fires.firing(self.engine, None, None)._core
         halves = [round(2 * order) for order in self.orders]
         vanishes, remains, within, obstacles = _core.vanishing(core, halves, self.plane, firing)

@@ -3,7 +3,6 @@
 mod common;
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use common::random::{angles, engines, placements, vees, weighted};
 use common::{angle, by_orders, changed, kinematics, scales, turning, whole, xy};
@@ -335,7 +334,7 @@ proptest! {
             prop_assert_eq!((a.force, a.moment, a.torque()), (b.force, b.moment, b.torque()));
         }
         if centred {
-            let found = vanishing(&Arc::new(balanced), &[Order::FIRST], None, None, &Cancel::new()).unwrap();
+            let found = vanishing(&balanced, &[Order::FIRST], None, None, &Cancel::new()).unwrap();
             for (sum, verdict) in QUANTITIES.into_iter().zip(found.verdicts[0]) {
                 if [Sum::ForceForward, Sum::MomentForward].contains(&sum) {
                     prop_assert_eq!(verdict, Verdict::Vanishes, "{:?} {:?}", sum, found.obstacles);
@@ -529,9 +528,7 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
     let found = of(&engine);
     assert_eq!(turning(&found, Vector::Force)[0], [Complex64::default(); 2]);
     let verdicts =
-        vanishing(&Arc::new(engine.clone()), &[Order::FIRST], None, None, &Cancel::new())
-            .unwrap()
-            .verdicts[0];
+        vanishing(&engine, &[Order::FIRST], None, None, &Cancel::new()).unwrap().verdicts[0];
     assert_eq!(verdicts[..8], [Verdict::Vanishes; 8]);
     // Down at θ = 0, at x = 0.1: −0.1·U·ω² cos θ beside what the block has without.
     let roll = |balance: &Balance| balance.wrenches[0].torque().roll;

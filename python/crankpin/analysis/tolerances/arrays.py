@@ -1,29 +1,160 @@
-"""Arrays of an engine's samples: deviations drawn by NumPy, evaluated by the core."""
+"""Spreads of an engine's figures, checked; deviations drawn by NumPy, evaluated by the core."""
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Record
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.tolerances.spreads import FIGURES, OF_PINS
+from crankpin.model.crankpins import crankpins
+from crankpin.model.shafts import Unbalance
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
     from crankpin.analysis.request import Request
-    from crankpin.analysis.tolerances.spreads import Spreads
+    from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
+
+Distribution: TypeAlias = Literal["normal", "uniform"]
+FIGURES = tuple(labels.TOLERANCES)
+"""Figures that may spread, in the order of the core."""
+OF_PINS = ("crank_radius", "pin_deg")
+"""Those that belong to a crankpin; others belong to a cylinder."""
+SPREADS = {"normal": "standard deviations", "uniform": "half widths"}
+"""Distribution → what its spreads are."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Spreads:
+    """How far each figure of an engine spreads; checked."""
+
+    values: tuple[tuple[float, ...], ...]
+    """For each of :data:`FIGURES` one of each cylinder or crankpin; empty where none was given."""
+    distribution: Distribution
+    """``"normal"`` or ``"uniform"``."""
+    pins: tuple[tuple[int, ...], ...]
+    """Numbers of the cylinders on each crankpin."""
+
+    @classmethod
+    def checked(
+        cls,
+        engine: Engine,
+        given: Mapping[str, ArrayLike],
+        distribution: str,
+        pins: Iterable[Iterable[int]] | None,
+    ) -> Spreads:
+        """Return spreads, or raise an InputError that names the argument at fault."""
+        word = inputs.one_of("distribution", distribution, SPREADS)
+        engine_core(engine)
+        shared = (pin.cylinders for pin in crankpins(engine))
+        groups = tuple(shared) if pins is None else _pins(engine, pins)
+        values = []
+        for name in FIGURES:
+            items, count = (
+                ("crankpin", len(groups)) if name in OF_PINS else ("cylinder", len(engine))
+            )
+            spreads = inputs.per_item(name, given[name], count)
+            if len(spreads) != count:
+                raise InputError(
+                    f"{name} has {len(spreads)} entries, the engine has {count} {items}s: give one "
+                    f"number, or one for each {items}"
+                )
+            for spread in spreads:
+                if not (math.isfinite(spread) and spread >= 0.0):
+                    raise InputError(f"{name} = {spread!r}: give a spread that is zero or more")
+            values.append(tuple(spreads) if any(spreads) else ())
+        return cls(tuple(values), word, groups)  # type: ignore[arg-type] # one of the two words
+
+    def only(self, name: str) -> Spreads:
+        """Return the spreads of one figure, the others zero."""
+        pairs = zip(FIGURES, self.values, strict=True)
+        return dataclasses.replace(
+            self, values=tuple(values if each == name else () for each, values in pairs)
+        )
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """Names of the figures that spread."""
+        return tuple(name for name, each in zip(FIGURES, self.values, strict=True) if each)
+
+    @property
+    def pin_of(self) -> list[int]:
+        """Place of each cylinder's crankpin in ``pins``."""
+        places = {number: k for k, pin in enumerate(self.pins) for number in pin}
+        return [places[number] for number in sorted(places)]
+
+    @property
+    def text(self) -> str:
+        """The spreads in words."""
+        parts = []
+        for name in self.given:
+            spreads = self.values[FIGURES.index(name)]
+            title, unit = labels.TOLERANCES[name]
+            low, high = min(spreads), max(spreads)
+            number = f"{high:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+            parts.append(f"{title} {number} {unit}".replace(" °", "°"))
+        return f"{SPREADS[self.distribution]}: {', '.join(parts)}"
+
+
+def deviating(
+    engine: Engine,
+    cylinders: Sequence[Cylinder],
+    rotating: NDArray[np.float64],
+    **changes: Any,  # noqa: ANN401 - of Engine.replace
+) -> Engine:
+    """Return an engine with other cylinders, rotating masses and figures.
+
+    A throw that is balanced may be too light: its rotating mass below zero is an unbalance opposite
+    its pin.
+    """
+    places = changes.get("z", engine.z)
+    opposite = [
+        Unbalance(-mass * cylinders[k].crank_radius, float(places[k]), 180, pin=k + 1)
+        for k, mass in enumerate(rotating.tolist())
+        if mass < 0.0
+    ]
+    return engine.replace(
+        cylinder=cylinders,
+        rotating_mass=np.maximum(rotating, 0.0),
+        counterweights=[*engine.counterweights, *opposite],
+        **changes,
+    )
+
+
+def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
+    hint = "give the numbers of the cylinders on each crankpin, such as [[1, 2], [3, 4]]"
+    pins = tuple(
+        tuple(inputs.whole("pins", number) for number in inputs.items("pins", pin, hint))
+        for pin in inputs.items("pins", given, hint)
+    )
+    if sorted(number for pin in pins for number in pin) != [*range(1, len(engine) + 1)]:
+        raise InputError(f"pins = {inputs.shorten(pins)}: name each cylinder once; {hint}")
+    directions = engine.pin_deg
+    for pin in pins:
+        angles = np.array([directions[number - 1] for number in pin])
+        if not pin or (angles != angles[0]).any():
+            raise InputError(
+                f"pins = {inputs.shorten(pins)}: the crankpins of cylinders {inputs.shorten(pin)} "
+                "do not point the same way; give them pins of their own"
+            )
+    return pins
 
 
 PIECE = 2**20

@@ -15,7 +15,7 @@ from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request
-from crankpin.analysis.tolerances.spreads import FIGURES, Distribution, deviating
+from crankpin.analysis.tolerances.arrays import FIGURES, Distribution, deviating
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

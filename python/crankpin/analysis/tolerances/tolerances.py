@@ -13,9 +13,8 @@ from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance, mean_piston_speed
 from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.request import Request, engine_core
-from crankpin.analysis.tolerances.arrays import ToleranceArrays
+from crankpin.analysis.tolerances.arrays import Distribution, Spreads, ToleranceArrays
 from crankpin.analysis.tolerances.samples import Tolerances, names_of
-from crankpin.analysis.tolerances.spreads import Distribution, Spreads
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:

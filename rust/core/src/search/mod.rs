@@ -243,7 +243,10 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 
 #[cfg(test)]
 mod tests {
+    use super::enumerate::key;
     use super::*;
+    use crate::load::{Alike, Loads, Wanted};
+    use crate::numbers::order::Order;
     use crate::readings::balance::{Request, Vector, balance};
 
     fn search(cylinders: usize, alternating: bool, phases: Option<&[f64]>) -> Search {
@@ -266,6 +269,45 @@ mod tests {
         assert_eq!((counts(&six), six.balanced()), ((27_648, 46), 576));
         assert_eq!(counts(&search(14, false, None)), (169_344, 2248));
         assert_eq!(counts(&search(14, true, None)), (12_936, 218));
+    }
+
+    /// The search's own sum in integers, tied to the one sum: |2Z| of every arrangement, beside others in
+    /// the other bank, and classes of equal keys, which are those of equal moments.
+    #[test]
+    fn sizes_and_keys_are_those_of_the_sum_of_loads() {
+        let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+        let wanted = Wanted { planar: true, roll: false, by_bank: true };
+        for (throws, hold) in
+            [(3, Hold::Pins), (4, Hold::Firing), (6, Hold::Pins), (7, Hold::Firing)]
+        {
+            let bank = Bank::even_firing(throws, false).unwrap();
+            let search = Search::new(bank, hold, &Cancel::new()).unwrap();
+            let (entries, moments) = (&search.entries.all, &search.moments);
+            let phases = |k: usize| {
+                let phases = moments.images.phases(packed(entries[k]), Image::ITSELF);
+                let angle = |&p: &u32| Angle::from_turns(p.into(), moments.bank.parts.into());
+                phases.iter().map(|p| angle(p).unwrap()).collect::<Vec<_>>()
+            };
+            let size = |k: usize| {
+                let banks = [phases(k), phases((7 * k + 3) % entries.len())];
+                let engine = vee(hold, 70.0, &banks, cylinder, 0.1).unwrap();
+                let loads = Loads::new(&engine, engine.middle(), Alike::Proportions);
+                let terms = loads.sums(Order::FIRST, wanted);
+                let right = terms.iter().find(|term| term.bank == Some(engine.bank_of(0))).unwrap();
+                // Half of m·r·Z times the spacing turns either way.
+                let [forward, backward] = [0, 1].map(|k| right.moment[k].value.norm());
+                // Sums of 7 terms of at most 3.
+                assert!((forward - backward).abs() < 1e-15);
+                4.0 * backward / (cylinder.first_order() * 0.1)
+            };
+            let sizes: Vec<f64> = (0..entries.len()).map(size).collect();
+            for (j, (&entry, &size)) in entries.iter().zip(&sizes).enumerate() {
+                assert!((moments.twice(packed(entry)).norm() - size).abs() < 1e-12, "{throws} {j}");
+                for (&other, &others) in entries.iter().zip(&sizes).take(j) {
+                    assert_eq!(key(entry) == key(other), (size - others).abs() < 1e-9);
+                }
+            }
+        }
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::roots::{PartOfTurn, parts_of_turn};
 use super::vanishing::Verdict;
 use super::whole;
 use crate::Complex64;
-use crate::engine::first_equal;
+use crate::engine::{Engine, Placement, first_equal};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -68,17 +68,21 @@ impl Stars {
         Ok(Self { fire, halves, weights, multiples, groups })
     }
 
-    /// Of an engine that fires so: alike cylinders have equal radius, rod, offset and bore.
-    pub fn of_gas(firing: &Firing, cancel: &Cancel) -> Result<Self> {
-        let engine = firing.engine();
-        let sizes = engine.placements().iter().zip(engine.details()).map(|(place, details)| {
+    /// Of the gas of an engine, as it fires if it has no cycles: alike are cylinders of equal radius,
+    /// rod, offset, bore and cycle.
+    pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
+        let gas = engine.gas();
+        let tdcs = || engine.placements().iter().map(|place| place.tdc).collect();
+        let fire = gas.map(|gas| gas.phases.clone()).or_else(|| firing.map(Firing::phases));
+        let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
+        let sizes = |(i, place): (usize, &Placement)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset()];
-            (sizes, details.bore)
-        });
-        let groups = first_equal(sizes);
-        let count = groups.len();
-        Self::new(firing.phases(), vec![1.0; count], groups, cancel)
+            (sizes, engine.details()[i].bore, cycle_of(i))
+        };
+        let groups = first_equal(engine.placements().iter().enumerate().map(sizes));
+        let weights = (0..groups.len()).map(|i| f64::from(u8::from(cycle_of(i).is_some())));
+        Self::new(fire.unwrap_or_else(tdcs), weights.collect(), groups, cancel)
     }
 
     /// Whether some cylinders are of different groups.

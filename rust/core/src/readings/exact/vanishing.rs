@@ -33,7 +33,6 @@
 mod terms;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use self::terms::{Channel, Proof, Symbol, SymbolSums, SymbolTerm, View};
 use super::roots::{PartOfTurn, SymbolEntry};
@@ -353,9 +352,10 @@ fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
 /// What vanishes of an engine, at any speed, about the plane z = `reference_z` (default: half-way
 /// between the first and the last cylinder).
 ///
-/// Half orders are those of gas, and need `firing`; at whole ones gas does not tell the turns apart.
+/// Half orders are those of gas, and need `firing` unless the engine has cycles; at whole ones gas
+/// does not tell the turns apart.
 pub fn vanishing(
-    engine: &Arc<Engine>,
+    engine: &Engine,
     orders: &[Order],
     reference_z: Option<f64>,
     firing: Option<&Firing>,
@@ -363,14 +363,12 @@ pub fn vanishing(
 ) -> Result<Vanishing> {
     check_list(orders)?;
     let half = orders.iter().find(|order| order.as_whole().is_none());
-    if let (Some(half), None) = (half, firing) {
+    if let (Some(half), None, None) = (half, firing, engine.gas()) {
         return Err(Error::value("orders", half, "half orders need a firing order"));
     }
+    let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::new(engine, reference_z, cancel)?;
-    let in_a_turn =
-        || Firing::with_later(engine, Strokes::Two, &vec![false; engine.placements().len()]);
-    let firing = firing.map_or_else(in_a_turn, |firing| Ok(firing.clone()))?;
-    let gas = Stars::of_gas(&firing, cancel)?;
+    let gas = Stars::of_gas(engine, firing, cancel)?;
     let mut within_rounding = within_rounding(engine, orders, reference_z, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
@@ -380,7 +378,7 @@ pub fn vanishing(
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
             cancel.check()?;
             let (verdict, error) = match (quantity, order.as_whole()) {
-                (ProofQuantity::GasTorque, None) if firing.strokes() == Strokes::Two => {
+                (ProofQuantity::GasTorque, None) if strokes == Strokes::Two => {
                     (Verdict::Vanishes, None)
                 }
                 (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(

@@ -9,8 +9,8 @@ mod totals;
 use rayon::prelude::*;
 
 use self::terms::Terms;
-use self::totals::Totals;
 pub use self::totals::largest_sums;
+use self::totals::peaks;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
@@ -106,7 +106,6 @@ impl Distribution {
 pub struct Tolerances {
     terms: Terms,
     nominal: Balance,
-    totals: Totals,
     /// ω².
     square: f64,
 }
@@ -152,8 +151,7 @@ impl Tolerances {
         let reference = engine.reference(request.reference_z)?;
         let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
         let omega = angular_speed(request.rpm)?;
-        let totals = Totals::new(&nominal, cancel)?;
-        Ok(Self { terms, nominal, totals, square: omega * omega })
+        Ok(Self { terms, nominal, square: omega * omega })
     }
 
     /// Rejects more samples than results may hold.
@@ -223,9 +221,9 @@ impl Tolerances {
     ) -> Result<()> {
         let orders = self.nominal.orders.len();
         let sums = self.terms.sums(deviations, first, cancel)?;
-        let Chunk { planar: [force, moment], torque, peaks } = out;
+        let Chunk { planar: [force, moment], torque, peaks: longest } = out;
         let mut by_component = vec![Complex64::default(); 6 * orders];
-        for (i, peaks) in peaks.iter_mut().enumerate() {
+        for (i, longest) in longest.iter_mut().enumerate() {
             let row = i * orders..(i + 1) * orders;
             // Of force and moment along (about) x and y, of torque on block and crank.
             let [force_xy, moment_xy, torques] = thirds(&mut by_component);
@@ -254,7 +252,7 @@ impl Tolerances {
                     [torques[k], torques[orders + k]] = torque[i * orders + k];
                 }
             }
-            *peaks = self.totals.peaks(finder, &by_component, cancel)?;
+            *longest = peaks(finder, &by_component, cancel)?;
         }
         Ok(())
     }

@@ -24,7 +24,7 @@ fn vanishing(
     cancel: &Cancel,
 ) -> Result<Vanishing> {
     let orders = Order::all_whole(orders)?;
-    super::vanishing(&Arc::new(engine.clone()), &orders, reference, None, cancel)
+    super::vanishing(engine, &orders, reference, None, cancel)
 }
 
 /// All but that of gas.
@@ -134,7 +134,13 @@ fn what_is_in_the_way_is_named() {
         obstacles(&engine(&[place, bank, bank]), 2),
         ["bank_deg is no simple part of a turn in cylinders 2, 3"]
     );
-    assert_eq!(obstacles(&engine(&[place, rod]), 2), ["slider-cranks of different proportions"]);
+    assert_eq!(
+        obstacles(&engine(&[place, rod]), 2),
+        [
+            "slider-cranks of different proportions",
+            "cylinders of different dimensions, whose gas torques have no ratio"
+        ]
+    );
     assert_eq!(
         obstacles(&engine(&[place, mass]), 2),
         ["masses times radius that are no rational multiples of each other"]
