@@ -72,8 +72,8 @@ impl Stars {
     /// rod, offset, bore and cycle.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
         let gas = engine.gas();
-        let tdcs = || engine.placements().iter().map(|place| place.tdc).collect();
-        let fire = gas.map(|gas| gas.phases.clone()).or_else(|| firing.map(Firing::phases));
+        let phases = || (0..engine.placements().len()).map(|i| engine.firing_phase(i)).collect();
+        let fire = firing.filter(|_| gas.is_none()).map_or_else(phases, Firing::phases);
         let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
         let sizes = |(i, place): (usize, &Placement)| {
             let gear = &place.cylinder;
@@ -82,7 +82,7 @@ impl Stars {
         };
         let groups = first_equal(engine.placements().iter().enumerate().map(sizes));
         let weights = (0..groups.len()).map(|i| f64::from(u8::from(cycle_of(i).is_some())));
-        Self::new(fire.unwrap_or_else(tdcs), weights.collect(), groups, cancel)
+        Self::new(fire, weights.collect(), groups, cancel)
     }
 
     /// Whether some cylinders are of different groups.
