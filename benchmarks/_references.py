@@ -14,9 +14,15 @@ if TYPE_CHECKING:
 TESTS = Path(__file__).parent.parent / "tests"
 sys.path.insert(0, str(TESTS))
 
-from rederivation import harmonics_mp, ijesc, ito, kinematics  # noqa: E402 - from the tests beside us
+from rederivation import (  # noqa: E402 - from the tests beside us
+    harmonics_mp,
+    ijesc,
+    ito,
+    kinematics,
+    pressure,
+)
 
-__all__ = ["TESTS", "harmonics_mp", "ijesc", "ito", "kinematics", "relative_errors"]
+__all__ = ["TESTS", "harmonics_mp", "ijesc", "ito", "kinematics", "pressure", "relative_errors"]
 
 UNDERFLOW = 1e-300
 """Below it doubles lose their last digits."""

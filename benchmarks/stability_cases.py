@@ -20,7 +20,7 @@ import crankpin as cp
 import methods
 import mpmath
 import numpy as np
-from _references import harmonics_mp, ito, kinematics, relative_errors
+from _references import harmonics_mp, ito, kinematics, pressure, relative_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -387,6 +387,104 @@ def single(plain: bool) -> float:
     return float(relative_errors(found, exact).max())
 
 
+# --- gas torque -----------------------------------------------------------------------------------
+
+FIRED = CYLINDER.replace(bore=0.086)
+CRANK = (0.045, 0.158, 0.0)
+HALF_ORDERS = np.arange(1, 25) / 2.0
+STROKES = np.radians([0.0, 180.0, 360.0, 540.0, 720.0])
+ATMOSPHERE = 101_325.0
+
+Pressure = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
+
+
+def peak_of_pressure(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a smooth pressure with a peak of 61 bar at 12°, 40° wide, θ in radians."""
+    wave: NDArray[np.float64] = np.cos((theta - np.radians(12.0)) / 2.0)
+    return 1e5 + 6e6 * np.exp(60.0 * (wave - 1.0))
+
+
+def otto_pressure(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the pressure of an Otto cycle of compression ratio 10, n = 1.3, p₃/p₂ = 3.5."""
+    volume = pressure.chamber(theta, 10.0, CRANK)
+    expansion = 3.5 * ATMOSPHERE * (10.0 / volume) ** 1.3
+    before = np.where(theta < STROKES[3], ATMOSPHERE, ATMOSPHERE * (10.0 / volume) ** 1.3)
+    return np.where(theta < STROKES[1], expansion, before)
+
+
+def exact_gas(of: Pressure, orders: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return phasors by Gauss quadrature between the dead centres."""
+    return pressure.torque_phasors(of, STROKES, orders, 0.086, CRANK, ATMOSPHERE)[1]
+
+
+def sampled_gas(of: Pressure, theta_deg: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return the first 24 phasors of a transform of samples, as if they filled a period evenly."""
+    theta = np.radians(theta_deg)
+    area = math.pi / 4.0 * 0.086**2
+    torque = -(of(theta) - ATMOSPHERE) * area * pressure.slope(theta, *CRANK)
+    found: NDArray[np.complex128] = np.fft.rfft(torque)[1:25] * (2.0 / len(theta))
+    return found
+
+
+def tabled(of: Pressure, theta_deg: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return crankpin's phasors of a table."""
+    cycle = cp.Cycle(theta_deg, of(np.radians(theta_deg)))
+    return cycle.torque_harmonics(FIRED, HALF_ORDERS)
+
+
+def closed_grid(found: NDArray[np.complex128]) -> float:
+    """Error of order 12 of the smooth peak, relative to itself."""
+    exact = exact_gas(peak_of_pressure, HALF_ORDERS)
+    return float(abs(found[-1] - exact[-1]) / abs(exact[-1]))
+
+
+def uneven_grid(*, plain: bool) -> float:
+    """Largest error over the largest phasor of the peak on a grid of 3°, of 0.5° about it."""
+    theta = np.unique(np.concatenate([np.arange(0.0, 720.0, 3.0), np.arange(0.0, 60.0, 0.5)]))
+    exact = exact_gas(peak_of_pressure, HALF_ORDERS)
+    found = tabled(peak_of_pressure, theta)
+    if plain:
+        angles = np.radians(np.append(theta, 720.0))
+        area = math.pi / 4.0 * 0.086**2
+        gauge = peak_of_pressure(angles) - ATMOSPHERE
+        torque = -gauge * area * pressure.slope(angles, *CRANK)
+        waves = np.exp(-1j * np.outer(HALF_ORDERS, angles))
+        found = np.trapezoid(torque * waves, angles) / (2.0 * np.pi)
+    return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+def example_table(*, plain: bool) -> float:
+    """Largest error of a Wiebe cycle sampled every degree, straight lines or cubics between."""
+    cycle = cp.Cycle.example("diesel")
+    theta = np.arange(720.0)
+    values = cycle.pressure_at(theta)
+    exact = cycle.torque_harmonics(FIRED, HALF_ORDERS)
+    found = cp.Cycle(theta, values).torque_harmonics(FIRED, HALF_ORDERS)
+    if plain:
+        ends = np.append(np.radians(theta), 4.0 * np.pi), np.append(values, values[0])
+        found = sampled_gas(lambda at: np.interp(at, *ends), np.arange(0.0, 720.0, 0.05))
+    return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+def otto_error(found: NDArray[np.complex128]) -> float:
+    """Largest error of the Otto cycle's phasors over the largest."""
+    exact = exact_gas(otto_pressure, HALF_ORDERS)
+    return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+def motored_work(*, plain: bool) -> float:
+    """Work of a motored cycle without losses over that of its compression; zero is right."""
+    exponents = {"compression_exponent": 1.4, "expansion_exponent": 1.4}
+    cycle = cp.Cycle.motored(FIRED, compression_ratio=17.0, **exponents)
+    area = math.pi / 4.0 * 0.086**2
+    compression = ATMOSPHERE * area * 0.09 * 17.0 / 16.0 * (17.0**0.4 - 1.0) / 0.4
+    if not plain:
+        return abs(cycle.work(FIRED)) / compression
+    theta = np.arange(721.0)
+    volume = -area * pressure.height(np.radians(theta), *CRANK)
+    return abs(float((cycle.pressure_at(theta)[:-1] * np.diff(volume)).sum())) / compression
+
+
 EPS = float(np.finfo(float).eps)
 
 CASES = [
@@ -532,5 +630,54 @@ CASES = [
         "phasors summed in doubles",
         lambda: many_cylinders(48, plain=True),
         lambda: many_cylinders(48, plain=False),
+    ),
+    Case(
+        "gas torque",
+        "closed grid of 500 points, order 12 of a smooth peak",
+        1e-4,
+        "cubics through points 1.44° apart of a peak 40° wide",
+        "transform of the samples",
+        lambda: closed_grid(sampled_gas(peak_of_pressure, np.linspace(0.0, 720.0, 500))),
+        lambda: closed_grid(tabled(peak_of_pressure, np.linspace(0.0, 720.0, 500))),
+    ),
+    Case(
+        "gas torque",
+        "uneven grid, 3° and 0.5° about the peak, over the largest",
+        1e-5,
+        "cubics through points 3° apart beside the peak",
+        "trapezia between the samples",
+        lambda: uneven_grid(plain=True),
+        lambda: uneven_grid(plain=False),
+    ),
+    Case(
+        "gas torque",
+        "diesel cycle with bends at valve events, every degree, over the largest",
+        1e-5,
+        "bends between points: second order there, fourth elsewhere",
+        "straight lines between the samples",
+        lambda: example_table(plain=True),
+        lambda: example_table(plain=False),
+    ),
+    Case(
+        "gas torque",
+        "Otto cycle, which jumps in the dead centres, over the largest",
+        1e-13,
+        "quadrature between the jumps: roundings of some thousand terms",
+        "transform of 7200 samples",
+        lambda: otto_error(sampled_gas(otto_pressure, np.arange(0.0, 720.0, 0.1))),
+        lambda: otto_error(
+            cp.Cycle.otto(FIRED, compression_ratio=10.0, pressure_ratio=3.5).torque_harmonics(
+                FIRED, HALF_ORDERS
+            )
+        ),
+    ),
+    Case(
+        "gas torque",
+        "motored cycle without losses: work over that of compression",
+        1e-14,
+        "polynomials to 2e-14, symmetric about the dead centre",
+        "Σ p·ΔV of 720 samples",
+        lambda: motored_work(plain=True),
+        lambda: motored_work(plain=False),
     ),
 ]
