@@ -344,3 +344,37 @@ def test_totals_about_another_point_include_the_mean() -> None:
     # Roll about a point beside: less x·F_y.
     expected = abs(w.torque - 0.1 * w.force[:, 1]).max()
     assert b.total.torque.peak == pytest.approx(expected, abs=b.error_bound.torque + 1e-3)
+
+
+def test_zeros_of_gas_say_whether_they_are_proved() -> None:
+    fired = engines()["v8"].with_cycle(cycle())
+    b = fired.balance(rpm=3000)
+    assert b[0.5].crank_torque.status == "zero, proved"
+    assert b[0.5].torque.gas.status == "zero, proved"
+    assert b[2].torque.status == "zero, proved"
+    assert b[1.5].force.status == "zero, proved"
+    assert b[4].torque.status == "summed"
+    # Proofs are of alike cylinders with one cycle: a slightly weaker one has half orders.
+    weaker = fired.with_cycle([cycle(), *[cycle(3.9e6)] * 7]).balance(rpm=3000)
+    assert weaker[0.5].crank_torque.status == "summed"
+    # Banks moved with pins held fire at other angles than the order they have by name.
+    held = fired.with_bank_angle(90.0, hold="pins").balance(rpm=3000)
+    assert held[0.5].torque.status == "zero, proved"
+    plain = engines()["v8"].balance(rpm=3000)
+    assert plain[0.5].torque.status == "zero, proved"
+    assert plain[0.5].torque.peak == 0.0
+
+
+def test_tables_and_datasets_have_the_parts() -> None:
+    pytest.importorskip("xarray")
+    fired = engines()["i4"].with_cycle(cycle())
+    waveform = fired.waveform(rpm=3000, theta_deg=[0.0, 20.0])
+    dataset = waveform.to_xarray()
+    whole = dataset.torque_gas + dataset.torque_inertia
+    assert np.allclose(whole, dataset.torque, rtol=1e-14)
+    assert dataset.crank_torque_gas.attrs["units"] == "N m"
+    table = waveform.to_pandas()
+    assert set(table.quantity) >= {"torque.gas", "crank_torque.inertia"}
+    assert set(engines()["i4"].waveform(rpm=3000, theta_deg=[0.0]).to_xarray()) == {
+        "force", "moment", "torque", "crank_torque",
+    }  # fmt: skip

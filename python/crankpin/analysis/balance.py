@@ -172,17 +172,17 @@ class Balance(ByOrder, Tabled):
 
     def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
-        inputs.one_of("quantity", quantity, QUANTITIES)
-        planar = QUANTITIES[quantity].planar
-        if order % 1 and (planar or not self.fired):
+        whole, _, part = inputs.one_of("quantity", quantity, KINDS).partition(".")
+        if order % 1 and (KINDS[whole].planar or not self.fired or part == "inertia"):
             return True  # inertia has whole orders
-        if self.request.pairs is not None or (quantity == "torque" and any(self.request.aside)):
+        if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):
             return False
         core, plane = engine_core(self.engine), self.request.reference_z
         vanishes = _core.vanishing(core, [round(2 * order)], plane, None)[0][0]
         # A torque of inertia on the crank vanishes with that on the block.
         at = {"force": slice(0, 2), "moment": slice(4, 6)}
-        return bool(vanishes[at.get(quantity, slice(8, 10 if self.fired else 9))].all())
+        parts = {"inertia": slice(8, 9), "gas": slice(9, 10), "": slice(8, 10 if self.fired else 9)}
+        return bool(vanishes[at.get(whole, parts[part])].all())
 
     def _about_point(self, quantity: str, what: str) -> NDArray[Any]:
         if self.within is None:

@@ -11,16 +11,15 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import PARTS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import read_only
 from crankpin.analysis import export
 from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
-from crankpin.analysis.request import check_quantities
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Spectrum
     from crankpin.analysis.request import Request
@@ -230,9 +229,7 @@ class ByOrder(Keyed, Quantities):
 
     def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is named."""
-        there = self.request.quantities
-        parts = [name for name in PARTS if self.fired and name.partition(".")[0] in there]
-        return check_quantities(quantities, (*there, *parts))
+        return self.request.named(quantities, fired=self.fired)
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, order, quantity and component (needs pandas).
@@ -277,18 +274,9 @@ class ByOrder(Keyed, Quantities):
 
 
 def total_peaks(
-    orders: tuple[Order, ...], phasors: NDArray[np.complex128], mean: Any = 0.0,  # noqa: ANN401
-) -> NDArray[np.float64]:  # fmt: skip
+    orders: tuple[Order, ...], phasors: NDArray[np.complex128], mean: ArrayLike = 0.0
+) -> NDArray[np.float64]:
     """Return the largest magnitude over θ of a mean and all orders: (…), of (…, n_orders)."""
-    flat = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
-    found = (
-        [
-            _core.peaks_of_sums(list(orders), row[np.newaxis], float(each))
-            for row, each in zip(
-                flat, np.broadcast_to(mean, phasors.shape[:-1]).ravel(), strict=True
-            )
-        ]
-        if np.any(mean)
-        else [_core.peaks_of_sums(list(orders), flat, 0.0)]
-    )
-    return np.concatenate(found).reshape(phasors.shape[:-1])
+    rows = np.ascontiguousarray(phasors.reshape(-1, len(orders)))
+    means = np.broadcast_to(mean, phasors.shape[:-1]).ravel().tolist()
+    return _core.peaks_of_sums(list(orders), rows, means).reshape(phasors.shape[:-1])

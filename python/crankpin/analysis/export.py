@@ -127,7 +127,7 @@ def waveforms_to_pandas(result: OverAngle, quantities: Sequence[str]) -> pd.Data
     """Return values as a tidy table: a row a point, quantity and component."""
     columns = []
     for name in quantities:
-        values = getattr(result, name)
+        values = result.read(name)
         planar = name in PLANE_VECTORS
         for k, component in enumerate("xy" if planar else "z"):
             figures = {"value": (values[..., k] if planar else values).ravel()}
@@ -160,7 +160,10 @@ def _tidy(
 
 def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:
     """Return values over coordinates, with named dimensions and units."""
-    arrays = {name: (result.dims(name), getattr(result, name), units(name)) for name in quantities}
+    arrays = {
+        name.replace(".", "_"): (result.dims(name), result.read(name), units(name))
+        for name in quantities
+    }
     coords = _labelled(result.coords, quantities)
     found: xr.Dataset = optional.xarray().Dataset(arrays, coords, result.attributes)
     return found

@@ -11,7 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import KINDS
+from crankpin._support.quantities import KINDS, PARTS
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
@@ -84,6 +84,12 @@ class Request(Record):
         """Names of the quantities that there are."""
         torques = ("torque", "crank_torque") if self.torque and self.pairs is None else ()
         return ("force", "moment", *torques)
+
+    def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:
+        """Return the quantities named, all that there are if none is, with parts if fired."""
+        there = self.quantities
+        parts = [name for name in PARTS if fired and name.partition(".")[0] in there]
+        return check_quantities(quantities, (*there, *parts))
 
     def check(self, quantity: str) -> None:
         """Raise an AbsentError if a quantity is not available."""

@@ -17,7 +17,7 @@ from crankpin.analysis import export
 from crankpin.analysis.balance import error_bound, mean_piston_speed
 from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_quantities, check_request, engine_core
+from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -134,6 +134,10 @@ class OverAngle:
         name = inputs.one_of("quantity", quantity, KINDS)
         return (*self.coords, "axis") if KINDS[name].planar else tuple(self.coords)
 
+    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the quantities named, all that there are if none is named."""
+        return self.request.named(quantities, fired=self.fired)
+
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
 
@@ -144,8 +148,7 @@ class OverAngle:
         *quantities
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         """
-        names = check_quantities(quantities, self.request.quantities)
-        return export.waveforms_to_pandas(self, names)
+        return export.waveforms_to_pandas(self, self.named(quantities))
 
     def to_xarray(self, *quantities: str) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray).
@@ -162,8 +165,7 @@ class OverAngle:
         >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
         ('rpm', 'theta_deg', 'axis')
         """
-        names = check_quantities(quantities, self.request.quantities)
-        return export.waveforms_to_xarray(self, names)
+        return export.waveforms_to_xarray(self, self.named(quantities))
 
 
 class Waveform(OverAngle, Tabled):
@@ -207,7 +209,7 @@ class Waveform(OverAngle, Tabled):
             request.pairs,
             request.torque,
         )
-        by_name = dict(zip(QUANTITIES, arrays, strict=True))
+        by_name: dict[str, Any] = dict(zip(QUANTITIES, arrays, strict=True))
         for name, values in zip(("torque", "crank_torque"), gas or (), strict=False):
             by_name |= {f"{name}.gas": values, f"{name}.inertia": read_only(by_name[name] - values)}
         self.__dict__.update(theta_deg=theta, _by_name=by_name, _balance=balance)

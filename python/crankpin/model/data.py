@@ -469,12 +469,12 @@ class EngineData:
         if cycle is None:
             return type(self)(self._core.without_cycles())
         hint = "give a crankpin.Cycle, or one or None for each cylinder"
-        one = isinstance(cycle, Cycle)
-        each = [cycle] * len(self) if one else inputs.items("cycle", cycle, hint)
-        for k, of_cylinder in enumerate(each):
-            if not (of_cylinder is None or isinstance(of_cylinder, Cycle)):
-                raise InputError(f"cycle[{k}] = {inputs.shorten(of_cylinder)}: {hint}")
-        cores = [None if each_cycle is None else each_cycle.core for each_cycle in each]
+        same = isinstance(cycle, Cycle)
+        each: list[Any] = [cycle] * len(self) if same else inputs.items("cycle", cycle, hint)
+        for k, one in enumerate(each):
+            if not (one is None or isinstance(one, Cycle)):
+                raise InputError(f"cycle[{k}] = {inputs.shorten(one)}: {hint}")
+        cores = [None if one is None else one.core for one in each]
         return type(self)(self._core.with_cycles(cores, inputs.number("crankcase", crankcase)))
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:

@@ -31,7 +31,7 @@ fn fired(engine: &Engine, crankcase: f64, pressure: impl Fn(f64) -> f64) -> Engi
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
         cycle_of: (0..count).map(|i| (i != 2).then_some(0)).collect(),
         crankcase,
-        phases: engine.placements().iter().map(|place| place.tdc).collect(),
+        later: vec![false; count],
     };
     let bore = Details { bore: Some(BORE), ..Details::default() };
     engine.with_details(vec![bore; count]).and_then(|engine| engine.with_gas(gas)).unwrap()

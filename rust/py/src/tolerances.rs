@@ -98,16 +98,16 @@ impl Tolerances {
     }
 }
 
-/// Largest magnitude over the turn of a mean and each row of peak phasors, one of each order.
+/// Largest magnitude over the turn of each row of peak phasors, one of each order, beside its mean.
 #[pyfunction]
 pub fn peaks_of_sums<'py>(
     py: Python<'py>,
     orders: Vec<OrderNumber>,
     phasors: PyReadonlyArray2<'_, Complex64>,
-    mean: f64,
+    means: Vec<f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let orders = convert::orders(&orders)?;
     let phasors = phasors.as_slice()?;
-    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, mean, cancel))?;
+    let peaks = interrupt::run(py, |cancel| largest_sums(&orders, phasors, &means, cancel))?;
     Ok(frozen(py, peaks.into()))
 }

@@ -279,7 +279,7 @@ class ToleranceArrays(ByOrder, Record):
         if what == "total_peak_xy":
             orders = list(self.orders)
             along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
-            return np.stack([_core.peaks_of_sums(orders, each, 0.0) for each in along], axis=-1)
+            return np.stack([_core.peaks_of_sums(orders, each, []) for each in along], axis=-1)
         if what == "peak" and planar:
             return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
         return phasors if what == "phasors" else np.asarray(np.abs(phasors))

@@ -9,19 +9,22 @@ use crate::numbers::pool;
 use crate::readings::peaks::PeakFinder;
 
 /// Largest magnitude over the turn of each sum of a mean and orders: rows of peak phasors, one of each
-/// order.
+/// order, and means of the rows, if any.
 pub fn largest_sums(
     orders: &[Order],
     phasors: &[Complex64],
-    mean: f64,
+    means: &[f64],
     cancel: &Cancel,
 ) -> Result<Vec<f64>> {
     order::check_list(orders)?;
     let finder = PeakFinder::about_mean(orders)?;
-    let rows: Vec<&[Complex64]> = phasors.chunks_exact(orders.len()).collect();
+    let means = means.iter().copied().chain(std::iter::repeat(0.0));
+    let rows: Vec<_> = phasors.chunks_exact(orders.len()).zip(means).collect();
     let chunks = pool::map(cancel, rows.chunks(CHUNK).collect(), |rows| {
         cancel.check()?;
-        rows.iter().map(|row| finder.beside_mean(mean, row, cancel)).collect::<Result<Vec<_>>>()
+        rows.iter()
+            .map(|(row, mean)| finder.beside_mean(*mean, row, cancel))
+            .collect::<Result<Vec<_>>>()
     })?;
     Ok(chunks.concat())
 }
