@@ -456,15 +456,14 @@ class EngineData:
 
         Examples
         --------
-        >>> import numpy as np
         >>> import crankpin as cp
-        >>> theta = np.arange(-360, 360)
-        >>> cycle = cp.Cycle(theta, 1e5 + 3e6 * np.exp(-(((theta - 15) / 30) ** 2)))
         >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
-        >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cycle)
-        >>> b = i4.balance(rpm=3000, orders=[0.5, 2])
-        >>> round(b.crank_torque.mean, 1), b.crank_torque.peak.round(1)
-        (0.0, array([0., 0.]))
+        >>> i4 = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+        >>> torque = i4.balance(rpm=3000).crank_torque
+        >>> f"{torque.mean:.1f}, {torque[2].gas.peak:.1f}, {torque[2].inertia.peak:.1f} N·m"
+        '192.6, 312.7, 182.6 N·m'
+        >>> torque[0.5].status  # fires evenly
+        'zero, proved'
         """
         if cycle is None:
             return type(self)(self._core.without_cycles())
