@@ -168,6 +168,19 @@ def test_an_engine_with_its_crankcase_s_pressure_is_driven_by_nothing() -> None:
     assert found.mean_torque == pytest.approx(0.0, abs=1e-9)
 
 
+def test_jumps_of_pressure_are_where_cylinders_fire() -> None:
+    theta = np.insert(np.arange(0.0, 720.0, 10.0), [4, 4], 33.3)
+    jumping = TWIN.with_cycle(cp.Cycle(theta, np.where(np.arange(74) < 5, 3e6, 2e5)))
+    found = cp.flywheel(jumping, rpm=3000, inertia=0.5)
+    mean = jumping.balance(rpm=3000, orders=[1]).crank_torque.mean
+    # A jump inside a cell would be some 1e-3 off.
+    assert found.mean_torque == pytest.approx(mean, rel=1e-9)
+    assert found.engine is jumping
+    below = found.table.below
+    assert below is not None
+    assert below["irregularity"].values == tuple(100 * each for each in found.approximations)
+
+
 def test_engines_that_nothing_drives_are_rejected() -> None:
     with pytest.raises(cp.InputError, match=r"with_cycle"):
         cp.flywheel(I4, rpm=3000, inertia=0.1)
@@ -208,6 +221,12 @@ def test_a_load_may_come_round_more_often() -> None:
     )
     # Bends of the function are at edges of the grid.
     np.testing.assert_allclose(by_table.speed_rpm, by_function.speed_rpm, rtol=1e-12)
+    # Between edges of the grid it jumps exactly too, in each of its periods.
+    jumps = cp.flywheel(
+        wave(0), load=([0.2, 90.3, 90.3, 180.2], [1, 1, -1, -1]), rpm=600, inertia=1.0
+    )
+    upper, lower = np.radians([90.1, 89.9])
+    assert jumps.energy == pytest.approx(2 * upper * lower / np.pi, rel=1e-10)
     with pytest.raises(cp.InputError, match="multiple"):
         cp.flywheel(wave(1), load=([0, 100], [1, 1]), rpm=600, inertia=1.0)
 
