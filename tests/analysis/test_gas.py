@@ -286,6 +286,9 @@ def test_engines_with_cycles_are_kept_compared_and_written() -> None:
     assert fired.replace(cycle=None) == v6
     assert fired != fired.with_cycle(fired.cycles, crankcase=1e5)
     assert fired.with_first_tdc(40.0).with_first_tdc(0.0) == fired
+    # Some cylinders pass into the next turn of the crank, some into the next cycle.
+    turned = fired.with_first_tdc(200.0).firing_deg
+    assert np.array_equal(turned, (fired.firing_deg + 200.0) % 720.0)
     # The file keeps the angles of firing, whether or not the crank has its order still.
     wider = fired.with_bank_angle(100.0, hold="pins")
     assert cp.Engine.from_json(wider.to_json()) == wider

@@ -164,7 +164,7 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (balance, "orders", 0, "0"),
     (balance, "orders", [], "[]"),
     (balance, "orders", [1, 1], "1"),
-    (balance, "orders", [1.5], "[1.5]"),
+    (balance, "orders", [1.3], "[1.3]"),
     (balance, "orders", -2, "-2"),
     (balance, "orders", 10**30, "1000000000…"),
     (balance, "orders", 20_000, "20000"),

@@ -150,11 +150,14 @@ class Engine(Builders):
         rpm
             Crank speed.
         orders
-            Whole multiples of crank speed; by default the few that reach ``rtol``.
+            Multiples of crank speed, whole or half (0.5, of which gas pressure alone makes any);
+            by default the few that reach ``rtol``.
         rtol
             For ``orders="auto"``: what the omitted orders may add up to, relative to the largest
             m·r·ω² of any cylinder (its reciprocating or its rotating mass), times the longest lever
-            for moments and the crank radius for torque. By default 1e-9.
+            for moments and the crank radius for torque. By default 1e-9. Gas pressure counts apart,
+            relative to the largest gas torque of a cylinder, and to 1e-3 at best, since its orders
+            decline slowly; ``error_bound`` has what is left out of both.
         spectrum
             Order → amplitude of one cylinder's force over ω², in kg·m, in place of every cylinder's
             slider-crank: one measurement or simulation, many layouts. ``rotating_mass`` still
@@ -206,8 +209,9 @@ class Engine(Builders):
         theta_deg
             Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
         orders
-            None for exact kinematics; whole numbers for the sum of those orders; ``"auto"`` for the
-            few that reach ``rtol``, the rest being in ``omitted`` and ``error_bound``.
+            None for exact kinematics; numbers, whole or half, for the sum of those orders;
+            ``"auto"`` for the few that reach ``rtol``, the rest being in ``omitted`` and
+            ``error_bound``.
         rtol
             For ``orders="auto"``, as in :meth:`balance`; by default 1e-6.
         spectrum, torque
