@@ -44,6 +44,7 @@ CALLS = {
         "cp.slider_crank_harmonics(near_one, range(1, 5), 1e-7)"
     ),
     "waveform, kinematics": "v6.waveform(1000, theta_deg=thetas).moment",
+    "bearing loads, a million crank angles": "cp.bearing_loads(v6, 1000, thetas[:1_000_000])",
     "waveform, 299 orders": ("v6.waveform(1000, theta_deg=thetas, orders=range(1, 300)).moment"),
     "balance, 10 000 orders, λ = 0.999": "near.balance(1000, orders=range(1, 10_001))",
     "balance, orders chosen, λ = 0.99999": "nearer.balance(1000, orders='auto', rtol=1e-3)",

@@ -1,0 +1,206 @@
+//! One cylinder's piston and rod: the forces between them, on the wall and on the crankpin.
+//!
+//! Each part of a cylinder is a free body. With u along the bore away from the crank, w the side to
+//! which the crankpin swings after top dead centre, a the piston's acceleration along u, G the gas
+//! force on the piston along −u, m the reciprocating mass, of which mₚ is the piston's, φ the rod's
+//! angle to the bore, and J the rod's moment of inertia beyond that of its two masses:
+//!
+//! - the force that drives the massless rod at the wrist pin is −(G + m·a) along u, and
+//!   N = (G + m·a)·tan φ − J·φ̈/(l·cos φ) along w: J is swung by a pair of forces across the bore;
+//! - the wall exerts N on the piston along w, the piston −N on the wall;
+//! - the rod exerts that force on the crankpin, and the centrifugal force of its rotating mass;
+//! - the wrist pin carries G + mₚ·a along u and −N along w.
+
+use std::sync::Arc;
+
+use crate::Complex64;
+use crate::engine::Engine;
+use crate::gear::rod::{Rod, Swing};
+use crate::gear::slider_crank::{CrankPosition, Proportions};
+use crate::load::{Load, Source};
+use crate::numbers::angle::cis_degrees;
+use crate::numbers::error::Result;
+use crate::pressure::Cycle;
+use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
+
+/// Axes that turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TurningAxes {
+    /// From the crank's axis to the crankpin, and a quarter turn ahead: those of pins and journals.
+    Crank,
+    /// Along the rod to the wrist pin, and a quarter turn ahead: those of the rod's bearings.
+    Rod,
+}
+
+/// A cylinder's piston and rod at a speed.
+pub(super) struct DrivenRod {
+    proportions: Proportions,
+    /// `e^{−i·tdc}`.
+    pub phase: Complex64,
+    /// Unit vector along the bore.
+    pub bore: Complex64,
+    pub z: f64,
+    /// m·r·ω² of the reciprocating mass, N.
+    reciprocating: f64,
+    /// The same of the piston alone; of the whole where it is not known.
+    piston: f64,
+    /// The same of the rod's rotating mass; zero where it is not known.
+    pub rotating: f64,
+    /// J·ω²/l, N.
+    couple: f64,
+    /// Pressure on the piston, where it counts.
+    gas: Option<PistonGas>,
+}
+
+/// Pressure on a piston.
+struct PistonGas {
+    cycle: Arc<Cycle>,
+    /// Crank angle of the firing top dead centre, degrees.
+    phase: f64,
+    /// Absolute, Pa.
+    crankcase: f64,
+    /// m².
+    area: f64,
+}
+
+/// Forces of one cylinder; vectors along u and w.
+struct RodForces {
+    crankpin: [f64; 2],
+    wrist_pin: [f64; 2],
+    across: f64,
+    compression: f64,
+}
+
+/// The same over a block of crank angles; vectors along x and y.
+pub(super) struct RodColumns {
+    pub crankpin: [AngleColumn; 2],
+    pub wrist_pin: [AngleColumn; 2],
+    pub across: AngleColumn,
+    pub compression: AngleColumn,
+    pub gas: AngleColumn,
+}
+
+impl PistonGas {
+    /// Of a cylinder of an engine.
+    fn of(engine: &Engine, cylinder: usize) -> Option<Self> {
+        let gas = engine.gas()?;
+        let cycle = Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]);
+        let radius = engine.placements()[cylinder].cylinder.crank_radius();
+        let area = engine.swept_by_radius(cylinder)? / radius;
+        let phase = engine.firing_phase(cylinder).degrees();
+        Some(Self { cycle, phase, crankcase: gas.crankcase, area })
+    }
+
+    /// Force on the piston towards the crank, N.
+    fn force(&self, theta_deg: f64) -> f64 {
+        let pressure = self.cycle.pressure((theta_deg - self.phase).to_radians());
+        self.area * (pressure - self.crankcase)
+    }
+}
+
+impl DrivenRod {
+    /// Of a cylinder of an engine, by its load, at a square of angular speed.
+    pub fn new(engine: &Engine, cylinder: usize, load: &Load, square: f64) -> Result<Self> {
+        let (i, details) = (cylinder, &engine.details()[cylinder]);
+        let cylinder = &engine.placements()[i].cylinder;
+        let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
+        let rotating = match details.rod {
+            Some([mass, inertia, to_crankpin]) => {
+                Rod::new(mass, inertia, length, to_crankpin)?.rotating_mass() * radius
+            }
+            None => 0.0,
+        };
+        let piston = details.piston_mass.map_or(load.weight, |mass| mass * radius);
+        let inertia = match load.source {
+            Source::Piston { rod_inertia, .. } => rod_inertia,
+            _ => 0.0,
+        };
+        Ok(Self {
+            proportions: cylinder.proportions(),
+            phase: load.phase.cis(-1),
+            bore: load.unit(),
+            z: load.z,
+            reciprocating: load.weight * square,
+            piston: piston * square,
+            rotating: rotating * square,
+            couple: inertia * square / length,
+            gas: PistonGas::of(engine, i),
+        })
+    }
+
+    /// Force along the rod at the wrist pin, compression above zero.
+    pub fn compression(&self, theta_deg: f64) -> f64 {
+        let unit = cis_degrees(theta_deg) * self.phase;
+        let gas = self.gas.as_ref().map_or(0.0, |gas| gas.force(theta_deg));
+        self.forces(&CrankPosition::new(unit.im, unit.re), gas).compression
+    }
+
+    #[inline(always)]
+    fn forces(&self, crank: &CrankPosition, gas: f64) -> RodForces {
+        let motion = self.proportions.motion_at(crank);
+        let towards_crank = gas + self.reciprocating * motion.acceleration;
+        let mut across = motion.slope * towards_crank;
+        if self.couple != 0.0 {
+            let swing = Swing::new(&self.proportions, crank);
+            across -= self.couple * motion.secant * swing.acceleration;
+        }
+        let on_wrist_pin = gas + self.piston * motion.acceleration;
+        RodForces {
+            crankpin: [
+                self.rotating * crank.cos - towards_crank,
+                self.rotating * crank.sin + across,
+            ],
+            wrist_pin: [on_wrist_pin, -across],
+            across,
+            compression: (on_wrist_pin + motion.slope * across) / motion.secant,
+        }
+    }
+
+    /// Unit vector of the first of some axes.
+    #[inline(always)]
+    pub fn axis(&self, crank: &CrankPosition, axes: TurningAxes) -> Complex64 {
+        let along = match axes {
+            TurningAxes::Crank => Complex64::new(crank.cos, crank.sin),
+            TurningAxes::Rod => {
+                let motion = self.proportions.motion_at(crank);
+                Complex64::new(1.0, -motion.slope) / motion.secant
+            }
+        };
+        self.bore * along
+    }
+}
+
+impl RodColumns {
+    pub const ZERO: Self = Self {
+        crankpin: [AngleColumn::ZERO; 2],
+        wrist_pin: [AngleColumn::ZERO; 2],
+        across: AngleColumn::ZERO,
+        compression: AngleColumn::ZERO,
+        gas: AngleColumn::ZERO,
+    };
+
+    /// Gas forces at crank angles of a block, degrees.
+    pub fn set_gas(&mut self, rod: &DrivenRod, theta_deg: &[f64]) {
+        if let Some(gas) = &rod.gas {
+            for (value, &theta) in self.gas.iter_mut().zip(theta_deg) {
+                *value = gas.force(theta);
+            }
+        }
+    }
+
+    /// Overwrite all but the gas, which is read.
+    #[inline(always)]
+    pub fn fill(&mut self, rod: &DrivenRod, units: &Units) {
+        for k in 0..BLOCK {
+            let forces = rod.forces(&units.crank(rod.phase, k), self.gas[k]);
+            let pairs =
+                [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
+            for ([x, y], [u, w]) in pairs {
+                x[k] = rod.bore.re * u - rod.bore.im * w;
+                y[k] = rod.bore.im * u + rod.bore.re * w;
+            }
+            self.across[k] = forces.across;
+            self.compression[k] = forces.compression;
+        }
+    }
+}

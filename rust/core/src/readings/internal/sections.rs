@@ -1,0 +1,89 @@
+//! Shear and bending of crank and crankcase along z.
+
+use ndarray::{Array3, Axis};
+
+use super::{Internal, check_angles, vectors};
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::{CrankAngles, parts};
+use crate::numbers::error::Result;
+use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
+
+/// What is cut at some z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The crankshaft, which rods and unbalances load and main bearings support.
+    Crank,
+    /// The crankcase, which main bearings, walls, heads and balance shafts load.
+    Crankcase,
+}
+
+/// Shear and bending moment along z, at given crank angles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sections {
+    /// Sum of the loads up to each place and at it, along x and y, N: (`n_places`, `n_theta`, 2).
+    pub shear: Array3<f64>,
+    /// Moment of the loads in front of each place about it, about x and y, N·m: (`n_places`,
+    /// `n_theta`, 2).
+    pub bending: Array3<f64>,
+}
+
+impl Internal {
+    /// Shear and bending of a part at [`Self::places`].
+    pub fn sections(&self, part: Part, theta_deg: &[f64], cancel: &Cancel) -> Result<Sections> {
+        let (z, count) = (self.places(), theta_deg.len());
+        check_angles(theta_deg, 4 * z.len(), cancel)?;
+        let loads = self.loads(theta_deg, cancel)?;
+        let (mut shear, mut bending) = (vectors(z.len(), count)?, vectors(z.len(), count)?);
+        let at = |place: f64| z.partition_point(|&other| other < place);
+        let (sign, turning) = match part {
+            Part::Crank => (-1.0, &self.on_crank),
+            Part::Crankcase => (1.0, &self.on_shafts),
+        };
+        for (&place, row) in self.mains.iter().zip(loads.main.outer_iter()) {
+            shear.index_axis_mut(Axis(0), at(place)).scaled_add(sign, &row);
+        }
+        for (i, rod) in self.rods.iter().enumerate() {
+            cancel.check()?;
+            let mut sum = shear.index_axis_mut(Axis(0), at(rod.z));
+            if part == Part::Crank {
+                sum += &loads.crankpin.index_axis(Axis(0), i);
+                continue;
+            }
+            let (gas, thrust) = (loads.gas.row(i), loads.side_thrust.row(i));
+            for ((mut sum, &gas), &thrust) in sum.outer_iter_mut().zip(gas).zip(thrust) {
+                let force = rod.bore * Complex64::new(gas, -thrust);
+                sum[0] += force.re;
+                sum[1] += force.im;
+            }
+        }
+        for load in turning {
+            let mut sum = shear.index_axis_mut(Axis(0), at(load.z));
+            for range in parts(0..count, BLOCK) {
+                cancel.check()?;
+                let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
+                let units = Units::at_speed(&angles, 0..angles.len(), load.ratio);
+                let [mut x, mut y] = [AngleColumn::ZERO; 2];
+                units.add_turning(load.at_start, load.ratio, [&mut x[..], &mut y[..]]);
+                for (at, (x, y)) in range.zip(x.iter().zip(&y[..])) {
+                    sum[[at, 0]] += x;
+                    sum[[at, 1]] += y;
+                }
+            }
+        }
+        for (k, ends) in z.windows(2).enumerate() {
+            cancel.check()?;
+            let (before, mut after) = shear.view_mut().split_at(Axis(0), k + 1);
+            let before = before.index_axis(Axis(0), k);
+            after.index_axis_mut(Axis(0), 0).scaled_add(1.0, &before);
+            let (front, mut behind) = bending.view_mut().split_at(Axis(0), k + 1);
+            let mut moment = behind.index_axis_mut(Axis(0), 0);
+            moment.assign(&front.index_axis(Axis(0), k));
+            // The loads in front are farther off by so much: r × F with r towards the front.
+            let farther = ends[1] - ends[0];
+            moment.column_mut(0).scaled_add(farther, &before.column(1));
+            moment.column_mut(1).scaled_add(-farther, &before.column(0));
+        }
+        Ok(Sections { shear, bending })
+    }
+}
