@@ -26,6 +26,8 @@ pub struct GasTorque {
 
 /// Nodes that are summed at once: they stay in the cache.
 const CHUNK: usize = 512;
+/// Numbers that are summed side by side.
+const LANES: usize = 8;
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
 const FRESH: usize = 32;
 /// Part of the total within which the quadrature of a squared slope is exact.
@@ -45,8 +47,9 @@ struct Rule {
 
 /// From the error term of Gauss-Legendre quadrature of `e^{iκx}`, 2^{2m+1}(m!)⁴κ^{2m}/((2m+1)(2m)!³),
 /// and from its rate of convergence ρ^{−2m} on the ellipse through the singularity.
-const RULES: [Rule; 4] = [
+const RULES: [Rule; 5] = [
     Rule { points: 4, phase: 0.05, distance: 50.0 },
+    Rule { points: 5, phase: 0.2, distance: 20.0 },
     Rule { points: 6, phase: 0.45, distance: 11.0 },
     Rule { points: 8, phase: 1.3, distance: 5.0 },
     Rule { points: 16, phase: 6.0, distance: 1.7 },
@@ -173,12 +176,13 @@ impl Cycle {
         let coefficients = self.panels.panel(panel);
         let half = 0.5 * (to - from).to_radians();
         let middle = 0.5 * (from + to);
+        let (centred, at_middle) = (middle.to_radians(), cis_degrees(middle));
         let extra = self.panels.degree.div_ceil(2) as u32;
         // Parts of the panel, as intervals of [−1, 1].
         let mut parts = vec![(-1.0, 1.0)];
         while let Some((low, high)) = parts.pop() {
             let (centre, width): (f64, f64) = (0.5 * (low + high), 0.5 * (high - low));
-            let theta = middle.to_radians() + half * centre;
+            let theta = centred + half * centre;
             let distance = to_singularity(proportions, theta) / (half * width);
             let phase = highest * half * width;
             let rule = RULES.iter().find(|rule| phase <= rule.phase && distance >= rule.distance);
@@ -191,11 +195,11 @@ impl Cycle {
                 let place = centre + width * x;
                 let (pressure, slope) = value_and_slope(coefficients, place);
                 let offset = half * place;
-                let unit = cis_degrees(middle) * Complex64::cis(offset);
+                let unit = at_middle * Complex64::cis(offset);
                 let motion = proportions.motion(unit.im, unit.re);
                 let gauge = pressure - crankcase;
                 chunk.push(Node {
-                    theta: middle.to_radians() + offset,
+                    theta: centred + offset,
                     weight: weight * half * width,
                     // The piston's way down is minus its distance from the crank.
                     torque: -gauge * motion.velocity,
@@ -229,12 +233,38 @@ impl Cycle {
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.
 #[derive(Default)]
 struct Powers {
-    re: Vec<f64>,
-    im: Vec<f64>,
-    step_re: Vec<f64>,
-    step_im: Vec<f64>,
+    /// Weight times torque of each node, and zeros up to whole lanes.
+    weighted: Vec<f64>,
+    wave: Wave,
+    step: Wave,
     /// Halves by which a step turns.
     gap: u32,
+}
+
+/// Cosines and sines of multiples of the nodes' angles.
+#[derive(Default)]
+struct Wave {
+    cos: Vec<f64>,
+    sin: Vec<f64>,
+}
+
+impl Wave {
+    fn fill(&mut self, nodes: &[Node], halves: u32) {
+        self.cos.clear();
+        self.sin.clear();
+        for node in nodes {
+            let (sin, cos) = (0.5 * f64::from(halves) * node.theta).sin_cos();
+            self.cos.push(cos);
+            self.sin.push(sin);
+        }
+        let whole = nodes.len().next_multiple_of(LANES);
+        self.cos.resize(whole, 1.0);
+        self.sin.resize(whole, 0.0);
+    }
+
+    fn lanes(&self) -> impl Iterator<Item = (&[f64; LANES], &[f64; LANES])> {
+        self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
+    }
 }
 
 impl Powers {
@@ -245,45 +275,49 @@ impl Powers {
         sums: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
-        fill(&mut self.re, &mut self.im, nodes, 0);
+        self.weighted.clear();
+        self.weighted.extend(nodes.iter().map(|node| node.weight * node.torque));
+        self.weighted.resize(nodes.len().next_multiple_of(LANES), 0.0);
         self.gap = 0;
         let mut before = 0;
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
             if gap > 2 || i % FRESH == 0 {
-                fill(&mut self.re, &mut self.im, nodes, order);
+                self.wave.fill(nodes, order);
                 cancel.check()?;
             } else {
                 if gap != self.gap {
-                    fill(&mut self.step_re, &mut self.step_im, nodes, gap);
+                    self.step.fill(nodes, gap);
                     self.gap = gap;
                 }
-                let steps = self.step_re.iter().zip(&self.step_im);
-                for ((re, im), (&c, &s)) in self.re.iter_mut().zip(&mut self.im).zip(steps) {
-                    (*re, *im) = (*re * c - *im * s, *re * s + *im * c);
-                }
+                self.turn();
             }
-            let mut parts = [0.0; 2];
-            for ((node, re), im) in nodes.iter().zip(&self.re).zip(&self.im) {
-                let weighted = node.weight * node.torque;
-                parts[0] += weighted * re;
-                parts[1] -= weighted * im;
-            }
-            *sum += Complex64::new(parts[0], parts[1]);
+            *sum += self.sum();
         }
         Ok(())
     }
-}
 
-/// Cosines and sines of so many halves of the nodes' angles.
-fn fill(re: &mut Vec<f64>, im: &mut Vec<f64>, nodes: &[Node], halves: u32) {
-    re.clear();
-    im.clear();
-    for node in nodes {
-        let (sin, cos) = (0.5 * f64::from(halves) * node.theta).sin_cos();
-        re.push(cos);
-        im.push(sin);
+    /// Turn the wave by the step.
+    fn turn(&mut self) {
+        let waves = self.wave.cos.iter_mut().zip(&mut self.wave.sin);
+        for ((cos, sin), (&c, &s)) in waves.zip(self.step.cos.iter().zip(&self.step.sin)) {
+            (*cos, *sin) = (*cos * c - *sin * s, *cos * s + *sin * c);
+        }
+    }
+
+    /// Sum of torque times the conjugate wave, by lanes.
+    fn sum(&self) -> Complex64 {
+        let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+        for (weighted, (cos, sin)) in
+            self.weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
+        {
+            for k in 0..LANES {
+                re[k] += weighted[k] * cos[k];
+                im[k] -= weighted[k] * sin[k];
+            }
+        }
+        Complex64::new(re.iter().sum(), im.iter().sum())
     }
 }
 
