@@ -436,9 +436,9 @@ class EngineData:
     ) -> Self:
         """Return the same engine with gas pressure in its cylinders, by its firing order.
 
-        Balances and waveforms count it: ``torque`` and ``crank_torque`` have the parts ``gas`` and
-        ``inertia``, half orders and a ``mean``. Gas pressure makes no force and no rocking moment,
-        since its forces on head, wall and bearings cancel.
+        Balances, waveforms and sweeps count it: ``torque`` and ``crank_torque`` have the parts
+        ``gas`` and ``inertia``, half orders and a ``mean``. Gas pressure makes no force and no
+        rocking moment, since its forces on head, wall and bearings cancel.
 
         Parameters
         ----------

@@ -445,6 +445,17 @@ impl Loads {
         superpose(&Phasors { reference: self.reference }, self, order, wanted)
     }
 
+    /// Σ area × crank radius of the pistons under pressure of each gear, m³.
+    pub fn volumes(&self) -> Vec<f64> {
+        let mut volumes = vec![0.0; self.gears.len()];
+        for load in &self.list {
+            if let Source::Pressure { gear } = load.source {
+                volumes[gear] += load.weight;
+            }
+        }
+        volumes
+    }
+
     /// Orders at which unbalances act, ascending.
     pub fn unbalance_orders(&self) -> Vec<Order> {
         let mut orders: Vec<Order> = self.list.iter().filter_map(Load::unbalance_order).collect();
@@ -498,7 +509,7 @@ impl Load {
     }
 }
 
-/// Multiples of δ in the phase by which the parts of a bank's loads change at one order as it turns by δ.
+/// Multiples of δ/2 in the phase by which the parts of a bank's loads change at one order as it turns by δ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Turn {
     pub forward: i64,
@@ -509,11 +520,10 @@ pub(crate) struct Turn {
 impl Turn {
     /// With pins held, a bore takes its top dead centres along; with the firing held it does not.
     pub fn new(order: Order, hold: Hold) -> Self {
-        // No load has half orders.
-        let n = i64::from(order.as_whole().unwrap_or(0));
+        let halves = i64::from(order.halves());
         match hold {
-            Hold::Pins => Self { forward: 1 - n, backward_conj: -1 - n, roll: -n },
-            Hold::Firing => Self { forward: 1, backward_conj: -1, roll: 0 },
+            Hold::Pins => Self { forward: 2 - halves, backward_conj: -2 - halves, roll: -halves },
+            Hold::Firing => Self { forward: 2, backward_conj: -2, roll: 0 },
         }
     }
 }

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 use common::random::{angles, engines, placements, vees, weighted};
 use common::{angle, by_orders, changed, kinematics, scales, turning, whole, xy};
+use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};
 use crankpin_core::harmonics;
@@ -16,6 +17,9 @@ use crankpin_core::{
     Placement, Request, Shaft, Sweep, Unbalance, waveform,
 };
 use proptest::prelude::*;
+
+const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
+const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
 
 const ORDERS: [u32; 5] = [1, 2, 3, 4, 6];
 const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(0.0), torque: true };
@@ -126,7 +130,7 @@ proptest! {
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(reference), &Cancel::new()).unwrap();
         let cancel = Cancel::new();
-        let all = [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
+        let all = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
         let phasors =
             all.map(|quantity| sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap());
         let thetas = [10.0, 133.0];
@@ -396,22 +400,28 @@ proptest! {
         };
         let mut rising = orders.clone();
         rising.sort_by(|&a, &b| share(a).total_cmp(&share(b)));
-        let (mut lost, mut kept) = ([0.0; 3], Vec::new());
-        for n in rising {
-            let with = [0, 1, 2].map(|sum| lost[sum] + sizes(n)[sum]);
-            if (0..3).all(|sum| sizes(n)[sum] == 0.0 || with[sum] <= allowed[sum]) {
-                lost = with;
-            } else {
-                kept.push(n);
+        let plainly = |part: f64| {
+            let (mut lost, mut kept) = ([0.0; 3], Vec::new());
+            for &n in &rising {
+                let with = [0, 1, 2].map(|sum| lost[sum] + sizes(n)[sum]);
+                if (0..3).all(|sum| sizes(n)[sum] == 0.0 || with[sum] <= part * allowed[sum]) {
+                    lost = with;
+                } else {
+                    kept.push(n);
+                }
             }
-        }
-        kept.sort_unstable();
-        prop_assert_eq!(&chosen.orders, &whole(&kept));
+            kept
+        };
+        // Orders above the last candidate take up to a hundredth of the tolerance.
+        let [kept, strictly] = [plainly(1.0), plainly(0.99)];
+        prop_assert!((kept.len()..=strictly.len()).contains(&chosen.orders.len()));
         for (sum, bound) in chosen.error_bound.into_iter().enumerate() {
             prop_assert!(bound <= allowed[sum] * (1.0 + 1e-12));
-            // Orders not evaluated add 1e-17 of the largest term.
-            let slack = 1e-12 * lost[sum] + 1e-15 * size(&engine);
-            prop_assert!((bound - lost[sum]).abs() <= slack, "{} {} {}", sum, bound, lost[sum]);
+            let left = orders.iter().filter(|&&n| !chosen.orders.contains(&whole(&[n])[0]));
+            let lost: f64 = left.map(|&n| sizes(n)[sum]).sum();
+            let slack = 1e-12 * lost + 1e-15 * size(&engine);
+            prop_assert!(bound - lost <= 0.01 * allowed[sum] + slack, "{sum} {bound} {lost}");
+            prop_assert!(lost - bound <= slack, "{sum} {bound} {lost}");
         }
         // Waveforms of these orders are within it of the exact ones.
         let thetas: Vec<f64> = (0..45).map(|k| f64::from(k) * 8.0).collect();
@@ -555,7 +565,7 @@ fn half_orders_of_inertia_are_zero() {
     let sweep =
         |orders| Sweep::new(vec![engine.clone()], axes.clone(), orders, Some(0.0), &Cancel::new());
     let (all, second) = (sweep(orders).unwrap(), sweep(whole(&[2])).unwrap());
-    for quantity in [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque] {
+    for quantity in [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE] {
         let lengths =
             |sweep: &Sweep| sweep.peaks(quantity, Figure::Length, &Cancel::new()).unwrap();
         let (all, second) = (lengths(&all), lengths(&second));

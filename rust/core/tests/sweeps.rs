@@ -18,8 +18,10 @@ use crankpin_core::{
 };
 use proptest::prelude::*;
 
-const QUANTITIES: [Quantity; 4] =
-    [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
+const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
+const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
+
+const QUANTITIES: [Quantity; 4] = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
 const REFERENCE: f64 = 0.07;
 const REQUEST: Request = Request { rpm: 3000.0, reference_z: Some(REFERENCE), torque: true };
 
@@ -63,7 +65,7 @@ fn components(quantity: Quantity) -> usize {
 }
 
 fn is_torque(quantity: Quantity) -> bool {
-    matches!(quantity, Quantity::Torque | Quantity::CrankTorque)
+    matches!(quantity, TORQUE | CRANK_TORQUE)
 }
 
 /// Phasors of a quantity, order by order and component by component, forward and backward parts, bounds of
@@ -81,10 +83,10 @@ impl OfBalance {
         let vector = match quantity {
             Quantity::Force => Vector::Force,
             Quantity::Moment => Vector::Moment,
-            Quantity::Torque | Quantity::CrankTorque => {
+            _ => {
                 assert!(balance.has_torque);
                 let of = |torque: &crankpin_core::wrench::Torque| match quantity {
-                    Quantity::Torque => torque.roll,
+                    TORQUE => torque.roll,
                     _ => torque.crank,
                 };
                 let phasors: Vec<_> =
@@ -314,7 +316,7 @@ fn nothing_depends_on_how_long_an_axis_is() {
             alone_as_in_company(&engines, &axes, &[1, 2, 6], moments);
             alone_as_in_company(&engines[1..], &axes, &[2], moments);
             let axes = Axes { rpm: vec![1000.0, 4000.0], ..axes };
-            alone_as_in_company(&engines, &axes, &[2, 4], (Quantity::Torque, Figure::Amplitude));
+            alone_as_in_company(&engines, &axes, &[2, 4], (TORQUE, Figure::Amplitude));
             alone_as_in_company(&engines[..1], &axes, &[3], (Quantity::Force, Figure::Length));
             if count < 129 || k == 0 {
                 alone_as_in_company(&engines, &axes, &[1, 2], (Quantity::Force, Figure::Sum));
@@ -345,7 +347,7 @@ fn nothing_depends_on_how_much_is_worked_out_together() {
             ..Axes::default()
         };
         alone_as_in_company(&[plain()], &axes, &[1, 4], amplitude);
-        alone_as_in_company(&[plain()], &axes, &[1, 2, 4], (Quantity::Torque, Figure::Amplitude));
+        alone_as_in_company(&[plain()], &axes, &[1, 2, 4], (TORQUE, Figure::Amplitude));
     }
 }
 
@@ -396,16 +398,16 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
         (Quantity::Force, 4, 0.4, 0.0),
         (Quantity::Moment, 1, 0.3, 0.0),
         (Quantity::Moment, 2, 0.3, 0.0),
-        (Quantity::Torque, 1, 0.0, 0.0),
-        (Quantity::Torque, 3, 0.0, 0.0),
-        (Quantity::Torque, 1, 0.0, 2e-4),
-        (Quantity::Torque, 3, 0.0, -2e-4),
+        (TORQUE, 1, 0.0, 0.0),
+        (TORQUE, 3, 0.0, 0.0),
+        (TORQUE, 1, 0.0, 2e-4),
+        (TORQUE, 3, 0.0, -2e-4),
     ];
     for axes in &all {
         for (quantity, order, rotating_mass, inertia) in cases {
             let engine = |more| {
                 let engine = nearly_balanced(more, inertia);
-                if quantity == Quantity::Torque { engine } else { boxer(&engine, rotating_mass) }
+                if quantity == TORQUE { engine } else { boxer(&engine, rotating_mass) }
             };
             let first = alone(axes, [0; 5]);
             let of = |more: f64| {
@@ -425,7 +427,7 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
                 (1.7, Figure::Length),
                 (2.4, Figure::Length),
             ] {
-                if quantity == Quantity::Torque && figure == Figure::Length {
+                if quantity == TORQUE && figure == Figure::Length {
                     continue;
                 }
                 let engine = Arc::new(engine(1e-3 * bound / left * part));
@@ -613,13 +615,13 @@ fn a_sweep_tells_what_it_is() {
         (Quantity::Moment, Figure::Length, &[3]),
         (Quantity::Moment, Figure::Sum, &[2]),
         (Quantity::Force, Figure::LengthOfSum, &[]),
-        (Quantity::Torque, Figure::Amplitude, &[3]),
-        (Quantity::Torque, Figure::Length, &[3]),
-        (Quantity::Torque, Figure::Sum, &[]),
-        (Quantity::Torque, Figure::LengthOfSum, &[]),
-        (Quantity::CrankTorque, Figure::Amplitude, &[3]),
+        (TORQUE, Figure::Amplitude, &[3]),
+        (TORQUE, Figure::Length, &[3]),
+        (TORQUE, Figure::Sum, &[]),
+        (TORQUE, Figure::LengthOfSum, &[]),
+        (CRANK_TORQUE, Figure::Amplitude, &[3]),
         (Quantity::Moment, Figure::ZeroBound, &[3]),
-        (Quantity::CrankTorque, Figure::Sum, &[]),
+        (CRANK_TORQUE, Figure::Sum, &[]),
     ];
     for (quantity, figure, tail) in tails {
         let shape = [&[2, 3, 2, 5, 4], tail].concat();
@@ -646,9 +648,7 @@ fn a_sweep_tells_what_it_is() {
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let speeds = Axes { rpm: vec![3000.0], ..Axes::default() };
     for sweep in [all.without_torque(), new(&speeds, &[1], Some(spectrum)).unwrap()] {
-        for (quantity, known) in
-            [(Quantity::Force, true), (Quantity::Torque, false), (Quantity::CrankTorque, false)]
-        {
+        for (quantity, known) in [(Quantity::Force, true), (TORQUE, false), (CRANK_TORQUE, false)] {
             let found = sweep.phasors(quantity, Figure::Amplitude, &Cancel::new());
             assert_eq!(found.is_ok(), known);
             assert_eq!(sweep.peaks(quantity, Figure::Sum, &Cancel::new()).is_ok(), known);
@@ -673,7 +673,7 @@ fn results_are_as_large_as_there_is_room_for() {
     let cancel = Cancel::new();
     assert!(too_large(does_not.peaks(Quantity::Force, Figure::Amplitude, &cancel).map(drop)));
     assert!(too_large(fits.phasors(Quantity::Force, Figure::Amplitude, &cancel).map(drop)));
-    assert!(fits.check_size(Quantity::Torque, Figure::Amplitude, 16).is_ok());
+    assert!(fits.check_size(TORQUE, Figure::Amplitude, 16).is_ok());
 }
 
 #[test]

@@ -8,12 +8,16 @@ use std::sync::Arc;
 use common::{
     alone, by_orders, in_line, kinematics, mixed, places, plain, there, weighted, whole, xy,
 };
+use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
     Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders,
     Placement, Request, Spectrum, Sweep, Waveform, waveform,
 };
+
+const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
+const CRANK_TORQUE: Quantity = Quantity::CrankTorque(TorquePart::Whole);
 
 const REFERENCE: f64 = 0.07;
 const RPM: f64 = 3000.0;
@@ -193,13 +197,12 @@ fn components(quantity: Quantity) -> std::ops::Range<usize> {
     match quantity {
         Quantity::Force => 0..2,
         Quantity::Moment => 2..4,
-        Quantity::Torque => 4..5,
-        Quantity::CrankTorque => 5..6,
+        TORQUE => 4..5,
+        _ => 5..6,
     }
 }
 
-const QUANTITIES: [Quantity; 4] =
-    [Quantity::Force, Quantity::Moment, Quantity::Torque, Quantity::CrankTorque];
+const QUANTITIES: [Quantity; 4] = [Quantity::Force, Quantity::Moment, TORQUE, CRANK_TORQUE];
 
 fn sweep(engines: &[Arc<Engine>], axes: &Axes, orders: &[u32]) -> Sweep {
     Sweep::new(engines.to_vec(), axes.clone(), whole(orders), Some(REFERENCE), &Cancel::new())
@@ -406,8 +409,8 @@ fn waveforms_of_a_sweep_have_their_refusals() {
             assert!(told.starts_with(&format!("out = {room}")), "{told}");
         }
         assert_eq!(told(&with(None), Quantity::Force, exact, 36), "");
-        assert_eq!(told(&with(None), Quantity::Torque, exact, 18), "");
-        let told = told(&with(None).without_torque(), Quantity::Torque, exact, 18);
+        assert_eq!(told(&with(None), TORQUE, exact, 18), "");
+        let told = told(&with(None).without_torque(), TORQUE, exact, 18);
         assert!(told.starts_with("torque is not available: torque=False"), "{told}");
     }
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();

@@ -66,8 +66,9 @@ fn part(quantity: &str) -> Option<TorquePart> {
 }
 
 /// Part of a torque, and whether it is that on the crank.
-fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
-    let hint = "give \"torque\" or \"crank_torque\", or a part such as \"torque.gas\"";
+pub fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
+    let hint = "give \"force\", \"moment\", \"torque\" or \"crank_torque\", or a part of a torque such as \
+                \"torque.gas\"";
     let part = part(quantity).ok_or_else(|| Error::value("quantity", quantity, hint));
     Ok((part.or_raise()?, quantity.starts_with("crank")))
 }

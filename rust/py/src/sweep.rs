@@ -7,6 +7,7 @@ use ndarray::Array1;
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
+use crate::balance;
 use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
@@ -24,11 +25,9 @@ fn quantity(name: &str) -> PyResult<Quantity> {
     match name {
         "force" => Ok(Quantity::Force),
         "moment" => Ok(Quantity::Moment),
-        "torque" => Ok(Quantity::Torque),
-        "crank_torque" => Ok(Quantity::CrankTorque),
-        other => {
-            let hint = "give \"force\", \"moment\", \"torque\" or \"crank_torque\"";
-            Err(python_error(Error::value("quantity", other, hint)))
+        torque => {
+            let (part, on_crank) = balance::torque(torque)?;
+            Ok(if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) })
         }
     }
 }
@@ -40,9 +39,9 @@ fn figure(name: &str) -> PyResult<Figure> {
         "sum" => Ok(Figure::Sum),
         "length of sum" => Ok(Figure::LengthOfSum),
         "zero bound" => Ok(Figure::ZeroBound),
+        "mean" => Ok(Figure::Mean),
         other => {
-            let hint =
-                "give \"amplitude\", \"length\", \"sum\", \"length of sum\" or \"zero bound\"";
+            let hint = "give \"amplitude\", \"length\", \"sum\", \"length of sum\", \"zero bound\" or \"mean\"";
             Err(python_error(Error::value("figure", other, hint)))
         }
     }

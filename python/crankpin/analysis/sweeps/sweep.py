@@ -62,7 +62,9 @@ def sweep(
     """Return the balance of engines at every combination of the swept arguments.
 
     Crank angle is not sampled: each point is a layout sum times a harmonic. Every array argument is
-    a dimension of the result; a scalar is not. Values are computed when they are first read.
+    a dimension of the result; a scalar is not. Values are computed when they are first read. Of
+    engines with cycles (:meth:`Engine.with_cycle`) torques include that of gas pressure, which does
+    not depend on speed.
 
     Parameters
     ----------
@@ -221,6 +223,11 @@ class Sweep(ByOrder, Tabled):
         return ErrorBound(force, moment, torque if "torque" in self.request.quantities else None)
 
     @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted, of any engine."""
+        return any(engine.fired for engine in self.engines)
+
+    @property
     def core(self) -> _core.Sweep:
         """Compiled counterpart."""
         return self.__dict__["_core"]  # type: ignore[no-any-return]
@@ -285,6 +292,7 @@ class Sweep(ByOrder, Tabled):
                 "total_peak": "length of sum" if quantity in PLANE_VECTORS else "sum",
                 "total_peak_xy": "sum",
                 "zero_bound": "zero bound",
+                "mean": "mean",
             }
             return self.core.peaks(quantity, figures[what], report)
 

@@ -13,7 +13,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import KINDS
 from crankpin._support.record import Record, read_only
 from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.drawing import draw
@@ -72,6 +72,11 @@ class SweepWaveform(OverAngle, Record):
         return self.sweep.request
 
     @property
+    def fired(self) -> bool:
+        """True if gas pressure is counted, of any engine."""
+        return self.sweep.fired
+
+    @property
     def orders(self) -> tuple[Order, ...] | None:
         """Orders that are summed; None for exact kinematics."""
         return None if self.exact else self.sweep.orders
@@ -109,7 +114,8 @@ class SweepWaveform(OverAngle, Record):
         Parameters
         ----------
         quantity
-            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``.
+            ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``, or a part of a torque,
+            such as ``"torque.gas"``.
         out
             Buffer for the result: a C-contiguous array of float64, of the shape of the result.
         progress
@@ -136,7 +142,7 @@ class SweepWaveform(OverAngle, Record):
         >>> force is buffer
         True
         """
-        name = inputs.one_of("quantity", quantity, QUANTITIES)
+        name = inputs.one_of("quantity", quantity, KINDS)
         self.sweep.request.check(name)
         progress = progress_bar.checked(progress)
         core = self.sweep.core
@@ -145,7 +151,7 @@ class SweepWaveform(OverAngle, Record):
         with progress_bar.shown(progress, "waveforms") as report:
             core.waveform(name, self.__dict__["_angles"], self.exact, values.reshape(-1), report)
         x, y = self.request.aside
-        if name == "torque" and (x != 0.0 or y != 0.0):
+        if name in ("torque", "torque.inertia") and (x != 0.0 or y != 0.0):
             values -= x * self.force[..., 1] - y * self.force[..., 0]
         return values
 

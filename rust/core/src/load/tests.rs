@@ -241,7 +241,7 @@ fn banks_turn_their_loads() {
                 let mut found = [Complex64::default(); 5];
                 for part in banks.iter().filter(|part| part.harmonic == expected.harmonic) {
                     for ((sum, value), n) in found.iter_mut().zip(values(part)).zip(multiples) {
-                        *sum += value * cis(turn_of(part.bank) * n as f64);
+                        *sum += value * cis(0.5 * turn_of(part.bank) * n as f64);
                     }
                 }
                 found.into_iter().zip(values(&expected)).for_each(|(a, b)| close(a, b));

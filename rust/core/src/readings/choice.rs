@@ -55,7 +55,7 @@ pub(crate) fn within(
     let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.gears);
     let mut gas = GasOrders::default();
     if torque {
-        gas = GasOrders::new(rtol.max(LEAST_OF_GAS), loads, cancel)?;
+        gas = GasOrders::new(rtol, loads, &loads.gears, cancel)?;
         orders.extend(&gas.orders);
         orders.sort_unstable();
         orders.dedup();
@@ -225,28 +225,28 @@ pub(crate) struct GasOrders {
 }
 
 impl GasOrders {
-    /// Of an engine; what may be left out is this part of the largest torque of a cylinder.
-    pub fn new(rtol: f64, loads: &Loads, cancel: &Cancel) -> Result<Self> {
-        let mut weights = vec![0.0; loads.gears.len()];
-        let (mut largest, mut step) = (0.0_f64, 2);
+    /// Of an engine; what may be left out is this part of the largest torque of a cylinder, or
+    /// [`LEAST_OF_GAS`].
+    /// `gears` are those of the loads, at the point of a sweep where their harmonics decrease most
+    /// slowly.
+    pub fn new(rtol: f64, loads: &Loads, gears: &[Gear], cancel: &Cancel) -> Result<Self> {
+        let (volumes, mut largest, mut step) = (loads.volumes(), 0.0_f64, 2);
         for load in &loads.list {
             let Source::Pressure { gear: k } = load.source else { continue };
-            let Some(of_cylinder) = loads.gears[k].largest_gas() else { continue };
-            weights[k] += load.weight;
+            let Some(of_cylinder) = gears[k].largest_gas() else { continue };
             largest = largest.max(load.weight * of_cylinder);
-            if loads.gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four)
-            {
+            if gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four) {
                 step = 1;
             }
         }
-        let allowed = rtol * largest;
+        let allowed = rtol.max(LEAST_OF_GAS) * largest;
         if allowed == 0.0 {
             return Ok(Self::default());
         }
         let mut highest = 24;
         loop {
             let mut tails = vec![0.0; 2 * highest as usize];
-            for (gear, weight) in loads.gears.iter().zip(&weights).filter(|(_, w)| **w > 0.0) {
+            for (gear, weight) in gears.iter().zip(&volumes).filter(|(_, w)| **w > 0.0) {
                 let found = gear.gas_tails(Order::whole(highest)?, cancel)?;
                 tails.iter_mut().zip(found).for_each(|(sum, tail)| *sum += weight * tail);
             }

@@ -3,9 +3,9 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::Complex64;
-use crate::gear::Gear;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
+use crate::gear::{Gear, Pressure};
 use crate::load::{Loads, Source};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
@@ -85,6 +85,26 @@ impl Pistons {
     /// Factors of the torques on the block and on the main crank.
     pub fn senses(&self) -> [f64; 2] {
         [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
+    }
+}
+
+impl Pressures {
+    /// Adds the torque on a crank of ratio 1 by pistons that move so, at crank angles of a block.
+    pub fn add(
+        &self,
+        proportions: &Proportions,
+        angles: &CrankAngles,
+        range: std::ops::Range<usize>,
+        torque: &mut [f64],
+    ) {
+        let Some(Pressure { cycle, crankcase }) = &self.gear.pressure else { return };
+        let units = Units::new(angles, range.clone(), Order::FIRST);
+        for (i, (θ, torque)) in angles.degrees()[range].iter().zip(torque).enumerate() {
+            let velocity = proportions.motion_at(&units.crank(self.phase, i)).velocity;
+            let gauge = cycle.pressure_deg(θ - self.firing_deg) - crankcase;
+            // The piston's way down is minus its distance from the crank.
+            *torque -= gauge * velocity * self.volume;
+        }
     }
 }
 

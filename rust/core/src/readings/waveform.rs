@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::gear::Pressure;
 use crate::gear::rod::Swing;
 use crate::load::{Alike, Loads};
 use crate::numbers::cancel::Cancel;
@@ -162,17 +161,13 @@ impl WaveformRows {
     }
 
     fn add_pressure(&mut self, pressures: &Pressures, angles: &CrankAngles) {
-        let Some(Pressure { cycle, crankcase }) = &pressures.gear.pressure else { return };
-        let units = Units::new(angles, 0..angles.len(), Order::FIRST);
+        let mut torques = AngleColumn::ZERO;
+        pressures.add(&pressures.proportions, angles, 0..angles.len(), &mut torques[..]);
         let [on_block, on_crank] = pressures.gear.senses();
-        for (i, θ) in angles.degrees().iter().enumerate() {
-            let motion = pressures.proportions.motion_at(&units.crank(pressures.phase, i));
-            let gauge = cycle.pressure_deg(θ - pressures.firing_deg) - crankcase;
-            // The piston's way down is minus its distance from the crank.
-            let torque = -gauge * motion.velocity * pressures.volume;
-            for (column, torque) in [(4, -on_block * torque), (5, on_crank * torque)] {
-                self.columns[column][i] += torque;
-                self.columns[column + 2][i] += torque;
+        for (column, sense) in [(4, -on_block), (5, on_crank)] {
+            for (i, torque) in torques.iter().enumerate() {
+                self.columns[column][i] += sense * torque;
+                self.columns[column + 2][i] += sense * torque;
             }
         }
     }

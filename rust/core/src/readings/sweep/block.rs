@@ -11,7 +11,10 @@ pub(super) const LANES: usize = 16;
 type Lanes = [f64; LANES];
 
 /// Sums of every order at up to [`LANES`] rows.
-pub(super) struct Block(Vec<Sums>);
+pub(super) struct Block {
+    orders: Vec<Sums>,
+    mean: Lanes,
+}
 
 /// Real and imaginary parts of an order's forward part and of the conjugate of its backward part (or
 /// of torque and nothing).
@@ -49,9 +52,7 @@ impl Places for From {
     fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes {
         let values = &columns.values[column * columns.length + self.0..][..LANES];
         let mut lanes = [0.0; LANES];
-        for i in 0..LANES {
-            lanes[i] = values[i];
-        }
+        lanes.copy_from_slice(values);
         lanes
     }
 }
@@ -60,8 +61,8 @@ impl Places for Each {
     #[inline(always)]
     fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes {
         let mut lanes = [0.0; LANES];
-        for i in 0..LANES {
-            lanes[i] = columns.values[column * columns.length + self.0[i]];
+        for (lane, place) in lanes.iter_mut().zip(&self.0) {
+            *lane = columns.values[column * columns.length + place];
         }
         lanes
     }
@@ -69,7 +70,7 @@ impl Places for Each {
 
 impl Block {
     pub fn new(orders: usize) -> Self {
-        Self(vec![Sums::default(); orders])
+        Self { orders: vec![Sums::default(); orders], mean: [0.0; LANES] }
     }
 
     /// Sums at the rows from this one on, bank angle by bank angle and point by point.
@@ -101,11 +102,14 @@ impl Block {
         angle: &impl Places,
         point: &impl Places,
     ) {
+        if let Some(mean) = &coefficients.mean {
+            self.mean = point.of(mean, 0);
+        }
         let orders = waves.of_order.iter().zip(&coefficients.by_order);
-        for (sums, (waves_of_order, coefficients)) in self.0.iter_mut().zip(orders) {
+        for (sums, (waves_of_order, coefficients)) in self.orders.iter_mut().zip(orders) {
             let parts = [&mut sums.forward, &mut sums.backward_conj];
             for (side, out) in parts.into_iter().enumerate() {
-                let wave = &waves.waves[waves_of_order[side]];
+                let wave = &waves.columns[waves_of_order[side]];
                 let (cos, sin) = (angle.of(wave, 0), angle.of(wave, 1));
                 for (part, out) in out.iter_mut().enumerate() {
                     let first = 6 * side + part;
@@ -121,15 +125,20 @@ impl Block {
         }
     }
 
+    /// Mean over the turn.
+    pub fn mean(&self, i: usize) -> f64 {
+        self.mean[i]
+    }
+
     /// Bound of the rounding error.
     pub fn bound(&self, order: usize, i: usize) -> f64 {
-        self.0[order].bound[i]
+        self.orders[order].bound[i]
     }
 
     /// Forward part and conjugate of the backward part, zero where rounding is all there is.
     #[inline(always)]
     pub fn turning(&self, order: usize, i: usize) -> [Complex64; 2] {
-        let sums = &self.0[order];
+        let sums = &self.orders[order];
         let ([forward, backward_conj], bound) = (sums.at(i), sums.bound[i]);
         [snapped(forward, bound), snapped(backward_conj, bound)]
     }
@@ -137,7 +146,7 @@ impl Block {
     /// Phasors along (about) x and y; of torque the first is it.
     #[inline(always)]
     pub fn phasors(&self, order: usize, i: usize) -> [Complex64; 2] {
-        let sums = &self.0[order];
+        let sums = &self.orders[order];
         let ([forward, backward_conj], bound) = (sums.at(i), sums.bound[i]);
         let (sum, difference) = (forward + backward_conj, forward - backward_conj);
         // −i times the difference.
@@ -147,7 +156,7 @@ impl Block {
 
     /// Phasors of all orders of one row, component by component.
     pub fn by_component(&self, i: usize) -> [Vec<Complex64>; 2] {
-        let phasors: Vec<_> = (0..self.0.len()).map(|order| self.phasors(order, i)).collect();
+        let phasors: Vec<_> = (0..self.orders.len()).map(|order| self.phasors(order, i)).collect();
         [0, 1].map(|component| phasors.iter().map(|both| both[component]).collect())
     }
 
@@ -155,7 +164,7 @@ impl Block {
     #[inline(always)]
     pub fn magnitudes<const COMPONENTS: usize>(&self, factor: f64, out: &mut [f64]) {
         let (out, _) = out.as_chunks_mut::<COMPONENTS>();
-        for (order, sums) in self.0.iter().enumerate() {
+        for (order, sums) in self.orders.iter().enumerate() {
             let Sums { forward: [f, g], backward_conj: [u, v], bound } = sums;
             let mut values = [[0.0; COMPONENTS]; LANES];
             for (i, values) in values.iter_mut().enumerate() {
@@ -164,7 +173,7 @@ impl Block {
                     *value = factor * magnitude(re, im, bound[i]);
                 }
             }
-            for (row, value) in out.chunks_exact_mut(self.0.len()).zip(&values) {
+            for (row, value) in out.chunks_exact_mut(self.orders.len()).zip(&values) {
                 row[order] = *value;
             }
         }
@@ -173,14 +182,14 @@ impl Block {
     /// Longest vectors of every row and order times a factor.
     #[inline(always)]
     pub fn lengths(&self, factor: f64, out: &mut [f64]) {
-        for (order, sums) in self.0.iter().enumerate() {
+        for (order, sums) in self.orders.iter().enumerate() {
             let Sums { forward: [f, g], backward_conj: [u, v], bound } = sums;
             let mut values = [0.0; LANES];
             for (i, value) in values.iter_mut().enumerate() {
                 let backward = magnitude(u[i], v[i], bound[i]);
                 *value = factor * (magnitude(f[i], g[i], bound[i]) + backward);
             }
-            for (row, value) in out.chunks_exact_mut(self.0.len()).zip(&values) {
+            for (row, value) in out.chunks_exact_mut(self.orders.len()).zip(&values) {
                 row[order] = *value;
             }
         }

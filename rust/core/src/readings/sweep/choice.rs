@@ -19,10 +19,12 @@
 //! - Any other: the bound of the tail that begins with the order, which grows with λ and with the
 //!   magnitude of the offset from order 3 on for torques, and for forces if order 1 counts 1 more.
 //!   Orders 1 and 2 of torques are kept where the layout has them.
+//! - Torque of pressure: the largest of the points, each evaluated.
 
 use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
+use super::Quantity::{CrankTorque, Torque};
 use super::harmonics::of;
 use super::layout::{Layout, LayoutSum, Swung};
 use super::{Axes, Quantity, Sweep};
@@ -35,7 +37,8 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::Order;
-use crate::readings::choice::{candidates, few, scales, tail};
+use crate::readings::balance::TorquePart;
+use crate::readings::choice::{GasOrders, candidates, few, scales, tail};
 
 /// Rod ratio up to which every order of the torque of masses without offset grows with it.
 const TORQUE_GROWS: f64 = 0.95;
@@ -59,11 +62,14 @@ impl Sweep {
         let torque = sweep.torque;
         let mut quantities = vec![Quantity::Force, Quantity::Moment];
         if torque {
-            quantities.extend([Quantity::Torque, Quantity::CrankTorque]);
+            quantities.extend([Torque(TorquePart::Inertia), CrankTorque(TorquePart::Inertia)]);
+        }
+        if torque && sweep.fired {
+            quantities.extend([Torque(TorquePart::Gas), CrankTorque(TorquePart::Gas)]);
         }
         let loads: Vec<Loads> = (0..sweep.engines.len()).map(|k| sweep.loads(k)).collect();
         let [ratio, offset] = sweep.extremes;
-        let (mut slowest, mut allowed) = (Vec::new(), Vec::new());
+        let (mut slowest, mut allowed, mut gas_tails) = (Vec::new(), Vec::new(), Vec::new());
         sweep.orders = Vec::new();
         for (engine, loads) in sweep.engines.iter().zip(&loads) {
             cancel.check()?;
@@ -71,8 +77,16 @@ impl Sweep {
             let gears: Vec<Gear> = gears.collect::<Result<_>>()?;
             let scales = scales(engine, loads);
             sweep.orders.extend(candidates(rtol, &scales, loads, &gears, torque)?);
+            let mut gas = GasOrders::default();
+            if torque && sweep.fired {
+                gas = GasOrders::new(rtol, loads, &gears, cancel)?;
+                sweep.orders.extend(&gas.orders);
+            }
             slowest.push(gears);
-            allowed.extend(quantities.iter().map(|quantity| rtol * scales[quantity.bound()]));
+            gas_tails.push(sweep.gas_tail(loads, &gas, cancel)?);
+            let [force, moment, torque] = scales.map(|scale| rtol * scale);
+            let of_engine = [force, moment, torque, gas.allowed];
+            allowed.extend(quantities.iter().map(|quantity| of_engine[quantity.bound()]));
         }
         sweep.orders.sort_unstable();
         sweep.orders.dedup();
@@ -82,7 +96,8 @@ impl Sweep {
         let mut known = Known::new();
         for (index, (loads, gears)) in loads.iter().zip(&slowest).enumerate() {
             cancel.check()?;
-            let rest = tail(loads, sweep.orders.last(), torque, gears);
+            let [force, moment, inertia] = tail(loads, sweep.orders.last(), torque, gears);
+            let rest = [force, moment, inertia, gas_tails[index]];
             let layouts = sweep.layouts(&sweep.engines[index], loads, &quantities)?;
             for (&quantity, layout) in quantities.iter().zip(&layouts) {
                 let largest = sweep.largest(layout, gears, quantity, &mut known, cancel)?;
@@ -92,10 +107,12 @@ impl Sweep {
         }
         let kept = few(&sizes, &allowed, &mut lost);
         let fastest = sweep.squares.iter().copied().fold(0.0, f64::max);
+        let mut worst = [0.0_f64; 4];
         for (lost, quantity) in lost.into_iter().zip(quantities.iter().cycle()) {
-            let worst = &mut sweep.error_bound[quantity.bound()];
-            *worst = worst.max(lost * fastest);
+            worst[quantity.bound()] = worst[quantity.bound()].max(lost);
         }
+        let [force, moment, inertia, gas] = worst;
+        sweep.error_bound = [force * fastest, moment * fastest, inertia * fastest + gas];
         for ((order, kept), sizes) in
             std::mem::take(&mut sweep.orders).into_iter().zip(kept).zip(sizes)
         {
@@ -108,7 +125,25 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Bounds over ω² of the size of each order, |forward| + |backward| or |torque|, at any point;
+    /// Bound, at any point, of the torque of pressure above the last of its orders.
+    fn gas_tail(&self, loads: &Loads, gas: &GasOrders, cancel: &Cancel) -> Result<f64> {
+        let Some(&last) = gas.orders.last().filter(|_| self.points() > 1) else {
+            return Ok(gas.tail);
+        };
+        let (volumes, mut worst) = (loads.volumes(), 0.0_f64);
+        for point in 0..self.points() {
+            cancel.check()?;
+            let mut tail = 0.0;
+            for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
+                let tails = self.at_point(gear, point)?.gas_tails(last, cancel)?;
+                tail += volume * tails.last().copied().unwrap_or(0.0);
+            }
+            worst = worst.max(tail);
+        }
+        Ok(worst)
+    }
+
+    /// Bounds, of inertia over ω², of the size of each order, |forward| + |backward| or |torque|, at any point;
     /// `slowest` are the gears of the point where harmonics decrease most slowly.
     fn largest(
         &self,
@@ -127,7 +162,7 @@ impl Sweep {
         let known: &Known = known;
         let factor = |harmonic: Harmonic, order: usize| {
             let found = factors.iter().find(|(known, _)| *known == harmonic);
-            let on_crank = usize::from(quantity == Quantity::CrankTorque);
+            let on_crank = usize::from(matches!(quantity, CrankTorque(_)));
             found.map_or(Factor::AtMost(0.0), |&(_, place)| known[place].2[on_crank][order])
         };
         let size = |(k, sums): (usize, &Vec<LayoutSum>)| {
@@ -195,6 +230,17 @@ impl Sweep {
         if self.points() == 1 {
             return values(gear, Factor::Fixed);
         }
+        if matches!(harmonic, Harmonic::Gas(_)) {
+            let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
+            for point in 0..self.points() {
+                let (TorqueHarmonics { roll, crank }, _) =
+                    self.at_point(gear, point)?.gas(orders, cancel)?;
+                for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
+                    sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
+                }
+            }
+            return Ok(sizes.map(|sizes| sizes.into_iter().map(Factor::AtMost).collect()));
+        }
         let rod_ratio = match &gear.kind {
             GearKind::SliderCrank { proportions, .. } => 1.0 / proportions.rod,
             GearKind::Given(_) => 0.0,
@@ -202,15 +248,15 @@ impl Sweep {
         let grows = match harmonic {
             Harmonic::Torque(_) => rod_ratio <= TORQUE_GROWS,
             Harmonic::Rod(_) => rod_ratio <= ROD_TORQUE_GROWS,
-            Harmonic::Force(_) | Harmonic::One => true,
-            Harmonic::Gas(_) => false,
+            Harmonic::Force(_) | Harmonic::One | Harmonic::Gas(_) => true,
         };
         if gear.is_centred() && grows {
             return values(gear, |value| Factor::AtMost(value.norm()));
         }
         let bound = |&order: &Order| {
-            let own = order.halves() / 2 / gear.ratio.unsigned_abs();
-            let [force, masses, rod] = gear.tail(order.halves() / 2 - 1, true);
+            let Some(whole) = order.as_whole() else { return Factor::AtMost(0.0) };
+            let own = whole / gear.ratio.unsigned_abs();
+            let [force, masses, rod] = gear.tail(whole - 1, true);
             Factor::AtMost(match harmonic {
                 Harmonic::Force(_) => force + f64::from(u8::from(own == 1)),
                 _ if own < 3 => f64::INFINITY,
@@ -251,12 +297,13 @@ fn times(size: f64, largest: f64) -> f64 {
 }
 
 impl Quantity {
-    /// Which of the bounds of force, moment and torque it counts for.
+    /// Which of the bounds of force, moment and torque of inertia and of pressure it counts for.
     fn bound(self) -> usize {
         match self {
             Self::Force => 0,
             Self::Moment => 1,
-            Self::Torque | Self::CrankTorque => 2,
+            Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => 3,
+            Torque(_) | CrankTorque(_) => 2,
         }
     }
 }

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::block::LANES;
-use super::harmonics::PointHarmonics;
+use super::harmonics::{PointHarmonics, Points};
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::gear::Gear;
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -33,9 +33,9 @@ impl<const N: usize> Columns<N> {
     }
 }
 
-/// Cosines and sines of multiples of half the bank angle, at some bank angles.
+/// Cosines and sines of multiples of a quarter of the bank angle, at some bank angles.
 pub(super) struct Waves {
-    pub waves: Vec<Columns<2>>,
+    pub columns: Vec<Columns<2>>,
     /// Places of the waves of the forward part (or torque) and of the backward part, by order.
     pub of_order: Vec<[usize; 2]>,
     /// Number of bank angles.
@@ -49,7 +49,7 @@ impl Waves {
         angles: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let (mut waves, mut places) = (Vec::new(), BTreeMap::new());
+        let (mut columns, mut places) = (Vec::new(), BTreeMap::new());
         let mut of_order = memory::room(sweep.orders.len())?;
         let mut degrees: Vec<f64> = memory::zeros(angles.len())?;
         for &order in &sweep.orders {
@@ -59,8 +59,8 @@ impl Waves {
             let multiples = bank_angle.map_or([0; 2], |(_, hold)| quantity.turn(order, *hold));
             let mut place = [0; 2];
             for (place, multiple) in place.iter_mut().zip(multiples.map(i64::unsigned_abs)) {
-                *place = *places.entry(multiple).or_insert(waves.len());
-                if *place < waves.len() {
+                *place = *places.entry(multiple).or_insert(columns.len());
+                if *place < columns.len() {
                     continue;
                 }
                 let mut wave = Columns::zeros(angles.len())?;
@@ -68,23 +68,23 @@ impl Waves {
                 if multiple == 0 {
                     cos.fill(1.0);
                 } else {
-                    let (half, bank_angles) = (0.5 * multiple as f64, sweep.bank_angles());
+                    let (quarter, bank_angles) = (0.25 * multiple as f64, sweep.bank_angles());
                     vectorised(
                         #[inline(always)]
                         || {
                             for (out, angle) in degrees.iter_mut().zip(&bank_angles[angles.clone()])
                             {
-                                *out = half * angle;
+                                *out = quarter * angle;
                             }
                             sin_cos_degrees(&degrees, sin, cos);
                         },
                     );
                 }
-                memory::push(&mut waves, wave)?;
+                memory::push(&mut columns, wave)?;
             }
             of_order.push(place);
         }
-        Ok(Self { waves, of_order, angles: angles.len() })
+        Ok(Self { columns, of_order, angles: angles.len() })
     }
 }
 
@@ -93,6 +93,9 @@ pub(super) struct Coefficients {
     /// Real and imaginary parts of cos, sin and rest of the forward and of the backward part, and the
     /// bound of rounding errors.
     pub by_order: Vec<Columns<13>>,
+    /// Means, where there are any.
+    pub mean: Option<Columns<1>>,
+    /// Points, each at every speed if the sums depend on it otherwise than by ω².
     pub points: usize,
 }
 
@@ -100,11 +103,13 @@ impl Coefficients {
     pub fn new(
         sweep: &Sweep,
         quantity: Quantity,
-        (gears, layout): (&[Gear], &Layout),
-        points: Range<usize>,
+        (loads, layout): (&Loads, &Layout),
+        points: &Points,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let count = points.len();
+        let count = points.range.len();
+        let mean = sweep.means(loads, quantity, points, cancel)?;
+        let gears = &loads.gears;
         let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
@@ -132,6 +137,6 @@ impl Coefficients {
             }
             by_order.push(columns);
         }
-        Ok(Self { by_order, points: count })
+        Ok(Self { by_order, mean, points: count })
     }
 }

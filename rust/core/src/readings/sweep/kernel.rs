@@ -13,10 +13,11 @@ use rayon::prelude::*;
 
 use super::block::{Block, LANES};
 use super::factors::{Coefficients, Waves};
+use super::harmonics::Points;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
-use crate::gear::Gear;
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -46,6 +47,10 @@ pub(super) struct Job<'a, F> {
     pub width: usize,
     /// Whether a row takes some hundred times as long as its sums: a search for an extremum.
     pub slow: bool,
+    /// ω² of each speed, where a row is one of a point at a speed.
+    pub within: Option<&'a [f64]>,
+    /// Factors of each row, otherwise.
+    pub after: &'a [f64],
     pub cancel: &'a Cancel,
     /// Writes the rows of a block, times a factor.
     pub finish: F,
@@ -57,8 +62,8 @@ impl<F: Sync> Job<'_, F> {
     where
         F: Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
     {
-        let speeds = &self.sweep.squares;
-        if let [square] = speeds[..] {
+        let speeds = self.after;
+        if let [square] = *speeds {
             return self.rows(out, square);
         }
         let mut rows = memory::zeros(out.len() / speeds.len())?;
@@ -82,26 +87,27 @@ impl<F: Sync> Job<'_, F> {
         F: Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
     {
         let (sweep, width) = (self.sweep, self.width);
-        let (angles, points) = (sweep.bank_angles().len(), sweep.points());
+        let angles = sweep.bank_angles().len();
+        let points = sweep.points() * self.within.map_or(1, <[f64]>::len);
         let piece = if self.slow { 8 } else { PIECE };
-        let slab = (SLAB / sweep.orders.len()).clamp(STRETCH, 1 << 14);
+        let slab = (SLAB / sweep.orders.len().max(1)).clamp(STRETCH, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
         let large = pool::worth(out.len() * if self.slow { 256 } else { 1 });
         let layout = |k: usize| {
             self.cancel.check()?;
             let loads = sweep.loads(k);
             let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;
-            Ok((loads.gears, layouts.into_iter().next().unwrap_or_default()))
+            Ok((loads, layouts.into_iter().next().unwrap_or_default()))
         };
-        let layouts: Vec<(Vec<Gear>, Layout)> =
+        let layouts: Vec<(Loads, Layout)> =
             self.each((0..sweep.engines.len()).collect(), large, layout)?;
         self.cancel.expect(sweep.engines.len() * angles * points);
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
-                let coefficients = |(gears, layout): &(Vec<Gear>, Layout)| {
-                    let (quantity, points) = (self.quantity, point_slab.clone());
-                    Coefficients::new(sweep, quantity, (gears, layout), points, self.cancel)
+                let coefficients = |(loads, layout): &(Loads, Layout)| {
+                    let points = Points { range: point_slab.clone(), squares: self.within };
+                    Coefficients::new(sweep, self.quantity, (loads, layout), &points, self.cancel)
                 };
                 let coefficients = self.each(layouts.iter().collect(), large, coefficients)?;
                 let mut tasks = Vec::new();

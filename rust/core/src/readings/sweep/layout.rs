@@ -3,9 +3,11 @@
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{Alike, Harmonic, Loads, PhasorSum, Term, Turn, Wanted};
+use crate::load::{Alike, Harmonic, Loads, PhasorSum, Scale, Term, Turn, Wanted};
+use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::readings::balance::TorquePart;
 use crate::wrench::rounding;
 
 /// Sums of one harmonic of an order, over its amplitude.
@@ -18,8 +20,8 @@ pub(super) struct LayoutSum {
     pub bound: f64,
 }
 
-/// A sum with the two banks at `bisector ∓ γ`: cos·cos(|m|γ) + sin·sin(|m|γ) + rest, m being the
-/// multiple by which the part turns with its bank.
+/// A sum with the two banks at `bisector ∓ γ`: cos·cos(|m|γ/2) + sin·sin(|m|γ/2) + rest, m being the
+/// multiple of half an angle by which the part turns with its bank.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Swung {
     pub cos: Complex64,
@@ -43,7 +45,12 @@ impl Sweep {
             Some((_, hold)) => {
                 let banks = engine.banks()?;
                 let bisector = banks.bisector();
-                Some((banks.right, banks.directions.map(|bore| bisector - bore), *hold))
+                // The shorter way, half of it, by whole multiples of which half orders turn.
+                let half_turn = Angle::QUARTER_TURN + Angle::QUARTER_TURN;
+                let halves = banks
+                    .directions
+                    .map(|bore| ((bisector - bore + half_turn).reduced() - half_turn).half());
+                Some((banks.right, halves, *hold))
             }
             None => None,
         };
@@ -74,7 +81,7 @@ impl Sweep {
                             continue;
                         }
                         let turned = part.value * to_bisector.cis(multiple);
-                        // e^{−imγ} of the right bank, e^{imγ} of the left.
+                        // e^{−imγ/2} of the right bank, e^{imγ/2} of the left.
                         let sine = Complex64::i() * turned;
                         sum.cos += turned;
                         sum.sin += if is_right == (multiple > 0) { -sine } else { sine };
@@ -112,17 +119,23 @@ impl Quantity {
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
         let own =
             matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_) | Harmonic::Gas(_));
+        let left_out = match self.part() {
+            Some(TorquePart::Whole) => false,
+            Some(TorquePart::Inertia) => term.harmonic.scale() == Scale::Given,
+            Some(TorquePart::Gas) => term.harmonic.scale() == Scale::Speed,
+            None => own,
+        };
         match self {
-            Self::Force | Self::Moment if own => None,
+            _ if left_out => None,
             Self::Force => Some(term.force),
             Self::Moment => Some(term.moment),
             // A shaft that turns evenly takes no torque of the crank, nor does a force on an arm.
-            Self::CrankTorque if !own => None,
-            Self::Torque | Self::CrankTorque => Some([term.roll, PhasorSum::default()]),
+            Self::CrankTorque(_) if !own => None,
+            Self::Torque(_) | Self::CrankTorque(_) => Some([term.roll, PhasorSum::default()]),
         }
     }
 
-    /// Multiples of half the bank angle for the forward part (or torque) and for the conjugate of
+    /// Multiples of a quarter of the bank angle for the forward part (or torque) and for the conjugate of
     /// the backward part.
     pub(super) fn turn(self, order: Order, hold: Hold) -> [i64; 2] {
         let turn = Turn::new(order, hold);

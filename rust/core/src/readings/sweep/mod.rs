@@ -28,6 +28,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
+use crate::readings::balance::TorquePart;
 use crate::readings::peaks::PeakFinder;
 
 /// What is evaluated at each point.
@@ -37,10 +38,10 @@ pub enum Quantity {
     Force,
     /// Rocking moment about x and y.
     Moment,
-    /// Roll torque on the block.
-    Torque,
-    /// Inertia torque on the crank.
-    CrankTorque,
+    /// Roll torque on the block, or a part of it.
+    Torque(TorquePart),
+    /// Torque on the crank, or a part of it.
+    CrankTorque(TorquePart),
 }
 
 /// Which value of force, moment or torque over the turn.
@@ -58,6 +59,8 @@ pub enum Figure {
     Sum,
     /// The longest vector of all orders together: (…).
     LengthOfSum,
+    /// The mean over the turn: (…).
+    Mean,
 }
 
 /// Engines and axes, checked; values are evaluated when they are asked for.
@@ -73,6 +76,8 @@ pub struct Sweep {
     squares: Vec<f64>,
     /// Whether torque is wanted.
     torque: bool,
+    /// Whether gas pressure counts in any engine.
+    fired: bool,
     omitted: Vec<Order>,
     error_bound: [f64; 3],
 }
@@ -97,9 +102,8 @@ impl Sweep {
         let references = engines.iter().map(|engine| engine.reference(reference_z));
         Ok(Self {
             references: references.collect::<Result<_>>()?,
-            torque: engines
-                .iter()
-                .all(|engine| engine.spectrum().is_none() && engine.gas().is_none()),
+            torque: engines.iter().all(|engine| engine.spectrum().is_none()),
+            fired: engines.iter().any(|engine| engine.gas().is_some()),
             engines,
             axes,
             orders,
@@ -172,7 +176,7 @@ impl Sweep {
             Figure::Turning => [orders, &[2]],
             Figure::Length | Figure::ZeroBound => [orders, &[]],
             Figure::Sum => [&[], quantity.shape()],
-            Figure::LengthOfSum => [&[], &[]],
+            Figure::LengthOfSum | Figure::Mean => [&[], &[]],
         };
         [&self.shape()[..], &tail.concat()].concat()
     }
@@ -246,8 +250,12 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
-        let finder = figure.is_of_sum().then(|| PeakFinder::new(&self.orders)).transpose()?;
-        let (orders, components) = (self.orders.len(), quantity.components());
+        let (orders, has_mean) = (&self.orders, self.has_mean(quantity));
+        let finder = figure.is_of_sum().then(|| {
+            if has_mean { PeakFinder::about_mean(orders) } else { PeakFinder::new(orders) }
+        });
+        let finder = finder.transpose()?;
+        let (orders, components) = (orders.len(), quantity.components());
         self.fill(
             (quantity, figure),
             out,
@@ -256,6 +264,11 @@ impl Sweep {
             |block: &Block, factor: f64, out: &mut [f64]| {
                 match (figure, &finder) {
                     (Figure::Length, _) => block.lengths(factor, out),
+                    (Figure::Mean, _) => {
+                        for (i, mean) in out.iter_mut().enumerate() {
+                            *mean = block.mean(i) * factor;
+                        }
+                    }
                     (Figure::ZeroBound, _) => {
                         for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                             for (order, bound) in row.iter_mut().enumerate() {
@@ -267,7 +280,12 @@ impl Sweep {
                         for (i, row) in out.chunks_exact_mut(components).enumerate() {
                             cancel.check()?;
                             for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                                *peak = finder.along_axis(&phasors, cancel)? * factor;
+                                *peak = factor
+                                    * if has_mean {
+                                        finder.beside_mean(block.mean(i), &phasors, cancel)?
+                                    } else {
+                                        finder.along_axis(&phasors, cancel)?
+                                    };
                             }
                         }
                     }
@@ -288,13 +306,11 @@ impl Sweep {
 
     /// Rejects torque that was not asked for or that a spectrum does not determine.
     fn check_known(&self, quantity: Quantity) -> Result<()> {
-        if !matches!(quantity, Quantity::Torque | Quantity::CrankTorque) || self.torque {
+        if quantity.is_planar() || self.torque {
             return Ok(());
         }
         let reason = if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             "a force spectrum does not determine it; compute without `spectrum`"
-        } else if self.engines.iter().any(|engine| engine.gas().is_some()) {
-            "sweeps do not count gas pressure yet; use balance at each point"
         } else {
             "torque=False was given; leave it out"
         };
@@ -328,13 +344,28 @@ impl Sweep {
         if out.len() != shape.iter().product::<usize>() {
             return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
         }
-        if self.orders.is_empty() {
+        if out.is_empty() || self.orders.is_empty() && !self.has_mean(quantity) {
             out.fill(T::default());
             return Ok(());
         }
         let width = shape[5..].iter().product();
         let slow = figure.is_of_sum();
-        Job { sweep: self, quantity, width, slow, cancel, finish }.run(out)
+        let squares = &self.squares[..];
+        let ones: Vec<f64>;
+        let (within, after) = match quantity.part() {
+            Some(TorquePart::Whole) if self.fired => (Some(squares), &[1.0][..]),
+            Some(TorquePart::Gas) => {
+                ones = memory::collected(squares.iter().map(|_| 1.0))?;
+                (None, &ones[..])
+            }
+            _ => (None, squares),
+        };
+        Job { sweep: self, quantity, width, slow, within, after, cancel, finish }.run(out)
+    }
+
+    /// Whether a mean counts in a quantity.
+    fn has_mean(&self, quantity: Quantity) -> bool {
+        self.fired && matches!(quantity.part(), Some(TorquePart::Whole | TorquePart::Gas))
     }
 
     /// Number of points of rod ratio and pin offset.
@@ -360,7 +391,15 @@ impl Quantity {
     fn shape(self) -> &'static [usize] {
         match self {
             Self::Force | Self::Moment => &[2],
-            Self::Torque | Self::CrankTorque => &[],
+            Self::Torque(_) | Self::CrankTorque(_) => &[],
+        }
+    }
+
+    /// Which part of a torque it is.
+    fn part(self) -> Option<TorquePart> {
+        match self {
+            Self::Force | Self::Moment => None,
+            Self::Torque(part) | Self::CrankTorque(part) => Some(part),
         }
     }
 

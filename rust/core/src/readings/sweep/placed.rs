@@ -7,13 +7,23 @@ use super::Quantity;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::numbers::crank_angles::CrankAngles;
+use crate::readings::balance::TorquePart;
 use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
     pub kinematics: Kinematics,
-    /// Slider-cranks of its pistons at a point of rod ratio and offset, and ω² of its rows.
-    pub points: Vec<(Vec<Proportions>, Vec<f64>)>,
+    pub points: Vec<PlacedPoint>,
+}
+
+/// A point of rod ratio and offset.
+pub(super) struct PlacedPoint {
+    /// Slider-cranks of the pistons.
+    pub pistons: Vec<Proportions>,
+    /// Those of the pistons under pressure.
+    pub pressures: Vec<Proportions>,
+    /// ω² of its rows.
+    pub squares: Vec<f64>,
 }
 
 impl Placed {
@@ -34,16 +44,38 @@ impl Placed {
             let at_start = match quantity {
                 Quantity::Force => unbalances.planar[0],
                 Quantity::Moment => unbalances.planar[1],
-                Quantity::Torque => unbalances.roll,
-                Quantity::CrankTorque => continue,
+                Quantity::Torque(_) => unbalances.roll,
+                Quantity::CrankTorque(_) => continue,
             };
             units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
         }
         match quantity {
             Quantity::Force => self.planar(0, &cranks, &[x, y], outs),
             Quantity::Moment => self.planar(1, &cranks, &[x, y], outs),
-            Quantity::Torque => self.torque::<true>(&cranks, &y, outs),
-            Quantity::CrankTorque => self.torque::<false>(&cranks, &AngleColumn::ZERO, outs),
+            Quantity::Torque(part) | Quantity::CrankTorque(part) => {
+                // Pressure does not scale with speed.
+                let on_block = matches!(quantity, Quantity::Torque(_));
+                let gas = |point: &PlacedPoint| {
+                    let mut sum = AngleColumn::ZERO;
+                    let pressures = self.kinematics.pressures.iter().zip(&point.pressures);
+                    for (pressures, proportions) in
+                        pressures.filter(|_| part != TorquePart::Inertia)
+                    {
+                        let mut torque = AngleColumn::ZERO;
+                        pressures.add(proportions, angles, range.clone(), &mut torque[..]);
+                        let [block, crank] = pressures.gear.senses();
+                        let sense = if on_block { -block } else { crank };
+                        sum.iter_mut().zip(&torque[..]).for_each(|(sum, t)| *sum += sense * t);
+                    }
+                    sum
+                };
+                let inertia = part != TorquePart::Gas;
+                if on_block {
+                    self.torque::<true>(inertia, &cranks, &y, &gas, outs);
+                } else {
+                    self.torque::<false>(inertia, &cranks, &AngleColumn::ZERO, &gas, outs);
+                }
+            }
         }
     }
 
@@ -57,7 +89,7 @@ impl Placed {
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        for (proportions, squares) in &self.points {
+        for PlacedPoint { pistons: proportions, squares, .. } in &self.points {
             let [mut x, mut y] = unbalances.clone();
             for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
                 let along = pistons.planar[which];
@@ -77,12 +109,14 @@ impl Placed {
     #[inline(always)]
     fn torque<'o, const ROLL: bool>(
         &self,
+        inertia: bool,
         cranks: &[Cranks],
         unbalances: &AngleColumn,
+        gas: &impl Fn(&PlacedPoint) -> AngleColumn,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        for (proportions, squares) in &self.points {
+        for point @ PlacedPoint { pistons: proportions, squares, .. } in &self.points {
             let mut sum = unbalances.clone();
             for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
                 let [on_block, on_crank] = pistons.senses();
@@ -103,9 +137,11 @@ impl Placed {
                     }
                 }
             }
+            let gas = gas(point);
             for (&square, out) in squares.iter().zip(&mut *outs) {
-                for (out, sum) in out.iter_mut().zip(&sum[..]) {
-                    *out = square * sum;
+                let square = if inertia { square } else { 0.0 };
+                for ((out, sum), gas) in out.iter_mut().zip(&sum[..]).zip(&gas[..]) {
+                    *out = square.mul_add(*sum, *gas);
                 }
             }
         }

@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::placed::Placed;
+use super::placed::{Placed, PlacedPoint};
 use super::tiles::{TILE, Term, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
+use crate::gear::GearKind;
+use crate::gear::slider_crank::Cylinder;
 use crate::load::{Alike, Loads};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -58,13 +60,28 @@ impl Sweep {
         }
         if self.orders.is_empty() {
             out.fill(0.0);
-            return Ok(());
+        } else {
+            self.sum_orders(quantity, &rows, out)?;
         }
+        if self.has_mean(quantity) {
+            let mut means: Vec<f64> = memory::zeros(shape[..5].iter().product())?;
+            self.write_peaks(quantity, Figure::Mean, &mut means, cancel)?;
+            for (mean, row) in means.iter().zip(out.chunks_mut(angles.len().max(1))) {
+                cancel.check()?;
+                for torque in row {
+                    *torque += mean;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn sum_orders(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
         self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
         let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
         let mut phasors: Vec<Complex64> = memory::zeros(phasors)?;
-        self.write_phasors(quantity, Figure::Amplitude, &mut phasors, cancel)?;
-        self.by_orders(&phasors, &rows, out)
+        self.write_phasors(quantity, Figure::Amplitude, &mut phasors, rows.cancel)?;
+        self.by_orders(&phasors, rows, out)
     }
 
     fn by_orders(&self, phasors: &[Complex64], rows: &Rows, out: &mut [f64]) -> Result<()> {
@@ -127,12 +144,21 @@ impl Sweep {
                     if last != Some((place, point)) {
                         let ratio = list(&self.axes.rod_ratio, point / offsets);
                         let offset = list(&self.axes.pin_offset, point % offsets);
-                        let pistons = here.kinematics.pistons.iter();
-                        let cranks = pistons.map(|p| p.cylinder.proportions_with(ratio, offset));
-                        here.points.push((cranks.collect::<Result<_>>()?, Vec::new()));
+                        let at = |cylinder: &Cylinder| cylinder.proportions_with(ratio, offset);
+                        let pistons = here.kinematics.pistons.iter().map(|p| at(&p.cylinder));
+                        let pressures = here.kinematics.pressures.iter();
+                        let pressures = pressures.map(|pressures| match &pressures.gear.kind {
+                            GearKind::SliderCrank { cylinder, .. } => at(cylinder),
+                            GearKind::Given(_) => Ok(pressures.proportions),
+                        });
+                        here.points.push(PlacedPoint {
+                            pistons: pistons.collect::<Result<_>>()?,
+                            pressures: pressures.collect::<Result<_>>()?,
+                            squares: Vec::new(),
+                        });
                     }
-                    let Some((_, squares)) = here.points.last_mut() else { continue };
-                    squares.push(self.squares[speed]);
+                    let Some(rows) = here.points.last_mut() else { continue };
+                    rows.squares.push(self.squares[speed]);
                     last = Some((place, point));
                 }
                 Ok(placed)

@@ -15,10 +15,10 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
     let orders = 3;
     for (angles, points) in [(300, 1), (1, 300), (7, 40), (40, 7), (3, 128), (2, 129)] {
         let of_order = vec![[0, 1], [1, 2], [3, 1]];
-        let waves = (0..4).map(|wave| columns(angles, 7 * wave)).collect();
-        let waves = Waves { waves, of_order, angles };
+        let columns_of = (0..4).map(|wave| columns(angles, 7 * wave)).collect();
+        let waves = Waves { columns: columns_of, of_order, angles };
         let by_order = (0..orders).map(|order| columns(points, 100 * (order + 1))).collect();
-        let coefficients = Coefficients { by_order, points };
+        let coefficients = Coefficients { by_order, mean: Some(columns(points, 7)), points };
         let mut block = Block::new(orders);
         // Also of a first row within an angle, and of rows after the last one.
         for row in [0, 5, 13, (angles * points).saturating_sub(3)] {
@@ -26,7 +26,7 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
             for (i, row) in (row..angles * points).take(LANES).enumerate() {
                 for order in 0..orders {
                     let wave = |side: usize, column: usize| {
-                        let wave = &waves.waves[waves.of_order[order][side]];
+                        let wave = &waves.columns[waves.of_order[order][side]];
                         wave.values[column * wave.length + row / points]
                     };
                     let c = &coefficients.by_order[order];
@@ -38,6 +38,8 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
                     };
                     let (expected, bound) = ([part(0), part(1)], c(12));
                     assert_eq!(block.bound(order, i), bound);
+                    let mean = coefficients.mean.as_ref().unwrap();
+                    assert_eq!(block.mean(i), mean.values[row % points]);
                     assert_eq!(block.turning(order, i), expected.map(|p| snapped(p, bound)));
                     let [x, y] = [expected[0] + expected[1], expected[0] - expected[1]];
                     let xy = [x, -Complex64::i() * y].map(|p| snapped(p, bound));
