@@ -88,7 +88,7 @@ fn gas_shakes_nothing_and_turns_the_block_against_its_own_crank_torque() {
         let mut on_crank = 0.0;
         for (j, place) in still.placements().iter().enumerate() {
             let local = angle(thetas[k]) - place.tdc;
-            let after = local.degrees().rem_euclid(720.0);
+            let after = thetas[k] - fired.firing_phase(j).degrees();
             let expected = if j == 2 { 0.0 } else { AREA * (pressure(after) - 1.2e5) };
             // Cubics of steps of 2° of a peak some 30° wide: (2/30)⁴/384 of 2·10⁴ N.
             assert!((loads.gas[[j, k]] - expected).abs() < 0.01, "gas of {j} at {k}");
