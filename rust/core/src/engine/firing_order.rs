@@ -87,10 +87,10 @@ mod tests {
 
     #[test]
     fn orders_begin_with_the_first_cylinder() {
-        let order: FiringOrder = "3+2 4,1-5".parse().unwrap();
-        assert_eq!(order.to_string(), "3+2-4-1-5");
+        let order: FiringOrder = "3+2 4,1-5-6".parse().unwrap();
+        assert_eq!(order.to_string(), "3+2-4-1-5-6");
         let (cylinders, together) = order.rotated();
-        assert_eq!(cylinders, [0, 4, 1, 2, 3]);
-        assert_eq!(together, [false, false, false, true, false]);
+        assert_eq!(cylinders, [0, 4, 5, 1, 2, 3]);
+        assert_eq!(together, [false, false, false, false, true, false]);
     }
 }

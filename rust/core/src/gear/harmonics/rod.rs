@@ -134,6 +134,28 @@ impl SwingHarmonics {
 mod tests {
     use super::*;
 
+    /// Sweeps bound every order by that of the largest rod ratio, up to 0.9.
+    #[test]
+    fn orders_without_offset_grow_with_the_rod_ratio() {
+        let orders: Vec<u32> = (1..=16).collect();
+        let sizes = |ratio: f64| {
+            let proportions = Proportions::new(ratio, 0.0).unwrap();
+            let TorqueHarmonics { roll, crank } =
+                torque(&proportions, &orders, &Cancel::new()).unwrap();
+            [roll, crank].concat().into_iter().map(|phasor| phasor.norm()).collect::<Vec<_>>()
+        };
+        let mut last = sizes(0.01);
+        for percent in 2..=90 {
+            let next = sizes(f64::from(percent) / 100.0);
+            for (next, last) in next.iter().zip(&last) {
+                assert!(next >= last, "{percent} {last} {next}");
+            }
+            last = next;
+        }
+        // Order 2 is largest at λ = 0.910: q = √2 − 1.
+        assert!(sizes(0.92)[1] > sizes(0.95)[1]);
+    }
+
     #[test]
     fn series_and_quadrature_meet() {
         // Where the series has 1900 terms.

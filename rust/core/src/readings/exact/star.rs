@@ -162,6 +162,14 @@ mod tests {
     }
 
     #[test]
+    fn a_vector_lags_by_its_order_times_the_angle_of_firing() {
+        let star = at(&stars(&[0.0, 90.0], &[1.0, 2.0]), 1);
+        let lag = Complex64::from_polar(2.0, -std::f64::consts::FRAC_PI_4);
+        assert!((star.vectors[1] - lag).norm() < 1e-15);
+        assert_eq!(star.sum, star.vectors[0] + star.vectors[1]);
+    }
+
+    #[test]
     fn a_turn_changes_the_sign_at_half_orders() {
         let [early, late] = [[0.0, 90.0], [0.0, 450.0]].map(|fire| stars(&fire, &[1.0; 2]));
         for halves in 1..12 {

@@ -1,6 +1,8 @@
 use proptest::prelude::*;
 use proptest::sample::select;
 
+use std::sync::Arc;
+
 use super::*;
 use crate::engine::{Placement, Shaft, Unbalance};
 use crate::{Angle, Cylinder};
@@ -43,6 +45,22 @@ fn an_inline_three() {
     assert_eq!(verdicts(&i3, 1), [V, V, V, V, R, V, R, R, V]);
     assert_eq!(verdicts(&i3, 5), [V; 9]);
     assert_eq!(verdicts(&i3, 6), [V, R, R, R, V, V, V, V, R]);
+}
+
+#[test]
+fn gas_has_half_orders_in_a_four_stroke_alone() {
+    let i3 = Arc::new(engine(&[0.0, 1.0, 2.0].map(|k| (120.0 * k, 90.0, 0.1 * k, 0.45, 0.0))));
+    let orders = [1, 2, 6].map(|halves| Order::from_halves(halves).unwrap());
+    let found = |firing: Option<&Firing>| {
+        let found = super::vanishing(&i3, &orders, None, firing, &crate::Cancel::new())?;
+        Ok::<_, Error>(found.verdicts.iter().map(|verdicts| verdicts[9]).collect::<Vec<_>>())
+    };
+    // All fire in the first turn: of order ½ 1 + e^{−60°} + e^{−120°} is left.
+    for (strokes, expected) in [(Strokes::Two, [V, V, R]), (Strokes::Four, [R, V, R])] {
+        let firing = Firing::with_later(&i3, strokes, &[false; 3]).unwrap();
+        assert_eq!(found(Some(&firing)).unwrap(), expected);
+    }
+    assert!(found(None).unwrap_err().to_string().contains("need a firing order"));
 }
 
 #[test]
