@@ -400,3 +400,26 @@ def test_without_gas_pressure_inertia_is_the_whole_torque() -> None:
         np.testing.assert_array_equal(waves.read("crank_torque.gas"), 0.0 * waves.crank_torque)
         with pytest.raises(cp.InputError, match=r"quantity = 'moment\.gas': give"):
             waves.read("moment.gas")
+
+
+def test_half_orders_are_keys_rows_and_coordinates() -> None:
+    cylinder = OFFSET.replace(bore=0.09)
+    fired = cp.Engine.preset("v6-90-odd-fire", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    b = fired.balance(3000, orders=[0.5, 1, 1.5, 3])
+    assert (1.5 in b, 2.5 in b, list(b)) == (True, False, [0.5, 1, 1.5, 3])
+    assert b[1.5].crank_torque.peak == b.crank_torque.peak[2] > 0.0
+    assert b[2.5].crank_torque.status == "zero, proved"  # three pairs 240° apart: only multiples of 1.5 stay
+    parts = b.crank_torque.gas + b.crank_torque.inertia
+    np.testing.assert_allclose(parts, b.crank_torque, rtol=1e-12)
+    rows = b.crank_torque.table
+    assert rows["order"].values == ("mean", 0.5, 1, 1.5, 3, "all")
+    assert rows["gas"].values[:1] == (b.crank_torque.gas.mean,) == (b.crank_torque.mean,)
+    assert rows["phase"].values[3] == np.angle(b.crank_torque[1.5].phasor, deg=True)
+    assert b.table["order"].values == ("mean", 0.5, 1, 1.5, 3, "all")
+    dataset = b.to_xarray("torque", "torque.gas")
+    assert dataset.order.dtype == np.float64
+    assert complex(dataset.torque_gas.sel(order=1.5)) == b.torque.gas[1.5].phasor
+    assert float(dataset.torque_mean) == b.torque.mean == -b.crank_torque.mean
+    table = b.to_pandas("crank_torque.gas")
+    assert table.order.tolist() == [0.5, 1, 1.5, 3]
+    assert table.peak.tolist() == b.crank_torque.gas.peak.tolist()

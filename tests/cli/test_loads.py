@@ -48,6 +48,15 @@ def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
         assert [float(row[column]) for row in rows] == peaks.tolist()
 
 
+def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE) -> None:
+    table = cp.bearing_loads(fired("i4", "diesel", 0.1), rpm=1500).table.text()
+    out = printed(capsys, "bearings i4 --rpm 1500 --cycle diesel --bore 100mm")
+    assert out.startswith(table)
+    assert table not in printed(capsys, "bearings i4 --rpm 1500")
+    assert "taken to equal the stroke" not in out
+    assert "taken to equal the stroke" in printed(capsys, "bearings i4 --cycle petrol")
+
+
 @pytest.mark.parametrize("on", ["crank", "block"])
 def test_torque_is_that_of_the_library(capsys: CAPTURE, on: str) -> None:
     balance = fired("v6-90-odd-fire").balance(2000, orders=[0.5, 1, 1.5, 3])

@@ -46,6 +46,10 @@ LOADED = cp.bearing_loads(
     rpm=6000,
 )
 
+FIRED = cp.Engine.preset("v6-90-odd-fire", cylinder=CYLINDER.replace(bore=0.09)).with_cycle(
+    cp.Cycle.example()
+)
+
 V10S = cp.design(
     10,
     layout="vee",
@@ -105,6 +109,10 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "ellipses-on-axes": _of_one_panel(lambda ax: V6.balance(5000).plot(ax, kind="ellipses")),
     "waveform": lambda **place: V6.waveform(5000, theta_deg=range(361)).plot(**place),
     "waveforms": _waveforms,
+    "torque": lambda **place: FIRED.waveform(3000).plot(quantity="crank_torque", **place),
+    "torque-spectrum": lambda **place: FIRED.balance(
+        3000, orders=[0.5 * n for n in range(1, 17)]
+    ).plot(quantity="crank_torque", **place),
     "orbit": lambda **place: V8.waveform(5000).plot(kind="orbit", **place),
     "sweep": lambda **place: over_bank_angle().plot(**place),
     "sweep-on-axes": _of_one_panel(lambda ax: over_bank_angle().plot(ax)),

@@ -386,7 +386,7 @@ class Quantities:
 
     @property
     def torque(self) -> Quantity:
-        """Roll torque of the inertia forces on the block about +z, N·m.
+        """Roll torque of inertia forces, and of gas if it counts, on the block about +z, N·m.
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
@@ -394,7 +394,7 @@ class Quantities:
 
     @property
     def crank_torque(self) -> Quantity:
-        """Torque of the inertia forces on the crank about +z, N·m.
+        """Torque of inertia forces, and of gas if it counts, on the crank about +z, N·m.
 
         An AttributeError where it was not requested, or a force spectrum does not determine it.
         """
