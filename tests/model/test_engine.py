@@ -593,6 +593,20 @@ def test_presets_of_a_family_have_comparable_parts() -> None:
     assert presets_module.family("v6-60-ebook") == ["v6-60-ebook"]
 
 
+def test_presets_that_fire_take_the_example_of_a_cycle() -> None:
+    # The e-book's have moving parts of no scale, without a bore.
+    fired = [
+        engine
+        for name, engine in cp.presets().items()
+        if engine.firing_order and not name.endswith("-ebook")
+    ]
+    assert len(fired) > 20
+    for engine in fired:
+        assert (
+            engine.with_cycle(cp.Cycle.example()).balance(3000, orders=[0.5]).crank_torque.mean > 0
+        )
+
+
 def test_presets_whose_firing_order_is_known_fire_in_it() -> None:
     for name, engine in cp.presets().items():
         if engine.firing_order:
