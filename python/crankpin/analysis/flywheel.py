@@ -25,6 +25,8 @@ Curve: TypeAlias = "Callable[[NDArray[np.float64]], ArrayLike] | tuple[ArrayLike
 """Torque over crank angle: a function of degrees, or angles and torques."""
 TWO_TURNS = 720.0
 """Period, degrees, of functions: whole and half orders come round in it."""
+MOST_KNOTS = 100_000
+"""Largest number of angles of a table, and of a load over the period of the drive."""
 EQUAL = 1e-9
 """Relative difference up to which a ratio of periods is whole."""
 APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
@@ -129,13 +131,18 @@ def flywheel(
     period = torque.period or TWO_TURNS
     knots = torque.knots
     if against is not None:
-        repeats = round(period / against.period) if against.period else 1
-        if against.period and abs(repeats * against.period - period) > EQUAL * period:
+        ratio = period / against.period if against.period else 0.0
+        if ratio * len(against.knots) > MOST_KNOTS:
+            raise InputError(
+                f"load has {len(against.knots)} angles in {against.period:.10g}°, which is "
+                f"{ratio:.10g} times in {period:.10g}°: give a longer period, or fewer angles"
+            )
+        if abs(ratio - round(ratio)) > EQUAL * ratio:
             raise InputError(
                 f"load has a period of {against.period:.10g}°: give one of which {period:.10g}°, "
                 "that of the drive, is a multiple"
             )
-        turns = np.arange(max(repeats, 1)) * (against.period or 0.0)
+        turns = np.arange(max(round(ratio), 1)) * (against.period or 0.0)
         knots = np.concatenate([knots, *(against.knots + start for start in turns)])
     grid = _core.CycleGrid(period, knots)
     nodes, edges = grid.nodes_deg, grid.edges_deg
@@ -316,7 +323,7 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
 
 def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     period = inputs.optional_number("period_deg", period_deg)
-    if period is not None and not 0.0 < period <= inputs.MOST_ITEMS * TWO_TURNS:
+    if period is not None and not 0.0 < period < np.inf:
         raise InputError(f"period_deg = {period}: give the period of the torque, such as 720")
     if callable(given):
 
@@ -335,6 +342,8 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     theta, torque = (inputs.vector(name, each) for each in pair)
     if len(theta) != len(torque) or len(theta) < 2:
         raise InputError(f"{name} has {len(theta)} angles and {len(torque)} torques: {hint}")
+    if len(theta) > MOST_KNOTS:
+        raise InputError(f"{name} has {len(theta)} angles: give at most {MOST_KNOTS}")
     span = float(theta[-1] - theta[0])
     if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
         raise InputError(f"{name} = {inputs.shorten(given)}: give ascending angles")

@@ -19,6 +19,8 @@ use crate::readings::kinematics::{BLOCK, Kinematics};
 const STEP: f64 = 0.5;
 /// Gauss-Legendre points of a cell, in halves of its width from its middle, beside the middle itself.
 const GAUSS: f64 = 0.774_596_669_241_483_4;
+/// Most cells of a period, and most knots: sorting so many takes a tenth of a second.
+const MOST_CELLS: usize = 1_000_000;
 /// Cells evaluated between two looks at cancellation.
 const PIECE: usize = 1 << 12;
 /// Lowest square of a speed, over its mean, at which an engine runs.
@@ -42,9 +44,13 @@ pub struct CycleGrid {
 impl CycleGrid {
     /// A grid of one period, with edges at `knots` besides those of its own.
     pub fn new(period_deg: f64, knots: &[f64], cancel: &Cancel) -> Result<Self> {
-        if !(STEP..=limits::LONGEST_AXIS as f64).contains(&period_deg) {
+        if !(STEP..=STEP * MOST_CELLS as f64).contains(&period_deg) {
             let hint = "give the period of the torque in degrees, such as 720";
             return Err(Error::figure("period_deg", period_deg, hint));
+        }
+        if knots.len() > MOST_CELLS {
+            let hint = format!("give at most {MOST_CELLS}");
+            return Err(Error::value("theta_deg", format!("{} angles", knots.len()), hint));
         }
         let cells = (period_deg / STEP).ceil();
         let mut edges_deg = memory::room(knots.len() + cells as usize + 1)?;
