@@ -149,5 +149,6 @@ fn pressure_that_makes_no_torque_known_is_refused() {
     assert!(engine.with_cranks(geared, vec![0, 1]).is_err());
     // Without any cycle there is nothing to refuse, and nothing is kept.
     assert_eq!(twin([1, 1]).with_gas(gas(vec![cycle(4)], [None; 2])).unwrap(), twin([1, 1]));
-    assert_eq!(engine.strokes(), Strokes::Four);
+    assert!(engine.firing_as("", Strokes::Two).is_err());
+    assert!(engine.firing_as("1-2", Strokes::Four).is_ok());
 }

@@ -420,7 +420,9 @@ impl Engine {
     /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
     pub fn firing_as(&self, firing_order: impl Into<String>, strokes: Strokes) -> Result<Self> {
         let firing_order = text("firing_order", firing_order.into())?;
-        Ok(Self { firing_order, strokes, ..self.clone() })
+        let engine = Self { firing_order, strokes, ..self.clone() };
+        engine.check_gas()?;
+        Ok(engine)
     }
 
     /// The same engine under another name.

@@ -59,8 +59,8 @@ pub(crate) struct GearHarmonics {
     force: Vec<Vec<Complex64>>,
     /// Torques of the masses, and of rods that have inertia.
     torque: Vec<(TorqueHarmonics, Option<TorqueHarmonics>)>,
-    /// Torques of pressure, and their means.
-    gas: Vec<(TorqueHarmonics, [f64; 2])>,
+    /// Torques of pressure, and their means, of gears that have any.
+    gas: Vec<Option<(TorqueHarmonics, [f64; 2])>>,
 }
 
 impl GearHarmonics {
@@ -71,7 +71,8 @@ impl GearHarmonics {
             if torque {
                 let rod = loads.has_rod_inertia(k).then(|| gear.rod_torque(orders, cancel));
                 torques.push((gear.torque(orders, cancel)?, rod.transpose()?));
-                gas.push(gear.gas(orders, cancel)?);
+                let fired = gear.pressure.is_some().then(|| gear.gas(orders, cancel));
+                gas.push(fired.transpose()?);
             }
         }
         Ok(Self { force, torque: torques, gas })
@@ -82,7 +83,7 @@ impl GearHarmonics {
         let mut mean = [0.0; 2];
         for load in &loads.list {
             let Source::Pressure { gear } = load.source else { continue };
-            let Some((_, of_gear)) = self.gas.get(gear) else { continue };
+            let Some(Some((_, of_gear))) = self.gas.get(gear) else { continue };
             mean = [0, 1].map(|k| mean[k] + load.weight * of_gear[k]);
         }
         mean
@@ -101,7 +102,9 @@ impl GearHarmonics {
             Harmonic::One => [Complex64::new(1.0, 0.0), Complex64::new(1.0, 0.0), zero],
             Harmonic::Force(gear) => [self.force[gear][k], self.force[gear][k], zero],
             Harmonic::Torque(gear) => of_torque(&self.torque[gear].0),
-            Harmonic::Gas(gear) => of_torque(&self.gas[gear].0),
+            Harmonic::Gas(gear) => {
+                self.gas[gear].as_ref().map_or([zero; 3], |(torque, _)| of_torque(torque))
+            }
             Harmonic::Rod(gear) => self.torque[gear].1.as_ref().map_or([zero; 3], of_torque),
         }
     }
