@@ -61,8 +61,8 @@ const MOST_NODES: usize = 16 + 17;
 static NODES: LazyLock<Vec<Vec<(f64, f64)>>> =
     LazyLock::new(|| (0..=MOST_NODES as u32).map(gauss_legendre).collect());
 
-/// A node of the quadrature.
-struct Node {
+/// A point of the quadrature.
+struct Abscissa {
     /// Crank angle, radians.
     theta: f64,
     /// Weight, radians.
@@ -140,9 +140,9 @@ impl Cycle {
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
         let (mut mean, mut square) = (0.0, 0.0);
-        let mut chunk: Vec<Node> = memory::room(CHUNK + MOST_NODES)?;
+        let mut chunk: Vec<Abscissa> = memory::room(CHUNK + MOST_NODES)?;
         let mut powers = Powers::default();
-        let mut finish = |chunk: &mut Vec<Node>| -> Result<()> {
+        let mut finish = |chunk: &mut Vec<Abscissa>| -> Result<()> {
             mean += chunk.iter().map(|node| node.weight * node.torque).sum::<f64>();
             square += chunk.iter().map(|node| node.weight * node.slope * node.slope).sum::<f64>();
             powers.add(chunk, &halves, &mut sums, cancel)?;
@@ -169,8 +169,8 @@ impl Cycle {
         proportions: &Proportions,
         crankcase: f64,
         highest: f64,
-        chunk: &mut Vec<Node>,
-        finish: &mut impl FnMut(&mut Vec<Node>) -> Result<()>,
+        chunk: &mut Vec<Abscissa>,
+        finish: &mut impl FnMut(&mut Vec<Abscissa>) -> Result<()>,
     ) -> Result<()> {
         let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
         let coefficients = self.panels.panel(panel);
@@ -198,7 +198,7 @@ impl Cycle {
                 let unit = at_middle * Complex64::cis(offset);
                 let motion = proportions.motion(unit.im, unit.re);
                 let gauge = pressure - crankcase;
-                chunk.push(Node {
+                chunk.push(Abscissa {
                     theta: centred + offset,
                     weight: weight * half * width,
                     // The piston's way down is minus its distance from the crank.
@@ -249,7 +249,7 @@ struct Wave {
 }
 
 impl Wave {
-    fn fill(&mut self, nodes: &[Node], halves: u32) {
+    fn fill(&mut self, nodes: &[Abscissa], halves: u32) {
         self.cos.clear();
         self.sin.clear();
         for node in nodes {
@@ -270,7 +270,7 @@ impl Wave {
 impl Powers {
     fn add(
         &mut self,
-        nodes: &[Node],
+        nodes: &[Abscissa],
         halves: &[u32],
         sums: &mut [Complex64],
         cancel: &Cancel,

@@ -150,6 +150,36 @@ fn cubics_do_not_overshoot_and_keep_to_their_side_of_a_jump() {
 }
 
 #[test]
+fn cubics_are_monotone_where_the_table_is() {
+    // Steps that differ by powers of ten, up to the middle and down again.
+    let mut theta_deg: Vec<f64> = (0..=60).map(|k| 6.0 * f64::from(k)).collect();
+    let mut pressure = vec![1e5];
+    for k in 1..=30_i32 {
+        pressure.push(pressure[pressure.len() - 1] + 10_f64.powi((k * k * 7 + k) % 5));
+    }
+    let rise: Vec<f64> = pressure.clone();
+    pressure.extend(rise.iter().rev().skip(1));
+    theta_deg.pop();
+    pressure.pop();
+    let given = Given {
+        name: String::new(),
+        strokes: 2,
+        theta_deg: theta_deg.clone(),
+        pressure: pressure.clone(),
+        degree: None,
+    };
+    let cycle = Cycle::new(given).unwrap();
+    for (pair, ends) in theta_deg.windows(2).zip(pressure.windows(2)) {
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        for k in 1..20 {
+            let value = cycle.pressure_deg(pair[0] + 0.3 * f64::from(k));
+            // Roundings of 2e5.
+            assert!((low - 1e-9..=high + 1e-9).contains(&value), "{pair:?}: {low} {value} {high}");
+        }
+    }
+}
+
+#[test]
 fn grids_that_are_no_period_are_rejected_with_a_hint() {
     let error = |angles: Vec<f64>, strokes| {
         table(angles.into_iter(), |_| 1e5, strokes).unwrap_err().to_string()
