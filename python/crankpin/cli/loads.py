@@ -9,7 +9,8 @@ from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import AXES, bearing_loads
 from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, left_out, printed
-from crankpin.model.cycle import EXAMPLES, Cycle
+from crankpin.model.computed_cycles import EXAMPLES
+from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Commands, Given

@@ -11,7 +11,8 @@ from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.model.cycle import ATMOSPHERE, Cycle
+from crankpin.model.computed_cycles import ATMOSPHERE
+from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -15,7 +15,8 @@ from crankpin._support.absent import AbsentError
 from crankpin._support.record import read_only
 from crankpin.model import checks, crankpins
 from crankpin.model import shafts as rotating
-from crankpin.model.cycle import ATMOSPHERE, Cycle
+from crankpin.model.computed_cycles import ATMOSPHERE
+from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:

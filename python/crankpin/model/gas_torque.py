@@ -13,7 +13,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from crankpin._support.tables import Column, Table
-from crankpin.model.cycle import EXAMPLES, Cycle
+from crankpin.model.computed_cycles import EXAMPLES
+from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 
 FILE: Final = Path(__file__).with_name("gas_torque.csv")

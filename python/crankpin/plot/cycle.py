@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin._support import labels
-from crankpin.model.cycle import Cycle, area
+from crankpin.model.computed_cycles import area
+from crankpin.model.cycle import Cycle
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.style import SERIES, count_series, series

@@ -1,0 +1,362 @@
+"""Cycles computed for a cylinder: ideal, motored, and of a Wiebe burn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
+
+from crankpin import _core
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.model.cylinder import Cylinder
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+ATMOSPHERE = 101_325.0
+"""Pressure in the crankcase unless another is given, Pa."""
+
+EXAMPLES: Final[Mapping[str, Mapping[str, Any]]] = {
+    "petrol": {
+        "compression_ratio": 10.5,
+        "excess_air": 1.0,
+        "start_deg": -18.0,
+        "duration_deg": 52.0,
+        "m": 2.0,
+        "gamma": 1.3,
+        "intake_pressure": 0.95e5,
+        "exhaust_pressure": 1.05e5,
+        "charge_temperature": 350.0,
+        "wall_temperature": 440.0,
+        "rpm": 3000.0,
+    },
+    "diesel": {
+        "compression_ratio": 16.5,
+        "excess_air": 1.7,
+        "stoichiometric_ratio": 14.5,
+        "heating_value": 42.7e6,
+        "start_deg": -6.0,
+        "duration_deg": 70.0,
+        "m": 0.8,
+        "gamma": 1.33,
+        "intake_pressure": 1.9e5,
+        "exhaust_pressure": 1.8e5,
+        "charge_temperature": 360.0,
+        "wall_temperature": 470.0,
+        "rpm": 2000.0,
+    },
+}
+"""Figures of the Wiebe cycles of :meth:`Cycle.example`: of no engine in particular."""
+
+
+class IdealOptions(TypedDict, total=False):
+    """Options of ideal cycles: see :meth:`Cycle.dual`."""
+
+    intake_pressure: float
+    exhaust_pressure: float | None
+    compression_exponent: float
+    expansion_exponent: float
+    strokes: int
+    name: str
+
+
+class ComputedCycles:
+    """Base class of cycles: the ways to compute one."""
+
+    @classmethod
+    def _of(cls, core: _core.Cycle) -> Self:
+        """Return the cycle of what the core has."""
+        raise NotImplementedError
+
+    @classmethod
+    def otto(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        pressure_ratio: float,
+        **options: Unpack[IdealOptions],
+    ) -> Self:
+        """Return the ideal cycle with combustion at constant volume.
+
+        Parameters
+        ----------
+        cylinder, compression_ratio, pressure_ratio, options
+            As in :meth:`dual`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.043 / 0.3, 0.5, bore=0.086)
+        >>> otto = cp.Cycle.otto(
+        ...     cylinder, compression_ratio=10, pressure_ratio=3.5, intake_pressure=1e5
+        ... )
+        >>> round(otto.imep(cylinder) / 1e5, 4), round(otto.mean_torque(cylinder), 3)
+        (9.2154, 36.634)
+        """
+        ratios = (compression_ratio, pressure_ratio, 1.0)
+        return cls._ideal("Otto", cylinder, *ratios, **options)
+
+    @classmethod
+    def diesel(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        cutoff_ratio: float,
+        **options: Unpack[IdealOptions],
+    ) -> Self:
+        """Return the ideal cycle with combustion at constant pressure.
+
+        Parameters
+        ----------
+        cylinder, compression_ratio, cutoff_ratio, options
+            As in :meth:`dual`.
+        """
+        return cls._ideal("Diesel", cylinder, compression_ratio, 1.0, cutoff_ratio, **options)
+
+    @classmethod
+    def dual(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        pressure_ratio: float,
+        cutoff_ratio: float,
+        **options: Unpack[IdealOptions],
+    ) -> Self:
+        """Return the ideal cycle with combustion at constant volume, then at constant pressure.
+
+        Compression and expansion are polytropic, p·Vⁿ constant, between the ends of the piston's
+        travel. A four-stroke's exhaust and intake strokes are at constant pressures; a two-stroke
+        changes its gas in the lower dead centre.
+
+        Parameters
+        ----------
+        cylinder
+            Cylinder with a bore. The cycle is that of its motion.
+        compression_ratio
+            Largest over smallest volume.
+        pressure_ratio
+            Pressure after over before the combustion at constant volume.
+        cutoff_ratio
+            Volume after over before the combustion at constant pressure.
+        options
+            ``intake_pressure``, ``exhaust_pressure``: absolute, Pa; by default 101325 and the
+            intake's. ``compression_exponent``, ``expansion_exponent``: n, by default 1.3.
+            ``strokes``: 4 or 2. ``name``: by default that of the cycle.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore or a figure is out of range.
+        """
+        ratios = (compression_ratio, pressure_ratio, cutoff_ratio)
+        return cls._ideal("Dual", cylinder, *ratios, **options)
+
+    @classmethod
+    def motored(
+        cls, cylinder: Cylinder, *, compression_ratio: float, **options: Unpack[IdealOptions]
+    ) -> Self:
+        """Return the cycle without combustion.
+
+        With equal exponents and equal pressures of intake and exhaust its work is zero. For heat
+        loss take :meth:`wiebe` with ``heat=0`` and a wall temperature.
+
+        Parameters
+        ----------
+        cylinder, compression_ratio, options
+            As in :meth:`dual`.
+        """
+        return cls._ideal("Motored", cylinder, compression_ratio, 1.0, 1.0, **options)
+
+    @classmethod
+    def _ideal(
+        cls,
+        kind: str,
+        cylinder: Cylinder,
+        compression_ratio: float,
+        pressure_ratio: float,
+        cutoff_ratio: float,
+        *,
+        intake_pressure: float = ATMOSPHERE,
+        exhaust_pressure: float | None = None,
+        compression_exponent: float = 1.3,
+        expansion_exponent: float = 1.3,
+        strokes: int = 4,
+        name: str = "",
+    ) -> Self:
+        exhaust = intake_pressure if exhaust_pressure is None else exhaust_pressure
+        figures = {
+            "pressure_ratio": pressure_ratio,
+            "cutoff_ratio": cutoff_ratio,
+            "compression_exponent": compression_exponent,
+            "expansion_exponent": expansion_exponent,
+            "intake_pressure": intake_pressure,
+            "exhaust_pressure": exhaust,
+        }
+        return cls._computed(
+            _core.Cycle.ideal, kind, cylinder, compression_ratio, strokes, name, figures
+        )
+
+    @classmethod
+    def wiebe(
+        cls,
+        cylinder: Cylinder,
+        *,
+        compression_ratio: float,
+        heat: float | None = None,
+        excess_air: float | None = None,
+        start_deg: float = -15.0,
+        duration_deg: float = 50.0,
+        a: float = 6.908,
+        m: float = 2.0,
+        gamma: float = 1.33,
+        intake_pressure: float = ATMOSPHERE,
+        exhaust_pressure: float | None = None,
+        charge_temperature: float = 330.0,
+        wall_temperature: float | None = None,
+        rpm: float | None = None,
+        intake_closes_deg: float | None = None,
+        exhaust_opens_deg: float | None = None,
+        stoichiometric_ratio: float = 14.6,
+        heating_value: float = 43e6,
+        strokes: int = 4,
+        name: str = "",
+    ) -> Self:
+        """Return the cycle of one zone with a Wiebe burn, from intake closing to exhaust opening.
+
+        The gas has a constant ratio of heat capacities; the burnt fraction is
+        ``1 - exp(-a·yᵐ⁺¹)``, y the part of the burn's duration that is over. It is solved to
+        rounding. From exhaust opening to the lower dead centre pressure falls as a cosine to that
+        of the exhaust (of the intake in a two-stroke); before and after the exchange of gas it is
+        constant.
+
+        Parameters
+        ----------
+        cylinder
+            Cylinder with a bore.
+        compression_ratio
+            Largest over smallest volume.
+        heat
+            Heat of the fuel of one cycle, J; the burn releases ``1 - exp(-a)`` of it.
+        excess_air
+            Instead of ``heat``: air over that of a stoichiometric mixture, λ. The air is that of
+            the cylinder when the intake closes.
+        start_deg, duration_deg
+            Start of the burn after the firing top dead centre (below 0: before) and its duration.
+        a, m
+            Wiebe's parameters; 6.908 burns 99.9 %.
+        gamma
+            Ratio of heat capacities.
+        intake_pressure, exhaust_pressure
+            Absolute, Pa; the exhaust's is by default the intake's.
+        charge_temperature
+            Temperature when the intake closes, K.
+        wall_temperature, rpm
+            Temperature of the walls, K, and crank speed, for heat loss by Woschni's correlation
+            (Heywood, Internal Combustion Engine Fundamentals, 1988, section 12.4.3, no swirl); by
+            default no heat is lost.
+        intake_closes_deg, exhaust_opens_deg
+            Valve (or port) events after the firing top dead centre; by default -140 and 130, in a
+            two-stroke -115 and 105.
+        stoichiometric_ratio, heating_value
+            Mass of air over that of fuel, and lower heating value, J/kg, for ``excess_air``.
+        strokes, name
+            As in :class:`Cycle`.
+
+        Raises
+        ------
+        InputError
+            If the cylinder has no bore, a figure is out of range, or not exactly one of ``heat``
+            and ``excess_air`` is given.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> cycle = cp.Cycle.wiebe(cylinder, compression_ratio=10, heat=1200)
+        >>> round(cycle.imep(cylinder) / 1e5, 2)
+        12.24
+        """
+        if (heat is None) == (excess_air is None):
+            given = f"heat = {inputs.shorten(heat)}, excess_air = {inputs.shorten(excess_air)}"
+            raise InputError(f"{given}: give one of them")
+        if (rpm is None) != (wall_temperature is None):
+            given = f"wall_temperature = {inputs.shorten(wall_temperature)}"
+            raise InputError(f"{given}, rpm = {inputs.shorten(rpm)}: heat loss needs both")
+        two = inputs.strokes(strokes) == 2
+        closes, opens = (-115.0, 105.0) if two else (-140.0, 130.0)
+        figures = {
+            "heat": heat,
+            "excess_air": excess_air,
+            "stoichiometric_ratio": stoichiometric_ratio,
+            "heating_value": heating_value,
+            "start_deg": start_deg,
+            "duration_deg": duration_deg,
+            "a": a,
+            "m": m,
+            "gamma": gamma,
+            "intake_pressure": intake_pressure,
+            "exhaust_pressure": intake_pressure if exhaust_pressure is None else exhaust_pressure,
+            "charge_temperature": charge_temperature,
+            "wall_temperature": wall_temperature,
+            "rpm": rpm,
+            "intake_closes_deg": closes if intake_closes_deg is None else intake_closes_deg,
+            "exhaust_opens_deg": opens if exhaust_opens_deg is None else exhaust_opens_deg,
+        }
+        return cls._computed(
+            _core.Cycle.wiebe, "Wiebe", cylinder, compression_ratio, strokes, name, figures
+        )
+
+    @classmethod
+    def example(cls, kind: Literal["petrol", "diesel"] = "petrol") -> Self:
+        """Return a cycle to begin with: computed by :meth:`wiebe`, not measured.
+
+        Parameters
+        ----------
+        kind
+            ``"petrol"``: a naturally aspirated four-stroke at full load and 3000 rpm.
+            ``"diesel"``: a turbocharged one at 2000 rpm. Bore and stroke are 86 mm, the rod is
+            145 mm long; the other figures are in :data:`crankpin.model.computed_cycles.EXAMPLES`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        >>> round(cp.Cycle.example().imep(cylinder) / 1e5, 1)
+        12.1
+        """
+        figures = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
+        cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
+        name = f"Example, {kind}: a Wiebe burn, computed"
+        return cls.wiebe(cylinder, **figures, name=name)
+
+    @classmethod
+    def _computed(
+        cls,
+        of: Callable[..., _core.Cycle],
+        kind: str,
+        cylinder: Cylinder,
+        compression_ratio: float,
+        strokes: int,
+        name: str,
+        figures: Mapping[str, float | None],
+    ) -> Self:
+        area(cylinder)
+        ratio = inputs.number("compression_ratio", compression_ratio)
+        title = inputs.text("name", name) or f"{kind} cycle, compression ratio {ratio:.6g}"
+        checked = {key: inputs.optional_number(key, value) for key, value in figures.items()}
+        core = of(cylinder._parts, cylinder.bore, ratio, inputs.strokes(strokes), title, checked)
+        return cls._of(core)
+
+
+def area(cylinder: Cylinder) -> float:
+    """Return the area of a cylinder's piston, m²; an error that names the hint without a bore."""
+    if not isinstance(cylinder, Cylinder):
+        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+    if cylinder.bore is None:
+        hint = "gas pressure needs it; give bore=…, m, or cylinder.replace(bore=…)"
+        raise InputError(f"bore = None: {hint}")
+    return math.pi / 4.0 * cylinder.bore**2
