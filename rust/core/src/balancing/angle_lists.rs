@@ -17,7 +17,7 @@ pub(super) fn nearest(
     target: &Vectors,
     bounds: &[f64],
 ) -> Result<Option<Vec<PlacedWeight>>> {
-    let columns = Columns::new(problem, directions, bounds);
+    let columns = AngleColumns::new(problem, directions, bounds);
     let room = DVector::from_vec(finite(bounds).map(|p| bounds[p]).collect());
     let start = columns.variables(&[], bounds);
     let goal = DVector::from_column_slice(target.as_slice());
@@ -71,7 +71,7 @@ fn squares(
     found: &[PlacedWeight],
 ) -> Result<Vec<PlacedWeight>> {
     let (bounds, equations) = (&problem.bounds, problem.target.len());
-    let columns = Columns::new(problem, directions, bounds);
+    let columns = AngleColumns::new(problem, directions, bounds);
     let mut sums = DMatrix::zeros(bounds.len(), columns.made.ncols());
     for (j, &(plane, _)) in columns.places.iter().enumerate() {
         sums[(plane, j)] = 1.0;
@@ -105,7 +105,7 @@ pub(super) fn made_by(rows: &DMatrix<f64>, units: &[(usize, Complex64)]) -> DMat
 }
 
 /// Variables of planes with lists of angles: amounts, then the room that each bound leaves.
-struct Columns {
+struct AngleColumns {
     /// Plane and angle of each amount.
     places: Vec<(usize, usize)>,
     /// Plane and direction of each amount.
@@ -116,7 +116,7 @@ struct Columns {
     filled: DMatrix<f64>,
 }
 
-impl Columns {
+impl AngleColumns {
     fn new(problem: &Problem, directions: &Directions, bounds: &[f64]) -> Self {
         let places: Vec<(usize, usize)> = directions
             .iter()
