@@ -299,7 +299,11 @@ def test_errors_name_the_argument_and_a_hint() -> None:
     i4 = engines()["i4"]
     for engine, argument, message in (
         (i4.replace(firing_order=""), cycle(), r"firing_order = None: .*Possible orders.*1-3-4-2"),
-        (cp.Engine.preset("i4"), cycle(), r"cylinder\[0\]\.bore = None: .* give bore="),
+        (
+            i4.replace(cylinder=cp.Cylinder(0.043, 0.145, 0.5)),
+            cycle(),
+            r"cylinder\[0\]\.bore = None: .* give bore=",
+        ),
         (i4, [cycle()], r"cycle has 1 entries, the engine has 4"),
         (i4, [cycle(), cycle(), 3.0, cycle()], r"cycle\[2\] = 3\.0: give a crankpin\.Cycle"),
         (i4.replace(strokes=2, firing_order=""), cycle(), r"cycle\[0\]\.strokes = 4: .*strokes=4"),

@@ -408,7 +408,9 @@ def test_half_orders_are_keys_rows_and_coordinates() -> None:
     b = fired.balance(3000, orders=[0.5, 1, 1.5, 3])
     assert (1.5 in b, 2.5 in b, list(b)) == (True, False, [0.5, 1, 1.5, 3])
     assert b[1.5].crank_torque.peak == b.crank_torque.peak[2] > 0.0
-    assert b[2.5].crank_torque.status == "zero, proved"  # three pairs 240° apart: only multiples of 1.5 stay
+    assert (
+        b[2.5].crank_torque.status == "zero, proved"
+    )  # three pairs 240° apart: only multiples of 1.5 stay
     parts = b.crank_torque.gas + b.crank_torque.inertia
     np.testing.assert_allclose(parts, b.crank_torque, rtol=1e-12)
     rows = b.crank_torque.table
