@@ -73,7 +73,8 @@ def gas_torque(theta_deg: NDArray[np.float64], fired: cp.Engine, rod_ratio: floa
     """(p − p₀)·A·ds/dθ summed over cylinders: s is what the piston has gone from its crank."""
     total = np.zeros(len(theta_deg))
     r, e = CYLINDER.crank_radius, CYLINDER.pin_offset
-    # A cycle begins where the crankpin is aligned with the bore, a third of a degree before the top.
+    # A cycle begins where the crankpin is aligned with the bore, a third of a degree before the
+    # top.
     turns = np.round((fired.firing().angles_deg - fired.tdc_deg) / 360.0)
     for phase in fired.tdc_deg + 360.0 * turns:
         at = np.deg2rad(theta_deg - phase)
