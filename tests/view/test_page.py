@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from chromium import Open, values
 from crankpin.view.figures import figures
+from crankpin.view.page import WEB
 from view_engines import everything, radial
 
 if TYPE_CHECKING:
@@ -73,6 +74,13 @@ def test_asks_the_network_for_nothing(open_engine: Open) -> None:
     page.get_by_role("button", name="play").click()
     page.wait_for_timeout(300)
     assert page.asked == [page.url]  # type: ignore[attr-defined]
+
+
+def test_no_text_goes_over_several_lines() -> None:
+    """Indents of modules are left out of pages."""
+    for module in WEB.glob("*.mjs"):
+        for line in module.read_text(encoding="utf-8").splitlines():
+            assert line.count("`") % 2 == 0, f"{module.name}: {line}"
 
 
 @pytest.mark.parametrize("name", cp.presets())

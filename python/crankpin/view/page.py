@@ -21,6 +21,7 @@ WEB = Path(__file__).parent / "web"
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./(\w+\.mjs)";\n', re.MULTILINE)
 COMMENT = re.compile(r"^\s*(?://[^\n]*|/\*\*.*?\*/)\n", re.MULTILINE | re.DOTALL)
 EXPORT = re.compile(r"^export (?=const|class|function)", re.MULTILINE)
+INDENT = re.compile(r"^\s+", re.MULTILINE)
 GALLERY_HEAD = "<div class='crankpin'><header><h1>Engines</h1></header></div>"
 EBOOK_RPM = 10.0
 """Speed of the presets with a crank radius of one metre, as in their source."""
@@ -88,7 +89,8 @@ def module(entry: str) -> str:
     """Return a module with all that it imports, as one module.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
-    after the other, without ``import`` and ``export``, they are one module. Comments are left out.
+    after the other, without ``import`` and ``export``, they are one module. Comments and indents
+    are left out: no text goes over several lines.
     """
     found: dict[str, str] = {}
 
@@ -98,7 +100,7 @@ def module(entry: str) -> str:
         text = _read(name)
         for each in IMPORT.findall(text):
             visit(each)
-        found[name] = EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text)))
+        found[name] = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
 
     visit(entry)
     return "\n".join(found.values())
