@@ -90,3 +90,12 @@ def test_a_spectrum_of_nothing_has_no_scale() -> None:
         ax = V6.balance(3000, orders=(1,)).plot(quantity="force", log=log)
         assert ax.get_yticks().tolist() == [0.0]
         ax.figure.canvas.draw()
+
+
+def test_stems_of_half_orders_stay_between_their_neighbours() -> None:
+    fired = cp.Engine.preset("single").with_cycle(cp.Cycle.example())
+    ax = fired.balance(3000).plot(quantity="crank_torque")
+    half = np.diff(ax.transData.transform([(1.0, 0.0), (1.5, 0.0)])[:, 0])
+    places = [line.get_transform().transform((1.0, 0.0))[0] for line in series(ax)]
+    assert len(places) == 3
+    assert places[-1] - places[0] < half

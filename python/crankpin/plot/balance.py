@@ -131,9 +131,15 @@ def _of(ax: Axes, gid: str) -> list[Line2D]:
 def _beside_each_other(ax: Axes) -> None:
     """Shift the stems of all series on the axes, so that those of an order stand about it."""
     drawn, hollow = _of(ax, SERIES), _of(ax, ZEROS)
-    to_inches = ax.get_figure(root=False).dpi_scale_trans  # type: ignore[union-attr]
+    figure: Any = ax.get_figure(root=False)
+    to_inches = figure.dpi_scale_trans
+    # Half orders stand closer than whole ones: the stems of one must not reach those of the next.
+    orders = np.unique(np.concatenate([line.get_xdata() for line in drawn]))
+    gap = np.diff(orders, prepend=0.0).min() / orders[-1]
+    width = 72.0 * ax.get_window_extent().width / figure.dpi
+    beside = min(BESIDE, 0.9 * gap * width / len(drawn))
     for k, (line, zeros) in enumerate(zip(drawn, hollow, strict=True)):
-        points = BESIDE * (k - 0.5 * (len(drawn) - 1))
+        points = beside * (k - 0.5 * (len(drawn) - 1))
         shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
         line.set_transform(ax.transData + shift)
         zeros.set_transform(ax.get_xaxis_transform() + shift)
