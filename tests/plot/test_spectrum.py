@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import crankpin as cp
 import numpy as np
 import pytest
 from conftest import I4, V6
