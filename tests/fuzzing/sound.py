@@ -15,6 +15,8 @@ CURE = 12  # letters at least, after the last thing that is wrong
 CYLINDER = cp.Cylinder(0.05, 0.15, 0.5)
 V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=60, throws_deg=[0, 120, 240], spacing=0.1)
 I4 = cp.Engine.inline(CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, name="four")
+CYCLE = cp.Cycle.example()
+FIRED = cp.Engine.preset("i4", cylinder=CYLINDER.replace(bore=0.08)).with_cycle(CYCLE)
 
 
 def cylinder(**changes: Any) -> cp.Cylinder:

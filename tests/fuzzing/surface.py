@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import crankpin as cp
 
-from fuzzing.sound import CYLINDER, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
+from fuzzing.sound import CYCLE, CYLINDER, FIRED, I4, JSON, TOML, V6, ranked, swept, two_stroke, vee
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -47,6 +47,11 @@ SOUND: dict[str, list[Any]] = {
     "ax": [None],
     "backward_force": [1j],
     "before": [V6, I4],
+    "cycle": [CYCLE, [CYCLE, None, CYCLE, CYCLE]],
+    "cycles": [[[CYCLE, CYCLE]]],
+    "drive": [FIRED, ([0, 180, 360], [1.0, 3.0, 1.0])],
+    "load": [[0.0, 1.0]],
+    "pressure": [[1e5, 5e6]],
     "bore": [0.086],
     "chunks": [{"rpm": 1}, 2],
     "core": [I4.core],
@@ -118,6 +123,12 @@ SUBJECTS: dict[str, Any] = {
     "waveform, auto": V6.waveform(1000, theta_deg=[0.0, 1.0], orders="auto"),
     "waveform of a spectrum": V6.waveform(1000, theta_deg=[0.0], orders=[1], spectrum={1: 1.0}),
     "bearing loads": cp.bearing_loads(V6, 1000, [0.0, 1.0]),
+    "cycle": CYCLE,
+    "cycle map": cp.CycleMap([1000, 3000], [0, 1], [[CYCLE, CYCLE]] * 2),
+    "fired": FIRED,
+    "balance, fired": FIRED.balance(1000),
+    "waveform, fired": FIRED.waveform(1000, theta_deg=[0.0, 1.0]),
+    "sweep, fired": cp.sweep(FIRED, rpm=[1e3, 2e3], orders=[0.5, 2]),
     "firing": V6.firing("1-2-5-6-3-4"),
     "firing, two-stroke": two_stroke(),
     "star diagram": cp.star_diagram(V6, firing_order="1-2-5-6-3-4"),

@@ -14,7 +14,7 @@ from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.by_order import ByOrder, ErrorBound
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.quantity import ALL
+from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
@@ -173,6 +173,7 @@ class Balance(ByOrder, Tabled):
     def proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         whole, _, part = inputs.one_of("quantity", quantity, KINDS).partition(".")
+        order = one_order(order)
         if order % 1 and (KINDS[whole].planar or not self.fired or part == "inertia"):
             return True  # inertia has whole orders
         if self.request.pairs is not None or (whole == "torque" and any(self.request.aside)):

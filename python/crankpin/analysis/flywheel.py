@@ -13,6 +13,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.request import engine_core
 from crankpin.analysis.waveform import Waveform, waveform
 from crankpin.model.engine import Engine
 
@@ -219,9 +220,22 @@ class Flywheel(Tabled):
     moving_inertia: NDArray[np.float64]
     """Moment of inertia of pistons and rods as seen from the crank, kg·m²."""
 
+    def __post_init__(self) -> None:
+        if self.engine is not None:
+            engine_core(self.engine)
+        for name in ("rpm", "inertia", "irregularity", "energy", "mean_torque", "acceleration"):
+            inputs.number(name, getattr(self, name))
+        inputs.vector("approximations", self.approximations)
+        curves = ("theta_deg", "speed_rpm", "torque", "load", "inertia_torque", "moving_inertia")
+        if len({len(inputs.vector(name, getattr(self, name))) for name in curves}) != 1:
+            raise InputError("curves of unequal lengths: use crankpin.flywheel")
+        super().__post_init__()
+
     @property
     def errors(self) -> tuple[float, float]:
         """Relative errors of the approximations."""
+        if self.irregularity == 0.0:
+            return 0.0, 0.0  # all three are below the rounding of speeds
         first, second = (each / self.irregularity - 1.0 for each in self.approximations)
         return first, second
 

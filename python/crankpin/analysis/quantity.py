@@ -53,6 +53,14 @@ def order_key(order: object) -> Order | Literal["all"]:
     raise InputError(f"order = {inputs.shorten(order)}: {hint}")
 
 
+def one_order(order: object) -> Order:
+    """Return the order of a key, or raise an InputError, also for all orders together."""
+    found = order_key(order)
+    if isinstance(found, str):
+        raise InputError(f"order = {ALL!r}: give one order, such as 2 or 0.5")
+    return found
+
+
 class Keyed:
     """Mixin of what has orders as keys."""
 

@@ -88,7 +88,13 @@ class Cycle(Tabled, ComputedCycles):
         object.__setattr__(self, "strokes", inputs.strokes(self.strokes))
         object.__setattr__(self, "name", inputs.text("name", self.name))
         if self.degree is not None:
-            object.__setattr__(self, "degree", max(0, inputs.whole("degree", self.degree)))
+            degree = inputs.whole("degree", self.degree)
+            if not 0 <= degree < len(self.theta_deg):
+                raise InputError(
+                    f"degree = {inputs.shorten(degree)}: give one below the number of points, "
+                    f"{len(self.theta_deg)}, or leave it out"
+                )
+            object.__setattr__(self, "degree", degree)
         if len(self.core):
             checks.pressure(self.pressure)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
@@ -109,6 +110,8 @@ def balance_shafts(
     engine_core(engine)
     asked = shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
     speed = inputs.optional_number("rpm", rpm)
+    if speed == 0.0:
+        raise InputError(f"rpm = {speed:g}: shafts make no force at rest; give a speed above zero")
     found, beyond = _core.fit_shafts(
         engine_core(engine),
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],

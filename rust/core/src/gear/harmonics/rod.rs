@@ -142,7 +142,7 @@ mod tests {
             let proportions = Proportions::new(ratio, 0.0).unwrap();
             let TorqueHarmonics { roll, crank } =
                 torque(&proportions, &orders, &Cancel::new()).unwrap();
-            [roll, crank].concat().into_iter().map(|phasor| phasor.norm()).collect::<Vec<_>>()
+            [roll, crank].concat().into_iter().map(Complex64::norm).collect::<Vec<_>>()
         };
         let mut last = sizes(0.01);
         for percent in 2..=90 {
