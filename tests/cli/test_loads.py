@@ -48,13 +48,16 @@ def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
         assert [float(row[column]) for row in rows] == peaks.tolist()
 
 
-def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE) -> None:
+def test_bearings_count_gas_where_a_cycle_is_given(capsys: CAPTURE, tmp_path: Path) -> None:
     table = cp.bearing_loads(fired("i4", "diesel", 0.1), rpm=1500).table.text()
     out = printed(capsys, "bearings i4 --rpm 1500 --cycle diesel --bore 100mm")
     assert out.startswith(table)
     assert table not in printed(capsys, "bearings i4 --rpm 1500")
     assert "taken to equal the stroke" not in out
-    assert "taken to equal the stroke" in printed(capsys, "bearings i4 --cycle petrol")
+    without = tmp_path / "without-bores.toml"
+    cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.45)).save(without)
+    out = printed(capsys, f"bearings {without} --cycle petrol")
+    assert "taken to equal the stroke" in out
 
 
 @pytest.mark.parametrize("on", ["crank", "block"])

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
         (lambda: over_bank_angle().plot(x="rod_ratio"), "choose from: engine, bank_angle_deg"),
         (lambda: over_bank_angle().plot(kind="map"), 'give kind="curves"'),
         (lambda: over_bank_angle().plot(kind="bars"), "engines alone"),
-        (lambda: over_bank_angle().plot(orders=[3.5]), "orders"),
+        (lambda: over_bank_angle().plot(orders=[3.25]), "orders"),
         (lambda: cp.sweep([V6, I4], rpm=1000).plot(kind="orders"), "one swept number"),
         (lambda: cp.sweep([V6, I4], rpm=1000).plot(kind="bars", x="engine"), "leave it out"),
         (lambda: cp.sweep(V6, rpm=1000).plot(), "nothing was swept"),

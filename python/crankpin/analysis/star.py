@@ -206,11 +206,11 @@ def star_diagram(
     >>> shape = [1, 0.95, 0.86, 0.73, 0.57, 0.39]
     >>> d = cp.star_diagram(cp.Engine.preset("i6"), [0.5, 1.5, 3], mode_shape=shape)
     >>> d
-    I6: phase vectors, 4-stroke 1-5-3-6-2-4, even, 120°
+    Inline-6: phase vectors, 4-stroke 1-5-3-6-2-4, even, 120°
     order      sum  share %  direction °
-      0.5  0.41581      9.2        -52.7  remains
-      1.5     1.12     24.9          0.0  remains
-        3      4.5    100.0          0.0  major
+      0.5  0.41581      9.2         31.4  remains
+      1.5     1.12     24.9            0  remains
+        3      4.5    100.0            0  major
     >>> cp.star_diagram(cp.Engine.preset("i6")).major
     (3, 6, 9, 12)
     """

@@ -135,6 +135,8 @@ def _beside_each_other(ax: Axes) -> None:
     to_inches = figure.dpi_scale_trans
     # Half orders stand closer than whole ones: the stems of one must not reach those of the next.
     orders = np.unique(np.concatenate([line.get_xdata() for line in drawn]))
+    if not orders.size:
+        return
     gap = np.diff(orders, prepend=0.0).min() / orders[-1]
     width = 72.0 * ax.get_window_extent().width / figure.dpi
     beside = min(BESIDE, 0.9 * gap * width / len(drawn))

@@ -475,8 +475,8 @@ fn refusal(result: Result<impl Sized, Error>) -> String {
     }
 }
 
-fn new(axes: &Axes, orders: &[u32], spectrum: Option<Spectrum>) -> Result<Sweep, Error> {
-    let engines = [plain(), mixed()].map(|engine| given(&engine, spectrum.as_ref())).to_vec();
+fn new(axes: &Axes, orders: &[u32], spectrum: Option<&Spectrum>) -> Result<Sweep, Error> {
+    let engines = [plain(), mixed()].map(|engine| given(&engine, spectrum)).to_vec();
     Sweep::new(engines, axes.clone(), whole(orders), None, &Cancel::new())
 }
 
@@ -528,7 +528,7 @@ fn values_that_cannot_be_are_refused() {
         ("pin_offset", Axes { pin_offset: Some(vec![0.0]), ..good.clone() }),
     ] {
         assert!(new(&swept, &[1], None).is_ok());
-        let told = refusal(new(&swept, &[1], Some(spectrum.clone())));
+        let told = refusal(new(&swept, &[1], Some(&spectrum)));
         assert!(told.starts_with(&format!("{name} = swept together")), "{told}");
     }
     for empty in [
@@ -647,7 +647,7 @@ fn a_sweep_tells_what_it_is() {
     // Torque, if it was wanted and is known.
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let speeds = Axes { rpm: vec![3000.0], ..Axes::default() };
-    for sweep in [all.without_torque(), new(&speeds, &[1], Some(spectrum)).unwrap()] {
+    for sweep in [all.without_torque(), new(&speeds, &[1], Some(&spectrum)).unwrap()] {
         for (quantity, known) in [(Quantity::Force, true), (TORQUE, false), (CRANK_TORQUE, false)] {
             let found = sweep.phasors(quantity, Figure::Amplitude, &Cancel::new());
             assert_eq!(found.is_ok(), known);

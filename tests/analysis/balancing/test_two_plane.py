@@ -17,7 +17,8 @@ PLACES = st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=2)
 
 @settings(max_examples=50, deadline=None)
 @given(
-    amounts=st.lists(st.floats(0.0, 1e4), min_size=2, max_size=2),
+    # What a balancing machine reads: figures below 1e-307 have no relative accuracy.
+    amounts=st.lists(st.floats(0.0, 1e4, allow_subnormal=False), min_size=2, max_size=2),
     angles=st.lists(st.floats(0.0, 360.0), min_size=2, max_size=2),
     measured=PLACES,
     corrected=PLACES,
