@@ -94,6 +94,7 @@ SOUND: dict[str, list[Any]] = {
     "spacing": [0.1],
     "spectrum": [{1: 1.0, 2: 0.3}],
     "strokes": [4, 2],
+    "values": [[3.0, 1.0, 2.0]],
     "what": ["peak", "phasors"],
     "tdc_deg": [[0, 90], ["360/7", Fraction(1, 3)]],
     "text": [TOML, JSON],

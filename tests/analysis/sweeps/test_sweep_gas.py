@@ -126,3 +126,18 @@ def test_orders_of_unfired_engines_beside_fired_ones() -> None:
     assert not s.torque.gas.peak[0].any()
     assert s.torque.gas[2].peak[1].all()
     assert (s.torque.mean[0] == 0.0).all()
+
+
+def test_the_speed_of_least_torque_of_an_order_is_that_of_its_phasors() -> None:
+    fired = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
+    speeds = np.arange(500.0, 6500.0, 10.0)
+    swept = cp.sweep(fired, rpm=speeds, orders=[2, 4])
+    at = fired.balance(1000.0, orders=[2])[2].crank_torque
+    gas, inertia = at.gas.phasor, at.inertia.phasor
+    # |G + I·(n/1000)²| is least where the derivative by n² vanishes.
+    expected = 1000.0 * np.sqrt(-(inertia * np.conj(gas)).real) / abs(inertia)
+    found = swept.least(swept[2].crank_torque.peak)
+    assert abs(found.rpm - expected) <= 5.0  # half a step of the sweep
+    assert found[2].crank_torque.peak == swept[2].crank_torque.peak.min()
+    with pytest.raises(cp.InputError, match=r"values have shape \(2,\)"):
+        swept.least([1.0, 2.0])

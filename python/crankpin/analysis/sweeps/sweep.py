@@ -338,6 +338,41 @@ class Sweep(ByOrder, Tabled):
         within = (self, tuple(places[name] for name in self.dims))
         return Balance(self.engine_at(**at), rpm, self.request, within)
 
+    def least(self, values: ArrayLike) -> Balance:
+        """Return the balance at the swept point where values of the sweep are least.
+
+        Parameters
+        ----------
+        values
+            A number for each point, such as the peaks of an order: the shape of the sweep.
+
+        Raises
+        ------
+        InputError
+            If the shape is another, or all values are NaN.
+
+        Examples
+        --------
+        The speed at which gas and inertia torque of order 2 are nearest to cancelling:
+
+        >>> import crankpin as cp
+        >>> fired = cp.Engine.preset("i4").with_cycle(cp.Cycle.example())
+        >>> s = cp.sweep(fired, rpm=range(1000, 6001, 50))
+        >>> s.least(s[2].crank_torque.peak).rpm
+        4150.0
+        """
+        array = inputs.array("values", values)
+        shape = tuple(len(self.coords[name]) for name in self.dims)
+        if array.shape != shape or np.isnan(array).all():
+            raise InputError(
+                f"values have shape {array.shape}: give a number for each point, of shape {shape}"
+            )
+        at = np.unravel_index(int(np.nanargmin(array)), shape)
+        named = {name: self.coords[name][k] for name, k in zip(self.dims, at, strict=True)}
+        found = self.sel(**named)
+        assert isinstance(found, Balance)  # noqa: S101 - all dimensions are selected
+        return found
+
     def _places(self, selection: Mapping[str, Any]) -> dict[str, int]:
         """Return the place of each selected value in its dimension."""
         return {
