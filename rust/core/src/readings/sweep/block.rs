@@ -1,6 +1,6 @@
 //! Rows of a sweep evaluated side by side: waves of the bank angle times coefficients.
 
-use super::factors::{Coefficients, Columns, Waves};
+use super::factors::{Coefficients, Padded, Waves};
 use crate::Complex64;
 use crate::wrench::snapped;
 
@@ -28,28 +28,28 @@ struct Sums {
 /// Places of a block's rows in a column.
 trait Places {
     /// Numbers of a column at these places.
-    fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes;
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes;
 }
 
 /// One place for all rows.
-struct Same(usize);
+struct OnePlace(usize);
 
 /// This place and those after it.
-struct From(usize);
+struct PlacesFrom(usize);
 
 /// A place for each row.
-struct Each([usize; LANES]);
+struct EachPlace([usize; LANES]);
 
-impl Places for Same {
+impl Places for OnePlace {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
         [columns.values[column * columns.length + self.0]; LANES]
     }
 }
 
-impl Places for From {
+impl Places for PlacesFrom {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
         let values = &columns.values[column * columns.length + self.0..][..LANES];
         let mut lanes = [0.0; LANES];
         lanes.copy_from_slice(values);
@@ -57,9 +57,9 @@ impl Places for From {
     }
 }
 
-impl Places for Each {
+impl Places for EachPlace {
     #[inline(always)]
-    fn of<const N: usize>(&self, columns: &Columns<N>, column: usize) -> Lanes {
+    fn of<const N: usize>(&self, columns: &Padded<N>, column: usize) -> Lanes {
         let mut lanes = [0.0; LANES];
         for (lane, place) in lanes.iter_mut().zip(&self.0) {
             *lane = columns.values[column * columns.length + place];
@@ -78,11 +78,11 @@ impl Block {
     pub fn evaluate(&mut self, waves: &Waves, coefficients: &Coefficients, row: usize) {
         let points = coefficients.points;
         if points == 1 {
-            return self.combine(waves, coefficients, &From(row), &Same(0));
+            return self.combine(waves, coefficients, &PlacesFrom(row), &OnePlace(0));
         }
         let (angle, point) = (row / points, row % points);
         if point + LANES <= points {
-            return self.combine(waves, coefficients, &Same(angle), &From(point));
+            return self.combine(waves, coefficients, &OnePlace(angle), &PlacesFrom(point));
         }
         let (mut angles, mut places) = ([angle; LANES], [point; LANES]);
         for i in 1..LANES {
@@ -91,7 +91,7 @@ impl Block {
             // Rows after the last one have no angle of their own.
             angles[i] = (angles[i - 1] + usize::from(ends)).min(waves.angles - 1);
         }
-        self.combine(waves, coefficients, &Each(angles), &Each(places));
+        self.combine(waves, coefficients, &EachPlace(angles), &EachPlace(places));
     }
 
     #[inline(always)]

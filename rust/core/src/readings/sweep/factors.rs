@@ -16,13 +16,13 @@ use crate::numbers::memory;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// Columns of numbers, one after the other, each followed by room that a block may read.
-pub(super) struct Columns<const N: usize> {
+pub(super) struct Padded<const N: usize> {
     pub values: Vec<f64>,
     /// Numbers from the start of a column to that of the next one.
     pub length: usize,
 }
 
-impl<const N: usize> Columns<N> {
+impl<const N: usize> Padded<N> {
     pub fn zeros(count: usize) -> Result<Self> {
         let length = count + LANES;
         Ok(Self { values: memory::zeros(N * length)?, length })
@@ -35,7 +35,7 @@ impl<const N: usize> Columns<N> {
 
 /// Cosines and sines of multiples of a quarter of the bank angle, at some bank angles.
 pub(super) struct Waves {
-    pub columns: Vec<Columns<2>>,
+    pub columns: Vec<Padded<2>>,
     /// Places of the waves of the forward part (or torque) and of the backward part, by order.
     pub of_order: Vec<[usize; 2]>,
     /// Number of bank angles.
@@ -63,7 +63,7 @@ impl Waves {
                 if *place < columns.len() {
                     continue;
                 }
-                let mut wave = Columns::zeros(angles.len())?;
+                let mut wave = Padded::zeros(angles.len())?;
                 let (cos, sin) = wave.values.split_at_mut(wave.length);
                 if multiple == 0 {
                     cos.fill(1.0);
@@ -92,9 +92,9 @@ impl Waves {
 pub(super) struct Coefficients {
     /// Real and imaginary parts of cos, sin and rest of the forward and of the backward part, and the
     /// bound of rounding errors.
-    pub by_order: Vec<Columns<13>>,
+    pub by_order: Vec<Padded<13>>,
     /// Means, where there are any.
-    pub mean: Option<Columns<1>>,
+    pub mean: Option<Padded<1>>,
     /// Points, each at every speed if the sums depend on it otherwise than by ω².
     pub points: usize,
 }
@@ -114,7 +114,7 @@ impl Coefficients {
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;
-            let mut columns = Columns::zeros(count)?;
+            let mut columns = Padded::zeros(count)?;
             for sum in sums {
                 let Some([re, im]) = harmonics.of(sum.harmonic, k) else { continue };
                 let mut each = columns.each();

@@ -3,7 +3,7 @@
 use std::mem;
 use std::ops::Range;
 
-use super::factors::Columns as Padded;
+use super::factors::Padded;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;

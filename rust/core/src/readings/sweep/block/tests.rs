@@ -2,8 +2,8 @@ use super::*;
 use crate::readings::sweep::kernel::tests::numbers;
 
 /// Columns of numbers without a pattern.
-fn columns<const N: usize>(count: usize, seed: usize) -> Columns<N> {
-    let mut columns = Columns::zeros(count).unwrap();
+fn columns<const N: usize>(count: usize, seed: usize) -> Padded<N> {
+    let mut columns = Padded::zeros(count).unwrap();
     for (k, column) in columns.each().enumerate() {
         column[..count].copy_from_slice(&numbers(count, seed + k));
     }
