@@ -17,7 +17,7 @@ const TOGETHER: usize = 4;
 
 /// A part of a sum that is not zero in every row: real or imaginary parts of the phasors of an order.
 #[derive(Clone, Copy)]
-pub(super) struct Wave {
+pub(super) struct OrderWave {
     /// Place of the order.
     order: usize,
     sine: bool,
@@ -33,7 +33,7 @@ struct Tile {
     sin: [f64; TILE],
 }
 
-impl Wave {
+impl OrderWave {
     /// The terms of some rows of phasors of so many components.
     ///
     /// What a layout cancels is not summed, nor a part that in every row is less than half a unit in
@@ -65,7 +65,7 @@ impl Tiles {
         angles: &CrankAngles,
         range: &Range<usize>,
         orders: &[Order],
-        terms: &[Wave],
+        terms: &[OrderWave],
     ) -> Self {
         let tiles = orders.iter().enumerate().map(|(place, &order)| {
             if terms.iter().all(|term| term.order != place) {
@@ -81,7 +81,7 @@ impl Tiles {
     #[inline(always)]
     pub fn sum<const COMPONENTS: usize>(
         &self,
-        terms: &[Wave],
+        terms: &[OrderWave],
         row: &[Complex64],
         first: usize,
         out: &mut [f64],
@@ -89,7 +89,7 @@ impl Tiles {
         let (row, _) = row.as_chunks::<COMPONENTS>();
         let (out, _) = out.as_chunks_mut::<COMPONENTS>();
         for (k, out) in (first..).zip(out.chunks_mut(TILE)) {
-            let of = |term: &Wave| {
+            let of = |term: &OrderWave| {
                 let tile = &self.0[term.order][k];
                 let numbers = if term.sine { &tile.sin } else { &tile.cos };
                 (row[term.order].map(|phasor| term.weight(phasor)), numbers)

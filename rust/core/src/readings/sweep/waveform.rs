@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::placed::{Placed, PlacedPoint};
-use super::tiles::{TILE, Tiles, Wave};
+use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
 use crate::gear::GearKind;
@@ -87,17 +87,17 @@ impl Sweep {
     fn by_orders(&self, phasors: &[Complex64], rows: &Rows, out: &mut [f64]) -> Result<()> {
         let (orders, components) = (self.orders.len(), rows.components);
         let width = orders * components;
-        let tiles = |range: &Range<usize>, terms: &[Wave]| {
+        let tiles = |range: &Range<usize>, terms: &[OrderWave]| {
             Tiles::new(rows.angles, range, &self.orders, terms)
         };
         // Of fewer rows than share a tile each is used once, and not worth keeping.
         let shared = (phasors.chunks_exact(width).len() > ROWS)
-            .then(|| tiles(&(0..rows.angles.len()), &Wave::of(phasors, orders, components)));
+            .then(|| tiles(&(0..rows.angles.len()), &OrderWave::of(phasors, orders, components)));
         rows.fill(
             out,
             |rows_of| {
                 let phasors = &phasors[rows_of.start * width..rows_of.end * width];
-                Ok((phasors, Wave::of(phasors, orders, components)))
+                Ok((phasors, OrderWave::of(phasors, orders, components)))
             },
             |(phasors, terms), range, outs| {
                 let own = shared.is_none().then(|| tiles(&range, terms));
