@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from crankpin.analysis.contributions import contributions
 from numpy.typing import NDArray
-
-from tests.rederivation import torque as again
+from rederivation import torque as again
 
 Array = NDArray[np.float64]
 CRANKCASE = 1.1e5
