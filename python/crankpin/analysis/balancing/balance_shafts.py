@@ -110,13 +110,13 @@ def balance_shafts(
     engine_core(engine)
     asked = shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
     speed = inputs.optional_number("rpm", rpm)
-    if speed == 0.0:
-        raise InputError(f"rpm = {speed:g}: shafts make no force at rest; give a speed above zero")
     found, beyond = _core.fit_shafts(
         engine_core(engine),
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
         speed,
     )
+    if speed == 0.0:
+        raise InputError(f"rpm = {speed:g}: shafts make no force at rest; give a speed above zero")
     if beyond is not None:
         warn(
             "the roll torque is not cancelled: shafts that do so would be "
