@@ -64,10 +64,11 @@ def one_order(order: object) -> Order:
 class Keyed:
     """Mixin of what has orders as keys."""
 
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """Multiples of crank speed: ints, and floats for halves."""
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        @property
+        def orders(self) -> tuple[Order, ...]:
+            """Multiples of crank speed: ints, and floats for halves."""
 
     def __contains__(self, order: object) -> bool:
         return order in self.orders

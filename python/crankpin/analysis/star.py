@@ -15,11 +15,12 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.firing import Firing  # noqa: TC001 - a field
+from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.vanishing import Verdicts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
 
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
@@ -31,7 +32,7 @@ HIGHEST = 12
 """Highest order of a diagram whose orders are not given."""
 
 
-class StarDiagram(Tabled):
+class StarDiagram(Keyed, Tabled):
     """Phase vectors of the cylinders of an engine, and their sums, order by order.
 
     At order k the gas torque of a cylinder that fires at the crank angle φ has the phase
@@ -108,15 +109,6 @@ class StarDiagram(Tabled):
             If the order is not among ``orders``.
         """
         return complex(self.sums[self.place(order)])
-
-    def __contains__(self, order: object) -> bool:
-        return order in self.orders
-
-    def __iter__(self) -> Iterator[Order]:
-        return iter(self.orders)
-
-    def __len__(self) -> int:
-        return len(self.orders)
 
     def place(self, order: Order) -> int:
         """Return the index of an order, or raise an InputError."""

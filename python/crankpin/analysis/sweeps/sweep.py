@@ -333,10 +333,7 @@ class Sweep(ByOrder, Tabled):
                 else:
                     axes[name] = float(self.coords[name][place])
             return self.replace(engines=engines, names=names, axes=axes)
-        at = {name: self.coords[name][place] for name, place in places.items()}
-        rpm = float({**self.fixed, **at}["rpm"])
-        within = (self, tuple(places[name] for name in self.dims))
-        return Balance(self.engine_at(**at), rpm, self.request, within)
+        return self._balance_at(tuple(places[name] for name in self.dims))
 
     def least(self, values: ArrayLike) -> Balance:
         """Return the balance at the swept point where values of the sweep are least.
@@ -367,11 +364,14 @@ class Sweep(ByOrder, Tabled):
             raise InputError(
                 f"values have shape {array.shape}: give a number for each point, of shape {shape}"
             )
-        at = np.unravel_index(int(np.nanargmin(array)), shape)
-        named = {name: self.coords[name][k] for name, k in zip(self.dims, at, strict=True)}
-        found = self.sel(**named)
-        assert isinstance(found, Balance)  # noqa: S101 - all dimensions are selected
-        return found
+        least = np.unravel_index(int(np.nanargmin(array)), shape)
+        return self._balance_at(tuple(int(place) for place in least))
+
+    def _balance_at(self, places: tuple[int, ...]) -> Balance:
+        """Return the balance at a point, given by its place in each swept dimension."""
+        at = {name: self.coords[name][k] for name, k in zip(self.dims, places, strict=True)}
+        rpm = float({**self.fixed, **at}["rpm"])
+        return Balance(self.engine_at(**at), rpm, self.request, (self, places))
 
     def _places(self, selection: Mapping[str, Any]) -> dict[str, int]:
         """Return the place of each selected value in its dimension."""
