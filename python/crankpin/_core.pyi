@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "ATMOSPHERE",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "SCHEMA",
@@ -57,6 +58,7 @@ __all__ = [
 ]
 
 __version__: str
+ATMOSPHERE: float
 LONGEST_AXIS: int
 LONGEST_FILE: int
 SCHEMA: int

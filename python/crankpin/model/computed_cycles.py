@@ -7,15 +7,12 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final, Literal, Self, TypedDict
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin.model.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from typing import Unpack
-
-ATMOSPHERE = 101_325.0
-"""Pressure in the crankcase unless another is given, Pa."""
 
 EXAMPLES: Final[Mapping[str, Mapping[str, Any]]] = {
     "petrol": {

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.model import checks, cycle_files
-from crankpin.model.computed_cycles import ATMOSPHERE, ComputedCycles, area
+from crankpin.model.computed_cycles import ComputedCycles, area
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

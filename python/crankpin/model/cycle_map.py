@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.model.computed_cycles import ATMOSPHERE
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:

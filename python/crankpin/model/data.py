@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any, Final, Literal, NoReturn, Self, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
 from crankpin._support.record import read_only
 from crankpin.model import checks, crankpins
 from crankpin.model import shafts as rotating
-from crankpin.model.computed_cycles import ATMOSPHERE
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
 

@@ -34,6 +34,7 @@ static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     reserve::allocate();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("ATMOSPHERE", crankpin_core::pressure::ATMOSPHERE)?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
     module.add("LONGEST_FILE", crankpin_core::engine::file::LONGEST_TEXT)?;
     module.add("SCHEMA", crankpin_core::engine::file::SCHEMA)?;
