@@ -403,7 +403,7 @@ impl Merit {
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
-        let pistons = (0..engine.placements().len()).map(of_cylinder);
+        let pistons = (0..engine.stations().len()).map(of_cylinder);
         let weights =
             engine.crank_unbalances().map(|each| each.pin.map_or_else(fixed, of_cylinder));
         let mut all_turns: Vec<_> = pistons.chain(weights).collect();

@@ -31,7 +31,7 @@ pub mod readings;
 pub mod search;
 pub mod wrench;
 
-pub use engine::{Crank, Engine, Hold, Placement, Shaft, Unbalance, layout};
+pub use engine::{Crank, Engine, Hold, Shaft, Station, Unbalance, layout};
 pub use firing::Firing;
 pub use gear::slider_crank::Cylinder;
 pub use gear::spectrum::Spectrum;

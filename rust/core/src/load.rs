@@ -371,7 +371,7 @@ impl Loads {
         // A spectrum does not determine a motion, against which pressure would act.
         let gas = engine.gas().filter(|_| spectrum.is_none());
         let cycle_of = |i: usize| gas.and_then(|gas| gas.cycle_of[i]);
-        let count = engine.placements().len();
+        let count = engine.stations().len();
         let gear_of = first_equal(
             (0..count).map(|i| (alike_to[engine.gear_of(i)], crank(i).ratio, cycle_of(i))),
         );
@@ -391,7 +391,7 @@ impl Loads {
         // A load on the crank of a cylinder.
         let on_crank_of = |i: usize, load: Load| {
             let Crank { axis: [x, y], ratio } = *crank(i);
-            let (phase, bank) = (engine.placements()[i].tdc, Some(engine.bank_of(i)));
+            let (phase, bank) = (engine.stations()[i].tdc, Some(engine.bank_of(i)));
             Load { phase, bank, ratio, axis: Complex64::new(x, y), ..load }
         };
         let on_main = |source, weight, direction: Angle, z| Load {
@@ -405,7 +405,7 @@ impl Loads {
             axis: Complex64::default(),
             bank: None,
         };
-        let pistons = engine.placements().iter().enumerate().map(|(i, place)| {
+        let pistons = engine.stations().iter().enumerate().map(|(i, place)| {
             let cylinder = place.cylinder;
             let source = Source::Piston {
                 gear: gear_of[i],
@@ -419,7 +419,7 @@ impl Loads {
             let load = |angle| on_main(Source::Unbalance, unbalance.amount, angle, unbalance.z);
             let Some(i) = unbalance.pin else { return load(unbalance.angle) };
             // A crankpin points along its bore at top dead centre.
-            let (angle, bore) = (unbalance.angle, engine.placements()[i].bank);
+            let (angle, bore) = (unbalance.angle, engine.stations()[i].bank);
             let ahead = if crank(i).ratio > 0 { bore + angle } else { bore - angle };
             on_crank_of(i, load(ahead))
         });
@@ -433,7 +433,7 @@ impl Loads {
         let in_cylinders = (0..count).filter_map(|i| {
             let (_, weight) = (cycle_of(i)?, engine.swept_by_radius(i)?);
             let source = Source::Pressure { gear: gear_of[i] };
-            let load = on_main(source, weight, Angle::ZERO, engine.placements()[i].z);
+            let load = on_main(source, weight, Angle::ZERO, engine.stations()[i].z);
             Some(Load { phase: engine.firing_phase(i).half(), ..on_crank_of(i, load) })
         });
         let list = pistons.chain(on_crank).chain(on_shafts).chain(in_cylinders);

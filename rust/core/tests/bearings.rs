@@ -11,7 +11,7 @@ use crankpin_core::engine::{Details, Gas};
 use crankpin_core::internal::{Bearing, Internal, Part, TurningAxes};
 use crankpin_core::pressure::{Cycle, Given};
 use crankpin_core::waveform::exact;
-use crankpin_core::{Cancel, Complex64, Cylinder, Engine, Error, Placement, Request, Spectrum};
+use crankpin_core::{Cancel, Complex64, Cylinder, Engine, Error, Request, Spectrum, Station};
 
 const RPM: f64 = 3000.0;
 const BORE: f64 = 0.09;
@@ -26,7 +26,7 @@ fn fired(engine: &Engine, crankcase: f64, pressure: impl Fn(f64) -> f64) -> Engi
     let theta_deg: Vec<f64> = (0..360).map(|k| 2.0 * f64::from(k)).collect();
     let pressure = theta_deg.iter().map(|&theta| pressure(theta)).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
-    let count = engine.placements().len();
+    let count = engine.stations().len();
     let gas = Gas {
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
         cycle_of: (0..count).map(|i| (i != 2).then_some(0)).collect(),
@@ -59,7 +59,7 @@ fn block(engine: &Engine, thetas: &[f64]) -> Vec<[Complex64; 3]> {
             sums[0] += force;
             sums[1] += i * z * force;
         }
-        for (j, place) in engine.placements().iter().enumerate() {
+        for (j, place) in engine.stations().iter().enumerate() {
             let force =
                 place.bank.cis(1) * Complex64::new(loads.gas[[j, k]], -loads.side_thrust[[j, k]]);
             sums[0] += force;
@@ -86,7 +86,7 @@ fn gas_shakes_nothing_and_turns_the_block_against_its_own_crank_torque() {
         assert!((with_gas[0] - without[0]).norm() < 1e-9, "force at {k}");
         assert!((with_gas[1] - without[1]).norm() < 1e-9, "moment at {k}");
         let mut on_crank = 0.0;
-        for (j, place) in still.placements().iter().enumerate() {
+        for (j, place) in still.stations().iter().enumerate() {
             let local = angle(thetas[k]) - place.tdc;
             let after = thetas[k] - fired.firing_phase(j).degrees();
             let expected = if j == 2 { 0.0 } else { AREA * (pressure(after) - 1.2e5) };
@@ -120,7 +120,7 @@ fn without_shafts_all_forces_are_those_of_the_waveform() {
 fn yoke() -> Engine {
     let cylinder = Cylinder::new(0.05, 1e9, 0.5, 0.0).unwrap();
     let place =
-        Placement { cylinder, tdc: angle(0.0), bank: angle(90.0), z: 0.0, rotating_mass: 0.0 };
+        Station { cylinder, tdc: angle(0.0), bank: angle(90.0), z: 0.0, rotating_mass: 0.0 };
     Engine::new("", "", vec![place]).unwrap().with_mains(vec![-0.1, 0.1]).unwrap()
 }
 

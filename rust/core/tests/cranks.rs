@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use common::{angle, by_orders};
 use crankpin_core::balance::{Orders, Request, Vector};
 use crankpin_core::engine::Unbalance;
-use crankpin_core::{Cancel, Complex64, Crank, Cylinder, Engine, Placement, harmonics, waveform};
+use crankpin_core::{Cancel, Complex64, Crank, Cylinder, Engine, Station, harmonics, waveform};
 
 const RADIUS: f64 = 0.04;
 const ROD: f64 = 0.13;
@@ -22,7 +22,7 @@ const ORDERS: [u32; 6] = [1, 2, 3, 4, 6, 8];
 
 /// Crank, top dead centre of the main crank's angle, bore, z, rotating mass, and unbalance at the pin.
 #[derive(Clone, Copy)]
-struct Station {
+struct Piece {
     crank: usize,
     tdc: f64,
     bore: f64,
@@ -32,31 +32,31 @@ struct Station {
     weight: [f64; 2],
 }
 
-fn station(crank: usize, tdc: f64, bore: f64, z: f64) -> Station {
-    Station { crank, tdc, bore, z, rotating_mass: 0.0, weight: [0.0; 2] }
+fn piece(crank: usize, tdc: f64, bore: f64, z: f64) -> Piece {
+    Piece { crank, tdc, bore, z, rotating_mass: 0.0, weight: [0.0; 2] }
 }
 
-fn engine(cranks: &[Crank], stations: &[Station]) -> Engine {
+fn engine(cranks: &[Crank], pieces: &[Piece]) -> Engine {
     let cylinder = Cylinder::new(RADIUS, ROD, MASS, 0.0).unwrap();
-    let place = |s: &Station| Placement {
+    let place = |s: &Piece| Station {
         cylinder,
         tdc: angle(s.tdc),
         bank: angle(s.bore),
         z: s.z,
         rotating_mass: s.rotating_mass,
     };
-    let weights = stations.iter().enumerate().map(|(i, s)| {
+    let weights = pieces.iter().enumerate().map(|(i, s)| {
         let [amount, ahead] = s.weight;
         Unbalance { amount, angle: angle(ahead), z: s.z, pin: Some(i) }
     });
-    Engine::new("", "", stations.iter().map(place).collect())
+    Engine::new("", "", pieces.iter().map(place).collect())
         .and_then(|e| e.with_counterweights(weights.filter(|w| w.amount > 0.0).collect()))
-        .and_then(|e| e.with_cranks(cranks.to_vec(), stations.iter().map(|s| s.crank).collect()))
+        .and_then(|e| e.with_cranks(cranks.to_vec(), pieces.iter().map(|s| s.crank).collect()))
         .unwrap()
 }
 
 /// Peak phasors over ω² of force x, y, moment x, y, roll torque and torque on the main crank.
-fn derived(cranks: &[Crank], stations: &[Station], reference: f64, order: u32) -> [Complex64; 6] {
+fn derived(cranks: &[Crank], pieces: &[Piece], reference: f64, order: u32) -> [Complex64; 6] {
     let phasor = |of: &dyn Fn(f64) -> f64| -> Complex64 {
         let sample = |k: usize| {
             let θ = TAU * k as f64 / SAMPLES as f64;
@@ -66,7 +66,7 @@ fn derived(cranks: &[Crank], stations: &[Station], reference: f64, order: u32) -
     };
     let derivative = Complex64::i() * f64::from(order);
     let mut sums = [Complex64::default(); 6];
-    for s in stations {
+    for s in pieces {
         let Crank { axis: [x, y], ratio } = cranks[s.crank];
         let (axis, along, ratio) =
             (Complex64::new(x, y), Complex64::cis(s.bore.to_radians()), f64::from(ratio));
@@ -116,8 +116,8 @@ fn derived(cranks: &[Crank], stations: &[Station], reference: f64, order: u32) -
 
 /// The engine's balance and waveform are those derived; returns the engine.
 #[track_caller]
-fn check(cranks: &[Crank], stations: &[Station]) -> Engine {
-    let engine = engine(cranks, stations);
+fn check(cranks: &[Crank], pieces: &[Piece]) -> Engine {
+    let engine = engine(cranks, pieces);
     let reference = engine.middle();
     let rpm = 60.0 / TAU;
     let request = Request { rpm, reference_z: None, torque: true };
@@ -126,7 +126,7 @@ fn check(cranks: &[Crank], stations: &[Station]) -> Engine {
         let [[fx, fy], [mx, my]] = [Vector::Force, Vector::Moment].map(|v| balance.xy(v, k));
         let torque = balance.wrenches[k].torque();
         let found = [fx, fy, mx, my, torque.roll, torque.crank];
-        let expected = derived(cranks, stations, reference, order);
+        let expected = derived(cranks, pieces, reference, order);
         for (which, (found, expected)) in found.into_iter().zip(expected).enumerate() {
             // Four cylinders of m·r = 0.024 and levers of decimetres, each to rounding.
             assert!((found - expected).norm() < 2e-15, "{order} {which}: {found} {expected}");
@@ -152,8 +152,8 @@ fn beside(x: f64, ratio: i32) -> Crank {
 
 #[test]
 fn a_main_crank_alone_is_the_usual_engine() {
-    let stations = [station(0, 0.0, 60.0, 0.0), station(0, 130.0, 120.0, 0.1)];
-    check(&[Crank::MAIN], &stations);
+    let pieces = [piece(0, 0.0, 60.0, 0.0), piece(0, 130.0, 120.0, 0.1)];
+    check(&[Crank::MAIN], &pieces);
 }
 
 #[test]
@@ -161,10 +161,10 @@ fn contra_rotating_twins_have_no_force_of_order_one() {
     let cranks = [Crank::MAIN, beside(0.12, -1)];
     let mass = 0.3;
     // Bob weights of the whole reciprocating mass: what they leave across the bores is opposite.
-    let weighed = |crank| Station {
+    let weighed = |crank| Piece {
         rotating_mass: mass,
         weight: [(MASS + mass) * RADIUS, 180.0],
-        ..station(crank, 0.0, 90.0, 0.0)
+        ..piece(crank, 0.0, 90.0, 0.0)
     };
     let engine = check(&cranks, &[weighed(0), weighed(1)]);
     let rpm = 60.0 / TAU;
@@ -186,7 +186,7 @@ fn a_square_four_is_two_twins_back_to_back() {
     // Pins half a turn apart on each crank; cylinders in a square.
     for ratio in [1, -1] {
         let cranks = [Crank::MAIN, beside(0.1, ratio)];
-        let at = |crank, tdc, z| station(crank, tdc, 90.0, z);
+        let at = |crank, tdc, z| piece(crank, tdc, 90.0, z);
         check(&cranks, &[at(0, 0.0, 0.0), at(0, 180.0, 0.1), at(1, 180.0, 0.0), at(1, 0.0, 0.1)]);
     }
 }
@@ -195,25 +195,25 @@ fn a_square_four_is_two_twins_back_to_back() {
 fn a_u_four_has_two_parallel_twins() {
     for (ratio, phase) in [(1, 90.0), (-1, 33.0), (2, 10.0), (-2, 20.0)] {
         let cranks = [Crank::MAIN, Crank { axis: [0.09, -0.02], ratio }];
-        let on = |crank, tdc, z| Station {
+        let on = |crank, tdc, z| Piece {
             rotating_mass: 0.2,
             weight: [0.01, 170.0],
-            ..station(crank, tdc, 90.0, z)
+            ..piece(crank, tdc, 90.0, z)
         };
-        let stations = [
+        let pieces = [
             on(0, 0.0, 0.0),
             on(0, 180.0, 0.1),
             on(1, phase, 0.0),
             on(1, phase + 180.0 / f64::from(ratio.abs()), 0.1),
         ];
-        check(&cranks, &stations);
+        check(&cranks, &pieces);
     }
 }
 
 #[test]
 fn opposed_pistons_balance_if_their_cranks_are_in_phase() {
     let cranks = [Crank::MAIN, Crank { axis: [0.0, 0.5], ratio: -1 }];
-    let pair = |lag: f64| [station(0, 0.0, 90.0, 0.0), station(1, lag, 270.0, 0.0)];
+    let pair = |lag: f64| [piece(0, 0.0, 90.0, 0.0), piece(1, lag, 270.0, 0.0)];
     let rpm = 60.0 / TAU;
     let request = Request { rpm, reference_z: None, torque: true };
     let in_phase = by_orders(&check(&cranks, &pair(0.0)), &request, &ORDERS);
@@ -226,8 +226,8 @@ fn opposed_pistons_balance_if_their_cranks_are_in_phase() {
 
 #[test]
 fn cranks_that_are_none_are_rejected_by_name() {
-    let stations = [station(0, 0.0, 90.0, 0.0), station(1, 0.0, 90.0, 0.0)];
-    let plain = engine(&[Crank::MAIN, beside(0.1, 1)], &stations);
+    let pieces = [piece(0, 0.0, 90.0, 0.0), piece(1, 0.0, 90.0, 0.0)];
+    let plain = engine(&[Crank::MAIN, beside(0.1, 1)], &pieces);
     let error = |cranks: &[Crank], of: &[usize]| {
         plain.with_cranks(cranks.to_vec(), of.to_vec()).unwrap_err().to_string()
     };

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crankpin_core::exact::closed_form::closed_form;
 use crankpin_core::exact::vanishing::{Verdict, vanishing};
 use crankpin_core::layout::{Numbering, Side, Vee};
-use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Order, Placement};
+use crankpin_core::{Angle, Cancel, Cylinder, Engine, Error, Order, Station};
 
 fn angle(text: &str) -> Angle {
     text.parse().unwrap()
@@ -39,7 +39,7 @@ fn engines_are_equal_whether_angles_are_typed_or_computed() {
     // 90° ∓ 24.77°, and cylinder 1 at its top at 0.05°.
     let typed = [65.23, 114.77].map(|bank| Angle::from_degrees(bank).unwrap());
     let shift = angle("0.05");
-    for (i, place) in vee.placements().iter().enumerate() {
+    for (i, place) in vee.stations().iter().enumerate() {
         let split = if i % 2 == 1 { angle("-10.46") } else { Angle::ZERO };
         assert_eq!(place.bank, typed[i % 2]);
         let turned = place.bank - typed[0] - throws[i / 2] - split + shift;
@@ -52,7 +52,7 @@ fn engines_are_equal_whether_angles_are_typed_or_computed() {
 fn a_v6_with_six_decimals_is_decided_in_milliseconds() {
     let throws = ["0.000007", "120.000007", "240.000007"].map(angle);
     let v6 = v6(angle("61.234568"), throws, angle("-1.234567"), angle("17.123456"));
-    assert!(v6.placements().iter().any(|p| p.tdc.turns().unwrap().1 >= 360_000_000));
+    assert!(v6.stations().iter().any(|p| p.tdc.turns().unwrap().1 >= 360_000_000));
     let orders = Order::all_whole(&[1, 2, 3, 4, 6]).unwrap();
     let mut least = Duration::MAX;
     for _ in 0..5 {
@@ -74,7 +74,7 @@ fn a_v6_with_six_decimals_is_decided_in_milliseconds() {
 /// N = 37 380 = 4·3·5·7·89: `Φ_N` has thousands of coefficients other than 0.
 fn many_parts() -> Engine {
     let parts = [4, 3, 5, 7, 89];
-    let place = |(i, &n): (usize, &i64)| Placement {
+    let place = |(i, &n): (usize, &i64)| Station {
         cylinder: cylinder(),
         tdc: Angle::from_turns(1, n).unwrap(),
         bank: Angle::QUARTER_TURN,

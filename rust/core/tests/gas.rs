@@ -10,7 +10,7 @@ use crankpin_core::balance::{Balance, Orders, Request, TorquePart, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
-use crankpin_core::{Angle, Cancel, Crank, Cycle, Cylinder, Engine, Placement, waveform};
+use crankpin_core::{Angle, Cancel, Crank, Cycle, Cylinder, Engine, Station, waveform};
 
 const BORE: f64 = 0.08;
 const RADIUS: f64 = 0.04;
@@ -31,7 +31,7 @@ fn cycle(strokes: u32) -> Arc<Cycle> {
 /// Two upright cylinders on cranks of these ratios, 0.2 m apart.
 fn twin(ratios: [i32; 2]) -> Engine {
     let cylinder = Cylinder::new(RADIUS, ROD, 0.5, 0.0).unwrap();
-    let place = Placement {
+    let place = Station {
         cylinder,
         tdc: angle(30.0),
         bank: Angle::QUARTER_TURN,

@@ -11,8 +11,8 @@ use crankpin_core::balance::{TorquePart, Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Order, Orders, Placement, Request,
-    Spectrum, Sweep, waveform,
+    Angle, Balance, Cancel, Complex64, Cylinder, Engine, Hold, Order, Orders, Request, Spectrum,
+    Station, Sweep, waveform,
 };
 use proptest::prelude::*;
 
@@ -39,10 +39,10 @@ fn rolls(balance: &Balance) -> impl Iterator<Item = Complex64> {
 /// Size that rounding is relative to: Σ m r ω² (1 + |z|).
 fn size(engine: &Engine) -> f64 {
     let omega = 3000.0 * TAU / 60.0;
-    let each = |p: &Placement| {
+    let each = |p: &Station| {
         (p.cylinder.first_order() + p.rotating_mass * p.cylinder.crank_radius()) * (1.0 + p.z.abs())
     };
-    engine.placements().iter().map(each).sum::<f64>() * omega * omega
+    engine.stations().iter().map(each).sum::<f64>() * omega * omega
 }
 
 /// Equal to rounding: phases of order 9 of angles to 1024° are good to 9·1.1e-13·π/180 = 2e-14, of
@@ -67,7 +67,7 @@ proptest! {
             ).unwrap();
             let rod_inertia = c.rod_inertia_excess() * factor.powi(3);
             let cylinder = cylinder.with_rod_inertia_excess(rod_inertia).unwrap();
-            Placement { cylinder, rotating_mass: p.rotating_mass * factor, ..*p }
+            Station { cylinder, rotating_mass: p.rotating_mass * factor, ..*p }
         });
         let before = of(&engine);
         let faster = Request { rpm: 3000.0 * factor, ..REQUEST };
@@ -84,7 +84,7 @@ proptest! {
 
     #[test]
     fn turning_the_engine_turns_the_result(engine in engines(true), by in angles()) {
-        let turned = changed(&engine, |p| Placement { bank: p.bank + by, ..*p });
+        let turned = changed(&engine, |p| Station { bank: p.bank + by, ..*p });
         let (before, after) = (of(&engine), of(&turned));
         for vector in VECTORS {
             for ([f, g], [f2, g2]) in turning(&before, vector).into_iter().zip(turning(&after, vector)) {
@@ -96,7 +96,7 @@ proptest! {
 
     #[test]
     fn turning_the_crank_turns_the_phase(engine in engines(true), by in angles()) {
-        let turned = changed(&engine, |p| Placement { tdc: p.tdc + by, ..*p });
+        let turned = changed(&engine, |p| Station { tdc: p.tdc + by, ..*p });
         let (before, after) = (of(&engine), of(&turned));
         for (k, &n) in ORDERS.iter().enumerate() {
             let phase = by.cis(-i64::from(n));
@@ -109,11 +109,11 @@ proptest! {
 
     #[test]
     fn relabelling_changes_nothing(engine in engines(true), by in 0_usize..8) {
-        let mut placements = engine.placements().to_vec();
-        let count = placements.len();
-        placements.rotate_left(by % count);
-        placements.reverse();
-        let (before, after) = (of(&engine), of(&Engine::new("", "", placements).unwrap()));
+        let mut stations = engine.stations().to_vec();
+        let count = stations.len();
+        stations.rotate_left(by % count);
+        stations.reverse();
+        let (before, after) = (of(&engine), of(&Engine::new("", "", stations).unwrap()));
         let moment = |balance| xy(balance, Vector::Moment).concat();
         for (a, b) in moment(&before).iter().zip(moment(&after)) {
             same(*a, b, size(&engine));
@@ -136,8 +136,8 @@ proptest! {
     fn a_mirror_swaps_and_conjugates(engine in engines(true)) {
         let upright = Angle::from_degrees(180.0).unwrap();
         // Without rotating mass: a mirrored pin would turn the other way.
-        let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
-        let mirrored = changed(&engine, |p| Placement { bank: upright - p.bank, ..*p });
+        let engine = changed(&engine, |p| Station { rotating_mass: 0.0, ..*p });
+        let mirrored = changed(&engine, |p| Station { bank: upright - p.bank, ..*p });
         for (vector, sign) in [(Vector::Force, -1.0), (Vector::Moment, 1.0)] {
             let [before, after] = [&engine, &mirrored].map(|engine| turning(&of(engine), vector));
             for ([f, b], [f2, b2]) in before.into_iter().zip(after) {
@@ -149,8 +149,8 @@ proptest! {
 
     #[test]
     fn reversing_the_crank_swaps_forward_and_backward(engine in engines(false)) {
-        let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
-        let reversed = changed(&engine, |p| Placement { tdc: -p.tdc, ..*p });
+        let engine = changed(&engine, |p| Station { rotating_mass: 0.0, ..*p });
+        let reversed = changed(&engine, |p| Station { tdc: -p.tdc, ..*p });
         let force = |engine| turning(&of(engine), Vector::Force).into_iter();
         for ([f, b], [f2, b2]) in force(&engine).zip(force(&reversed)) {
             same(b, f2, size(&engine));
@@ -161,7 +161,7 @@ proptest! {
     #[test]
     fn boxer_pairs_cancel(cylinder in cylinders(true), tdc in angles(), bank in angles(), mass in 0.0..2.0) {
         let half = Angle::from_degrees(180.0).unwrap();
-        let place = |bank| Placement { cylinder, tdc, bank, z: 0.1, rotating_mass: mass };
+        let place = |bank| Station { cylinder, tdc, bank, z: 0.1, rotating_mass: mass };
         let engine = Engine::new("", "", vec![place(bank), place(bank + half)]).unwrap();
         let balance = of(&engine);
         for vector in VECTORS {
@@ -172,7 +172,7 @@ proptest! {
 
     #[test]
     fn rotating_mass_is_all_forward(engine in engines(true)) {
-        let without = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
+        let without = changed(&engine, |p| Station { rotating_mass: 0.0, ..*p });
         let (with, without) = (of(&engine), of(&without));
         let [with, without] = [with, without].map(|balance| turning(&balance, Vector::Force));
         for ([_, a], [_, b]) in with.iter().zip(&without) {
@@ -180,7 +180,7 @@ proptest! {
         }
         let omega = 3000.0 * TAU / 60.0;
         let turning: Complex64 = engine
-            .placements()
+            .stations()
             .iter()
             .map(|p| p.pin().cis(1) * p.rotating_mass * p.cylinder.crank_radius() * omega * omega)
             .sum();
@@ -198,7 +198,7 @@ proptest! {
             let (mut roll, mut crank) = (Complex64::default(), Complex64::default());
             // Σ|terms| of force, moment (of its levers' two parts) and torque.
             let mut terms = [0.0; 3];
-            for p in engine.placements() {
+            for p in engine.stations() {
                 let (c, radius) = (p.cylinder, p.cylinder.crank_radius());
                 let proportions = c.proportions();
                 let alone = harmonics::coefficients(&proportions, &[n], &Cancel::new()).unwrap()[0];
@@ -244,7 +244,7 @@ proptest! {
             same(torque.roll, roll, size);
             same(torque.crank, crank, size);
             // The documented bound of rounding errors: a load for each piston and rotating mass.
-            let loads = engine.placements().len() + engine.crank_unbalances().count();
+            let loads = engine.stations().len() + engine.crank_unbalances().count();
             let factor = (loads as f64 + 16.0 + 8.0 * f64::from(n)) * f64::EPSILON;
             let [force, moment] = VECTORS.map(|vector| balance.zero_bound(vector, k));
             let bounds = [force, moment, balance.torque_zero_bound(TorquePart::Whole, k)];
@@ -337,7 +337,7 @@ proptest! {
             prop_assert!((a - b).abs() <= bound + rounding);
         }
         let largest = engine
-            .placements()
+            .stations()
             .iter()
             .map(|p| p.cylinder.first_order().max(p.rotating_mass * p.cylinder.crank_radius()))
             .fold(0.0, f64::max);
@@ -384,7 +384,7 @@ proptest! {
                 let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
                 let cylinder = Cylinder::new(r, r / ratio, m, -offset).unwrap();
                 let rod_inertia = p.cylinder.rod_inertia_excess();
-                Placement { cylinder: cylinder.with_rod_inertia_excess(rod_inertia).unwrap(), ..*p }
+                Station { cylinder: cylinder.with_rod_inertia_excess(rod_inertia).unwrap(), ..*p }
             });
             let alone = by_orders(&there, &Request { reference_z: Some(0.1), ..REQUEST }, &ORDERS);
             let size = 2.0 * size(&there);
@@ -410,7 +410,7 @@ proptest! {
         let axes = Axes { bank_angle: None, rod_ratio: Some(vec![ratio]), pin_offset: None, rpm };
         let engine = changed(&engine, |p| {
             let (r, m) = (p.cylinder.crank_radius(), p.cylinder.reciprocating_mass());
-            Placement { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
+            Station { cylinder: Cylinder::new(r, r / ratio, m, 0.0).unwrap(), ..*p }
         });
         let engines = vec![engine.clone().into()];
         let sweep = Sweep::new(engines, axes, whole(&ORDERS), Some(0.0), &Cancel::new()).unwrap();
@@ -453,7 +453,7 @@ proptest! {
 fn in_phase(cylinder: Cylinder, tdc: f64) -> Engine {
     let tdc = Angle::from_degrees(tdc).unwrap();
     let bank = Angle::from_degrees(90.0).unwrap();
-    let place = |z| Placement { cylinder, tdc, bank, z, rotating_mass: 0.0 };
+    let place = |z| Station { cylinder, tdc, bank, z, rotating_mass: 0.0 };
     Engine::new("", "", vec![place(0.0), place(0.2)]).unwrap()
 }
 
@@ -499,7 +499,7 @@ fn orders_that_a_layout_cancels_are_not_omitted() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let at = |degrees| Angle::from_degrees(degrees).unwrap();
     let place =
-        |tdc, bank, z| Placement { cylinder, tdc: at(tdc), bank: at(bank), z, rotating_mass: 0.0 };
+        |tdc, bank, z| Station { cylinder, tdc: at(tdc), bank: at(bank), z, rotating_mass: 0.0 };
     let request = Request { torque: false, ..REQUEST };
     let boxer = Engine::new("", "", vec![place(0.0, 0.0, 0.1), place(0.0, 180.0, 0.1)]).unwrap();
     let balance = auto(&boxer, &request, 1e-9).unwrap();
@@ -529,7 +529,7 @@ fn tolerances_out_of_reach_are_refused() {
 #[test]
 fn a_spectrum_stands_in_for_the_rods() {
     let engine = in_phase(Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.0);
-    let turning = changed(&engine, |p| Placement { rotating_mass: 1.0, ..*p });
+    let turning = changed(&engine, |p| Station { rotating_mass: 1.0, ..*p });
     let amplitudes = [(2, 0.2), (4, 1e-6), (6, 0.0)];
     let spectrum = Spectrum::new(amplitudes.map(|(n, a)| (n, Complex64::new(a, 0.0)))).unwrap();
     let [still, turning] = [&engine, &turning]

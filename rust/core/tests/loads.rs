@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::random::{angles, engines, placements, vees, weighted};
+use common::random::{angles, engines, stations, vees, weighted};
 use common::{angle, by_orders, changed, kinematics, scales, turning, whole, xy};
 use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
@@ -13,8 +13,8 @@ use crankpin_core::harmonics;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::wrench::{Torque, Wrench};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Hold, Order, Orders,
-    Placement, Request, Shaft, Sweep, Unbalance, waveform,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Hold, Order, Orders, Request,
+    Shaft, Station, Sweep, Unbalance, waveform,
 };
 use proptest::prelude::*;
 
@@ -35,7 +35,7 @@ fn of(engine: &Engine) -> Balance {
 
 /// Size that rounding is relative to: of force, moment and torque of every load.
 fn size(engine: &Engine) -> f64 {
-    let pistons = engine.placements().iter().map(|p| {
+    let pistons = engine.stations().iter().map(|p| {
         let c = p.cylinder;
         (c.first_order() + p.rotating_mass * c.crank_radius()) * (1.0 + p.z.abs())
             + c.second_moment()
@@ -74,7 +74,7 @@ fn sum_of_orders(balance: &Balance, θ: f64) -> [f64; 6] {
 /// Weights wherever they are: at a pin or not, as free ones.
 fn freed(engine: &Engine) -> Vec<Unbalance> {
     let free = |weight: &Unbalance| {
-        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.placements()[i].pin());
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.stations()[i].pin());
         Unbalance { angle: (weight.angle + pin).reduced(), pin: None, ..*weight }
     };
     engine.counterweights().iter().map(free).collect()
@@ -148,7 +148,7 @@ proptest! {
                 let right = p.bank == banks.directions[0];
                 let bank = if right { banks.bisector() - half } else { banks.bisector() + half };
                 let tdc = if firing { p.tdc } else { bank - p.pin() };
-                Placement { bank, tdc, ..*p }
+                Station { bank, tdc, ..*p }
             });
             // With pins held a pin and its weight stay; with the firing held they follow the bank.
             let weights = if firing { freed(&turned) } else { freed(&engine) };
@@ -215,7 +215,7 @@ proptest! {
 
     #[test]
     fn turning_the_crank_only_shifts_phases(engine in weighted(engines(true)), by in angles()) {
-        let turned = engine.with_first_tdc(engine.placements()[0].tdc + by);
+        let turned = engine.with_first_tdc(engine.stations()[0].tdc + by);
         let (before, after) = (of(&engine), of(&turned));
         for ((a, b), n) in before.wrenches.iter().zip(&after.wrenches).zip(ORDERS) {
             let phase = by.cis(-i64::from(n));
@@ -248,7 +248,7 @@ proptest! {
             let (r, l, m) = (c.crank_radius(), c.rod_length(), c.reciprocating_mass());
             let cylinder = Cylinder::new(r, l, m, -c.pin_offset()).unwrap();
             let cylinder = cylinder.with_rod_inertia_excess(c.rod_inertia_excess()).unwrap();
-            Placement { cylinder, tdc: -p.tdc, bank: HALF - p.bank, ..*p }
+            Station { cylinder, tdc: -p.tdc, bank: HALF - p.bank, ..*p }
         });
         let shafts = engine.shafts().iter().map(|s| {
             shaft(s.ratio, [-s.axis[0], s.axis[1]], s.unbalances.iter().map(upside).collect())
@@ -275,11 +275,11 @@ proptest! {
             let unbalances = unbalances.map(|u| Unbalance { angle: HALF - u.angle, ..*u });
             shaft(-ratio, [-x, y], unbalances.collect())
         };
-        let engine = changed(&engine, |p| Placement { rotating_mass: 0.0, ..*p });
+        let engine = changed(&engine, |p| Station { rotating_mass: 0.0, ..*p });
         // The crankshaft's unbalances are on a shaft of ratio −1 there.
         let mut shafts = vec![mirror(1, [0.0; 2], &freed(&engine))];
         shafts.extend(engine.shafts().iter().map(|s| mirror(s.ratio, s.axis, &s.unbalances)));
-        let mirrored = changed(&engine, |p| Placement { bank: HALF - p.bank, ..*p });
+        let mirrored = changed(&engine, |p| Station { bank: HALF - p.bank, ..*p });
         let mirrored = mirrored.with_counterweights(vec![]).unwrap().with_shafts(shafts).unwrap();
         let without = engine.with_counterweights(vec![]).unwrap().with_shafts(vec![]).unwrap();
         let found = [&engine, &mirrored, &without].map(of);
@@ -299,21 +299,21 @@ proptest! {
     /// offset alone, ½(a₁ − 1) of m·r·ω², and the backward part as it is.
     #[test]
     fn half_the_reciprocating_mass_opposite_each_pin_removes_the_forward_first_order(
-        placements in proptest::collection::vec(placements(true), 1..9),
+        stations in proptest::collection::vec(stations(true), 1..9),
         centred in any::<bool>(),
     ) {
-        let no_offset = |mut p: Placement| {
+        let no_offset = |mut p: Station| {
             let c = p.cylinder;
             p.cylinder = Cylinder::new(c.crank_radius(), c.rod_length(), c.reciprocating_mass(), 0.0)
                 .unwrap();
             p
         };
-        let placements = placements.into_iter().map(|p| if centred { no_offset(p) } else { p });
-        let plain = Engine::new("", "", placements.collect()).unwrap();
+        let stations = stations.into_iter().map(|p| if centred { no_offset(p) } else { p });
+        let plain = Engine::new("", "", stations.collect()).unwrap();
         let opposite = |i: usize, amount: f64, z: f64| {
             Unbalance { amount, angle: HALF, z, pin: Some(i) }
         };
-        let bob = plain.placements().iter().enumerate().flat_map(|(i, p)| {
+        let bob = plain.stations().iter().enumerate().flat_map(|(i, p)| {
             let c = p.cylinder;
             let rotating = p.rotating_mass * c.crank_radius();
             [opposite(i, 0.5 * c.first_order(), p.z), opposite(i, rotating, p.z)]
@@ -321,7 +321,7 @@ proptest! {
         let balanced = plain.with_counterweights(bob.collect()).unwrap();
         let [before, after] = [&plain, &balanced].map(of);
         let (mut force, mut moment) = (Complex64::default(), Complex64::default());
-        for p in plain.placements() {
+        for p in plain.stations() {
             let a1 = harmonics::coefficients(&p.cylinder.proportions(), &[1], &Cancel::new());
             let left = (a1.unwrap()[0] - 1.0) * (0.5 * p.cylinder.first_order() * square());
             force += left * p.pin().cis(1);
@@ -448,7 +448,7 @@ proptest! {
 /// An upright inline-4 without its shafts, and one of its cylinders.
 fn inline_four() -> (Engine, Cylinder) {
     let cylinder = Cylinder::new(0.043, 0.145, 0.66, 0.0).unwrap();
-    let place = |(k, tdc): (usize, f64)| Placement {
+    let place = |(k, tdc): (usize, f64)| Station {
         cylinder,
         tdc: angle(tdc),
         bank: Angle::QUARTER_TURN,
@@ -519,7 +519,7 @@ fn one_counter_rotating_shaft_leaves_a_rolling_couple() {
     // Order 1 of an upright single at 50 %: ½·m·r·ω² turns backward; a shaft at −1 removes it, and
     // leaves its force times its distance from the crank.
     let cylinder = Cylinder::new(0.04, 0.13, 0.5, 0.0).unwrap();
-    let place = Placement {
+    let place = Station {
         cylinder,
         tdc: Angle::ZERO,
         bank: Angle::QUARTER_TURN,

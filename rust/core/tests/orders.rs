@@ -8,8 +8,7 @@ use std::f64::consts::TAU;
 use crankpin_core::harmonics::{self, torque};
 use crankpin_core::slider_crank::{Motion, Proportions};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Placement, Request, Spectrum,
-    balance,
+    Angle, Cancel, Complex64, Cylinder, Engine, Error, Orders, Request, Spectrum, Station, balance,
 };
 
 const HIGHEST: u32 = 12;
@@ -121,8 +120,8 @@ fn who_stops_waiting_is_told_at_once() {
     // A spectrum stands in for all of that.
     let zero = Angle::from_degrees(0.0).unwrap();
     let cylinder = cylinders[0];
-    let placement = Placement { cylinder, tdc: zero, bank: zero, z: 0.0, rotating_mass: 0.0 };
-    let engine = Engine::new("", "", vec![placement]).unwrap();
+    let station = Station { cylinder, tdc: zero, bank: zero, z: 0.0, rotating_mass: 0.0 };
+    let engine = Engine::new("", "", vec![station]).unwrap();
     let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
     let engine = engine.with_spectrum(spectrum);
     let request = Request { rpm: 1000.0, reference_z: None, torque: false };

@@ -13,8 +13,8 @@ use crankpin_core::peaks::PeakFinder;
 use crankpin_core::slider_crank::Proportions;
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Placement,
-    Request, Shaft, Spectrum, Sweep, Unbalance, harmonics,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Request, Shaft,
+    Spectrum, Station, Sweep, Unbalance, harmonics,
 };
 use proptest::prelude::*;
 
@@ -358,7 +358,7 @@ fn nearly_balanced(more: f64, inertia: f64) -> Engine {
     let place = |rod: f64, mass: f64, side: f64, z| {
         let cylinder = Cylinder::new(0.05, rod, mass, 0.0).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
-        Placement { cylinder, tdc: angle(side), bank: angle(side), z, rotating_mass: 0.0 }
+        Station { cylinder, tdc: angle(side), bank: angle(side), z, rotating_mass: 0.0 }
     };
     let cylinders = [
         place(0.15, 0.5, 0.0, 0.25),
@@ -372,7 +372,7 @@ fn nearly_balanced(more: f64, inertia: f64) -> Engine {
 /// The crankpins of [`nearly_balanced`] lie in one direction: odd orders of force add up, unless top
 /// dead centres are the same.
 fn boxer(engine: &Engine, rotating_mass: f64) -> Engine {
-    changed(engine, |p| Placement { tdc: Angle::ZERO, rotating_mass, ..*p })
+    changed(engine, |p| Station { tdc: Angle::ZERO, rotating_mass, ..*p })
 }
 
 /// What is left is zero up to what rounding can leave and not above, by the balance's account of it.
@@ -454,7 +454,7 @@ fn as_much_as_rounding_can_leave_is_zero() {
     let lever = 25.0 * f64::EPSILON;
     let [z, reference] = [0.5 + 0.5 * lever, 0.5 - 0.5 * lever];
     let cylinder = Cylinder::new(0.5, 2.0, 2.0, 0.0).unwrap();
-    let place = Placement { cylinder, tdc: Angle::ZERO, bank: Angle::ZERO, z, rotating_mass: 0.0 };
+    let place = Station { cylinder, tdc: Angle::ZERO, bank: Angle::ZERO, z, rotating_mass: 0.0 };
     let engine = Arc::new(Engine::new("", "", vec![place]).unwrap());
     let spectrum = Spectrum::new([(1, Complex64::new(1.0, 0.0))]).unwrap();
     let of = |reference: f64| {
@@ -727,7 +727,7 @@ impl Worst {
                 }
             }
             let mut here = [0.0; 4];
-            for p in there.placements() {
+            for p in there.stations() {
                 let (c, proportions) = (p.cylinder, p.cylinder.proportions());
                 let force = c.first_order() * harmonics::tail_bound(&proportions, last).unwrap();
                 let torque = harmonics::torque::tail_bound(&proportions, last).unwrap();
@@ -746,9 +746,9 @@ impl Worst {
 
 /// Number of loads: pistons, rotating masses and unbalances.
 fn loads(engine: &Engine) -> usize {
-    let rotating = engine.placements().iter().filter(|p| p.rotating_mass > 0.0).count();
+    let rotating = engine.stations().iter().filter(|p| p.rotating_mass > 0.0).count();
     let on_shafts: usize = engine.shafts().iter().map(|shaft| shaft.unbalances.len()).sum();
-    engine.placements().len() + rotating + engine.counterweights().len() + on_shafts
+    engine.stations().len() + rotating + engine.counterweights().len() + on_shafts
 }
 
 /// The last order evaluated: orders above it add a hundredth of the tolerance at most, even if every
@@ -758,7 +758,7 @@ fn last(engines: &[Arc<Engine>], axes: &Axes, rtol: f64, torque: bool) -> u32 {
     let mut last = ratios.max().unwrap_or(1);
     for place in places(sweep(engines, axes, &[1], None).shape()) {
         let engine = &engines[place[0]];
-        for p in there(engine, &alone(axes, place)).placements() {
+        for p in there(engine, &alone(axes, place)).stations() {
             let share = p.cylinder.rod_inertia_excess().abs() / scales(engine, REFERENCE)[2];
             let part = 0.01 * rtol / loads(engine) as f64;
             let proportions = p.cylinder.proportions();
@@ -867,7 +867,7 @@ fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
     let place = |r: f64, m: f64, side: f64| {
         let bank = Angle::from_degrees(side).unwrap();
         let cylinder = Cylinder::new(r, r / 0.3, m, offset).unwrap();
-        Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.1, rotating_mass: 0.0 }
+        Station { cylinder, tdc: Angle::ZERO, bank, z: 0.1, rotating_mass: 0.0 }
     };
     let other = 0.5 * 0.05 * second(0.05) / (0.03 * second(0.03));
     let pair = vec![place(0.05, 0.5, 0.0), place(0.03, other, 180.0)];
@@ -877,8 +877,8 @@ fn cancelling_at(ratio: f64, offset: f64) -> [Arc<Engine>; 2] {
     });
     let inertia = -(masses / rod).re * cylinder.second_moment();
     let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
-    let one = vec![Placement { cylinder, ..pair[0] }];
-    [pair, one].map(|placements| Arc::new(Engine::new("", "", placements).unwrap()))
+    let one = vec![Station { cylinder, ..pair[0] }];
+    [pair, one].map(|stations| Arc::new(Engine::new("", "", stations).unwrap()))
 }
 
 #[test]
@@ -928,7 +928,7 @@ fn balanced_at(ratio: f64) -> Arc<Engine> {
     let second = harmonics::coefficients(&proportions, &[2], &Cancel::new()).unwrap()[0].re;
     let (cylinder, z) = (Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap(), 0.1);
     let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
-    let single = Placement { cylinder, tdc, bank, z, rotating_mass: 0.0 };
+    let single = Station { cylinder, tdc, bank, z, rotating_mass: 0.0 };
     let amount = 0.5 * 0.5 * 0.05 * second / 4.0;
     let against = Unbalance { amount, angle: -bank, z, pin: None };
     let shaft =
@@ -974,7 +974,7 @@ proptest! {
 #[test]
 fn sweeps_with_no_order_needed_are_zero_everywhere() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-    let place = |tdc: f64, bank: f64| Placement {
+    let place = |tdc: f64, bank: f64| Station {
         cylinder,
         tdc: Angle::from_degrees(tdc).unwrap(),
         bank: Angle::from_degrees(bank).unwrap(),
@@ -983,8 +983,8 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
     };
     let axes = Axes { rpm: vec![3000.0, 1000.0], ..Axes::default() };
     let chosen = |places: &[(f64, f64)], rtol: f64| {
-        let placements = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
-        let engine = Arc::new(Engine::new("", "", placements).unwrap());
+        let stations = places.iter().map(|&(tdc, bank)| place(tdc, bank)).collect();
+        let engine = Arc::new(Engine::new("", "", stations).unwrap());
         let (axes, cancel) = (axes.clone(), Cancel::new());
         Sweep::within(rtol, vec![engine], axes, Some(REFERENCE), false, &cancel).unwrap()
     };
@@ -1026,7 +1026,7 @@ fn few_orders_of_a_spectrum_are_chosen() {
     let spectrum = Spectrum::new(terms).unwrap();
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
     let bank = Angle::QUARTER_TURN;
-    let upright = Placement { cylinder, tdc: Angle::ZERO, bank, z: REFERENCE, rotating_mass: 0.0 };
+    let upright = Station { cylinder, tdc: Angle::ZERO, bank, z: REFERENCE, rotating_mass: 0.0 };
     let upright = Arc::new(Engine::new("", "", vec![upright]).unwrap());
     let axes = Axes { rpm: vec![3000.0], ..Axes::default() };
     let chosen = |engine: &Arc<Engine>, rtol: f64, spectrum: &Spectrum| {

@@ -12,8 +12,8 @@ use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders,
-    Placement, Request, Spectrum, Sweep, Waveform, waveform,
+    Angle, Balance, Cancel, Complex64, CrankAngles, Cylinder, Engine, Error, Hold, Orders, Request,
+    Spectrum, Station, Sweep, Waveform, waveform,
 };
 
 const TORQUE: Quantity = Quantity::Torque(TorquePart::Whole);
@@ -121,7 +121,7 @@ fn sums_of_orders_are_sums_of_orders() {
 /// Equal cylinders with top dead centres at these degrees.
 fn at_degrees(degrees: impl Iterator<Item = u32>) -> Engine {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-    let place = |k: u32| Placement {
+    let place = |k: u32| Station {
         cylinder,
         tdc: Angle::from_degrees(f64::from(k)).unwrap(),
         bank: Angle::ZERO,
@@ -152,7 +152,7 @@ fn chosen_orders_are_summed_or_too_many() {
     }
     // A rod as long as the crank takes more orders than there are.
     let stiff = Cylinder::new(0.05, 0.05 * (1.0 + 1e-12), 0.5, 0.0).unwrap();
-    let stiff = Placement { cylinder: stiff, ..one.placements()[0] };
+    let stiff = Station { cylinder: stiff, ..one.stations()[0] };
     let stiff = Engine::new("", "", vec![stiff]).unwrap();
     assert!(matches!(auto(&stiff, &REQUEST, 1e-6), Err(Error::TooManyOrders { .. })));
     // A spectrum is summed, however many orders it has, and has no kinematics.
@@ -328,7 +328,7 @@ fn nothing_depends_on_how_many_rows_and_angles_there_are() {
 #[test]
 fn any_number_of_terms_is_added() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-    let place = |bank: f64, tdc: f64| Placement {
+    let place = |bank: f64, tdc: f64| Station {
         cylinder,
         tdc: Angle::from_degrees(tdc).unwrap(),
         bank: Angle::from_degrees(bank).unwrap(),
@@ -336,8 +336,8 @@ fn any_number_of_terms_is_added() {
         rotating_mass: 0.0,
     };
     let engine = |places: &[(f64, f64)]| {
-        let placements = places.iter().map(|&(bank, tdc)| place(bank, tdc)).collect();
-        Arc::new(Engine::new("", "", placements).unwrap())
+        let stations = places.iter().map(|&(bank, tdc)| place(bank, tdc)).collect();
+        Arc::new(Engine::new("", "", stations).unwrap())
     };
     let orders: Vec<u32> = vec![1, 2, 4, 6, 8, 10, 12, 14, 16, 18];
     for count in 1..=orders.len() {
@@ -358,7 +358,7 @@ fn any_number_of_terms_is_added() {
     }
     // However small the masses are.
     let light = Cylinder::new(0.05, 0.15, 1e-20, 0.0).unwrap();
-    let light = Placement { cylinder: light, ..place(40.0, 20.0) };
+    let light = Station { cylinder: light, ..place(40.0, 20.0) };
     let engines = [Arc::new(Engine::new("", "", vec![light]).unwrap())];
     let axes = Axes { rpm: vec![RPM], ..Axes::default() };
     each_row_is_a_waveform_of_orders(&engines, &axes, &[1, 2, 4]);

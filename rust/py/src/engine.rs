@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::engine::{Details, Gas, Hold, Placement, Shaft, Unbalance, file};
+use crankpin_core::engine::{Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error};
 use ndarray::Array1;
@@ -114,9 +114,9 @@ impl Engine {
     fn column<'py>(
         &self,
         py: Python<'py>,
-        value: impl Fn(&Placement) -> f64,
+        value: impl Fn(&Station) -> f64,
     ) -> Bound<'py, PyArray1<f64>> {
-        frozen(py, self.0.placements().iter().map(value).collect::<Array1<f64>>())
+        frozen(py, self.0.stations().iter().map(value).collect::<Array1<f64>>())
     }
 }
 
@@ -247,9 +247,9 @@ impl Engine {
                 return Err(python_error(Error::value("tdc_deg and pin_deg", given, hint)));
             }
         };
-        let mut placements = Vec::with_capacity(count);
+        let mut stations = Vec::with_capacity(count);
         for (i, parts) in cylinders.into_iter().enumerate() {
-            placements.push(Placement {
+            stations.push(Station {
                 cylinder: cylinder(parts)?,
                 tdc: tdcs[i],
                 bank: banks[i],
@@ -260,9 +260,9 @@ impl Engine {
         let engine = match bank {
             Some(bank) => {
                 same_length("bank", bank.len(), count)?;
-                core::Engine::in_banks(name, source, placements, &bank)
+                core::Engine::in_banks(name, source, stations, &bank)
             }
-            None => core::Engine::new(name, source, placements),
+            None => core::Engine::new(name, source, stations),
         };
         engine.or_raise().map(Self::from)
     }
@@ -344,7 +344,7 @@ impl Engine {
             let rod_inertia = c.rod_inertia_excess();
             (c.crank_radius(), c.rod_length(), c.reciprocating_mass(), c.pin_offset(), rod_inertia)
         };
-        self.0.placements().iter().map(|p| parts(p.cylinder)).collect()
+        self.0.stations().iter().map(|p| parts(p.cylinder)).collect()
     }
 
     #[getter]
@@ -375,8 +375,8 @@ impl Engine {
     /// Angles as text that reads back exactly.
     #[getter]
     fn exact_angles(&self) -> (Vec<String>, Vec<String>) {
-        let text = |angle: fn(&Placement) -> core::Angle| {
-            self.0.placements().iter().map(|p| angle(p).to_string()).collect()
+        let text = |angle: fn(&Station) -> core::Angle| {
+            self.0.stations().iter().map(|p| angle(p).to_string()).collect()
         };
         (text(|p| p.tdc), text(|p| p.bank))
     }
@@ -445,7 +445,7 @@ impl Engine {
     #[getter]
     fn bank(&self) -> Vec<usize> {
         let right = self.0.banks().map_or(0, |banks| banks.right);
-        let count = self.0.placements().len();
+        let count = self.0.stations().len();
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
@@ -509,7 +509,7 @@ impl Engine {
     #[getter]
     fn firing_deg(&self) -> Option<Vec<f64>> {
         self.0.gas()?;
-        let count = self.0.placements().len();
+        let count = self.0.stations().len();
         Some((0..count).map(|i| self.0.firing_phase(i).degrees()).collect())
     }
 
@@ -564,7 +564,7 @@ impl Engine {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        for p in self.0.placements() {
+        for p in self.0.stations() {
             // Adding 0.0 makes −0.0, which equals 0.0, hash like it.
             let figures = [p.tdc.degrees(), p.bank.degrees(), p.z, p.cylinder.crank_radius()];
             figures.map(|x| (x + 0.0).to_bits()).hash(&mut hasher);

@@ -89,7 +89,7 @@ pub fn shared(forces: &[(Complex64, f64)], front: f64, rear: f64) -> [Complex64;
 
 /// Places of the first and the last cylinder, m.
 fn ends(engine: &Engine) -> [f64; 2] {
-    let z = || engine.placements().iter().map(|place| place.z);
+    let z = || engine.stations().iter().map(|place| place.z);
     [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
 }
 

@@ -247,13 +247,13 @@ fn size(engine: &Engine) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Placement;
+    use crate::engine::Station;
     use crate::gear::slider_crank::Cylinder;
 
     fn single() -> Engine {
         let cylinder = Cylinder::new(0.04, 0.14, 0.5, 0.0).unwrap();
         let bank = Angle::from_degrees(90.0).unwrap();
-        let place = Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
+        let place = Station { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
         Engine::new("", "", vec![place]).unwrap()
     }
 

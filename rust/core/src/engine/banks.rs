@@ -1,6 +1,6 @@
 //! The two banks of a vee, and the angle between them.
 
-use super::{Engine, Placement};
+use super::{Engine, Station};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
 
@@ -61,27 +61,27 @@ impl Engine {
         let vee = self.banks()?;
         let (middle, half) = (vee.bisector(), bank_angle.half());
         let mut turned = self.clone();
-        for i in 0..self.placements.len() {
+        for i in 0..self.stations.len() {
             let bore = if self.bank_of[i] == vee.right { middle - half } else { middle + half };
             if hold == Hold::Pins {
                 // The shorter way: firing goes along.
-                let turn = (bore - turned.placements[i].bank + Angle::HALF_TURN).reduced()
+                let turn = (bore - turned.stations[i].bank + Angle::HALF_TURN).reduced()
                     - Angle::HALF_TURN;
                 turned.delay(i, turn);
             }
-            turned.placements[i].bank = bore.reduced();
+            turned.stations[i].bank = bore.reduced();
         }
         Ok(turned)
     }
 }
 
 /// The right one of two banks: the other is up to 180° ahead of it.
-pub(super) fn right_bank(placements: &[Placement], keys: &[usize]) -> Option<usize> {
+pub(super) fn right_bank(stations: &[Station], keys: &[usize]) -> Option<usize> {
     let second = keys.iter().position(|key| *key != keys[0])?;
     if keys.iter().any(|key| *key != keys[0] && *key != keys[second]) {
         return None;
     }
-    let (first, other) = (placements[0].bank, placements[second].bank);
+    let (first, other) = (stations[0].bank, stations[second].bank);
     Some(match (other - first).reduced().degrees() {
         0.0 | 180.0 => usize::from(keys[second] < keys[0]),
         ahead => usize::from(ahead > 180.0),

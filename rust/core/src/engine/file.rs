@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::layout::Strokes;
-use super::{Crank, Details, Engine, Gas, Placement, Shaft, Unbalance};
+use super::{Crank, Details, Engine, Gas, Shaft, Station, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result, shorten};
@@ -34,7 +34,7 @@ struct EngineFile {
     /// Places of the main bearings.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     mains: Vec<f64>,
-    /// Running gear of every placement that has none of its own.
+    /// Running gear of every station that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cylinder: Option<PartsEntry>,
     placements: Vec<Place>,
@@ -257,16 +257,16 @@ impl EngineFile {
             let hint = "is not part of an engine file; write the engine without it";
             return Err(Error::value("spectrum", "given", hint));
         }
-        let each = engine.placements().iter().zip(engine.details());
+        let each = engine.stations().iter().zip(engine.details());
         let parts: Vec<PartsEntry> =
             each.map(|(p, details)| PartsEntry::of(&p.cylinder, details)).collect();
         let shared = parts.iter().all(|each| *each == parts[0]);
         // Directions distinguish banks but for some at 0° and 180°.
-        let guessed = Engine::new("", "", engine.placements().to_vec())?;
+        let guessed = Engine::new("", "", engine.stations().to_vec())?;
         let numbered = (&guessed.bank_of, guessed.right) != (&engine.bank_of, engine.right);
         let number =
             |bank: usize| engine.right.map_or(bank, |right| usize::from(bank != right)) + 1;
-        let place = |(i, p): (usize, &Placement)| Place {
+        let place = |(i, p): (usize, &Station)| Place {
             tdc_deg: Degrees::of(p.tdc),
             bank_deg: Degrees::of(p.bank),
             z: p.z,
@@ -286,7 +286,7 @@ impl EngineFile {
             reference_z: engine.reference_z(),
             mains: engine.mains().to_vec(),
             cylinder: shared.then_some(parts[0]),
-            placements: engine.placements().iter().enumerate().map(place).collect(),
+            placements: engine.stations().iter().enumerate().map(place).collect(),
             counterweights: engine.counterweights().iter().map(WeightEntry::of).collect(),
             shafts: engine.shafts().iter().map(BalanceShaft::of).collect(),
             cranks: engine.cranks()[1..]
@@ -336,7 +336,7 @@ impl EngineFile {
         }
         let shared = self.cylinder.map(|parts| parts.cylinder()).transpose();
         let shared = shared.map_err(|error| error.within("cylinder."))?;
-        let placements = self.placements.iter().enumerate().map(|(i, place)| {
+        let stations = self.placements.iter().enumerate().map(|(i, place)| {
             let at = format!("placements[{i}].");
             let own = place.cylinder.map(|parts| parts.cylinder()).transpose();
             let own = own.map_err(|error| error.within(&format!("{at}cylinder.")))?;
@@ -344,7 +344,7 @@ impl EngineFile {
                 let hint = "give the engine a [cylinder], or each placement one of its own";
                 Error::value(format!("{at}cylinder"), "none", hint)
             })?;
-            Ok(Placement {
+            Ok(Station {
                 cylinder,
                 tdc: place.tdc_deg.angle(&format!("{at}tdc_deg"))?,
                 bank: place.bank_deg.angle(&format!("{at}bank_deg"))?,
@@ -352,7 +352,7 @@ impl EngineFile {
                 rotating_mass: place.rotating_mass,
             })
         });
-        let placements: Vec<Placement> = placements.collect::<Result<_>>()?;
+        let stations: Vec<Station> = stations.collect::<Result<_>>()?;
         let (strokes, gas) = (Strokes::from_number(self.strokes)?, self.gas()?);
         let details = self.placements.iter().map(|place| {
             place.cylinder.or(self.cylinder).map_or_else(Details::default, |parts| parts.details())
@@ -366,10 +366,10 @@ impl EngineFile {
         let numbers = numbered.then(|| numbers.collect::<Result<Vec<_>>>()).transpose()?;
         let engine = match numbers {
             Some(numbers) => {
-                same_directions(&placements, &numbers)?;
-                Engine::in_banks(self.name, self.source, placements, &numbers)?
+                same_directions(&stations, &numbers)?;
+                Engine::in_banks(self.name, self.source, stations, &numbers)?
             }
-            None => Engine::new(self.name, self.source, placements)?,
+            None => Engine::new(self.name, self.source, stations)?,
         };
         let others = self.cranks.iter().map(|c| Crank { axis: [c.x, c.y], ratio: c.ratio });
         let cranks = std::iter::once(Crank::MAIN).chain(others).collect();
@@ -389,13 +389,13 @@ impl EngineFile {
 }
 
 /// Rejects a bank whose cylinders point in several directions.
-fn same_directions(placements: &[Placement], numbers: &[usize]) -> Result<()> {
-    for (i, (placement, number)) in placements.iter().zip(numbers).enumerate() {
-        let mut others = placements.iter().zip(numbers);
-        let first = others.find(|(_, other)| *other == number).map_or(placement, |(p, _)| p);
-        if first.bank.reduced() != placement.bank.reduced() {
+fn same_directions(stations: &[Station], numbers: &[usize]) -> Result<()> {
+    for (i, (station, number)) in stations.iter().zip(numbers).enumerate() {
+        let mut others = stations.iter().zip(numbers);
+        let first = others.find(|(_, other)| *other == number).map_or(station, |(p, _)| p);
+        if first.bank.reduced() != station.bank.reduced() {
             let hint = format!("make it {}°, the direction of bank {number}", first.bank);
-            return Err(Error::value(format!("placements[{i}].bank_deg"), placement.bank, hint));
+            return Err(Error::value(format!("placements[{i}].bank_deg"), station.bank, hint));
         }
     }
     Ok(())
@@ -505,7 +505,7 @@ mod tests {
             Cylinder::new(r, r * l, m, r * e).unwrap().with_rod_inertia_excess(j).unwrap()
         });
         let place = (cylinder, -720.0..720.0, -720_i64..720, 1_i64..40, -9.0..9.0, 0.0..9.0);
-        let place = place.prop_map(|(cylinder, tdc, bank, parts, z, rotating_mass)| Placement {
+        let place = place.prop_map(|(cylinder, tdc, bank, parts, z, rotating_mass)| Station {
             cylinder,
             tdc: Angle::from_degrees(tdc).unwrap(),
             bank: Angle::from_degree_fraction(bank, parts).unwrap(),
@@ -529,22 +529,20 @@ mod tests {
         });
         let shafts = proptest::collection::vec(shaft, 0..3);
         (proptest::collection::vec(place, 1..9), ".*", weights, shafts).prop_map(
-            |(placements, name, weights, shafts)| {
-                let engine = Engine::new(name, "", placements)
-                    .unwrap()
-                    .firing_as("1", Strokes::Two)
-                    .unwrap();
+            |(stations, name, weights, shafts)| {
+                let engine =
+                    Engine::new(name, "", stations).unwrap().firing_as("1", Strokes::Two).unwrap();
                 let details = |i: usize| Details {
                     bore: i.is_multiple_of(2).then_some(0.08),
                     piston_mass: i.is_multiple_of(3).then_some(0.3),
                     rod: i.is_multiple_of(5).then_some([0.5, 1e-3, 0.04]),
                 };
-                let details = (0..engine.placements().len()).map(details).collect();
+                let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();
                 let engine = engine.with_mains(vec![-0.1, 0.25]).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
                 let other = Crank { axis: [0.25, -0.125], ratio: -1 };
-                let crank_of = (0..engine.placements().len()).map(|i| i % 2).collect();
+                let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();
                 let engine = engine.with_cranks(vec![Crank::MAIN, other], crank_of).unwrap();
                 engine.with_counterweights(weights).unwrap().with_shafts(shafts).unwrap()
             },
@@ -569,7 +567,7 @@ mod tests {
     #[test]
     fn vees_at_zero_keep_their_banks_in_files() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |z| Placement {
+        let place = |z| Station {
             cylinder,
             tdc: Angle::ZERO,
             bank: Angle::from_degrees(90.0).unwrap(),
@@ -589,7 +587,7 @@ mod tests {
     #[test]
     fn opened_banks_keep_their_index_in_files() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |bank: f64, z| Placement {
+        let place = |bank: f64, z| Station {
             cylinder,
             tdc: Angle::ZERO,
             bank: Angle::from_degrees(bank).unwrap(),
@@ -610,7 +608,7 @@ mod tests {
     #[test]
     fn the_largest_engines_fit_a_file() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = Placement {
+        let place = Station {
             cylinder,
             tdc: Angle::ZERO,
             bank: Angle::QUARTER_TURN,
@@ -637,7 +635,7 @@ mod tests {
     fn shared_gears_are_written_once_and_zero_inertias_not_at_all() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let other = cylinder.with_rod_inertia_excess(1e-3).unwrap();
-        let place = |cylinder| Placement {
+        let place = |cylinder| Station {
             cylinder,
             tdc: Angle::ZERO,
             bank: Angle::QUARTER_TURN,
@@ -665,7 +663,7 @@ mod tests {
     fn texts_have_a_longest() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let (tdc, bank) = (Angle::ZERO, Angle::QUARTER_TURN);
-        let place = Placement { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
         let engine = Engine::new("", "", vec![place]).unwrap();
         let padded = |text: String, length| format!("{text}{}", "\n".repeat(length - text.len()));
         for (length, fits) in [(LONGEST_TEXT, true), (LONGEST_TEXT + 1, false)] {

@@ -34,8 +34,8 @@ impl Engine {
     ///
     /// [`crate::Firing::in_second_turn`] is what an engine's firing order says.
     pub fn with_gas(&self, gas: Gas) -> Result<Self> {
-        check_each_cylinder("cycle", gas.cycle_of.len(), self.placements.len())?;
-        check_each_cylinder("later", gas.later.len(), self.placements.len())?;
+        check_each_cylinder("cycle", gas.cycle_of.len(), self.stations.len())?;
+        check_each_cylinder("later", gas.later.len(), self.stations.len())?;
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
         let engine = Self { gas: firing.then_some(gas), ..self.clone() };
@@ -47,12 +47,12 @@ impl Engine {
     #[must_use]
     pub fn firing_phase(&self, cylinder: usize) -> Angle {
         let later = self.gas.as_ref().is_some_and(|gas| gas.later[cylinder]);
-        self.placements[cylinder].tdc + Angle::whole_turns(i32::from(later))
+        self.stations[cylinder].tdc + Angle::whole_turns(i32::from(later))
     }
 
     /// Moves the top dead centre of a cylinder on by an angle, and its firing with it.
     pub(super) fn delay(&mut self, cylinder: usize, by: Angle) {
-        let tdc = &mut self.placements[cylinder].tdc;
+        let tdc = &mut self.stations[cylinder].tdc;
         let moved = *tdc + by;
         *tdc = moved.reduced();
         let crossed = ((moved.degrees() - tdc.degrees()) / 360.0).round();
@@ -109,7 +109,7 @@ impl Engine {
     /// Area of a piston times its crank radius, m³; none where the bore is not known.
     #[must_use]
     pub fn swept_by_radius(&self, cylinder: usize) -> Option<f64> {
-        let radius = self.placements[cylinder].cylinder.crank_radius();
+        let radius = self.stations[cylinder].cylinder.crank_radius();
         self.details[cylinder].bore.map(|bore| 0.25 * PI * bore * bore * radius)
     }
 }

@@ -1,7 +1,7 @@
 //! Engines from the few figures by which people know them: throws, bank angle, firing order.
 
 pub use super::firing_order::FiringOrder;
-use super::{Engine, Placement, bank_angle_in_range};
+use super::{Engine, Station, bank_angle_in_range};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -102,11 +102,11 @@ impl Inline {
         limits::finite("spacing", self.spacing)?;
         let upright = Angle::QUARTER_TURN;
         let masses = per_cylinder(&self.rotating_mass, self.throws.len())?;
-        let placements = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
+        let stations = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
             let z = i as f64 * self.spacing;
-            Placement { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
+            Station { cylinder, tdc: upright - throw, bank: upright, z, rotating_mass: mass }
         });
-        Ok(Engine::new("", "", placements.collect())?.with_first_tdc(self.first_tdc))
+        Ok(Engine::new("", "", stations.collect())?.with_first_tdc(self.first_tdc))
     }
 }
 
@@ -138,18 +138,18 @@ impl Vee {
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
         let seats = self.seats(2 * self.throws.len())?;
         let masses = per_cylinder(&self.rotating_mass, seats.len())?;
-        let placements = seats.iter().zip(masses).map(|(seat, mass)| {
+        let stations = seats.iter().zip(masses).map(|(seat, mass)| {
             let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
             let pin = self.throws[seat.throw] + split;
-            seat.placement(cylinder, seat.bank - pin, mass)
+            seat.station(cylinder, seat.bank - pin, mass)
         });
-        self.in_banks(&seats, placements.collect())
+        self.in_banks(&seats, stations.collect())
     }
 
-    /// The engine of these placements, each in the bank of its seat.
-    fn in_banks(&self, seats: &[Seat], placements: Vec<Placement>) -> Result<Engine> {
+    /// The engine of these stations, each in the bank of its seat.
+    fn in_banks(&self, seats: &[Seat], stations: Vec<Station>) -> Result<Engine> {
         let sides: Vec<usize> = seats.iter().map(|seat| seat.side as usize).collect();
-        Ok(Engine::in_banks("", "", placements, &sides)?.with_first_tdc(self.first_tdc))
+        Ok(Engine::in_banks("", "", stations, &sides)?.with_first_tdc(self.first_tdc))
     }
 
     /// Where each cylinder sits, by number; `throws` is ignored.
@@ -187,8 +187,8 @@ pub(crate) struct Seat {
 }
 
 impl Seat {
-    fn placement(&self, cylinder: Cylinder, tdc: Angle, rotating_mass: f64) -> Placement {
-        Placement { cylinder, tdc, bank: self.bank, z: self.z, rotating_mass }
+    fn station(&self, cylinder: Cylinder, tdc: Angle, rotating_mass: f64) -> Station {
+        Station { cylinder, tdc, bank: self.bank, z: self.z, rotating_mass }
     }
 }
 
@@ -271,13 +271,11 @@ impl FiringOrder {
     pub fn vee(&self, cylinder: Cylinder, rule: &FiringRule, layout: &Vee) -> Result<Engine> {
         let seats = self.vee_seats(rule, layout)?;
         let masses = per_cylinder(&layout.rotating_mass, seats.len())?;
-        let placements = seats
-            .iter()
-            .zip(masses)
-            .map(|((seat, tdc), mass)| seat.placement(cylinder, *tdc, mass));
-        let placements = placements.collect();
+        let stations =
+            seats.iter().zip(masses).map(|((seat, tdc), mass)| seat.station(cylinder, *tdc, mass));
+        let stations = stations.collect();
         let seats: Vec<Seat> = seats.into_iter().map(|(seat, _)| seat).collect();
-        layout.in_banks(&seats, placements)
+        layout.in_banks(&seats, stations)
     }
 
     /// Where each cylinder of a vee sits, and its top dead centre.
@@ -363,8 +361,8 @@ mod tests {
     }
 
     fn pins(engine: &Engine) -> Vec<f64> {
-        let first = engine.placements()[0].pin();
-        engine.placements().iter().map(|p| (p.pin() - first).reduced().degrees()).collect()
+        let first = engine.stations()[0].pin();
+        engine.stations().iter().map(|p| (p.pin() - first).reduced().degrees()).collect()
     }
 
     #[test]
@@ -427,13 +425,13 @@ mod tests {
             };
             let engine = layout.engine(cylinder()).unwrap();
             // Bank, place, mass, pin relative to the first cylinder's.
-            let first = engine.placements()[0].pin();
-            assert_eq!(engine.placements()[0].tdc, angle(7.0));
-            let of = |p: &Placement| {
+            let first = engine.stations()[0].pin();
+            assert_eq!(engine.stations()[0].tdc, angle(7.0));
+            let of = |p: &Station| {
                 let pin = (p.pin() - first).reduced().degrees();
                 (p.bank.degrees(), p.z, p.rotating_mass, pin)
             };
-            engine.placements().iter().map(of).collect::<Vec<_>>()
+            engine.stations().iter().map(of).collect::<Vec<_>>()
         };
         let right = [(55.0, 0.0, 0.5, 0.0), (55.0, 0.1, 0.5, 100.0), (55.0, 0.2, 0.5, 240.0)];
         let left = [
@@ -462,8 +460,8 @@ mod tests {
             first_tdc: angle(30.0),
         };
         let engine = layout.engine(cylinder()).unwrap();
-        let of = |p: &Placement| (p.tdc.degrees(), p.bank.degrees(), p.z, p.rotating_mass);
-        let found: Vec<_> = engine.placements().iter().map(of).collect();
+        let of = |p: &Station| (p.tdc.degrees(), p.bank.degrees(), p.z, p.rotating_mass);
+        let found: Vec<_> = engine.stations().iter().map(of).collect();
         // A throw 120° ahead is at the top 120° earlier.
         let expected = [(30.0, 90.0, 0.0, 0.7), (270.0, 90.0, 0.1, 0.7), (150.0, 90.0, 0.2, 0.7)];
         assert_eq!(found, expected);
@@ -471,7 +469,7 @@ mod tests {
         let rule = FiringRule::Even(Strokes::Four);
         // 3 fires 240° after 1: the throws given are not asked.
         let fired = order.inline(cylinder(), &rule, &layout).unwrap();
-        let tdcs: Vec<f64> = fired.placements().iter().map(|p| p.tdc.degrees()).collect();
+        let tdcs: Vec<f64> = fired.stations().iter().map(|p| p.tdc.degrees()).collect();
         assert_eq!(tdcs, [30.0, 150.0, 270.0]);
         for (masses, fits) in [(vec![], true), (vec![1.0, 2.0, 3.0], true), (vec![1.0; 2], false)] {
             let layout = Inline { rotating_mass: masses, ..layout.clone() };
@@ -490,9 +488,9 @@ mod tests {
         };
         let order: FiringOrder = "1-3-4-2".parse().unwrap();
         let engine = order.vee(cylinder(), &FiringRule::Even(Strokes::Four), &layout).unwrap();
-        let masses: Vec<f64> = engine.placements().iter().map(|p| p.rotating_mass).collect();
+        let masses: Vec<f64> = engine.stations().iter().map(|p| p.rotating_mass).collect();
         assert_eq!(masses, [0.5, 0.5, 1.0, 1.0]);
-        let tdcs: Vec<f64> = engine.placements().iter().map(|p| p.tdc.degrees()).collect();
+        let tdcs: Vec<f64> = engine.stations().iter().map(|p| p.tdc.degrees()).collect();
         assert_eq!(tdcs, [30.0, 210.0, 210.0, 30.0]);
         let any = vee(90.0, Numbering::ByBank, Side::Right);
         for (order, fits) in [("1-2", true), ("1-2-3", false), ("1-2-3-4-5", false)] {

@@ -23,7 +23,7 @@ use crate::numbers::limits;
 
 /// One cylinder in its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement {
+pub struct Station {
     /// Running gear.
     pub cylinder: Cylinder,
     /// Crank angle at which the crankpin points along the bore.
@@ -36,7 +36,7 @@ pub struct Placement {
     pub rotating_mass: f64,
 }
 
-impl Placement {
+impl Station {
     /// Direction of the crankpin, from +x, at θ = 0.
     #[must_use]
     pub fn pin(&self) -> Angle {
@@ -63,7 +63,7 @@ pub struct Engine {
     source: String,
     firing_order: String,
     strokes: Strokes,
-    placements: Vec<Placement>,
+    stations: Vec<Station>,
     /// Running gears that differ, in the order in which cylinders have them.
     gears: Vec<Cylinder>,
     /// Index of each cylinder's running gear.
@@ -91,38 +91,36 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// From one placement for each cylinder; cylinders whose bores point the same way form a bank.
+    /// From one station for each cylinder; cylinders whose bores point the same way form a bank.
     ///
     /// Angles are reduced to one turn.
     pub fn new(
         name: impl Into<String>,
         source: impl Into<String>,
-        placements: Vec<Placement>,
+        stations: Vec<Station>,
     ) -> Result<Self> {
-        let mut banks = first_equal(placements.iter().map(|p| p.bank.reduced()));
+        let mut banks = first_equal(stations.iter().map(|p| p.bank.reduced()));
         // Of opposite bores those nearer to +x are the right bank: a flat engine's at 0°.
-        if let Some(first) = placements.first()
-            && placements
-                .iter()
-                .any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
+        if let Some(first) = stations.first()
+            && stations.iter().any(|p| p.bank.reduced().degrees() < first.bank.reduced().degrees())
         {
             let last = banks.iter().copied().max().unwrap_or(0);
             banks = banks.into_iter().map(|bank| last - bank).collect();
         }
-        Self::in_banks(name, source, placements, &banks)
+        Self::in_banks(name, source, stations, &banks)
     }
 
-    /// From placements whose banks are given: cylinders with equal keys form one bank.
+    /// From stations whose banks are given: cylinders with equal keys form one bank.
     ///
     /// Of two banks in one direction or in opposite ones, as of a vee at 0° or 180°, the one with
     /// the smaller key is the right.
     pub fn in_banks(
         name: impl Into<String>,
         source: impl Into<String>,
-        mut placements: Vec<Placement>,
+        mut stations: Vec<Station>,
         bank_keys: &[usize],
     ) -> Result<Self> {
-        let count = placements.len();
+        let count = stations.len();
         if count == 0 || count > limits::MOST_CYLINDERS {
             let hint = format!("an engine has 1 to {} cylinders", limits::MOST_CYLINDERS);
             return Err(Error::value("number of cylinders", count, hint));
@@ -130,19 +128,19 @@ impl Engine {
         check_each_cylinder("bank", bank_keys.len(), count)?;
         let mut gears = Vec::new();
         let mut gear_of = Vec::with_capacity(count);
-        for (i, placement) in placements.iter_mut().enumerate() {
-            limits::finite(&format!("z[{i}]"), placement.z)?;
-            limits::not_negative(&format!("rotating_mass[{i}]"), placement.rotating_mass)?;
-            (placement.tdc, placement.bank) = (placement.tdc.reduced(), placement.bank.reduced());
-            gear_of.push(index_of(&mut gears, &placement.cylinder));
+        for (i, station) in stations.iter_mut().enumerate() {
+            limits::finite(&format!("z[{i}]"), station.z)?;
+            limits::not_negative(&format!("rotating_mass[{i}]"), station.rotating_mass)?;
+            (station.tdc, station.bank) = (station.tdc.reduced(), station.bank.reduced());
+            gear_of.push(index_of(&mut gears, &station.cylinder));
         }
         let engine = Self {
             name: String::new(),
             source: String::new(),
             firing_order: String::new(),
             strokes: Strokes::Four,
-            right: right_bank(&placements, bank_keys),
-            placements,
+            right: right_bank(&stations, bank_keys),
+            stations,
             gears,
             gear_of,
             spectrum: None,
@@ -185,8 +183,8 @@ impl Engine {
 
     /// The cylinders, by number.
     #[must_use]
-    pub fn placements(&self) -> &[Placement] {
-        &self.placements
+    pub fn stations(&self) -> &[Station] {
+        &self.stations
     }
 
     /// Running gears that differ; cylinders refer to them by index.
@@ -218,9 +216,9 @@ impl Engine {
     #[must_use]
     pub fn bank_directions(&self) -> Vec<Angle> {
         let mut banks = Vec::new();
-        for (placement, &bank) in self.placements.iter().zip(&self.bank_of) {
+        for (station, &bank) in self.stations.iter().zip(&self.bank_of) {
             if bank == banks.len() {
-                banks.push(placement.bank);
+                banks.push(station.bank);
             }
         }
         banks
@@ -268,7 +266,7 @@ impl Engine {
     /// All that rotates with the crankshaft: the cylinders' rotating masses at their pins, and the
     /// counterweights.
     pub fn crank_unbalances(&self) -> impl Iterator<Item = Unbalance> {
-        let masses = self.placements.iter().enumerate().map(|(i, place)| Unbalance {
+        let masses = self.stations.iter().enumerate().map(|(i, place)| Unbalance {
             amount: place.rotating_mass * place.cylinder.crank_radius(),
             angle: Angle::ZERO,
             z: place.z,
@@ -280,7 +278,7 @@ impl Engine {
     /// z midway between the first and the last cylinder: the default reference plane.
     #[must_use]
     pub fn middle(&self) -> f64 {
-        let z = || self.placements.iter().map(|place| place.z);
+        let z = || self.stations.iter().map(|place| place.z);
         let (first, last) =
             (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
         f64::midpoint(first, last)
@@ -322,9 +320,9 @@ impl Engine {
     /// centre at this crank angle.
     #[must_use]
     pub fn with_first_tdc(&self, tdc: Angle) -> Self {
-        let turn = tdc - self.placements[0].tdc;
+        let turn = tdc - self.stations[0].tdc;
         let mut turned = self.clone();
-        (0..self.placements.len()).for_each(|i| turned.delay(i, turn));
+        (0..self.stations.len()).for_each(|i| turned.delay(i, turn));
         // What is fixed to a shaft starts from where it was so much earlier.
         for weight in turned.counterweights.iter_mut().filter(|weight| weight.pin.is_none()) {
             weight.angle = (weight.angle - turn).reduced();
@@ -349,7 +347,7 @@ impl Engine {
         for (k, crank) in cranks.iter().enumerate() {
             crank.check(&format!("cranks[{k}]"))?;
         }
-        check_each_cylinder("crank_of", crank_of.len(), self.placements.len())?;
+        check_each_cylinder("crank_of", crank_of.len(), self.stations.len())?;
         if let Some(k) = crank_of.iter().position(|&crank| crank >= cranks.len()) {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
@@ -364,7 +362,7 @@ impl Engine {
         shaft::check_count("counterweights", counterweights.len())?;
         let checked = counterweights.into_iter().enumerate();
         let checked =
-            checked.map(|(i, u)| u.checked(&format!("counterweights[{i}]"), self.placements.len()));
+            checked.map(|(i, u)| u.checked(&format!("counterweights[{i}]"), self.stations.len()));
         Ok(Self { counterweights: checked.collect::<Result<_>>()?, ..self.clone() })
     }
 
@@ -383,7 +381,7 @@ impl Engine {
 
     /// The same engine with these figures of its cylinders.
     pub fn with_details(&self, details: Vec<Details>) -> Result<Self> {
-        check_each_cylinder("details", details.len(), self.placements.len())?;
+        check_each_cylinder("details", details.len(), self.stations.len())?;
         for Details { bore, piston_mass, rod } in &details {
             bore.map(|bore| limits::length("bore", bore)).transpose()?;
             piston_mass.map(|mass| limits::not_negative("piston_mass", mass)).transpose()?;
@@ -480,7 +478,7 @@ mod tests {
 
     fn vee(right: f64, left: f64) -> Engine {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |bank: f64, tdc: f64, z| Placement {
+        let place = |bank: f64, tdc: f64, z| Station {
             cylinder,
             tdc: degrees(tdc),
             bank: degrees(bank),
@@ -528,7 +526,7 @@ mod tests {
         let flat = engine.with_bank_angle(degrees(180.0), Hold::Pins).unwrap();
         assert_eq!(flat.banks().unwrap().directions, [degrees(310.0), degrees(130.0)]);
         let keys: Vec<usize> = [0, 1].map(|i| usize::from(flat.bank_of(i) != 1)).to_vec();
-        let again = Engine::in_banks("", "", flat.placements().to_vec(), &keys).unwrap();
+        let again = Engine::in_banks("", "", flat.stations().to_vec(), &keys).unwrap();
         assert_eq!(again.with_bank_angle(degrees(60.0), Hold::Pins).unwrap(), engine);
     }
 
@@ -537,15 +535,15 @@ mod tests {
         let engine = vee(60.0, 120.0);
         let by_pins = engine.with_bank_angle(degrees(90.0), Hold::Pins).unwrap();
         let by_firing = engine.with_bank_angle(degrees(90.0), Hold::Firing).unwrap();
-        for (before, after) in engine.placements().iter().zip(by_pins.placements()) {
+        for (before, after) in engine.stations().iter().zip(by_pins.stations()) {
             assert_eq!(before.pin(), after.pin());
         }
-        for (before, after) in engine.placements().iter().zip(by_firing.placements()) {
+        for (before, after) in engine.stations().iter().zip(by_firing.stations()) {
             assert_eq!(before.tdc, after.tdc);
         }
         assert_eq!(by_pins.banks().unwrap().angle(), degrees(90.0));
         // Each cylinder stays on its side.
-        let bores: Vec<f64> = by_pins.placements().iter().map(|p| p.bank.degrees()).collect();
+        let bores: Vec<f64> = by_pins.stations().iter().map(|p| p.bank.degrees()).collect();
         assert_eq!(bores, [135.0, 45.0]);
     }
 
@@ -554,10 +552,10 @@ mod tests {
         let engine = vee(60.0, 120.0).named("V2", "a drawing").unwrap();
         assert_eq!((engine.name(), engine.source()), ("V2", "a drawing"));
         assert_eq!((engine.middle(), engine.largest_crank_radius()), (0.05, 0.05));
-        assert_eq!((engine.placements().len(), engine.gears().len()), (2, 1));
+        assert_eq!((engine.stations().len(), engine.gears().len()), (2, 1));
         assert_eq!([0, 1].map(|i| engine.bank_of(i)), [0, 1]);
         assert_eq!(engine.firing_as("1-2", Strokes::Four).unwrap().firing_order(), "1-2");
-        let both = engine.placements().to_vec();
+        let both = engine.stations().to_vec();
         assert!(matches!(Engine::in_banks("", "", both, &[0]), Err(Error::Length { .. })));
         for angle in [0.0, 45.0, 180.0] {
             assert_eq!(bank_angle_in_range(angle), Ok(angle));
@@ -597,8 +595,8 @@ mod tests {
             .and_then(|engine| engine.with_shafts(vec![shaft]))
             .unwrap();
         let turned = engine.with_first_tdc(degrees(17.5));
-        assert_eq!(turned.placements()[0].tdc, degrees(17.5));
-        assert_eq!(turned.placements()[1].tdc, degrees(17.5 - 30.0).reduced());
+        assert_eq!(turned.stations()[0].tdc, degrees(17.5));
+        assert_eq!(turned.stations()[1].tdc, degrees(17.5 - 30.0).reduced());
         // Turned back by 12.5°, the shaft twice as far the other way; a weight at a pin follows it.
         let angles = [0, 1].map(|k| turned.counterweights()[k].angle.degrees());
         assert_eq!(angles, [180.0, 42.5]);
@@ -608,9 +606,9 @@ mod tests {
 
     #[test]
     fn rotating_masses_are_unbalances_at_their_pins() {
-        let mut placements: Vec<Placement> = vee(60.0, 120.0).placements().to_vec();
-        placements[1].rotating_mass = 0.4;
-        let engine = Engine::new("", "", placements).unwrap();
+        let mut stations: Vec<Station> = vee(60.0, 120.0).stations().to_vec();
+        stations[1].rotating_mass = 0.4;
+        let engine = Engine::new("", "", stations).unwrap();
         let engine = engine.with_counterweights(vec![weight(30.0, None)]).unwrap();
         let found: Vec<Unbalance> = engine.crank_unbalances().collect();
         let mass = Unbalance { amount: 0.4 * 0.05, angle: Angle::ZERO, z: 0.1, pin: Some(1) };

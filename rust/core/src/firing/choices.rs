@@ -75,7 +75,7 @@ impl Firing {
         if let Some(found) = Self::all_named(engine, order, strokes)?.into_iter().next() {
             return Ok(found);
         }
-        let count = engine.placements().len();
+        let count = engine.stations().len();
         let later = vec![false; count];
         let within_a_turn = Self::assemble(engine, &Tops::of(engine), Strokes::Two, &later);
         let tops = shorten(&within_a_turn.to_string().replace('-', ", "));
@@ -94,7 +94,7 @@ impl Firing {
             return Self::named(engine, &engine.firing_order().parse()?, strokes, cancel);
         }
         let mut hint = "the engine has none; give it one, such as 1-3-4-2".to_owned();
-        if can_list(engine.placements().len(), strokes) {
+        if can_list(engine.stations().len(), strokes) {
             let mut possible = Self::all(engine, strokes, cancel)?;
             if possible.len() == 1 {
                 return Ok(possible.swap_remove(0));

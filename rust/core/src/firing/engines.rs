@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Firing;
-use crate::engine::{Engine, Placement};
+use crate::engine::{Engine, Station};
 use crate::gear::slider_crank::Cylinder;
 use crate::layout::{Numbering, Side, Vee};
 use crate::numbers::angle::Angle;
@@ -31,7 +31,7 @@ pub fn engine(layout: &Vee) -> Arc<Engine> {
 /// Cylinder, TDC, bore of each; z does not matter.
 pub fn placed(places: &[(Cylinder, f64, f64)]) -> Arc<Engine> {
     let angle = |degrees| Angle::from_degrees(degrees).unwrap();
-    let place = |&(cylinder, tdc, bank): &(Cylinder, f64, f64)| Placement {
+    let place = |&(cylinder, tdc, bank): &(Cylinder, f64, f64)| Station {
         cylinder,
         tdc: angle(tdc),
         bank: angle(bank),

@@ -2,7 +2,7 @@
 
 use super::tops::{same, top_to_bottom, turns};
 use super::way::Firing;
-use crate::engine::Placement;
+use crate::engine::Station;
 use crate::layout::{MOST_ROUNDING, Strokes};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -106,8 +106,8 @@ impl Firing {
             Strokes::Four => &["power", "exhaust", "intake", "compression"],
             Strokes::Two => &["power", "compression"],
         };
-        let period = |k: usize, (firing, placement): (Angle, &Placement)| {
-            let downwards = top_to_bottom(placement);
+        let period = |k: usize, (firing, station): (Angle, &Station)| {
+            let downwards = top_to_bottom(station);
             let before = turns((k / 2) as i64);
             let (from, length) = if k.is_multiple_of(2) {
                 (before, downwards)
@@ -120,7 +120,7 @@ impl Firing {
             .iter()
             .enumerate()
             .map(|(k, &name)| {
-                let angles = self.angles().into_iter().zip(self.engine().placements());
+                let angles = self.angles().into_iter().zip(self.engine().stations());
                 (name, angles.map(|each| period(k, each)).collect())
             })
             .collect()
@@ -130,7 +130,7 @@ impl Firing {
     pub fn open(&self, timing: &Timing) -> Result<[Periods; 2]> {
         let mut found = [(); 2].map(|()| Vec::new());
         for (i, (firing, place)) in
-            self.angles().into_iter().zip(self.engine().placements()).enumerate()
+            self.angles().into_iter().zip(self.engine().stations()).enumerate()
         {
             let (turn, downwards) = (turns(1), top_to_bottom(place));
             let [first, second] = match (*timing, self.strokes()) {

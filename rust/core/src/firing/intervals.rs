@@ -20,7 +20,7 @@ impl Firing {
     #[must_use]
     pub fn banks(&self) -> Vec<Vec<usize>> {
         let mut banks = vec![Vec::new(); self.engine().bank_directions().len()];
-        for i in 0..self.engine().placements().len() {
+        for i in 0..self.engine().stations().len() {
             banks[self.engine().bank_of(i)].push(i);
         }
         banks

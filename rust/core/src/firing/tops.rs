@@ -1,6 +1,6 @@
 //! Turning points of pistons, and the angles that count as one.
 
-use crate::engine::{Engine, Placement};
+use crate::engine::{Engine, Station};
 use crate::layout::MOST_ROUNDING;
 use crate::numbers::angle::Angle;
 
@@ -9,13 +9,13 @@ pub(super) struct Tops(pub Vec<Angle>);
 
 impl Tops {
     pub fn of(engine: &Engine) -> Self {
-        let placements = engine.placements();
-        let (first, past_first) = (placements[0].tdc, highest_after_tdc(&placements[0]));
-        let mut tops: Vec<Angle> = placements
+        let stations = engine.stations();
+        let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
+        let mut tops: Vec<Angle> = stations
             .iter()
-            .map(|placement| {
-                let past = highest_after_tdc(placement) - past_first;
-                let top = placement.tdc - first;
+            .map(|station| {
+                let past = highest_after_tdc(station) - past_first;
+                let top = station.tdc - first;
                 // Engines with offset pins are laid out so that this is a part of a turn.
                 let top = if past == 0.0 {
                     top
@@ -39,16 +39,16 @@ impl Tops {
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.
-pub(super) fn highest_after_tdc(placement: &Placement) -> f64 {
-    let part = placement.cylinder;
+pub(super) fn highest_after_tdc(station: &Station) -> f64 {
+    let part = station.cylinder;
     (part.pin_offset() / (part.rod_length() + part.crank_radius())).asin().to_degrees()
 }
 
 /// From a piston's highest to its lowest point: half a turn but for a pin offset.
-pub(super) fn top_to_bottom(placement: &Placement) -> Angle {
-    let part = placement.cylinder;
+pub(super) fn top_to_bottom(station: &Station) -> Angle {
+    let part = station.cylinder;
     let lowest = (part.pin_offset() / (part.rod_length() - part.crank_radius())).asin();
-    turns(1).half() + degrees(lowest.to_degrees() - highest_after_tdc(placement))
+    turns(1).half() + degrees(lowest.to_degrees() - highest_after_tdc(station))
 }
 
 /// An angle from degrees that are in range, such as those of an arc sine.

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::tops::{Tops, degrees, highest_after_tdc, same, turns};
-use crate::engine::{Engine, Placement};
+use crate::engine::{Engine, Station};
 use crate::layout::Strokes;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -25,7 +25,7 @@ impl Firing {
     /// The way to fire in which the cylinders marked `later` fire in the second turn after the first
     /// cylinder.
     pub fn with_later(engine: &Arc<Engine>, strokes: Strokes, later: &[bool]) -> Result<Self> {
-        let count = engine.placements().len();
+        let count = engine.stations().len();
         if later.len() != count || later[0] || (strokes == Strokes::Two && later.contains(&true)) {
             let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
             return Err(Error::value("revolutions", format!("{later:?}"), hint));
@@ -104,7 +104,7 @@ impl Firing {
     /// Crank angles at which the cylinders fire, by number, within a cycle.
     #[must_use]
     pub fn angles(&self) -> Vec<Angle> {
-        let first = &self.engine.placements()[0];
+        let first = &self.engine.stations()[0];
         let top = first.tdc + degrees(highest_after_tdc(first));
         self.times.iter().map(|&time| self.within(top.reduced() + time)).collect()
     }
@@ -112,22 +112,22 @@ impl Firing {
     /// Whether each cylinder fires at its top dead centre in the second turn of the cycle, by number.
     #[must_use]
     pub fn in_second_turn(&self) -> Vec<bool> {
-        let placements = self.engine.placements();
-        let first = &placements[0];
-        let second = |(place, time): (&Placement, &Angle)| {
+        let stations = self.engine.stations();
+        let first = &stations[0];
+        let second = |(place, time): (&Station, &Angle)| {
             // Times are those of highest points, which with pin offsets lie beside the dead centres.
             let past = highest_after_tdc(place) - highest_after_tdc(first);
             let phase = first.tdc.reduced().degrees() + time.degrees() - past;
             let turn = (phase - place.tdc.reduced().degrees()) / 360.0;
             turn.round().rem_euclid(self.strokes.turns() as f64) != 0.0
         };
-        placements.iter().zip(&self.times).map(second).collect()
+        stations.iter().zip(&self.times).map(second).collect()
     }
 
     /// Crank angle of each cylinder's firing top dead centre, by number, within a cycle.
     #[must_use]
     pub fn phases(&self) -> Vec<Angle> {
-        let each = self.engine.placements().iter().zip(self.in_second_turn());
+        let each = self.engine.stations().iter().zip(self.in_second_turn());
         each.map(|(place, second)| place.tdc.reduced() + turns(i64::from(second))).collect()
     }
 

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use super::*;
 use crate::Spectrum;
-use crate::engine::{Placement, Shaft, Unbalance};
+use crate::engine::{Shaft, Station, Unbalance};
 
 const REFERENCE: f64 = 0.03;
 
@@ -23,7 +23,7 @@ fn unbalance(amount: f64, degrees: f64, z: f64, pin: Option<usize>) -> Unbalance
 pub(crate) fn engine() -> Engine {
     let gears = [(0.05, 0.15, 0.5, 0.0), (0.04, 0.12, 0.75, 0.0), (0.05, 0.15, 0.5, 0.0)];
     let places = [(10.0, 60.0, 0.0, 0.3), (130.0, 130.0, 0.1, 0.0), (255.0, 60.0, 0.2, 0.4)];
-    let place = |((r, l, m, e), (tdc, bank, z, rotating_mass))| Placement {
+    let place = |((r, l, m, e), (tdc, bank, z, rotating_mass))| Station {
         cylinder: Cylinder::new(r, l, m, e).unwrap().with_rod_inertia_excess(-1e-4).unwrap(),
         tdc: angle(tdc),
         bank: angle(bank),
@@ -97,9 +97,9 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
 fn pistons_alike_share_a_gear() {
     assert_eq!(loads(&engine(), Alike::Dimensions).gears.len(), 2);
     // One of half the size has the same proportions.
-    let halved = engine().placements()[0];
+    let halved = engine().stations()[0];
     let cylinder = Cylinder::new(0.025, 0.075, 0.5, 0.0).unwrap();
-    let halved = Engine::new("", "", vec![halved, Placement { cylinder, ..halved }]).unwrap();
+    let halved = Engine::new("", "", vec![halved, Station { cylinder, ..halved }]).unwrap();
     let count = |alike| loads(&halved, alike).gears.len();
     assert_eq!((count(Alike::Dimensions), count(Alike::Proportions)), (2, 1));
     // A spectrum has the masses in it.

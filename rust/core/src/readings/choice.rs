@@ -269,7 +269,7 @@ mod tests {
     use proptest::sample::select;
 
     use super::*;
-    use crate::engine::Placement;
+    use crate::engine::Station;
     use crate::gear::slider_crank::Cylinder;
     use crate::load::Alike;
     use crate::numbers::angle::Angle;
@@ -277,7 +277,7 @@ mod tests {
     #[test]
     fn a_rod_counts_by_its_inertia_over_what_a_tolerance_is_relative_to() {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-        let place = |inertia: f64| Placement {
+        let place = |inertia: f64| Station {
             cylinder: cylinder.with_rod_inertia_excess(inertia).unwrap(),
             tdc: Angle::ZERO,
             bank: Angle::ZERO,

@@ -428,7 +428,7 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::engine::Placement;
+    use crate::engine::Station;
     use crate::gear::slider_crank::Cylinder;
     use crate::numbers::angle::Angle;
 
@@ -455,7 +455,7 @@ mod tests {
         let cylinder = Cylinder::new(0.05, 0.15, 2.0, 0.01).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(rod_inertia).unwrap();
         let bank = Angle::from_degrees(90.0).unwrap();
-        let place = Placement { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
+        let place = Station { cylinder, tdc: Angle::ZERO, bank, z: 0.0, rotating_mass: 0.0 };
         Engine::new("", "", vec![place]).unwrap()
     }
 

@@ -1,6 +1,6 @@
 //! The engine that an arrangement is of.
 
-use crate::engine::{Engine, Hold, Placement};
+use crate::engine::{Engine, Hold, Station};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -29,11 +29,11 @@ pub fn vee(
     }
     let half = Angle::from_degrees(bank_angle)?.half();
     let upright = Angle::QUARTER_TURN;
-    let placements = (0..2 * throws).map(|i| {
+    let stations = (0..2 * throws).map(|i| {
         let (throw, bank) = (i / 2, i % 2);
         let phase = banks[bank][throw];
         let bore = if bank == 0 { upright - half } else { upright + half };
-        Placement {
+        Station {
             cylinder,
             tdc: match hold {
                 Hold::Firing => -phase,
@@ -45,5 +45,5 @@ pub fn vee(
         }
     });
     let name = format!("V{} {bank_angle:.2}°", 2 * throws);
-    Engine::new(name, "crankpin's search of arrangements", placements.collect())
+    Engine::new(name, "crankpin's search of arrangements", stations.collect())
 }

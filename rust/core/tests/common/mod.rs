@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crankpin_core::balance::{Balance, Vector, balance};
 use crankpin_core::sweep::Axes;
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Placement, Request, Shaft, Unbalance,
+    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Request, Shaft, Station, Unbalance,
 };
 
 /// Crank radius, rod length, reciprocating mass, pin offset, inertia of the rod beyond its two
@@ -23,7 +23,7 @@ pub fn angle(degrees: f64) -> Angle {
 fn engine(cylinders: &[Figures]) -> Arc<Engine> {
     let place = |&([r, l, m, e, j], [tdc, bank], z, rotating_mass): &Figures| {
         let cylinder = Cylinder::new(r, l, m, e).unwrap().with_rod_inertia_excess(j).unwrap();
-        Placement { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
+        Station { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
     };
     Arc::new(Engine::new("", "", cylinders.iter().map(place).collect()).unwrap())
 }
@@ -112,21 +112,21 @@ pub fn there(engine: &Engine, axes: &Axes) -> Engine {
     let turned = axes.bank_angle.as_ref().map(|(angles, hold)| {
         engine.with_bank_angle(Angle::from_degrees(angles[0]).unwrap(), *hold).unwrap()
     });
-    let change = |p: &Placement| {
+    let change = |p: &Station| {
         let c = p.cylinder;
         let rod = axes.rod_ratio.as_ref().map_or(c.rod_length(), |λ| c.crank_radius() / λ[0]);
         let offset = axes.pin_offset.as_ref().map_or(c.pin_offset(), |offsets| offsets[0]);
         let cylinder =
             Cylinder::new(c.crank_radius(), rod, c.reciprocating_mass(), offset).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(c.rod_inertia_excess()).unwrap();
-        Placement { cylinder, ..*p }
+        Station { cylinder, ..*p }
     };
     changed(turned.as_ref().unwrap_or(engine), change)
 }
 
-/// An engine with its placements changed, its counterweights and shafts as they are.
-pub fn changed(engine: &Engine, change: impl Fn(&Placement) -> Placement) -> Engine {
-    Engine::new("", "", engine.placements().iter().map(change).collect())
+/// An engine with its stations changed, its counterweights and shafts as they are.
+pub fn changed(engine: &Engine, change: impl Fn(&Station) -> Station) -> Engine {
+    Engine::new("", "", engine.stations().iter().map(change).collect())
         .and_then(|changed| changed.with_counterweights(engine.counterweights().to_vec()))
         .and_then(|changed| changed.with_shafts(engine.shafts().to_vec()))
         .unwrap()
@@ -156,7 +156,7 @@ pub fn turning(balance: &Balance, vector: Vector) -> Vec<[Complex64; 2]> {
 /// Force x, y, moment x, y, roll and crank torque over ω²; and the sizes of their terms.
 pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 6]) {
     let (mut sums, mut sizes) = ([0.0; 6], [0.0; 6]);
-    for p in engine.placements() {
+    for p in engine.stations() {
         let (c, bank, pin) = (p.cylinder, p.bank.cis(1), p.pin().degrees().to_radians());
         let (r, lever) = (c.crank_radius(), p.z - reference);
         let (sin, cos) = (θ - p.tdc.degrees().to_radians()).sin_cos();
@@ -205,7 +205,7 @@ pub fn kinematics(engine: &Engine, reference: f64, θ: f64) -> ([f64; 6], [f64; 
         }
     };
     for weight in engine.counterweights() {
-        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.placements()[i].pin());
+        let pin = weight.pin.map_or(Angle::ZERO, |i| engine.stations()[i].pin());
         let turned = pin.degrees().to_radians() + weight.angle.degrees().to_radians() + θ;
         add(Complex64::cis(turned) * weight.amount, weight.z, [0.0; 2]);
     }
@@ -230,7 +230,7 @@ pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
         torque = torque.max(amount * arm);
         lever = lever.max((z - reference).abs());
     };
-    for p in engine.placements() {
+    for p in engine.stations() {
         let (c, r) = (p.cylinder, p.cylinder.crank_radius());
         add(c.first_order(), r, p.z);
         add(p.rotating_mass * r, radius, p.z);
@@ -244,7 +244,7 @@ pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
             add(weight.amount * f64::from(shaft.ratio.pow(2)), radius.max(x.hypot(y)), weight.z);
         }
     }
-    for p in engine.placements() {
+    for p in engine.stations() {
         torque = torque.max(p.cylinder.rod_inertia_excess().abs() * p.cylinder.rod_ratio());
     }
     [force, force * lever, torque]

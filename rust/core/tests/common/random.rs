@@ -1,6 +1,6 @@
 //! Random engines.
 
-use crankpin_core::{Angle, Cylinder, Engine, Placement, Shaft, Unbalance};
+use crankpin_core::{Angle, Cylinder, Engine, Shaft, Station, Unbalance};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -24,21 +24,15 @@ pub fn angles() -> impl Strategy<Value = Angle> {
     ]
 }
 
-pub fn placements(offset: bool) -> impl Strategy<Value = Placement> {
+pub fn stations(offset: bool) -> impl Strategy<Value = Station> {
     (cylinders(offset), angles(), angles(), -0.5..0.5, 0.0..2.0).prop_map(
-        |(cylinder, tdc, bank, z, rotating_mass)| Placement {
-            cylinder,
-            tdc,
-            bank,
-            z,
-            rotating_mass,
-        },
+        |(cylinder, tdc, bank, z, rotating_mass)| Station { cylinder, tdc, bank, z, rotating_mass },
     )
 }
 
 pub fn engines(offset: bool) -> impl Strategy<Value = Engine> {
-    proptest::collection::vec(placements(offset), 1..9)
-        .prop_map(|placements| Engine::new("", "", placements).unwrap())
+    proptest::collection::vec(stations(offset), 1..9)
+        .prop_map(|stations| Engine::new("", "", stations).unwrap())
 }
 
 /// Vees whose cylinders stand in two banks.
@@ -46,15 +40,15 @@ pub fn vees() -> impl Strategy<Value = Engine> {
     let cylinder = cylinders(true);
     let rest =
         proptest::collection::vec((cylinder, angles(), -0.5..0.5, 0.0..2.0, any::<bool>()), 0..7);
-    (placements(true), placements(true), rest, 20.0..160.0).prop_map(|(a, b, rest, angle)| {
+    (stations(true), stations(true), rest, 20.0..160.0).prop_map(|(a, b, rest, angle)| {
         let right = Angle::from_degrees(90.0 - 0.5 * angle).unwrap();
         let left = Angle::from_degrees(90.0 + 0.5 * angle).unwrap();
-        let mut placements = vec![Placement { bank: right, ..a }, Placement { bank: left, ..b }];
-        placements.extend(rest.into_iter().map(|(cylinder, tdc, z, rotating_mass, on_left)| {
+        let mut stations = vec![Station { bank: right, ..a }, Station { bank: left, ..b }];
+        stations.extend(rest.into_iter().map(|(cylinder, tdc, z, rotating_mass, on_left)| {
             let bank = if on_left { left } else { right };
-            Placement { cylinder, tdc, bank, z, rotating_mass }
+            Station { cylinder, tdc, bank, z, rotating_mass }
         }));
-        Engine::new("", "", placements).unwrap()
+        Engine::new("", "", stations).unwrap()
     })
 }
 
@@ -82,7 +76,7 @@ pub fn shafts() -> impl Strategy<Value = Vec<Shaft>> {
 pub fn weighted(engines: impl Strategy<Value = Engine>) -> impl Strategy<Value = Engine> {
     let pins = proptest::collection::vec(proptest::option::of(0_usize..8), 4);
     (engines, unbalances(4), pins, shafts()).prop_map(|(engine, mut weights, pins, shafts)| {
-        let cylinders = engine.placements().len();
+        let cylinders = engine.stations().len();
         for (weight, pin) in weights.iter_mut().zip(pins) {
             weight.pin = pin.map(|pin| pin % cylinders);
         }

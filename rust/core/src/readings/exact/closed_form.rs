@@ -110,7 +110,7 @@ fn levers(
         let mut distances = levers.iter().map(|lever| lever - from);
         distances.try_fold(Ratio::ZERO, common_measure).ok_or_else(too_long)
     };
-    let mut step = measure(&levers[..engine.placements().len()], levers[0])?;
+    let mut step = measure(&levers[..engine.stations().len()], levers[0])?;
     if step == Ratio::ZERO {
         step = measure(&levers, Ratio::ZERO)?;
     }
@@ -157,7 +157,7 @@ pub fn closed_form(
     loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == of_order));
     let offset = loads.cylinders()[0].pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
-    if loads.list.len() > engine.placements().len() {
+    if loads.list.len() > engine.stations().len() {
         if order > 1 {
             let hint =
                 "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
@@ -258,14 +258,14 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Placement;
+    use crate::engine::Station;
     use crate::gear::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
     fn crossplane() -> Engine {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let throws = [(0.0, 0.0), (270.0, 0.13), (90.0, 0.26), (180.0, 0.39)];
-        let place = |(tdc, z), bank: f64| Placement {
+        let place = |(tdc, z), bank: f64| Station {
             cylinder,
             tdc: Angle::from_degrees(tdc + bank - 135.0).unwrap(),
             bank: Angle::from_degrees(bank).unwrap(),
@@ -300,16 +300,16 @@ mod tests {
     #[test]
     fn closed_forms_are_the_balance() {
         let turning = |engine: &Engine| {
-            let with = |(i, p): (usize, &Placement)| Placement {
+            let with = |(i, p): (usize, &Station)| Station {
                 rotating_mass: if i == 1 { 0.75 } else { 0.0 },
                 ..*p
             };
-            let places = engine.placements().iter().enumerate().map(with).collect();
+            let places = engine.stations().iter().enumerate().map(with).collect();
             Engine::new("", "", places).unwrap()
         };
         let v8 = crossplane();
-        let two = Engine::new("", "", v8.placements()[1..3].to_vec()).unwrap();
-        let single = Engine::new("", "", v8.placements()[..1].to_vec()).unwrap();
+        let two = Engine::new("", "", v8.stations()[1..3].to_vec()).unwrap();
+        let single = Engine::new("", "", v8.stations()[..1].to_vec()).unwrap();
         for engine in [turning(&v8), turning(&two), v8, two, single] {
             for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
                 for moment in [false, true] {
@@ -322,7 +322,7 @@ mod tests {
                     let vector = if moment { Vector::Moment } else { Vector::Force };
                     let planar = found.planar(vector, 0);
                     let [x, y] = found.xy(vector, 0);
-                    let cylinder = engine.placements()[form.unit].cylinder;
+                    let cylinder = engine.stations()[form.unit].cylinder;
                     let harmonic = crate::gear::harmonics::coefficients(
                         &cylinder.proportions(),
                         &[order],
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn what_has_none_is_refused_with_the_reason() {
-        let mut places = crossplane().placements().to_vec();
+        let mut places = crossplane().stations().to_vec();
         places[3].z = 0.13 * 2.0_f64.sqrt();
         let engine = Engine::new("", "", places.clone()).unwrap();
         assert!(
@@ -367,13 +367,13 @@ mod tests {
         );
         assert!(closed_form(&engine, 1, false, None, &Cancel::new()).is_ok());
         places[3].bank = Angle::from_degrees(49.541_234_567_89).unwrap();
-        let error = |places: &[Placement], order| {
+        let error = |places: &[Station], order| {
             let engine = Engine::new("", "", places.to_vec()).unwrap();
             closed_form(&engine, order, false, None, &Cancel::new()).unwrap_err().to_string()
         };
         let text = error(&places, 1);
         assert!(text.contains("bank_deg = 49.54123456789"), "{text}");
-        let mut places = crossplane().placements().to_vec();
+        let mut places = crossplane().stations().to_vec();
         places[2].cylinder = Cylinder::new(0.05, 0.15, 0.5 * 2.0_f64.sqrt(), 0.0).unwrap();
         assert!(error(&places, 2).contains("rational multiples"));
         // With an offset order 1 of the pistons is out of phase with what turns.
@@ -388,7 +388,7 @@ mod tests {
 
     #[test]
     fn the_unit_is_the_first_cylinder_with_reciprocating_mass() {
-        let mut places = crossplane().placements()[..3].to_vec();
+        let mut places = crossplane().stations()[..3].to_vec();
         let massless = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
         places[0].cylinder = massless;
         let engine = Engine::new("", "", places.clone()).unwrap();

@@ -92,7 +92,7 @@ impl Levers {
         reference: Option<f64>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let places = || engine.placements().iter().map(|place| place.z);
+        let places = || engine.stations().iter().map(|place| place.z);
         let ends = [f64::min, f64::max].map(|end| places().reduce(end).unwrap_or_default());
         let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
         // A plane that is a decimal is exact; any other is known from the middle of the engine.

@@ -11,7 +11,7 @@ use super::roots::{PartOfTurn, parts_of_turn};
 use super::vanishing::Verdict;
 use super::whole;
 use crate::Complex64;
-use crate::engine::{Engine, Placement, first_equal};
+use crate::engine::{Engine, Station, first_equal};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
@@ -72,15 +72,15 @@ impl Stars {
     /// rod, offset, bore and cycle.
     pub fn of_gas(engine: &Engine, firing: Option<&Firing>, cancel: &Cancel) -> Result<Self> {
         let gas = engine.gas();
-        let phases = || (0..engine.placements().len()).map(|i| engine.firing_phase(i)).collect();
+        let phases = || (0..engine.stations().len()).map(|i| engine.firing_phase(i)).collect();
         let fire = firing.filter(|_| gas.is_none()).map_or_else(phases, Firing::phases);
         let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
-        let sizes = |(i, place): (usize, &Placement)| {
+        let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
             let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset()];
             (sizes, engine.details()[i].bore, cycle_of(i))
         };
-        let groups = first_equal(engine.placements().iter().enumerate().map(sizes));
+        let groups = first_equal(engine.stations().iter().enumerate().map(sizes));
         let weights = (0..groups.len()).map(|i| f64::from(u8::from(cycle_of(i).is_some())));
         Self::new(fire, weights.collect(), groups, cancel)
     }

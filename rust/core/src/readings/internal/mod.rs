@@ -101,7 +101,7 @@ impl Internal {
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
         let loads = Loads::new(engine, 0.0, Alike::Dimensions);
-        let (pistons, turn) = loads.list.split_at(engine.placements().len());
+        let (pistons, turn) = loads.list.split_at(engine.stations().len());
         let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
         let all = |loads: &[Load]| {
             let unbalances = loads.iter().filter(|load| load.source == Source::Unbalance);

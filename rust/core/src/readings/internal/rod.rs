@@ -85,7 +85,7 @@ impl PistonGas {
     fn of(engine: &Engine, cylinder: usize) -> Option<Self> {
         let gas = engine.gas()?;
         let cycle = Arc::clone(&gas.cycles[gas.cycle_of[cylinder]?]);
-        let radius = engine.placements()[cylinder].cylinder.crank_radius();
+        let radius = engine.stations()[cylinder].cylinder.crank_radius();
         let area = engine.swept_by_radius(cylinder)? / radius;
         let phase = engine.firing_phase(cylinder).degrees();
         Some(Self { cycle, phase, crankcase: gas.crankcase, area })
@@ -102,7 +102,7 @@ impl DrivenRod {
     /// Of a cylinder of an engine, by its load, at a square of angular speed.
     pub fn new(engine: &Engine, cylinder: usize, load: &Load, square: f64) -> Result<Self> {
         let (i, details) = (cylinder, &engine.details()[cylinder]);
-        let cylinder = &engine.placements()[i].cylinder;
+        let cylinder = &engine.stations()[i].cylinder;
         let (radius, length) = (cylinder.crank_radius(), cylinder.rod_length());
         let rotating = match details.rod {
             Some([mass, inertia, to_crankpin]) => {

@@ -278,7 +278,7 @@ fn at([re, im]: &[[f64; CHUNK]; 2], sample: usize) -> Complex64 {
 
 /// One pin of each cylinder, counted from 0 without gaps.
 fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
-    let count = engine.placements().len();
+    let count = engine.stations().len();
     if pin_of.len() != count {
         return Err(Error::Length {
             argument: "pins".into(),
@@ -311,7 +311,7 @@ fn check_spreads(
     let (expected, item) = if figure.of_pin() {
         (pins(pin_of), "crankpin")
     } else {
-        (engine.placements().len(), "cylinder")
+        (engine.stations().len(), "cylinder")
     };
     if !spreads.is_empty() && spreads.len() != expected {
         return Err(Error::Length {
@@ -336,7 +336,7 @@ fn check_reach(
 ) -> Result<()> {
     let spread = |figure: Parameter, k: usize| spreads[figure as usize].get(k).copied();
     let name = Parameter::name;
-    for (i, place) in engine.placements().iter().enumerate() {
+    for (i, place) in engine.stations().iter().enumerate() {
         let (cylinder, number) = (place.cylinder, i + 1);
         let mass = spread(Parameter::ReciprocatingMass, i).unwrap_or(0.0);
         if largest * mass > cylinder.reciprocating_mass() {

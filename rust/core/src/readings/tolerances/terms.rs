@@ -10,7 +10,7 @@ use std::rc::Rc;
 use super::amplitudes::{Amplitudes, amplitudes};
 use super::{CHUNK, Deviations, Parameter, pins};
 use crate::Complex64;
-use crate::engine::{Engine, Placement};
+use crate::engine::{Engine, Station};
 use crate::load::{Alike, Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -46,7 +46,7 @@ struct Deviating {
 pub(super) struct Terms {
     orders: Vec<u32>,
     torque: bool,
-    places: Vec<Placement>,
+    places: Vec<Station>,
     loads: Loads,
     deviating: Vec<Deviating>,
     pin_of: Vec<usize>,
@@ -66,7 +66,7 @@ impl Terms {
         cancel: &Cancel,
     ) -> Result<Self> {
         // Every pin carries mass: a tolerance of none is an unbalance too.
-        let laden = engine.placements().iter().map(|p| Placement { rotating_mass: 1.0, ..*p });
+        let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
         let mut loads = Loads::new(&laden, reference, Alike::Dimensions);
@@ -80,17 +80,17 @@ impl Terms {
         let all: Vec<_> = of_cylinders(true).chain(of_cylinders(false)).chain(weights).collect();
         let mut kept = all.iter().map(Option::is_some);
         loads.list.retain(|_| kept.next().unwrap_or_default());
-        let nominal = |Placement { cylinder, .. }: &Placement| {
+        let nominal = |Station { cylinder, .. }: &Station| {
             let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
             amplitudes(cylinder, torque, lengths, orders, cancel)
         };
-        let nominal = engine.placements().iter().map(nominal).collect::<Result<_>>()?;
+        let nominal = engine.stations().iter().map(nominal).collect::<Result<_>>()?;
         let mut one = Amplitudes::default();
         one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         Ok(Self {
             orders: orders.to_vec(),
             torque,
-            places: engine.placements().to_vec(),
+            places: engine.stations().to_vec(),
             loads,
             deviating: all.into_iter().flatten().collect(),
             pin_of: pin_of.to_vec(),
@@ -114,7 +114,7 @@ impl Terms {
         let [masses, rotating, radii, angles, places, rods] = Parameter::ALL
             .map(|figure| columns(deviations[figure as usize], self.count(figure), first));
         let deviates = |figure: Parameter| !deviations[figure as usize].is_empty();
-        let harmonics = |(i, Placement { cylinder, .. }): (usize, &Placement)| {
+        let harmonics = |(i, Station { cylinder, .. }): (usize, &Station)| {
             cancel.check()?;
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
@@ -137,7 +137,7 @@ impl Terms {
                 return Drawn { weights: vec![fixed(load.weight)], lever, amplitudes: one, turns };
             };
             let place = &self.places[i];
-            let Placement { cylinder, rotating_mass, z, .. } = *place;
+            let Station { cylinder, rotating_mass, z, .. } = *place;
             let radius = around(cylinder.crank_radius(), &radii[pin]);
             let lever = (around(-reference, &around(z, &places[i])), z - reference);
             if !is_piston {

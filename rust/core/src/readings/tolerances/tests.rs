@@ -3,7 +3,7 @@ use ndarray::Array2;
 use super::*;
 use crate::Order;
 use crate::balance::TorquePart;
-use crate::engine::{Placement, Shaft, Unbalance};
+use crate::engine::{Shaft, Station, Unbalance};
 use crate::{Angle, Cylinder};
 
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
@@ -24,7 +24,7 @@ fn engine() -> Engine {
                  rotating_mass| {
         let cylinder = Cylinder::new(radius, rod, mass, offset).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
-        Placement { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
+        Station { cylinder, tdc: angle(tdc), bank: angle(bank), z, rotating_mass }
     };
     let places = vec![
         place([0.05, 0.16, 0.5, 0.0, 0.0], [0.0, 60.0], 0.0, 0.3),
@@ -125,7 +125,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
             drawn.map(|values| Array2::from_shape_vec((40, values.len() / 40), values).unwrap());
         for s in 0..40 {
             let engine = engine();
-            let drawn = engine.placements().iter().enumerate().map(|(i, p)| {
+            let drawn = engine.stations().iter().enumerate().map(|(i, p)| {
                 let (c, pin) = (p.cylinder, PINS[i]);
                 let cylinder = Cylinder::new(
                     c.crank_radius() + radii[[s, pin]],
@@ -133,7 +133,7 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                     c.reciprocating_mass() + masses[[s, i]],
                     c.pin_offset(),
                 );
-                Placement {
+                Station {
                     cylinder: cylinder
                         .and_then(|made| made.with_rod_inertia_excess(c.rod_inertia_excess()))
                         .unwrap(),
@@ -144,22 +144,20 @@ fn a_sample_is_the_balance_of_the_engine_that_was_drawn() {
                 }
             });
             // A mass below zero is no engine's; its unbalance points the other way.
-            let placements: Vec<Placement> = drawn.collect();
+            let stations: Vec<Station> = drawn.collect();
             let mut weights = engine.counterweights().to_vec();
-            weights.extend(
-                placements.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
-                    |(i, p)| Unbalance {
-                        amount: -p.rotating_mass * p.cylinder.crank_radius(),
-                        angle: Angle::HALF_TURN,
-                        z: p.z,
-                        pin: Some(i),
-                    },
-                ),
-            );
-            let placements = placements
+            weights.extend(stations.iter().enumerate().filter(|(_, p)| p.rotating_mass < 0.0).map(
+                |(i, p)| Unbalance {
+                    amount: -p.rotating_mass * p.cylinder.crank_radius(),
+                    angle: Angle::HALF_TURN,
+                    z: p.z,
+                    pin: Some(i),
+                },
+            ));
+            let stations = stations
                 .into_iter()
-                .map(|p| Placement { rotating_mass: p.rotating_mass.max(0.0), ..p });
-            let drawn = Engine::new("", "", placements.collect())
+                .map(|p| Station { rotating_mass: p.rotating_mass.max(0.0), ..p });
+            let drawn = Engine::new("", "", stations.collect())
                 .and_then(|made| made.with_counterweights(weights))
                 .and_then(|made| made.with_shafts(engine.shafts().to_vec()))
                 .unwrap();

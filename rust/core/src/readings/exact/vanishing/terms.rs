@@ -130,7 +130,7 @@ impl Proof {
             let offset = gear.pin_offset().abs();
             [gear.crank_radius(), gear.rod_length(), offset, gear.reciprocating_mass(), inertia]
         }));
-        let gear_of = (0..engine.placements().len()).map(|i| {
+        let gear_of = (0..engine.stations().len()).map(|i| {
             let gear = engine.gear_of(i);
             (gear, of_gear[gear])
         });

@@ -4,11 +4,11 @@ use proptest::sample::select;
 use std::sync::Arc;
 
 use super::*;
-use crate::engine::{Placement, Shaft, Unbalance};
+use crate::engine::{Shaft, Station, Unbalance};
 use crate::{Angle, Cylinder};
 
 fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
-    let place = |&(tdc, bank, z, mass, offset): &(f64, f64, f64, f64, f64)| Placement {
+    let place = |&(tdc, bank, z, mass, offset): &(f64, f64, f64, f64, f64)| Station {
         cylinder: Cylinder::new(0.05, 0.15, mass, offset).unwrap(),
         tdc: Angle::from_degrees(tdc).unwrap(),
         bank: Angle::from_degrees(bank).unwrap(),
@@ -122,7 +122,7 @@ fn rotating_mass_counts_as_a_reciprocating_one_at_order_one() {
     assert_eq!(verdicts(&twin, 1)[..4], [R, R, R, V]);
     // Turning masses that make up for a piston between them: 2·0.5/2 forward at 90° and 270°.
     let mut places =
-        engine(&[(0.0, 90.0, 0.0, 0.5, 0.0), (180.0, 90.0, 0.0, 0.0, 0.0)]).placements().to_vec();
+        engine(&[(0.0, 90.0, 0.0, 0.5, 0.0), (180.0, 90.0, 0.0, 0.0, 0.0)]).stations().to_vec();
     places[1].rotating_mass = 0.25;
     let countered = Engine::new("", "", places).unwrap();
     assert_eq!(verdicts(&countered, 1)[..4], [R, R, V, R]);
@@ -174,7 +174,7 @@ fn what_is_in_the_way_is_named() {
 #[test]
 fn proportions_are_equal_as_typed() {
     assert_ne!(0.14 / 0.04, 0.21 / 0.06);
-    let place = |(radius, rod, mass, offset), tdc| Placement {
+    let place = |(radius, rod, mass, offset), tdc| Station {
         cylinder: Cylinder::new(radius, rod, mass, offset).unwrap(),
         tdc: Angle::from_degrees(tdc).unwrap(),
         bank: Angle::QUARTER_TURN,
@@ -193,7 +193,7 @@ fn proportions_are_equal_as_typed() {
     // Masses of five digits, no simple fraction of each other: 480.13 of 510 with 510 of 480.13.
     let mut places = engine(&[(0.0, 90.0, 0.0, 0.480_13, 0.0), (90.0, 90.0, 0.0, 0.51, 0.0)]);
     assert_eq!(verdicts(&places, 2)[1], R);
-    let mut swapped = places.placements().to_vec();
+    let mut swapped = places.stations().to_vec();
     swapped[0].cylinder = Cylinder::new(0.051, 0.153, 0.480_13, 0.0).unwrap();
     swapped[1].cylinder = Cylinder::new(0.048_013, 0.144_039, 0.51, 0.0).unwrap();
     places = Engine::new("", "", swapped).unwrap();
@@ -201,7 +201,7 @@ fn proportions_are_equal_as_typed() {
 }
 
 /// Cylinders of few kinds, so that sums vanish now and then; m·r² of some is 1, the unit of rods.
-fn placements() -> impl Strategy<Value = Vec<Placement>> {
+fn stations() -> impl Strategy<Value = Vec<Station>> {
     let root = 2.0_f64.sqrt();
     let mass = select(vec![400.0, 800.0, 400.0 * root]);
     let cylinder = (mass, select(vec![0.0, 0.001, -0.001, 0.002, 0.003]), select(vec![0.0, 0.3]));
@@ -213,7 +213,7 @@ fn placements() -> impl Strategy<Value = Vec<Placement>> {
     let bank = select(vec![0.0, 60.0, 90.0, 120.0, 61.234_567_891_2]);
     let z = select(vec![0.0, 0.1, 0.2, 0.1 * root]);
     let place = (cylinder, tdc, bank, z, select(vec![0.0, 200.0])).prop_map(
-        |(cylinder, tdc, bank, z, rotating_mass)| Placement {
+        |(cylinder, tdc, bank, z, rotating_mass)| Station {
             cylinder,
             tdc: Angle::from_degrees(tdc).unwrap(),
             bank: Angle::from_degrees(bank).unwrap(),
@@ -228,7 +228,7 @@ fn placements() -> impl Strategy<Value = Vec<Placement>> {
         let e = if offset { -c.pin_offset() } else { c.pin_offset() };
         let second = Cylinder::new(0.05, 0.15, c.reciprocating_mass(), e).unwrap();
         let inertia = if rod { c.rod_inertia_excess() } else { 0.0 };
-        let second = Placement {
+        let second = Station {
             cylinder: second.with_rod_inertia_excess(inertia).unwrap(),
             tdc: if tdc { p.tdc + half } else { p.tdc },
             bank: if bank { p.bank + half } else { p.bank },
@@ -244,10 +244,10 @@ proptest! {
 
     #[test]
     fn what_is_proved_is_so(
-        placements in placements(),
+        stations in stations(),
         reference in select(vec![None, Some(0.0), Some(0.05), Some(0.05 * 2.0_f64.sqrt())]),
     ) {
-        let engine = Engine::new("", "", placements).unwrap();
+        let engine = Engine::new("", "", stations).unwrap();
         let orders = [1, 2, 3, 4];
         let found = vanishing(&engine, &orders, reference, &crate::Cancel::new()).unwrap();
         // Nothing of these kinds is near zero without being zero.
@@ -259,7 +259,7 @@ proptest! {
     }
 }
 
-/// Unbalances of the sizes of [`placements`], on the crankshaft, at a pin of it, and on shafts.
+/// Unbalances of the sizes of [`stations`], on the crankshaft, at a pin of it, and on shafts.
 fn weights() -> impl Strategy<Value = (Vec<Unbalance>, Vec<Shaft>)> {
     let angles = vec![0.0, 60.0, 180.0, 270.0, 61.234_567_891_2, 241.234_567_891_2];
     let unbalance = || {
@@ -290,11 +290,11 @@ proptest! {
 
     #[test]
     fn verdicts_on_shafts_are_true_and_obstacles_named(
-        placements in placements(),
+        stations in stations(),
         (counterweights, shafts) in weights(),
         reference in select(vec![None, Some(0.0), Some(0.05), Some(1000.0)]),
     ) {
-        let engine = Engine::new("", "", placements)
+        let engine = Engine::new("", "", stations)
             .and_then(|engine| engine.with_counterweights(counterweights))
             .and_then(|engine| engine.with_shafts(shafts))
             .unwrap();
@@ -374,8 +374,8 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
     let single = |inertia: f64| {
         let cylinder = Cylinder::new(0.045, 0.158, 0.5, 0.0).unwrap();
         let cylinder = cylinder.with_rod_inertia_excess(inertia).unwrap();
-        let place = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]).placements()[0];
-        Engine::new("", "", vec![Placement { cylinder, ..place }]).unwrap()
+        let place = engine(&[(0.0, 90.0, 0.0, 0.5, 0.0)]).stations()[0];
+        Engine::new("", "", vec![Station { cylinder, ..place }]).unwrap()
     };
     let of = |inertia: f64| {
         let found = vanishing(&single(inertia), &[1], None, &crate::Cancel::new()).unwrap();
@@ -409,8 +409,8 @@ fn rod_inertia_that_nearly_cancels_torque_is_never_a_false_proof() {
 fn pin_offsets_beside_rotating_masses_are_an_obstacle() {
     // Order 1 of an offset has a phase of its own, with no rational relation to what rotates.
     let places = engine(&[(0.0, 90.0, 0.0, 0.5, 0.001), (120.0, 90.0, 0.1, 0.5, 0.001)]);
-    let turning = |p: &Placement| Placement { rotating_mass: 0.25, ..*p };
-    let places = places.placements().iter().map(turning).collect();
+    let turning = |p: &Station| Station { rotating_mass: 0.25, ..*p };
+    let places = places.stations().iter().map(turning).collect();
     let found = vanishing(&Engine::new("", "", places).unwrap(), &[1], None, &crate::Cancel::new())
         .unwrap();
     assert!(found.verdicts[0].contains(&U));
@@ -424,10 +424,10 @@ fn pin_offsets_beside_rotating_masses_are_an_obstacle() {
 fn what_is_out_of_reach_is_told_once() {
     // Parts of a turn whose common denominator is beyond what is tested.
     let tdc = |parts: i64| Angle::from_degree_fraction(360, parts).unwrap();
-    let places = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0); 2]).placements().to_vec();
+    let places = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0); 2]).stations().to_vec();
     let places = [
-        Placement { tdc: tdc(1_000_003), ..places[0] },
-        Placement { tdc: tdc(1_000_033), ..places[1] },
+        Station { tdc: tdc(1_000_003), ..places[0] },
+        Station { tdc: tdc(1_000_033), ..places[1] },
     ];
     let engine = Engine::new("", "", places.to_vec()).unwrap();
     let found = vanishing(&engine, &[1, 2, 4], None, &crate::Cancel::new()).unwrap();

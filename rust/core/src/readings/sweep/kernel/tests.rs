@@ -2,7 +2,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
-use crate::engine::{Engine, Hold, Placement};
+use crate::engine::{Engine, Hold, Station};
 use crate::numbers::error::Error;
 use crate::numbers::order::Order;
 use crate::readings::sweep::{Axes, Figure};
@@ -11,7 +11,7 @@ use crate::{Angle, Cylinder};
 #[test]
 fn cancellation_stops_at_the_next_stretch() {
     let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
-    let place = |bank: f64| Placement {
+    let place = |bank: f64| Station {
         cylinder,
         tdc: Angle::ZERO,
         bank: Angle::from_degrees(bank).unwrap(),
