@@ -2,7 +2,7 @@
 
 ``python benchmarks/stability.py`` prints the map and writes it to ``benchmarks/out`` (``--out``
 another folder): ``stability.csv``, ``stability.png``, and ``stability.md``, the tables of
-``docs/stability.md``, each with what ran it. Methods with a knob are shown at the best of its
+``docs/explanations/stability.md``, each with what ran it. Methods with a knob are shown at the best of its
 settings. ``tests/promises/test_stability.py`` asserts that crankpin meets every bound and that the
 other methods miss it.
 """
@@ -130,7 +130,7 @@ def picture(maps: list[Map], path: Path) -> None:
 
 
 def tables(maps: list[Map]) -> str:
-    """Write the tables of docs/stability.md."""
+    """Write the tables of docs/explanations/stability.md."""
     harmonics, _ = maps
     lines = ["| condition | " + " | ".join(harmonics.methods) + " |"]
     lines.append("|---|" + "---:|" * len(harmonics.methods))

@@ -1,4 +1,4 @@
-"""Do the examples in the how-tos of ``docs/`` say the truth?"""
+"""Do the examples in the pages of ``docs/`` say the truth?"""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
-GUIDES = [path.name for path in sorted(DOCS.glob("*.md")) if ">>>" in path.read_text("utf-8")]
+GUIDES = [
+    path.relative_to(DOCS).as_posix()
+    for path in sorted(DOCS.rglob("*.md"))
+    if ">>>" in path.read_text("utf-8")
+]
 
 
 @pytest.mark.parametrize("name", GUIDES)

@@ -1,7 +1,7 @@
 """Are the promises kept where methods fail, and do the methods fail there?
 
 Conditions, promises and their reasons stand in ``benchmarks/stability_cases.py``, the other methods
-in ``benchmarks/methods.py``; ``docs/stability.md`` has the measured figures.
+in ``benchmarks/methods.py``; ``docs/explanations/stability.md`` has the measured figures.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ CROSS_PLANE: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 90, 180, 
 
 
 def test_the_manual() -> None:
-    manual = Path(__file__).parents[3] / "docs" / "inverse-design.md"
+    manual = Path(__file__).parents[3] / "docs" / "how-to" / "inverse-design.md"
     found = doctest.testfile(str(manual), module_relative=False)
     assert found.attempted > 5
     assert not found.failed

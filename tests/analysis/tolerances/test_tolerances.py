@@ -451,5 +451,5 @@ def test_some_part_must_deviate(given: dict[str, Any]) -> None:
 
 
 def test_the_how_to_says_the_truth() -> None:
-    page = Path(__file__).parents[3] / "docs" / "tolerances.md"
+    page = Path(__file__).parents[3] / "docs" / "how-to" / "tolerances.md"
     assert doctest.testfile(str(page), module_relative=False).failed == 0
