@@ -11,7 +11,7 @@ import csv
 import math
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
 import numpy as np
@@ -162,6 +162,25 @@ def test_the_180_twin_fires_at_180_and_540() -> None:
     assert cp.Engine.preset("i2-180").tdc_deg.tolist() == [0.0, 180.0]
 
 
+@pytest.mark.parametrize(
+    ("name", "gaps"),
+    [
+        ("i2-270", (270.0, 450.0)),
+        ("v-twin-45", (315.0, 405.0)),  # Harley-Davidson
+        ("v-twin-52", (232.0, 488.0)),  # Honda VT500
+        ("v-twin-60", (300.0, 420.0)),
+        ("i2-180-two-stroke", (180.0, 180.0)),
+        ("i3-two-stroke", (120.0, 120.0, 120.0)),
+    ],
+)
+def test_twins_and_two_strokes_fire_as_their_makers_have_it(
+    name: str, gaps: tuple[float, ...]
+) -> None:
+    engine = cp.Engine.preset(name)
+    assert tuple(engine.firing().intervals_deg.tolist()) == gaps
+    assert sum(gaps) == 180.0 * engine.strokes
+
+
 # --- pins -----------------------------------------------------------------------------------------
 
 
@@ -182,6 +201,7 @@ def split(name: str) -> set[float]:
     [
         ("flat-4", 0.0),
         ("v4-90-180", 0.0),
+        ("v-twin-52", -76.0),
         ("v6-60", -60.0),
         ("v6-90", -30.0),
         ("v6-90-odd-fire", 0.0),
@@ -198,7 +218,7 @@ def test_pin_split(name: str, angle: float) -> None:
     assert split(name) == {angle}
 
 
-@pytest.mark.parametrize(("name", "angle"), [("w12", 12.0), ("w16", 0.0)])
+@pytest.mark.parametrize(("name", "angle"), [("w8", -18.0), ("w12", 12.0), ("w16", 0.0)])
 def test_pin_split_of_w_engines(name: str, angle: float) -> None:
     # Published for the W12; its angles pass through an arcsine, so to rounding of 360°.
     assert list(split(name)) == pytest.approx([angle] * len(split(name)), abs=1e-12)
@@ -236,10 +256,16 @@ def test_the_built_cross_plane_follows_from_its_firing_order() -> None:
 
 ZERO = {  # orders of force, orders of moment
     "i2-180": ([1], [2]),  # half a turn apart: even orders in step, no couple
+    "i2-270": ([2, 6], [4]),  # a quarter of a turn apart: order 2 in opposition
     "i3": ([1, 2, 4], []),
+    "i3-180": ([], [1, 2, 4, 6]),
+    "i3-t-plane": ([], [2, 4, 6]),  # the outer two are half a turn apart
+    "i3-two-stroke": ([1, 2, 4], []),
+    "i4-crossplane": ([1, 2, 6], [2, 4, 6]),
     "i4": ([1], [1, 2, 4, 6]),  # mirror-symmetric crank
     "i5": ([1, 2, 4, 6], []),
     "i6": ([1, 2, 4], [1, 2, 4, 6]),
+    "boxer-2": ([1, 2, 3, 4, 5, 6, 7, 8], []),
     "boxer-4": ([1, 2, 3, 4, 5, 6, 7, 8], [1, 2, 3, 4, 5, 6, 7, 8]),  # each pair by itself
     "boxer-6": ([1, 2, 3, 4, 5, 6, 7, 8], [1, 2, 3, 4, 5, 6, 7, 8]),
     "flat-4": ([1, 2, 4, 6], [2, 4, 6]),
@@ -259,7 +285,12 @@ ZERO = {  # orders of force, orders of moment
     "v10-90-even": ([1, 2, 4, 6], []),
     "v12-60": ([1, 2, 4], [1, 2, 4, 6]),  # two straight-sixes
     "v16-45": ([1, 2, 6], [1, 2, 4, 6]),  # two straight-eights
+    "w8": ([1], []),  # flat-plane: order 2 is left to two shafts
     "w12": ([1, 2, 4], []),
+    "radial-5": ([2, 8], [1, 2, 4, 6]),
+    "radial-7": ([2, 4], [1, 2, 4, 6]),
+    "radial-9": ([2, 4, 6], [1, 2, 4, 6, 8]),
+    "radial-14": ([1, 2, 4, 6, 8], [2, 4]),  # rows pull against each other at order 1
     "w16": ([1, 2, 6], [2, 6]),
 }
 
@@ -284,8 +315,18 @@ def test_what_cancels_is_exactly_zero(
         ("i2-360", 1, 2.0),
         ("i2-180", 2, 2.0),
         ("i3", 6, 3.0),
+        ("i3-180", 1, 1.0),
+        ("i3-t-plane", 1, 1.0),
+        ("i3-two-stroke", 6, 3.0),
         ("i4", 2, 4.0),
+        ("i4-crossplane", 4, 4.0),
+        ("radial-3", 1, 1.5),  # half of all reciprocating masses, turning with the crank
+        ("radial-3", 2, 1.5),  # turning against it
+        ("radial-9", 1, 4.5),
+        ("radial-9", 8, 4.5),
         ("i6", 6, 6.0),  # balanced at every order but multiples of 6
+        ("v-twin-45", 1, 1.0 + math.cos(math.pi / 4)),  # upright, 1 − cos 45° level
+        ("v-twin-52", 1, math.cos(math.radians(76) / 2.0)),  # turns with the crank
         ("v-twin-90", 1, 1.0),  # turns with the crank
         ("v-twin-90", 2, math.sqrt(2.0)),  # level
         ("v4-90-360", 1, 2.0),
@@ -312,6 +353,58 @@ def test_force_left(name: str, order: int, size: float) -> None:
 )
 def test_moment_left(name: str, order: int, size: float) -> None:
     assert moment(name, order) == pytest.approx(size, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("name", ["v-twin-52", "v-twin-90", "radial-5", "radial-7", "radial-9"])
+def test_counterweights_could_remove_all_of_order_1(name: str) -> None:
+    assert cp.Engine.preset(name).balance(RPM, orders=1).force.backward[0] == 0.0
+
+
+@pytest.mark.parametrize("count", [3, 5, 7, 9, 11])
+def test_what_a_radial_leaves(count: int) -> None:
+    # Σ e^{i(1 ∓ n)2πk/N}: forward where N divides n − 1, backward where N divides n + 1.
+    engine = cp.Engine.radial(cp.Cylinder(0.05, 0.15, 0.5), count)
+    for order in (1, 2, 4, 6, 8, 10, 12):
+        balance = engine.balance(RPM, orders=order)
+        forward, backward = (count / 2 if (order - s) % count == 0 else 0.0 for s in (1, -1))
+        found = [
+            abs(part[0]) / unit(engine, order)
+            for part in (balance.force.forward, balance.force.backward)
+        ]
+        assert found == pytest.approx([forward, backward], rel=ROUNDING, abs=0.0)
+
+
+def test_rows_of_a_radial() -> None:
+    one, two = cp.Engine.preset("radial-7"), cp.Engine.preset("radial-14", spacing=0.2)
+    assert set(one.z) == {0.0}
+    assert set(two.pin_deg) == {90.0, 270.0}
+    assert two.z.tolist() == [0.0, 0.2] * 7
+    # Of two-strokes one cylinder fires after the other, all round.
+    two_stroke = cp.Engine.radial(one.cylinders[0], 4, strokes=2)
+    assert two_stroke.firing().firing_order == "1-2-3-4"
+    both = cp.Engine.radial(one.cylinders[0], 6, rows=2, spacing=0.2, strokes=2)
+    assert both.firing_order == "1+4-3+6-2+5"
+    assert both.fires_evenly is False
+    turned = cp.Engine.radial(one.cylinders[0], 5, first_tdc_deg=30)
+    assert turned.tdc_deg[0] == 30.0
+    # A row of 6 fires every cylinder at one top dead centre of two: not evenly in turn.
+    assert cp.Engine.radial(one.cylinders[0], 6).firing_order == ""
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"cylinders": 2}, "cylinders = 2: give three or more to each row; .* Engine.flat"),
+        ({"cylinders": 7, "rows": 2, "spacing": 0.1}, "cylinders = 7: give three or more"),
+        ({"cylinders": 28, "rows": 4}, "rows = 4: give 1 or 2; Engine.from_lists"),
+        ({"cylinders": 14, "rows": 2}, "spacing = None: give the distance between the two rows"),
+        ({"cylinders": 7.5}, "cylinders = 7.5: give a whole number"),
+        ({"firing_order": "1-3-2"}, "firing_order = .*1-3-2"),
+    ],
+)
+def test_radials_that_are_none(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(cp.InputError, match=message):
+        cp.Engine.radial(cp.Cylinder(0.05, 0.15, 0.5), **given)
 
 
 def test_inline_five() -> None:
@@ -479,7 +572,9 @@ def test_ebook_cylinder_has_9_kg_along_the_bore_and_2_kg_across() -> None:
 # --- VR and W -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "groups"), [("vr6", 1), ("w12", 2), ("w16", 2)])
+@pytest.mark.parametrize(
+    ("name", "groups"), [("vr5", 1), ("vr6", 1), ("w8", 2), ("w12", 2), ("w16", 2)]
+)
 def test_planes_of_a_groups_rows_meet_below_the_crank(name: str, groups: int) -> None:
     engine = cp.Engine.preset(name)
     along = np.exp(1j * np.deg2rad(engine.bank_deg))

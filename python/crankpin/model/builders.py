@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
@@ -48,7 +49,7 @@ class Builders(EngineData):
     ) -> Self:
         """Return the engine that these lists describe, one entry for each cylinder.
 
-        For any layout on one crank: W, VR, radial.
+        For any layout on one crank, such as W and VR engines.
 
         Parameters
         ----------
@@ -293,6 +294,77 @@ class Builders(EngineData):
         )  # fmt: skip
 
     @classmethod
+    def radial(
+        cls,
+        cylinder: Cylinder,
+        cylinders: int = 7,
+        *,
+        rows: int = 1,
+        spacing: float | None = None,
+        rotating_mass: ArrayLike = 0.0,
+        first_tdc_deg: Angle = 0.0,
+        firing_order: str | Iterable[int] | None = None,
+        strokes: int = 4,
+        name: str = "",
+        source: str = "",
+    ) -> Self:
+        """Return a radial: the cylinders of a row stand evenly around one crankpin.
+
+        Cylinder 1 is upright; numbers ascend in the direction of rotation, in two rows from row to
+        row. Pins of two rows are half a turn apart, so that the rear row's cylinders stand between
+        those of the front row. All rods count as if each had its own bearing on the crankpin:
+        articulated rods on a master rod, whose pistons move a little differently and leave a force
+        of order 2, are not modelled.
+
+        Parameters
+        ----------
+        cylinder
+            Moving parts of every cylinder.
+        cylinders
+            Number of cylinders of all rows, three or more in each.
+        rows
+            1 or 2.
+        spacing
+            Distance between two rows, m; of one row it may be left out.
+        firing_order
+            As in :meth:`from_lists`; by default every second cylinder of a row, and the rows by
+            turns, if that is even: in a four-stroke for odd numbers of cylinders in a row.
+        rotating_mass, first_tdc_deg, strokes, name, source
+            As in :meth:`inline`.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> nine = cp.Engine.radial(cp.Cylinder(0.0659, 0.26, 2.5), 9)
+        >>> nine.firing()
+        <Firing 4-stroke 1-3-5-7-9-2-4-6-8, even, 80°>
+        >>> nine.vanishing_orders().force.remaining  # order 1 turns with the crank
+        (1, 8, 10)
+        """
+        count, banks = inputs.whole("cylinders", cylinders), inputs.whole("rows", rows)
+        if banks not in (1, 2):
+            raise InputError(f"rows = {banks}: give 1 or 2; Engine.from_lists takes any layout")
+        if count % banks or count < 3 * banks:
+            hint = "give three or more to each row; two opposed cylinders are Engine.flat"
+            raise InputError(f"cylinders = {count}: {hint}")
+        if spacing is None and banks == 2:
+            raise InputError("spacing = None: give the distance between the two rows, m")
+        distance = inputs.number("spacing", 0.0 if spacing is None else spacing)
+        pins = [place % banks * 180 for place in range(count)]
+        around = [360 * place for place in range(count)]
+        core = core_of_lists(
+            cylinder,
+            [f"{angle - pin * count}/{count}" for angle, pin in zip(around, pins, strict=True)],
+            None,
+            [f"{90 * count + angle}/{count}" for angle in around],
+            [place % banks * distance for place in range(count)],
+            rotating_mass, mains=None, reference_z=None,
+        )  # fmt: skip
+        order = _radial_order(count, banks, strokes) if firing_order is None else firing_order
+        engine = cls(core, name, source, order, strokes)
+        return engine.with_first_tdc(first_tdc_deg)
+
+    @classmethod
     def from_firing_order(
         cls,
         cylinder: Cylinder,
@@ -380,6 +452,23 @@ class Builders(EngineData):
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
         return cls(core, name, source, allowed(core, order, strokes), strokes)
+
+
+def _radial_order(cylinders: int, rows: int, strokes: int) -> str:
+    """Return the even firing order of a radial; empty if there is none.
+
+    Each row fires at every second of its top dead centres; of cylinders of two rows that reach
+    theirs together, the second row's fires a turn after the first row's.
+    """
+    fired: dict[int, list[int]] = {}
+    if strokes == 4 and cylinders // rows % 2 == 0:
+        return ""
+    for place in range(cylinders):
+        row = place % rows
+        tdc = (place - row * cylinders // 2) % cylinders  # in parts of a turn
+        later = strokes == 4 and (tdc // rows + row) % 2
+        fired.setdefault(tdc + later * cylinders, []).append(place + 1)
+    return "-".join("+".join(map(str, fired[angle])) for angle in sorted(fired))
 
 
 def vee_layout(

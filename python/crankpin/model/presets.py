@@ -114,8 +114,7 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
         raise InputError(f"spacing = {distance}: give a finite distance in metres")
     ((builder, arguments),) = (item for item in entry.items() if isinstance(item[1], dict))
     common: dict[str, Any] = {"name": entry["title"], "source": entry["source"]}
-    if "firing_order" in entry:
-        common["firing_order"] = entry["firing_order"]
+    common |= {key: entry[key] for key in ("firing_order", "strokes") if key in entry}
     if builder == "from_lists":
         return _from_lists(parts if cylinder is None else cylinder, distance, arguments, common)
     build = getattr(Engine, builder)
