@@ -108,7 +108,7 @@ def time_waveforms(name: str, rod_ratio: float, rtol: float) -> Row:
         "orders": len(fewest),
         "without_layout": len(all_of_them),
         "error": float(np.hypot(*(auto.force - exact.force).T).max()),
-        "bound": auto.error_bound.force,
+        "bound": auto.error_bound["force"],
         **{f"{method}_seconds": seconds for method, seconds in best.items()},
     }
 

@@ -8,18 +8,16 @@ from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.two_plane import TwoPlaneCorrection
 from crankpin.analysis.bearings import BearingLoads
-from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
-from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
-from crankpin.analysis.quantity import Ellipse, OrderBalance, Quantity
+from crankpin.analysis.quantity import OrderBalance, Quantity
 from crankpin.analysis.ranking.ranking import Choice, Ranking
 from crankpin.analysis.star import StarDiagram
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.analysis.sweeps.waveform import SweepWaveform
-from crankpin.analysis.throws import Throws
 from crankpin.analysis.tolerances.match_parts import Match
 from crankpin.analysis.tolerances.samples import Tolerances
 from crankpin.analysis.torsional_excitation import TorsionalExcitation
@@ -41,11 +39,8 @@ __all__ = [
     "Counterweights",
     "Design",
     "Designs",
-    "Ellipse",
-    "ErrorBound",
     "Firing",
     "Flywheel",
-    "Gap",
     "Match",
     "OrderBalance",
     "Quantity",
@@ -53,7 +48,6 @@ __all__ = [
     "StarDiagram",
     "Sweep",
     "SweepWaveform",
-    "Throws",
     "Tolerances",
     "TorsionalExcitation",
     "TwoPlaneCorrection",

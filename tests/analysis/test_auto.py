@@ -99,7 +99,7 @@ def test_the_bound_is_true_and_tight(name: str, offset: float) -> None:
         for rtol in (1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-14):
             b = engine.balance(RPM, orders="auto", rtol=rtol)
             for quantity, true in left_out(engine, b.orders).items():
-                bound = getattr(b.error_bound, quantity)
+                bound = b.error_bound[quantity]
                 # Each of the sums is rounded.
                 assert true <= bound * (1.0 + 1e-12), (rod_ratio, rtol, quantity)
                 assert bound <= rtol * scale[quantity] * (1.0 + 1e-12)
@@ -147,7 +147,7 @@ TOLERANCES = st.sampled_from([1e-2, 1e-4, 1e-7, 1e-10, 1e-13])
 def test_the_bound_holds_for_any_engine(engine: cp.Engine, rtol: float) -> None:
     b = engine.balance(RPM, orders="auto", rtol=rtol)
     for quantity, true in left_out(engine, b.orders).items():
-        bound = getattr(b.error_bound, quantity)
+        bound = b.error_bound[quantity]
         assert true <= bound * (1.0 + 1e-12) + 1e-18 * scales(engine)[quantity]
         assert bound <= rtol * scales(engine)[quantity] * (1.0 + 1e-12)
 
@@ -165,7 +165,7 @@ def test_the_bound_holds_against_kinematics(engine: cp.Engine, rtol: float) -> N
         # Near a rod ratio of 0.9 accelerations are some 20 times the first order's, and angles are
         # rounded to 1e-15 rad of slopes as much again; of up to six cylinders.
         rounding = 1e-12 * len(engine) * (scale + scales(engine)["force"] * (quantity == "moment"))
-        assert length.max() <= getattr(b.error_bound, quantity) + rounding
+        assert length.max() <= b.error_bound[quantity] + rounding
 
 
 @examples
@@ -179,23 +179,23 @@ def test_the_bound_holds_for_spectra(
 ) -> None:
     b = engine.balance(RPM, orders="auto", rtol=rtol, spectrum=spectrum)
     listed = tuple(sorted({1, *spectrum} - set(b.orders)))
-    assert b.error_bound.torque is None
+    assert set(b.error_bound) == {"force", "moment"}
     if listed:
         rest = engine.balance(RPM, orders=listed, spectrum=spectrum)
         force = peak(rest.force.forward, rest.force.backward, listed)
         moment = peak(rest.moment.forward, rest.moment.backward, listed)
-        assert force <= b.error_bound.force * (1.0 + 1e-12)
-        assert moment <= b.error_bound.moment * (1.0 + 1e-12)
+        assert force <= b.error_bound["force"] * (1.0 + 1e-12)
+        assert moment <= b.error_bound["moment"] * (1.0 + 1e-12)
 
 
 def test_what_cancels_at_every_order_has_a_bound_far_below_the_tolerance() -> None:
     """Only what is above the last candidate is left, bounded without the layout."""
     boxer, i6 = cp.Engine.preset("boxer-6"), cp.Engine.preset("i6")
     bounds = boxer.balance(RPM, orders="auto", rtol=1e-9).error_bound
-    assert bounds.force <= 1e-11 * scales(boxer)["force"]
+    assert bounds["force"] <= 1e-11 * scales(boxer)["force"]
     bounds = i6.balance(RPM, orders="auto", rtol=1e-9).error_bound
-    assert bounds.moment <= 1e-11 * scales(i6)["moment"]
-    assert bounds.moment > 0.0
+    assert bounds["moment"] <= 1e-11 * scales(i6)["moment"]
+    assert bounds["moment"] > 0.0
 
 
 # --- the fewest ---------------------------------------------------------------------------------
@@ -258,7 +258,7 @@ def test_torque_counts_only_when_asked() -> None:
     with_torque, without = (i6.balance(RPM, orders="auto", torque=asked) for asked in (True, False))
     assert {3, 9} <= set(with_torque.orders)
     assert not {3, 9} & set(without.orders)
-    assert without.error_bound.torque is None
+    assert "torque" not in without.error_bound
     explicit = i6.balance(RPM, orders=[6], torque=False)
     w = i6.waveform(RPM, theta_deg=[0.0], torque=False)
     s = cp.sweep(i6, rpm=RPM, torque=False)
@@ -266,7 +266,7 @@ def test_torque_counts_only_when_asked() -> None:
         with pytest.raises(cp.InputError, match="torque=True"):
             _ = result.torque
     np.testing.assert_array_equal(w.force, i6.waveform(RPM, theta_deg=[0.0]).force)
-    assert w.error_bound == (0.0, 0.0, None)
+    assert w.error_bound == {"force": 0.0, "moment": 0.0}
     assert "torque" not in explicit.to_pandas()
     assert "torque" not in explicit.to_xarray()
     assert "M_z" not in repr(explicit)
@@ -285,7 +285,8 @@ def test_waveform_sums_the_orders_of_a_balance(name: str, rod_ratio: float, rtol
     assert (w.orders, w.omitted, w.error_bound) == (b.orders, b.omitted, b.error_bound)
     assert w.orders
     exact = engine.waveform(RPM, theta_deg=theta)
-    assert (exact.orders, exact.omitted, exact.error_bound) == (None, (), (0.0, 0.0, 0.0))
+    assert (exact.orders, exact.omitted) == (None, ())
+    assert exact.error_bound == dict.fromkeys(b.error_bound, 0.0)
 
 
 def test_auto_is_rejected_where_no_number_of_orders_suffices() -> None:
@@ -365,7 +366,7 @@ def test_sweeps_reach_the_tolerance_everywhere(
             "torque": peak(b.torque / 2, np.conj(b.torque) / 2, rest),
         }
         for quantity in wanted:
-            bound, scale = getattr(s.error_bound, quantity), scales(engine)[quantity]
+            bound, scale = s.error_bound[quantity], scales(engine)[quantity]
             assert true[quantity] <= bound * (1.0 + 1e-12) + 1e-14 * scale
             assert bound <= rtol * scale * (1.0 + 1e-12)
 

@@ -72,7 +72,7 @@ def test_points_of_a_sweep_are_balances() -> None:
                 np.testing.assert_array_equal(single, found[s.orders.index(2)])
             total = getattr(s.total, name).peak[place]
             assert total == pytest.approx(getattr(b.total, name).peak, rel=1e-12, abs=1e-12 * scale)
-    for part in s.moment.ellipse:
+    for part in (s.moment.minor, s.moment.tilt_deg):
         assert part.shape == (2, 2, 2, 2, len(s.orders))
 
 
@@ -165,7 +165,7 @@ def test_a_whole_order_is_an_int_and_a_half_order_a_float() -> None:
 
 def test_a_torque_has_no_parts_of_a_vector() -> None:
     for result in (V6.balance(5000), cp.sweep(V6, rpm=[1.0])):
-        for name in ("xy", "x", "y", "forward", "backward", "peak_xy", "ellipse"):
+        for name in ("xy", "x", "y", "forward", "backward", "peak_xy", "minor", "tilt_deg"):
             assert hasattr(result.moment, name)
             assert not hasattr(result.torque, name)
         assert not hasattr(result.force, "phasor")

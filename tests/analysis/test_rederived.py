@@ -126,7 +126,7 @@ def test_auto_orders_leave_out_no_more_than_their_bound(
     for name, true in waveforms(lists).items():
         phasors = np.asarray(getattr(b, name))
         missing = lengths(true - np.tensordot(turning, phasors, axes=(1, 0)).real)
-        bound = getattr(b.error_bound, name)
+        bound = b.error_bound[name]
         assert missing.max() <= bound + ROUNDING
         assert bound <= rtol * scales[name] * (1 + 1e-12)
 

@@ -289,8 +289,8 @@ def test_orders_left_out_stay_within_their_bound(case: Case, rtol: float) -> Non
     off_force = np.hypot(*(exact.force - summed.force).T).max()
     off_moment = np.hypot(*(exact.moment - summed.moment).T).max()
     # Summing up to a hundred orders of an angle costs as many roundings again.
-    assert off_force <= summed.error_bound.force + 100 * force_allowance(case)
-    assert off_moment <= summed.error_bound.moment + 100 * moment_allowance(case)
+    assert off_force <= summed.error_bound["force"] + 100 * force_allowance(case)
+    assert off_moment <= summed.error_bound["moment"] + 100 * moment_allowance(case)
     omega = time_domain.angular_speed(case.rpm)
     turning = zip(case.engine.cylinders, case.engine.rotating_mass, strict=True)
     largest = omega**2 * max(
@@ -299,8 +299,8 @@ def test_orders_left_out_stay_within_their_bound(case: Case, rtol: float) -> Non
     z = case.engine.z
     lever = np.abs(z - case.engine.reference_z).max()
     # The allowance itself is rounded, in both programs.
-    assert summed.error_bound.force <= rtol * largest * (1.0 + 1e-14)
-    assert summed.error_bound.moment <= rtol * largest * lever * (1.0 + 1e-14)
+    assert summed.error_bound["force"] <= rtol * largest * (1.0 + 1e-14)
+    assert summed.error_bound["moment"] <= rtol * largest * lever * (1.0 + 1e-14)
 
 
 # --- sweeps are loops of balances ---------------------------------------------------------------

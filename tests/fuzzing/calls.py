@@ -108,7 +108,6 @@ RESULTS = {
     cp.types.Comparison: ["rpm"],
     cp.types.ClosedForm: ["spacing", "reference_z"],
     cp.types.Firing: ["angles_deg", "intervals_deg", "unevenness_deg"],
-    cp.types.Throws: ["throws_deg", "pin_split_deg"],
     cp.types.Ranking: ["values"],
     cp.types.Counterweights: ["largest", "residual", "verdicts", "bay_loads"],
     cp.types.BearingLoads: ["crankpin", "main", "side_thrust", "rod_force", "tension_deg", "z"],

@@ -47,7 +47,7 @@ def two_stroke() -> cp.types.Firing:
     return I4.firing("1+4-2+3", strokes=2)
 
 
-def crank(**changes: Any) -> cp.types.Throws:
+def crank(**changes: Any) -> tuple[Any, ...]:
     given_: dict[str, Any] = {"firing_order": "1-2-3-4", "bank_angle_deg": 90}
     return cp.throws(**given_ | changes)
 

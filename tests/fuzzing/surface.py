@@ -158,9 +158,6 @@ SUBJECTS: dict[str, Any] = {
 }
 PLAIN = {
     "Choice",
-    "Ellipse",
-    "ErrorBound",
-    "Gap",
     "InputError",
     "OrderBalance",
 }  # take anything, and hold it

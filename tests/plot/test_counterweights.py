@@ -67,8 +67,8 @@ def test_ellipses_are_those_before_and_after() -> None:
     for place, engine in enumerate((V6_90, FITTED.fitted)):
         moment = engine.balance(UNIT_SPEED, orders=[1])[1].moment
         curve = traced(ax, place)
-        assert abs(curve).max() == pytest.approx(float(moment.ellipse.major), rel=1e-3)
-        assert abs(curve).min() == pytest.approx(abs(float(moment.ellipse.minor)), rel=1e-3)
+        assert abs(curve).max() == pytest.approx(float(moment.peak), rel=1e-3)
+        assert abs(curve).min() == pytest.approx(abs(float(moment.minor)), rel=1e-3)
     assert legend_texts(ax) == ["before: with the crank", "after: against the crank"]
     assert ax.get_xlabel() == "about x (pitch), kg·m²"
     force = FITTED.plot(plt.subplots()[1], kind="ellipses", quantity="force")
@@ -94,12 +94,12 @@ def test_bob_weights_show_what_stays() -> None:
     ax = bob.plot()
     longest, shortest = series(ax)
     factors = np.asarray(longest.get_xdata())
-    stays = bob.ellipse("moment", factors)
-    np.testing.assert_array_equal(longest.get_ydata(), stays.major)
-    np.testing.assert_array_equal(shortest.get_ydata(), np.abs(stays.minor))
+    stays = bob.half_axes("moment", factors)
+    np.testing.assert_array_equal(longest.get_ydata(), stays[0])
+    np.testing.assert_array_equal(shortest.get_ydata(), np.abs(stays[1]))
     assert {0.0, 0.5, 0.55, 1.0} <= set(factors.round(12))
-    own = bob.ellipse("moment")
-    assert marks(ax)["o"] == [(0.55, own.major), (0.55, abs(own.minor))]
+    own = bob.half_axes("moment", 0.55)
+    assert marks(ax)["o"] == [(0.55, own[0]), (0.55, abs(own[1]))]
     lines = bob.straight("moment")
     assert marks(ax)["D"] == [(factor, 0.0) for factor, _ in lines]
     assert [text.get_text() for text in ax.texts] == ["90°", "0°"]

@@ -85,12 +85,12 @@ def test_overlapping_exhausts_of_a_bank_are_hatched_on_both() -> None:
     exhausts = V8.valves()["exhaust"]
     total = 0.0
     for bank in V8.exhaust_overlaps():
-        for each in bank:
-            start = exhausts[each.after - 1, 0]
-            total += 2.0 * each.overlap_deg
-            for cylinder in (each.before, each.after):
+        for pair, overlap in bank.items():
+            start = exhausts[pair[1] - 1, 0]
+            total += 2.0 * overlap
+            for cylinder in pair:
                 inside = [(a, b) for k, a, b in found if k == cylinder and a <= start < b]
-                assert inside or each.overlap_deg == 0.0
+                assert inside or overlap == 0.0
     assert sum(b - a for _, a, b in found) == pytest.approx(total)
     alone = cp.Engine.preset("single").firing().plot(timing=cp.ValveTiming())
     assert "exhausts overlap" not in drawn(alone)

@@ -36,17 +36,17 @@ def test_ellipses_are_those_of_the_balance() -> None:
     b = V6.balance(5000)
     panels = b.plot(kind="ellipses").ravel()
     for ax, order in zip(panels, (1, 2, 4), strict=False):
-        ellipse, curve = b[order].moment.ellipse, traced(ax)
-        assert abs(curve).max() == pytest.approx(ellipse.major, rel=1e-3)  # sampled each 2°
-        assert abs(curve).min() == pytest.approx(abs(ellipse.minor), rel=1e-3)
+        moment, curve = b[order].moment, traced(ax)
+        assert abs(curve).max() == pytest.approx(moment.peak, rel=1e-3)  # sampled each 2°
+        assert abs(curve).min() == pytest.approx(abs(moment.minor), rel=1e-3)
         start = complex(*b[order].moment.xy.real)  # at θ = 0
-        assert curve[0] == pytest.approx(start, abs=1e-9 * ellipse.major)
+        assert curve[0] == pytest.approx(start, abs=1e-9 * moment.peak)
         assert ax.get_aspect() == 1.0
         # Counter-clockwise is with the crank: the arrow points to the left of the radius.
         (arrow,) = arrows(ax)
         turn = np.sign((np.conj(curve[len(curve) // 8]) * arrow).imag)
-        assert turn == np.sign(ellipse.minor)
-        words = "with" if ellipse.minor > 0 else "against"
+        assert turn == np.sign(moment.minor)
+        words = "with" if moment.minor > 0 else "against"
         assert ax.get_title(loc="left") == f"order {order}\n{words} the crank"
     assert not panels[3].get_visible()
     title = panels[0].get_figure(root=True).get_suptitle()

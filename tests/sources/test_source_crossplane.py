@@ -73,7 +73,7 @@ def test_first_order_couple_turns_with_the_crank_from_the_phase_of_the_page() ->
     # pitch + i yaw = -i (horizontal... ) = -sqrt 10 (cos t + i sin t) with t = theta - phase.
     expected = -(10**0.5) * np.exp(-1j * crossplane.COUPLE_PHASE)
     assert first.moment.forward / (ONE * SPACING) == pytest.approx(expected, rel=ROUNDING)
-    assert first.moment.ellipse.minor == first.moment.ellipse.major
+    assert first.moment.minor == first.moment.peak
 
 
 def test_first_order_couple_instant_by_instant() -> None:
@@ -92,7 +92,7 @@ def test_fourth_order_force_is_vertical_where_the_page_draws_a_circle() -> None:
     x, y = fourth.force.xy
     assert x == 0j
     assert y == pytest.approx(4.0 * 2**0.5 * ONE * a4, rel=ROUNDING)
-    assert fourth.force.ellipse.minor == pytest.approx(0.0, abs=ROUNDING * abs(y))
+    assert fourth.force.minor == pytest.approx(0.0, abs=ROUNDING * abs(y))
     w = crossplane_v8().waveform(RPM, theta_deg=THETA, orders=[4])
     in_units = w.force / (ONE * a4)
     right = crossplane.fourth_order_force(np.deg2rad(THETA))

@@ -20,8 +20,6 @@ class Kind(NamedTuple):
     """Unit, as read by people."""
     unit_over_square: str
     """Unit over ω², of what scales with ω²; empty of what is given as it is."""
-    bound: str
-    """Field of :class:`~crankpin.types.ErrorBound` that applies to it."""
 
     @property
     def planar(self) -> bool:
@@ -42,12 +40,11 @@ class Kind(NamedTuple):
 QUANTITIES = {
     each.name: each
     for each in (
-        Kind("force", "shaking force", ("|F_x|", "|F_y|"), ("along x", "along y"), "N", "kg·m",
-             "force"),
+        Kind("force", "shaking force", ("|F_x|", "|F_y|"), ("along x", "along y"), "N", "kg·m"),
         Kind("moment", "rocking moment", ("|M_x|", "|M_y|"), ("about x (pitch)", "about y (yaw)"),
-             "N·m", "kg·m²", "moment"),
-        Kind("torque", "roll torque", ("|M_z|",), ("about z (roll)",), "N·m", "kg·m²", "torque"),
-        Kind("crank_torque", "crank torque", ("|T|",), ("on the crank",), "N·m", "kg·m²", "torque"),
+             "N·m", "kg·m²"),
+        Kind("torque", "roll torque", ("|M_z|",), ("about z (roll)",), "N·m", "kg·m²"),
+        Kind("crank_torque", "crank torque", ("|T|",), ("on the crank",), "N·m", "kg·m²"),
     )
 }  # fmt: skip
 """Name of a quantity → its entry."""
@@ -73,12 +70,12 @@ _ACROSS = ("|F_x|", "|F_y|"), ("along x", "along y")
 LOADS = {
     each.name: each
     for each in (
-        Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m", ""),
-        Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m", ""),
-        Kind("main", "main bearing", *_ACROSS, "N", "kg·m", ""),
-        Kind("side_thrust", "side thrust", ("|F|",), ("across the bore",), "N", "kg·m", ""),
-        Kind("rod_force", "rod force", ("|F|",), ("along the rod",), "N", "kg·m", ""),
-        Kind("gas_force", "gas force", ("|F|",), ("along the bore",), "N", "", ""),
+        Kind("crankpin", "crankpin", *_ACROSS, "N", "kg·m"),
+        Kind("wrist_pin", "wrist pin", *_ACROSS, "N", "kg·m"),
+        Kind("main", "main bearing", *_ACROSS, "N", "kg·m"),
+        Kind("side_thrust", "side thrust", ("|F|",), ("across the bore",), "N", "kg·m"),
+        Kind("rod_force", "rod force", ("|F|",), ("along the rod",), "N", "kg·m"),
+        Kind("gas_force", "gas force", ("|F|",), ("along the bore",), "N", ""),
     )
 }
 """Name of a load inside an engine → its entry."""

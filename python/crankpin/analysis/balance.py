@@ -12,7 +12,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.by_order import ByOrder, ErrorBound
+from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
@@ -60,12 +60,6 @@ def mean_piston_speed(engine: Engine, rpm: float) -> float:
     return 4.0 * engine_core(engine).largest_crank_radius * rpm / 60.0
 
 
-def error_bound(core: _core.Balance, *, torque_known: bool) -> ErrorBound:
-    """Return the bounds on what the omitted orders add."""
-    force, moment = core.error_bound("force"), core.error_bound("moment")
-    return ErrorBound(force, moment, core.error_bound("torque") if torque_known else None)
-
-
 class Balance(ByOrder, Tabled):
     """Force, moment and torque of an engine at one speed, order by order.
 
@@ -85,7 +79,7 @@ class Balance(ByOrder, Tabled):
     [1, 4, 8, 12]
     >>> b.force[2].peak, b.force[2].status, 2 in b
     (np.float64(0.0), 'zero, proved', False)
-    >>> b[1].moment.ellipse.minor == b[1].moment.ellipse.major  # a circle
+    >>> bool(b[1].moment.minor == b[1].moment.peak)  # a circle
     True
     >>> round(b.total.moment.peak) == round(b[1].moment.peak)
     True
@@ -139,17 +133,16 @@ class Balance(ByOrder, Tabled):
         return self.within[0].fired if self.within is not None else self.engine.fired
 
     @property
-    def error_bound(self) -> ErrorBound:
-        """Upper bounds on what the orders in ``omitted`` and above add at any crank angle.
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what the omitted orders add at any crank angle, N or N·m.
 
-        Zero where orders were given. Rounding is not included: sums that vanish to within the
-        quantities' ``zero_bound`` are zero.
+        It covers the orders in ``omitted`` and all above them; zero where orders were given.
+        Rounding is not included: sums that vanish to within ``zero_bound`` are zero.
         """
         if self.within is not None:
             return self.within[0].error_bound
-        return error_bound(
-            self.__dict__["_source"], torque_known="torque" in self.request.quantities
-        )
+        bound = self.__dict__["_source"].error_bound
+        return self.request.bounds(map(bound, ("force", "moment", "torque")))
 
     @property
     def reference_z(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
@@ -25,20 +25,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.request import Request
 
 
-class ErrorBound(NamedTuple):
-    """Upper bounds on what the omitted orders add to the length of a vector at any crank angle."""
-
-    force: float
-    """Of the shaking force, N."""
-    moment: float
-    """Of the rocking moment, N·m."""
-    torque: float | None
-    """Of roll and crank torque, N·m; None where torque is not available."""
-
-
-# --- results ------------------------------------------------------------------------------------
-
-
 class ByOrder(Keyed, Quantities):
     """Mixin of balances and sweeps: arrays computed when they are first read, orders as keys."""
 
@@ -51,12 +37,8 @@ class ByOrder(Keyed, Quantities):
         raise NotImplementedError
 
     @property
-    def error_bound(self) -> ErrorBound:
-        """Upper bounds on what the orders in ``omitted`` and above add at any crank angle.
-
-        Zero where orders were given. Rounding is not included: sums that vanish to within the
-        quantities' ``zero_bound`` are zero.
-        """
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what the omitted orders add, N or N·m."""
         raise NotImplementedError
 
     @property

@@ -75,7 +75,7 @@ def to_xarray(
     coords = _labelled(result.coords, quantities)
     coords["order"] = ("order", orders, {"units": labels.XARRAY_UNITS["order"]})
     bounds = {
-        f"{name.replace('.', '_')}_error_bound": getattr(result.error_bound, KINDS[name].bound)
+        f"{name.replace('.', '_')}_error_bound": result.error_bound[name.partition(".")[0]]
         for name in quantities
     }
     if inputs.flag("split_complex", split_complex):

@@ -6,7 +6,7 @@ import operator
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -25,18 +25,8 @@ if TYPE_CHECKING:
 Groups: TypeAlias = Iterable[Iterable[int]]
 """Cylinder numbers, manifold by manifold."""
 
-
-class Gap(NamedTuple):
-    """Gap between two cylinders of a group: their firings, or the openings of their exhausts."""
-
-    before: int
-    """Number of the cylinder that fires, or opens its exhaust, first."""
-    after: int
-    """Number of the other one; the same if a cylinder is alone."""
-    gap_deg: float
-    """Crank angle between them, degrees."""
-    overlap_deg: float | None = None
-    """Crank angle for which both exhausts are open, degrees; None of firings."""
+Gaps: TypeAlias = Mapping[tuple[int, int], float]
+"""Numbers of a cylinder and of the next one of its group → crank angle, degrees."""
 
 
 class Firing(Record):
@@ -60,8 +50,8 @@ class Firing(Record):
     >>> f.intervals_deg
     array([90., 90., 90., 90., 90., 90., 90., 90.])
     >>> left, right = f.gaps()  # within each bank
-    >>> [(gap.before, gap.after, gap.gap_deg) for gap in left]
-    [(1, 3, 270.0), (3, 5, 180.0), (5, 7, 90.0), (7, 1, 180.0)]
+    >>> left
+    {(1, 3): 270.0, (3, 5): 180.0, (5, 7): 90.0, (7, 1): 180.0}
     """
 
     engine: Engine
@@ -131,8 +121,11 @@ class Firing(Record):
 
     # --- exhaust --------------------------------------------------------------------------------
 
-    def gaps(self, groups: Groups | None = None) -> tuple[tuple[Gap, ...], ...]:
+    def gaps(self, groups: Groups | None = None) -> tuple[Gaps, ...]:
         """Return the crank angles between firings within groups of cylinders, in firing order.
+
+        A mapping for each group: (number, number of the next to fire) → degrees. A cylinder alone
+        is followed by itself.
 
         Parameters
         ----------
@@ -146,16 +139,18 @@ class Firing(Record):
 
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("v8-crossplane").firing("1-8-4-3-6-5-7-2")
-        >>> [[gap.gap_deg for gap in each] for each in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
+        >>> [list(each.values()) for each in f.gaps([[1, 4, 6, 7], [8, 3, 5, 2]])]
         [[180.0, 180.0, 180.0, 180.0], [180.0, 180.0, 180.0, 180.0]]
         """
         found = self._core.gaps(_groups(groups))
-        return tuple(tuple(Gap(*gap) for gap in group) for group in found)
+        return tuple({(first, then): gap for first, then, gap in group} for group in found)
 
     def exhaust_overlaps(
         self, groups: Groups | None = None, *, timing: Timing | None = None
-    ) -> tuple[tuple[Gap, ...], ...]:
-        """Return the overlaps of exhaust valves, or ports, within groups of cylinders.
+    ) -> tuple[Gaps, ...]:
+        """Return the crank angles for which two exhausts of a group are open at one time.
+
+        A mapping for each group: (number, number of the one that opens later) → degrees.
 
         Parameters
         ----------
@@ -170,12 +165,12 @@ class Firing(Record):
         >>> import crankpin as cp
         >>> f = cp.Engine.preset("v8-crossplane").firing("1-8-4-3-6-5-7-2")
         >>> left, right = f.exhaust_overlaps()
-        >>> max(left, key=lambda each: each.overlap_deg)
-        Gap(before=5, after=7, gap_deg=90.0, overlap_deg=150.0)
+        >>> left
+        {(3, 5): 60.0, (5, 7): 150.0, (7, 1): 60.0}
         """
         kind = PortTiming if self.strokes == 2 else ValveTiming
         found = self._core.overlaps(_groups(groups), angles(timing, kind))
-        return tuple(tuple(Gap(*each) for each in group) for group in found)
+        return tuple({(first, then): overlap for first, then, _, overlap in g} for g in found)
 
     # --- strokes and valves ---------------------------------------------------------------------
 
@@ -281,7 +276,7 @@ class Firing(Record):
 
     def _gap_in_bank(self) -> NDArray[np.float64]:
         """Crank angle to the next firing in the same bank, in firing order."""
-        gaps = {gap.before: gap.gap_deg for bank in self.gaps() for gap in bank}
+        gaps = {first: gap for bank in self.gaps() for (first, _), gap in bank.items()}
         return np.array([gaps[cylinder] for cylinder in self.order])
 
     @property

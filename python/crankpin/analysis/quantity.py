@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -25,17 +25,6 @@ ALL: Literal["all"] = "all"
 """Key of all orders together."""
 Key: TypeAlias = 'Order | Literal["all"] | None'
 """An order, ``"all"`` for all orders together, None for arrays of every order."""
-
-
-class Ellipse(NamedTuple):
-    """Ellipse that a force or moment traces in one order, or ellipses as arrays."""
-
-    major: Any
-    """Longest half axis, N or N·m."""
-    minor: Any
-    """Shortest half axis, N or N·m; negative where the vector turns against the crank."""
-    tilt_deg: Any
-    """Direction of the long axis from +x, degrees in (−90, 90]; 0 for a circle."""
 
 
 def order_key(order: object) -> Order | Literal["all"]:
@@ -177,19 +166,29 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         return self._planar("peak_xy")  # type: ignore[no-any-return]
 
     @property
-    def ellipse(self) -> Ellipse:
-        """Ellipses that the vector traces, each field (…, n_orders)."""
-        forward, backward = self.forward, self.backward
-        f, b = np.abs(forward), np.abs(backward)
-        directed = (f != 0.0) & (b != 0.0)
+    def minor(self) -> Any:  # noqa: ANN401 - as above
+        """Shortest half axis of the ellipse that a vector traces, N or N·m: (…, n_orders).
+
+        Negative where it turns against the crank, 0 on a straight line. ``peak`` is the longest.
+        """
+        return self._of_one_order(np.abs(self.forward) - np.abs(self.backward))
+
+    @property
+    def tilt_deg(self) -> Any:  # noqa: ANN401 - as above
+        """Direction of the longest half axis from +x, degrees in (−90, 90]: (…, n_orders).
+
+        0 for a circle.
+        """
+        f, b = np.abs(self.forward), np.abs(self.backward)
         with np.errstate(invalid="ignore", divide="ignore"):
             # Half the sum of the phases; of the two directions of the axis the upper one.
-            tilt = np.angle(np.sqrt(forward / f * (backward / b)), deg=True)
-        tilt = np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0))
-        parts = (f + b, f - b, tilt)
-        if self.order is not None and not self.result.dims:
-            return Ellipse(*map(float, parts))
-        return Ellipse(*read_only(parts))
+            tilt = np.angle(np.sqrt(self.forward / f * (self.backward / b)), deg=True)
+        directed = (f != 0.0) & (b != 0.0)
+        return self._of_one_order(np.where(tilt <= -90.0, 90.0, np.where(directed, tilt, 0.0)))
+
+    def _of_one_order(self, values: NDArray[np.float64]) -> Any:  # noqa: ANN401 - as above
+        """Return an array read-only, the value of one order of a balance as a number."""
+        return read_only(values) if np.ndim(values) else float(values)
 
     @property
     def phasor(self) -> NDArray[np.complex128]:
@@ -227,9 +226,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     @property
     def error_bound(self) -> float:
         """Upper bound on what the omitted orders add at any crank angle, N or N·m."""
-        bound = float(getattr(self.result.error_bound, self.kind.bound))
+        bound = self.result.error_bound
         lever = sum(map(abs, self.result.request.aside)) if self.name == "torque" else 0.0
-        return bound + lever * self.result.error_bound.force
+        return bound[self.name.partition(".")[0]] + lever * bound["force"]
 
     @property
     def status(self) -> str:

@@ -11,10 +11,12 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
-from crankpin._support.quantities import KINDS, PARTS
+from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
     from crankpin._support.inputs import Order, Orders, Spectrum
 
 
@@ -84,6 +86,12 @@ class Request(Record):
         """Names of the quantities that there are."""
         torques = ("torque", "crank_torque") if self.torque and self.pairs is None else ()
         return ("force", "moment", *torques)
+
+    def bounds(self, of_vectors_and_torque: Iterable[float]) -> Mapping[str, float]:
+        """Return quantity → bound, of bounds on force, moment and torque."""
+        force, moment, torque = of_vectors_and_torque
+        found = dict(zip(QUANTITIES, (force, moment, torque, torque), strict=True))
+        return MappingProxyType({name: found[name] for name in self.quantities})
 
     def named(self, quantities: tuple[str, ...], *, fired: bool) -> tuple[str, ...]:
         """Return the quantities named, all that there are if none is, with parts if fired."""

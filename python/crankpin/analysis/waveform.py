@@ -14,8 +14,7 @@ from crankpin._support.quantities import KINDS, QUANTITIES
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
-from crankpin.analysis.balance import error_bound, mean_piston_speed
-from crankpin.analysis.by_order import ErrorBound
+from crankpin.analysis.balance import mean_piston_speed
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
 
@@ -179,7 +178,7 @@ class Waveform(OverAngle, Tabled):
     >>> engine = cp.Engine.preset("v6-60")
     >>> exact = engine.waveform(rpm=6000, theta_deg=[0, 10, 20])
     >>> summed = engine.waveform(rpm=6000, theta_deg=[0, 10, 20], orders="auto", rtol=1e-6)
-    >>> bool(abs(exact.moment - summed.moment).max() <= summed.error_bound.moment)
+    >>> bool(abs(exact.moment - summed.moment).max() <= summed.error_bound["moment"])
     True
     """
 
@@ -231,12 +230,11 @@ class Waveform(OverAngle, Tabled):
         return () if self._summed is None else tuple(self._summed.omitted)
 
     @property
-    def error_bound(self) -> ErrorBound:
-        """With ``orders="auto"``: upper bounds on what the omitted orders add, N and N·m."""
-        known = "torque" in self.request.quantities
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what the omitted orders add, N or N·m; zero if exact."""
         if self._summed is None:
-            return ErrorBound(0.0, 0.0, 0.0 if known else None)
-        return error_bound(self._summed, torque_known=known)
+            return self.request.bounds((0.0, 0.0, 0.0))
+        return self.request.bounds(map(self._summed.error_bound, ("force", "moment", "torque")))
 
     @property
     def fired(self) -> bool:

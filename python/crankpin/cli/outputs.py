@@ -26,13 +26,13 @@ def printed(table: Table, *, csv: bool) -> str:
 
 def left_out(result: Balance | Sweep) -> str:
     """Return what omitted orders can add, in words."""
-    force, moment, torque = result.error_bound
+    bound = result.error_bound
     listed = ", ".join(map(str, result.omitted))
     seen = f"; omitted: {listed}" if listed else ""
-    roll = "" if torque is None else f" and {torque:.2g} N·m to the roll torque"
+    roll = f" and {bound['torque']:.2g} N·m to the roll torque" if "torque" in bound else ""
     return (
-        f"Omitted orders add at most {force:.2g} N to the force, {moment:.2g} N·m to the "
-        f"rocking moment{roll}{seen}.\n"
+        f"Omitted orders add at most {bound['force']:.2g} N to the force, "
+        f"{bound['moment']:.2g} N·m to the rocking moment{roll}{seen}.\n"
     )
 
 

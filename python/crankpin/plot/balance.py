@@ -216,14 +216,14 @@ def ellipse(
     curve = curve + vector.backward * np.exp(-1j * PHASES)
     (line,) = ax.plot(curve.real, curve.imag, gid=SERIES, label=text or "_", **style)
     ax.plot(curve.real[:1], curve.imag[:1], "o", color=line.get_color(), gid="crankpin start")
-    if vector.ellipse.minor != 0.0:
+    if vector.minor != 0.0:
         arrow_at(ax, curve, len(PHASES) // 8, line.get_color())
     return curve
 
 
 def direction(order: OrderBalance, name: str) -> str:
     """Return the direction in which an ellipse is passed."""
-    minor = getattr(order, name).ellipse.minor
+    minor = getattr(order, name).minor
     if minor == 0.0:
         return "straight line"
     return labels.TURNING["forward" if minor > 0.0 else "backward"]

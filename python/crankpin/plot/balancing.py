@@ -231,10 +231,10 @@ def _bob_weight(
     # Both half axes have corners at these factors.
     corners = [factor for factor, _ in lines] + [result.least(name) or 0.0, result.factor]
     factors = np.unique([*np.linspace(0.0, end, POINTS), *corners])
-    stays = result.ellipse(name, factors)
-    own = result.ellipse(name)
+    longest, shortest = result.half_axes(name, factors)
+    own = result.half_axes(name, result.factor)
     set_title(ax, labels.name_of(result.engine), f"{QUANTITIES[name].words} of order 1 over ω²")
-    curves = {"longest": stays.major, "shortest": np.abs(stays.minor)}
+    curves = {"longest": longest, "shortest": np.abs(shortest)}
     for (text, values), look in zip(curves.items(), series(ax, 2, style), strict=True):
         full = f"{label}: {text}" if label else text
         ax.plot(factors, values, gid=SERIES, label=full, **look)
@@ -245,7 +245,7 @@ def _bob_weight(
     drawn = [line.get_ydata() for line in ax.lines if line.get_gid() == SERIES]
     from_zero(ax, max(float(np.max(values)) for values in drawn))
     x = np.array([result.factor, result.factor])
-    ring(ax, x, np.array([own.major, abs(own.minor)]), foreground(ax), "o", "this factor")
+    ring(ax, x, np.abs(own), foreground(ax), "o", "this factor")
     if lines:
         x = np.array([factor for factor, _ in lines])
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
@@ -261,4 +261,4 @@ def _chosen(result: BobWeight, quantity: object) -> str:
     """Return the quantity given, or the force, or the moment if there is no force."""
     if quantity is not None:
         return inputs.one_of("quantity", quantity, PLANE_VECTORS)
-    return "force" if result.ellipse("force", 0.0).major > 0.0 else "moment"
+    return "force" if result.half_axes("force", 0.0)[0] > 0.0 else "moment"

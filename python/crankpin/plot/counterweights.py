@@ -88,7 +88,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
     before = over_square(result.engine, [1])[1]
-    shown = [name for name in PLANE_VECTORS if getattr(before, name).ellipse.major > 0.0]
+    shown = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
     given = isinstance(figure, FigureBase)
@@ -184,7 +184,7 @@ def _ellipses(ax: Axes, result: Counterweights, name: str, style: dict[str, Any]
     entries, states = [], {"before": result.engine, "after": result.fitted}
     for (state, engine), look in zip(states.items(), series(ax, 2, style), strict=True):
         order = over_square(engine, [1])[1]
-        vanishes = getattr(order, name).ellipse.major == 0.0
+        vanishes = getattr(order, name).peak == 0.0
         text = f"{state}: {'zero' if vanishes else direction(order, name)}"
         given = style.get("label")
         ellipse(ax, order, name, f"{given}, {text}" if given else text, look)

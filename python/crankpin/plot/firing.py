@@ -11,7 +11,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 
 from crankpin._support import labels
-from crankpin.analysis.firing import Firing, Gap
+from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
@@ -164,7 +164,7 @@ def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: 
 
 def _mark_overlaps(
     ax: Axes,
-    overlaps: Sequence[Sequence[Gap]],
+    overlaps: Sequence[Gaps],
     exhausts: NDArray[np.float64],
     rows: list[int],
     cycle: float,
@@ -174,11 +174,11 @@ def _mark_overlaps(
         "facecolor": "none", "edgecolor": foreground(ax), "hatch": "////", "linewidth": 0.6,
         "zorder": 3,
     }  # fmt: skip
-    found = [each for bank in overlaps for each in bank if each.overlap_deg]
-    for each in found:
-        start = float(exhausts[each.after - 1, 0])
-        pieces = _pieces((start, start + (each.overlap_deg or 0.0)), cycle)
-        for cylinder in {each.before, each.after}:
+    found = [(pair, overlap) for bank in overlaps for pair, overlap in bank.items() if overlap]
+    for pair, overlap in found:
+        start = float(exhausts[pair[1] - 1, 0])
+        pieces = _pieces((start, start + overlap), cycle)
+        for cylinder in set(pair):
             _bars(ax, pieces, rows.index(cylinder), EXHAUSTS, **looks)
     return [Patch(label="exhausts overlap", **looks)] if found else []
 

@@ -122,5 +122,5 @@ def summed(result: Waveform | SweepWaveform, quantity: str) -> str:
     if result.orders is None:
         return "exact kinematics"
     text = labels.orders_text(result.orders)
-    bound = getattr(result.error_bound, "torque" if quantity == "crank_torque" else quantity)
+    bound = result.error_bound[quantity]
     return f"{text} (the rest ≤ {rounded(bound, 2)} {QUANTITIES[quantity].unit})" if bound else text

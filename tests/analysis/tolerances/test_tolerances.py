@@ -291,7 +291,7 @@ def test_orders_that_the_nominal_engine_cancels_are_kept() -> None:
     # Of one cylinder 1e-4 of m·r·ω² may be left out, of six at most six times that.
     cylinder = I6.cylinders[0]
     scale = cylinder.reciprocating_mass * cylinder.crank_radius * OMEGA**2
-    assert 0.0 < t.error_bound.force <= 6e-4 * scale
+    assert 0.0 < t.error_bound["force"] <= 6e-4 * scale
 
 
 @pytest.mark.parametrize("orders", [(2,), (2, 4), (3,)])

@@ -17,7 +17,6 @@ from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.fitting import LARGEST_FACTOR, check_factor, with_bob_weights
 from crankpin.analysis.balancing.planes import Turning, turning
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.quantity import Ellipse
 from crankpin.analysis.request import engine_core
 from crankpin.model import checks
 from crankpin.model.crankpins import Crankpin, crankpins
@@ -175,29 +174,32 @@ class BobWeight(Tabled):
         parts = [(start, after - start, backward) for start, after, backward in there]
         return dict(zip(Turning._fields, parts, strict=True))
 
-    def ellipse(self, quantity: str, factor: ArrayLike | None = None) -> Ellipse:
-        """Return the ellipse of order 1 that factors leave, over ω².
+    def half_axes(self, quantity: str, factor: ArrayLike) -> tuple[Any, Any]:
+        """Return the longest and shortest half axis of order 1 by balance factor, over ω².
 
-        Without pin offset its half axes are ``|1 − 2κ|·|forward| ± |backward|``, in which forward
-        and backward are those of the pistons alone.
+        Without pin offset they are ``|1 − 2κ|·|forward| ± |backward|``, in which forward and
+        backward are those of the pistons alone. The shortest is negative where the vector turns
+        against the crank. Of this bob weight they are ``residual[1].force.peak`` and ``.minor``.
 
         Parameters
         ----------
         quantity
             ``"force"`` (kg·m) or ``"moment"`` (kg·m²).
         factor
-            Parts κ of the reciprocating mass; by default the bob weight's own.
+            Shares κ of the reciprocating mass.
 
         Returns
         -------
-        Ellipse
-            Fields are numbers, or arrays of the shape of ``factor``.
+        tuple
+            Two numbers, or two arrays of the shape of ``factor``.
         """
         parts = self._parts(quantity)
-        factors = inputs.array("factor", self.factor if factor is None else factor)
+        factors = inputs.array("factor", factor)
         check_factor("factor", factors)
-        ellipse = _ellipse(*parts, factors)
-        return ellipse if factors.ndim else Ellipse(*map(float, ellipse))
+        forward, backward = map(abs, _turning_parts(*parts, factors))
+        longest, shortest = forward + backward, forward - backward
+        found = (longest, np.where(abs(shortest) < 1e-14 * longest, 0.0, shortest))
+        return read_only(found) if factors.ndim else (float(found[0]), float(found[1]))
 
     def least(self, quantity: str) -> float | None:
         """Return the factor of the least longest vector: 0.5 without pin offset.
@@ -245,7 +247,9 @@ class BobWeight(Tabled):
         found = []
         for factor in dict.fromkeys(roots):
             if 0.0 <= factor <= LARGEST_FACTOR:
-                tilt = round(float(_ellipse(start, change, backward, np.array(factor)).tilt_deg), 9)
+                forward, _ = _turning_parts(start, change, backward, np.array(factor))
+                # A part that vanishes has no direction.
+                tilt = round(float(np.angle(forward * backward, deg=True)) / 2.0, 9)
                 found.append((factor, 90.0 if tilt <= -90.0 else tilt + 0.0))  # no −0
         return tuple(found)
 
@@ -308,9 +312,10 @@ class BobWeight(Tabled):
         quantities = [name for name in PLANE_VECTORS if any(self._parts(name))]
         header, columns = ["factor", ""], []
         for name in quantities or ["moment"]:
-            left, unit = self.ellipse(name, listed), QUANTITIES[name].unit_over_square
+            longest, shortest = self.half_axes(name, listed)
+            unit = QUANTITIES[name].unit_over_square
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
-            columns += [left.major, abs(left.minor)]
+            columns += [longest, abs(shortest)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
         title = "What stays of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
@@ -339,20 +344,13 @@ class BobWeight(Tabled):
         return draw(self, ax, quantity=quantity, **style)  # type: ignore[no-any-return]
 
 
-def _ellipse(
+def _turning_parts(
     start: complex, change: complex, backward: complex, factor: NDArray[np.float64]
-) -> Ellipse:
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """Return forward and backward part by factor, rounding of a part that vanishes as zero."""
     forward = start + factor * change
-    # Rounding of a part that vanishes has no direction.
-    forward = np.where(
-        np.abs(forward) < 1e-14 * (abs(start) + np.abs(factor * change)), 0.0, forward
-    )
-    f, b = np.abs(forward), np.full(factor.shape, abs(backward))
-    tilt = np.angle(forward * backward, deg=True) / 2.0
-    tilt = np.where(tilt <= -90.0, 90.0, np.where((f == 0.0) | (b == 0.0), 0.0, tilt))
-    minor = np.where(np.abs(f - b) < 1e-14 * (f + b), 0.0, f - b)
-    parts = (f + b, minor, tilt)
-    return Ellipse(*map(read_only, parts))
+    none = np.abs(forward) < 1e-14 * (abs(start) + np.abs(factor * change))
+    return np.where(none, 0.0, forward), np.full(factor.shape, backward)
 
 
 def _numbers(pin: Crankpin) -> str:

@@ -274,8 +274,8 @@ class Counterweights(Tabled):
         states = {
             "before": over_square(self.engine, [1]), "after": self.residual,
         }  # fmt: skip
-        ellipses = [
-            (name, state, getattr(found[1], name).ellipse)
+        vectors = [
+            (name, state, getattr(found[1], name))
             for name in PLANE_VECTORS
             for state, found in states.items()
         ]
@@ -287,14 +287,14 @@ class Counterweights(Tabled):
         note = "; ".join(words) + "."
         if "undecided" in note and self.missing:
             note += f" Within {self.missing:.1e} of what was wanted."
-        kinds = [QUANTITIES[name] for name, _, _ in ellipses]
+        kinds = [QUANTITIES[name] for name, _, _ in vectors]
         return Table(
             "What stays of order 1, half axes over ω²",
             (
                 Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
-                Column("state", tuple(state for _, state, _ in ellipses)),
-                Column("longest", tuple(ellipse.major for *_, ellipse in ellipses)),
-                Column("shortest", tuple(abs(ellipse.minor) for *_, ellipse in ellipses)),
+                Column("state", tuple(state for _, state, _ in vectors)),
+                Column("longest", tuple(float(vector.peak) for *_, vector in vectors)),
+                Column("shortest", tuple(abs(vector.minor) for *_, vector in vectors)),
             ),
             note,
         )

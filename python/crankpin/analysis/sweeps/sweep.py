@@ -20,7 +20,7 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.by_order import ByOrder, ErrorBound
+from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.sweeps.waveform import SweepWaveform
@@ -213,14 +213,12 @@ class Sweep(ByOrder, Tabled):
         return self.__dict__["_omitted"]  # type: ignore[no-any-return]
 
     @cached_property
-    def error_bound(self) -> ErrorBound:
-        """Upper bounds on what the orders in ``omitted`` and above add, at any point and angle.
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what the omitted orders add at any point, N or N·m.
 
-        Zero where orders were given. Rounding is not included: sums that vanish to within the
-        quantities' ``zero_bound`` are zero.
+        As :attr:`Balance.error_bound`.
         """
-        force, moment, torque = self.core.error_bound
-        return ErrorBound(force, moment, torque if "torque" in self.request.quantities else None)
+        return self.request.bounds(self.core.error_bound)
 
     @property
     def fired(self) -> bool:

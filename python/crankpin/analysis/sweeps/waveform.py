@@ -15,7 +15,6 @@ from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import KINDS
 from crankpin._support.record import Record, read_only
-from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.waveform import OverAngle
 
@@ -87,11 +86,9 @@ class SweepWaveform(OverAngle, Record):
         return () if self.exact else self.sweep.omitted
 
     @property
-    def error_bound(self) -> ErrorBound:
+    def error_bound(self) -> Mapping[str, float]:
         """As :attr:`Sweep.error_bound`, N and N·m; zero for exact kinematics."""
-        bound = self.sweep.error_bound
-        none = ErrorBound(0.0, 0.0, None if bound.torque is None else 0.0)
-        return none if self.exact else bound
+        return self.request.bounds((0.0, 0.0, 0.0)) if self.exact else self.sweep.error_bound
 
     def _values(self, quantity: str) -> NDArray[np.float64]:
         kept: dict[str, NDArray[np.float64]] = self.__dict__["_kept"]

@@ -16,7 +16,7 @@ from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Record
 from crankpin.analysis.balance import Balance
-from crankpin.analysis.by_order import ByOrder, ErrorBound
+from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import Unbalance
@@ -195,8 +195,8 @@ class ToleranceArrays(ByOrder, Record):
     samples: int
     seed: int
     request: Request
-    bound: ErrorBound
-    """Bounds on what omitted orders add to the nominal engine."""
+    bounds: tuple[float, float, float]
+    """Bounds on what omitted orders add to force, moment and torque of the nominal engine."""
 
     @cached_property
     def core(self) -> _core.Tolerances:
@@ -244,9 +244,9 @@ class ToleranceArrays(ByOrder, Record):
         return ("sample",)
 
     @property
-    def error_bound(self) -> ErrorBound:
-        """Bounds on what omitted orders add to the nominal engine."""
-        return self.bound
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what omitted orders add to the nominal engine."""
+        return self.request.bounds(self.bounds)
 
     @cached_property
     def nominal(self) -> Balance:

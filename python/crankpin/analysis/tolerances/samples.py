@@ -11,7 +11,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Table
-from crankpin.analysis.by_order import ByOrder, ErrorBound
+from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
 from crankpin.analysis.request import check_request
@@ -104,9 +104,9 @@ class Tolerances(ByOrder, Tabled):
         return self.source.orders
 
     @property
-    def error_bound(self) -> ErrorBound:
-        """Upper bounds on what omitted orders add to the nominal engine."""
-        return self.source.bound
+    def error_bound(self) -> Mapping[str, float]:
+        """Quantity → upper bound on what omitted orders add to the nominal engine, N or N·m."""
+        return self.source.error_bound
 
     @property
     def dims(self) -> tuple[str, ...]:

@@ -11,14 +11,13 @@ from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance, mean_piston_speed
-from crankpin.analysis.by_order import ErrorBound
 from crankpin.analysis.request import Request, engine_core
 from crankpin.analysis.tolerances.arrays import Distribution, Spreads, ToleranceArrays
 from crankpin.analysis.tolerances.samples import Tolerances, names_of
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import ArrayLike
 
@@ -167,18 +166,20 @@ def _seed(seed: object) -> int:
     return found
 
 
-def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[Order, ...], ErrorBound]:
-    """Return the orders of samples, and a bound on what others add to the nominal engine.
+def _orders(
+    engine: Engine, rpm: float, request: Request
+) -> tuple[tuple[Order, ...], tuple[float, float, float]]:
+    """Return the orders of samples, and bounds on what others add to the nominal engine.
 
     Each cylinder is asked by itself, so that nothing cancels; balance shafts and counterweights
     have no orders but their own.
     """
     if request.orders is not None:
-        return request.orders, ErrorBound(0.0, 0.0, 0.0 if request.torque else None)
+        return request.orders, (0.0, 0.0, 0.0)
     found: set[Order] = {1, *(abs(shaft.ratio) for shaft in engine.shafts)}
     force = moment = roll = 0.0
     levers = abs(engine.z - engine.reference_z)
-    bounds: dict[Cylinder, ErrorBound] = {}
+    bounds: dict[Cylinder, Mapping[str, float]] = {}
     for cylinder, lever in zip(engine.cylinders, levers.tolist(), strict=True):
         if cylinder not in bounds:
             single = Engine.from_lists(cylinder, bank_deg=[90], tdc_deg=[0], z=[0])
@@ -187,7 +188,7 @@ def _orders(engine: Engine, rpm: float, request: Request) -> tuple[tuple[Order, 
                 alone = balance(single, rpm, rtol=request.rtol, torque=request.torque)
             found |= set(alone.orders)
             bounds[cylinder] = alone.error_bound
-        force += bounds[cylinder].force
-        moment += bounds[cylinder].force * lever
-        roll += bounds[cylinder].torque or 0.0
-    return tuple(sorted(found)), ErrorBound(force, moment, roll if request.torque else None)
+        force += bounds[cylinder]["force"]
+        moment += bounds[cylinder]["force"] * lever
+        roll += bounds[cylinder].get("torque", 0.0)
+    return tuple(sorted(found)), (force, moment, roll)
