@@ -316,7 +316,7 @@ class ComputedCycles:
         kind
             ``"petrol"``: a naturally aspirated four-stroke at full load and 3000 rpm.
             ``"diesel"``: a turbocharged one at 2000 rpm. Bore and stroke are 86 mm, the rod is
-            145 mm long; the other figures are in :data:`crankpin.model.computed_cycles.EXAMPLES`.
+            145 mm long; the other figures are in ``crankpin.model.computed_cycles.EXAMPLES``.
 
         Examples
         --------

@@ -497,7 +497,7 @@ def slider_crank_harmonics(
     orders
         Whole multiples of crank speed.
     pin_offset_ratio
-        Pin offset / crank radius, |e/r| < 1/λ − 1; broadcast with ``rod_ratio``. Without it the
+        Pin offset / crank radius, ``|e/r| < 1/λ − 1``; broadcast with ``rod_ratio``. Without it the
         pin runs through the crank's axis, odd orders above 1 vanish, and the result is real.
     rtol
         What every order may be off by, relative to itself: 1e-15 to below 1. By default all digits

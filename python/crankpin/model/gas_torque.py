@@ -150,7 +150,7 @@ def gas_torque_harmonics() -> Table:
     101325 Pa in the crankcase.
 
     The cycles are Wiebe burns with Woschni's heat loss; their figures are in
-    :data:`crankpin.model.gas_torque.STATED`. The table is licensed as crankpin is, MIT or
+    ``crankpin.model.gas_torque.STATED``. The table is licensed as crankpin is, MIT or
     Apache-2.0, and in the package as a CSV of six digits.
 
     Examples

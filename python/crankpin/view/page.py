@@ -56,7 +56,7 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     listed: list[dict[str, Any]] = []
     files = []
     for name, engine in presets.presets().items():
-        speed = EBOOK_RPM if name.endswith(presets.OWN_PARTS) else rpm
+        speed = speed_of(name, rpm)
         file = place / f"{name}.html"
         save_html(engine, file, rpm=speed)
         listed.append(
@@ -71,6 +71,11 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
     call = f"gallery({as_json(listed)});"
     index.write_text(document("Engines", "gallery.mjs", call, GALLERY_HEAD), encoding="utf-8")
     return [index, *files]
+
+
+def speed_of(preset: str, rpm: float) -> float:
+    """Return the speed at which a page shows a preset."""
+    return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm
 
 
 def document(title: str, entry: str, call: str, body: str = "") -> str:

@@ -224,7 +224,7 @@ class BobWeight(Tabled):
     def straight(self, quantity: str) -> tuple[tuple[float, float], ...]:
         """Return the factors that leave a vector along a straight line, and its direction.
 
-        They are ½(1 ± |backward|/|forward|) without pin offset; none if either part is zero, and
+        Without pin offset ``½(1 ± |backward|/|forward|)``; none if either part is zero, and
         those below 0 or above 10 are left out. Directions are degrees from +x in (−90, 90].
 
         Parameters

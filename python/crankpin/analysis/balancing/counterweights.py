@@ -80,8 +80,8 @@ def counterweights(
         or a mapping name → list; any angle by default. The mass·radius of a plane is
         then the sum of its weights'.
     length
-        Where weights cannot remove both, they leave the least |force|² + |moment/length|², m. By
-        default the longest lever of a plane or cylinder, or, for internal targets, half of the
+        Where weights cannot remove both, they leave the least ``|force|² + |moment/length|²``, m.
+        By default the longest lever of a plane or cylinder, or, for internal targets, half of the
         distance between main bearings: what stays is then the least sum of squares of their loads.
 
     Returns

@@ -1,0 +1,164 @@
+"""What the build of the manual makes: pictures, presets, the command line, formulae."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import latex2mathml.converter
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+from crankpin import cli
+from crankpin.view import page
+from docutils import nodes
+from sphinx.ext.napoleon import NumpyDocstring
+from sphinx.util.docutils import SphinxDirective
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+    from sphinx.writers.html5 import HTML5Translator
+
+GALLERY = Path(__file__).parent / "gallery"
+"""Folder of what is made; not in the repository."""
+RPM = 3000.0
+PRESET = """\
+# {engine.name}
+
+{description}.
+
+```{{picture}}
+import crankpin as cp
+engine = cp.Engine.preset("{name}")
+engine.plot()
+```
+
+{sentences}
+
+Without gas pressure, at {rpm:g} rpm (`engine.balance(rpm={rpm:g})`):
+
+```text
+{balance}
+```
+
+```{{raw}} html
+<iframe class="turning" src="turning/{name}.html" title="{engine.name}, turning" loading="lazy"></iframe>
+<p><a href="turning/{name}.html">On a page of its own</a></p>
+```
+
+`engine.save_html("{name}.html")` writes this page, `engine.view()` shows it in a notebook.
+"""
+
+
+class Picture(SphinxDirective):
+    """Lines of Python, and the picture that they draw."""
+
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """Run the lines, each page in one namespace; return them and their last picture."""
+        code = "\n".join(self.content)
+        names = self.env.temp_data.setdefault("names of pictures", {})
+        file = GALLERY / "drawn" / f"{hashlib.sha256(code.encode()).hexdigest()[:16]}.png"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        exec(compile(code, self.env.docname, "exec"), names)  # noqa: S102 - of the page
+        plt.gcf().savefig(file, dpi=100, bbox_inches="tight")
+        plt.close("all")
+        shown = nodes.literal_block(code, code, language="python")
+        said = code.strip().splitlines()[-1]
+        drawn = nodes.image(uri=f"/gallery/drawn/{file.name}", alt=f"Picture drawn by {said}")
+        self.set_source_info(drawn)
+        return [shown, drawn]
+
+
+class Commands(SphinxDirective):
+    """The help of every command, as it is printed."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a section for each command."""
+        os.environ |= {"COLUMNS": "96", "NO_COLOR": "1"}
+        parser = cli._parser()
+        (commands,) = (
+            each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction)
+        )
+        return [
+            self.section(name, command.format_help())
+            for name, command in {cli.PROG: parser, **commands}.items()
+        ]
+
+    def section(self, name: str, text: str) -> nodes.section:
+        """Return the section of a command."""
+        section = nodes.section(ids=[f"command-{name}"])
+        section += nodes.title(name, name)
+        section += nodes.literal_block(text, text, language="text")
+        return section
+
+
+def make_gallery(app: Sphinx) -> None:
+    """Write a source page for each preset, and one that lists them."""
+    GALLERY.mkdir(exist_ok=True)
+    presets = cp.presets()
+    rows = []
+    for name, engine in presets.items():
+        rpm = page.speed_of(name, RPM)
+        text = PRESET.format(
+            name=name,
+            engine=engine,
+            description=presets.descriptions[name],
+            rpm=rpm,
+            balance=engine.balance(rpm=rpm),
+            sentences="",
+        )
+        _write(GALLERY / f"{name}.md", text)
+        rows.append(f"* [{engine.name}]({name}.md) (`{name}`): {presets.descriptions[name]}")
+    listed = "\n".join(rows)
+    names = "\n".join(presets)
+    _write(
+        GALLERY / "index.md",
+        f"# Gallery\n\nEvery preset: `cp.Engine.preset(name)`.\n\n{listed}\n\n"
+        f"```{{toctree}}\n:hidden:\n\n{names}\n```\n",
+    )
+
+
+def _write(file: Path, text: str) -> None:
+    """Write a file if it would change: Sphinx reads again what is newer."""
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        file.write_text(text, encoding="utf-8")
+
+
+def make_turning(app: Sphinx, failed: Exception | None) -> None:
+    """Write the pages in which the presets turn."""
+    if failed is None and app.builder.format == "html":
+        page.save_gallery(Path(app.outdir) / "gallery" / "turning", rpm=RPM)
+
+
+def formula(translator: HTML5Translator, node: nodes.math) -> None:
+    """Write a formula in a line of text as MathML."""
+    translator.body.append(latex2mathml.converter.convert(node.astext()))
+    raise nodes.SkipNode
+
+
+def formula_block(translator: HTML5Translator, node: nodes.math_block) -> None:
+    """Write a formula on lines of its own as MathML."""
+    translator.body.append(latex2mathml.converter.convert(node.astext(), display="block"))
+    raise nodes.SkipNode
+
+
+def whole_docstring(docstring: NumpyDocstring) -> tuple[str, list[str]]:
+    """Return the docstring of a property: to napoleon what precedes a colon would be its type."""
+    return "", docstring._consume_to_end()
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register all of it."""
+    mpl.use("Agg")
+    NumpyDocstring._consume_inline_attribute = whole_docstring  # type: ignore[method-assign]
+    app.add_directive("picture", Picture)
+    app.add_directive("commands", Commands)
+    app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
+    app.connect("builder-inited", make_gallery)
+    app.connect("build-finished", make_turning)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
