@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.model import presets as presets_module
+from crankpin.model.computed_cycles import EXAMPLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -569,22 +570,50 @@ def test_presets_are_shown_as_a_table() -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "meant"),
+    ("name", "meant", "call", "command"),
     [
-        ("inline-4", '"i4"'),
-        ("Straight-6", '"i6"'),
-        ("v8-cross-plane", '"v8-crossplane"'),
-        ("boxer-5", '"boxer-6"'),
-        ("v10", '"v10-72" or "v10-90" or "v10-90-even"'),
-        ("rotary", None),
+        ("inline-4", '"i4"', "", ""),
+        ("Straight-six", '"i6"', "", ""),
+        ("v8-cross-plane", '"v8-crossplane"', "", ""),
+        ("triple", '"i3"', "", ""),
+        ("v10", '"v10-72" or "v10-90" or "v10-90-even"', "", ""),
+        (
+            "boxer-5",
+            '"boxer-2" or "boxer-4" or "boxer-6"',
+            "Engine.boxer(…, throws_deg=[…])",
+            "crankpin new boxer --throws …",
+        ),
+        (
+            "v10-80",
+            '"v10-72" or "v10-90" or "v10-90-even"',
+            "Engine.vee(…, bank_angle_deg=80, …)",
+            "crankpin new v10 --bank-angle 80",
+        ),
+        ("i7", None, "Engine.inline(…, throws_deg=[…])", "crankpin new inline --throws …"),
+        ("w18", '"w8"', "Engine.from_lists(…)", "crankpin new lists --tdc … --banks … --z …"),
+        ("rotary", None, "", ""),
     ],
 )
-def test_unknown_presets_suggest_near_names_only(typed: str, meant: str | None) -> None:
+def test_unknown_presets_suggest_near_names_and_what_builds_them(
+    name: str, meant: str | None, call: str, command: str
+) -> None:
     with pytest.raises(cp.InputError) as caught:
-        cp.Engine.preset(typed)
+        cp.Engine.preset(name)
     hint = f"did you mean {meant}? " if meant else ""
-    expected = f'name = "{typed}": no such preset; {hint}crankpin.presets() lists all'
+    built = f"build it by {call}; " if call else ""
+    expected = f'name = "{name}": no such preset; {hint}{built}crankpin.presets() lists all'
     assert str(caught.value) == expected
+    built = f"build it by {command}; " if command else ""
+    assert presets_module.suggestion(name, typed=True) == (
+        f'"{name}": no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
+        ".toml or .json"
+    )
+
+
+@pytest.mark.parametrize("name", ["u16", "H-24", "square four"])
+def test_engines_of_two_crankshafts_are_said_not_to_be_modelled(name: str) -> None:
+    with pytest.raises(cp.InputError, match="engines of several crankshafts are not modelled"):
+        cp.Engine.preset(name)
 
 
 def test_presets_of_a_family_have_comparable_parts() -> None:
@@ -602,9 +631,12 @@ def test_presets_that_fire_take_the_example_of_a_cycle() -> None:
     ]
     assert len(fired) > 20
     for engine in fired:
-        assert (
-            engine.with_cycle(cp.Cycle.example()).balance(3000, orders=[0.5]).crank_torque.mean > 0
-        )
+        cycle = cp.Cycle.example()
+        if engine.strokes == 2:
+            figures = EXAMPLES["petrol"]
+            cycle = cp.Cycle.wiebe(engine.cylinders[0], **figures, strokes=2)  # type: ignore[arg-type]
+        balance = engine.with_cycle(cycle).balance(3000, orders=[0.5])
+        assert balance.crank_torque.mean > 0
 
 
 def test_presets_whose_firing_order_is_known_fire_in_it() -> None:

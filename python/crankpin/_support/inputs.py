@@ -215,14 +215,14 @@ def text(name: str, value: object, hint: str = "give text") -> str:
     return value
 
 
-def file_path(path: object, endings: tuple[str, ...], hint: str) -> Path:
+def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "path") -> Path:
     """Return the path of a file whose name has one of these endings, ``.toml`` or the like."""
     try:
         file = Path(path)  # type: ignore[arg-type]
     except TypeError:
-        raise InputError(f"path = {shorten(path)}: give a path; {hint}") from None
+        raise InputError(f"{name} = {shorten(path)}: give a path; {hint}") from None
     if file.suffix.lower() not in endings or "\0" in str(file):
-        raise InputError(f"path = {shorten(str(path))}: {hint}")
+        raise InputError(f"{name} = {shorten(str(path))}: {hint}")
     return file
 
 

@@ -8,7 +8,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import engines, hardware, loads, making, outputs, shaking
+from crankpin.cli import engines, hardware, loads, making, new, outputs, shaking
 from crankpin.cli.arguments import PROG, Given, Parser
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 COMMANDS = (
     engines.add_presets,
+    new.add_new,
     shaking.add_balance,
     shaking.add_sweep,
     shaking.add_rank,
@@ -63,7 +64,7 @@ def _text(argv: Sequence[str] | None) -> str:
         if sys.stdout is not None:
             outputs.write("")  # flushes the help while a broken pipe can still be answered
         raise
-    text: str = arguments.run(Given(arguments))
+    text: str = arguments.run(Given(arguments, typed))
     return text
 
 

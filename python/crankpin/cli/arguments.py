@@ -13,11 +13,11 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.model import presets
+from crankpin.model import engine_files, presets
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -27,7 +27,6 @@ PROG = "crankpin"
 MOST_ROWS = 1_000_000
 """Largest number of rows in a table."""
 PICTURES = (".pdf", ".png", ".svg")
-FILES = (".toml", ".json")
 
 # --- units --------------------------------------------------------------------------------------
 
@@ -133,6 +132,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--csv": {"action": "store_true", "help": "print CSV in place of the table"},
     "--plot": {"metavar": "FILE", "help": "write a picture (.pdf, .png, .svg)"},
+    "--save": {
+        "metavar": "FILE",
+        "help": "write the engine with what was found, an engine file (.toml, .json)",
+    },
 }
 """Options of several commands."""
 
@@ -173,7 +176,9 @@ class Given:
     Options are named as they are typed, ``"--reference-z"``; one that is left out reads as None.
     """
 
-    def __init__(self, arguments: argparse.Namespace) -> None:
+    def __init__(self, arguments: argparse.Namespace, typed: Sequence[str] = ()) -> None:
+        self.typed = tuple(typed)
+        """The words of the command line."""
         self._typed = vars(arguments)
         for name, text in self._typed.items():
             if isinstance(text, str) and "\0" in text:
@@ -276,13 +281,12 @@ class Given:
         """Return the engines of NAME…, by their titles, or by what was typed where these repeat."""
         typed: dict[str, Engine] = {}
         for name in self._typed.get("names") or [self.text("name")]:
-            if Path(name).suffix.lower() in FILES:
+            if Path(name).suffix.lower() in engine_files.ENDINGS:
                 typed[name] = Engine.load(name)
                 continue
             for member in presets.family(name):
                 if member not in presets.Presets():
-                    listing = f'"{PROG} presets" lists all; engine files end in .toml or .json'
-                    raise InputError(f"NAME = {presets.suggestion(name)}{listing}")
+                    raise InputError(f"NAME = {presets.suggestion(name, typed=True)}")
                 typed[member] = Engine.preset(member)
         if (plane := self._typed.get("reference_z")) is not None:
             z = float(self.decimal("--reference-z", plane, "m"))
@@ -346,6 +350,11 @@ class Given:
             hint = f"a picture's name ends in {', '.join(PICTURES)}"
             raise InputError(f"--plot = {labels.cut(text)}: {hint}")
         return path
+
+    def save_file(self) -> Path | None:
+        """Return the file for the engine that is found, checked before anything is computed."""
+        text = self.text("--save")
+        return None if text is None else engine_files.checked(text, "--save")
 
 
 def _hint(typed: str, unit: str) -> str:

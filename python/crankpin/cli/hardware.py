@@ -14,7 +14,7 @@ from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
 from crankpin.analysis.balancing.shaft_requests import REMOVE
 from crankpin.cli.arguments import command, shared
-from crankpin.cli.outputs import draw, printed
+from crankpin.cli.outputs import draw, printed, save
 
 if TYPE_CHECKING:
     from crankpin.analysis.balancing.planes import Planes
@@ -67,13 +67,13 @@ def add_counterweights(commands: Commands) -> None:
     fits.add_argument(
         "--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"
     )
-    shared(fits, "--reference-z", "--units", "--csv", "--plot")
+    shared(fits, "--reference-z", "--units", "--csv", "--plot", "--save")
 
 
 def _counterweights(given: Given) -> str:
     """Return what the command prints."""
     engine = given.engine("counterweights")
-    picture = given.picture_file()
+    picture, file = given.picture_file(), given.save_file()
     angles = given.range("--angles", "°")
     fitted = counterweights(
         engine,
@@ -84,6 +84,7 @@ def _counterweights(given: Given) -> str:
         bound=given.optional("--bound", "kg·m"),
         angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
     )
+    save(fitted.fitted, file)
     draw(fitted, picture)
     return printed(fitted.table, csv=given.text("--csv"))
 
@@ -125,19 +126,20 @@ def add_bob_weight(commands: Commands) -> None:
     }
     for flag, what in masses.items():
         weighs.add_argument(flag, metavar="MASS", help=f"{what}: 550g, or a number in kg")
-    shared(weighs, "--units", "--csv", "--plot")
+    shared(weighs, "--units", "--csv", "--plot", "--save")
 
 
 def _bob_weight(given: Given) -> str:
     """Return what the command prints."""
     engine = given.engine("bob-weight")
-    picture = given.picture_file()
+    picture, file = given.picture_file(), given.save_file()
     if (mass := given.optional("--reciprocating", "kg")) is not None:
         cylinders = [each.replace(reciprocating_mass=mass) for each in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
     if (mass := given.optional("--rotating", "kg")) is not None:
         engine = engine.replace(rotating_mass=mass)
     bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
+    save(bob.fitted, file)
     draw(bob, picture)
     return printed(bob.table, csv=given.text("--csv"))
 
@@ -184,10 +186,10 @@ def add_shafts(commands: Commands) -> None:
     shared(fits, "--quantity", default=None, help="quantity of the picture (default: moment)")
     shared(fits, "--csv", help="print the first table as CSV")
     shared(fits, "--plot")
-    fits.add_argument(
+    shared(
+        fits,
         "--save",
-        metavar="FILE",
-        help="write the engine with what was fitted (.toml, .json); without --ratio the least "
+        help="write the engine with what was found (.toml, .json); without --ratio the least "
         "hardware that reaches --target",
     )
 
@@ -204,7 +206,7 @@ def _shafts(given: Given) -> str:
 
 
 def _fit(engine: Engine, given: Given) -> str:
-    picture = given.picture_file()
+    picture, file = given.picture_file(), given.save_file()
     fit = balance_shafts(
         engine,
         given.whole_numbers("--ratio"),
@@ -214,16 +216,17 @@ def _fit(engine: Engine, given: Given) -> str:
         bearings=given.numbers("--bearings", "m"),
         remove=given.text("--remove") or "both",
     )
-    if given.text("--save") is not None:
-        fit.fitted.save(given.text("--save"))
+    save(fit.fitted, file)
     draw(fit, picture, quantity=given.text("--quantity") or "moment")
     return printed(fit.table, csv=given.text("--csv"))
 
 
 def _compare(engine: Engine, given: Given) -> str:
-    picture = given.picture_file()
+    picture, file = given.picture_file(), given.save_file()
     by = (given.text("--by") or "total.force.peak,total.moment.peak").split(",")
     targets, relative = _targets(given)
+    if file is not None and targets is None:
+        raise InputError("--save needs --ratio or --target")
     options = balancer_options(
         engine,
         rpm=given.optional("--rpm", "rpm") or 3000.0,
@@ -231,10 +234,8 @@ def _compare(engine: Engine, given: Given) -> str:
         target=targets,
         relative=relative,
     )
-    if given.text("--save") is not None:
-        if targets is None:
-            raise InputError("--save needs --ratio or --target")
-        options.fitted.save(given.text("--save"))
+    if file is not None:
+        save(options.fitted, file)
     draw(options, picture)
     return printed(options.table, csv=given.text("--csv"))
 

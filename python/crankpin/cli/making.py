@@ -12,7 +12,7 @@ from crankpin.analysis.design.design import design
 from crankpin.analysis.tolerances.arrays import FIGURES, SPREADS
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.cli.arguments import command, shared
-from crankpin.cli.outputs import draw, printed
+from crankpin.cli.outputs import draw, printed, save
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Commands, Given
@@ -77,6 +77,10 @@ def add_design(commands: Commands) -> None:
         "--count", default="20", help="number of designs to print (default: %(default)s)"
     )
     shared(designs, "--seed", "--csv", "--plot")
+    shared(designs, "--save", help="write the design of --pick, an engine file (.toml, .json)")
+    designs.add_argument(
+        "--pick", metavar="N", default="1", help="which design --save writes (default: %(default)s)"
+    )
 
 
 def _design(given: Given) -> str:
@@ -85,7 +89,9 @@ def _design(given: Given) -> str:
     if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
         hint = "give an engine with one or two banks and one kind of cylinder"
         raise InputError(f"NAME = {given.text('name')}: {hint}")
-    picture = given.picture_file()
+    picture, file, pick = given.picture_file(), given.save_file(), given.whole("--pick")
+    if not 1 <= pick <= given.whole("--count"):
+        raise InputError(f"--pick = {pick}: give the place of one of the designs, from 1")
     layout: Any = given.text("--layout") or ("inline" if len(engine.banks) == 1 else "vee")
     angle = _angles(given, "--bank-angle")
     if angle is None and layout == "vee" and len(engine.banks) == 2:
@@ -111,6 +117,10 @@ def _design(given: Given) -> str:
         count=given.whole("--count"),
         seed=given.whole("--seed"),
     )
+    if file is not None:
+        if pick > len(found):
+            raise InputError(f"--pick = {pick}: there are {len(found)} designs")
+        save(found.engines[pick - 1], file)
     draw(found, picture)
     return printed(found.table, csv=given.text("--csv"))
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.sweeps.sweep import Sweep
+    from crankpin.model.engine import Engine
 
 CONTROLS = {code: "�" for code in (*range(32), *range(127, 160)) if chr(code) not in "\n\t"}
 """Control characters, which a terminal would obey, and what is printed instead."""
@@ -47,6 +48,12 @@ def draw(result: Any, path: Path | None, **options: str) -> None:  # noqa: ANN40
         figure.savefig(path, dpi=200)
     finally:
         plt.close(figure)
+
+
+def save(engine: Engine, file: Path | None) -> None:
+    """Write an engine file, if one is given."""
+    if file is not None:
+        engine.save(file)
 
 
 # --- streams ------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
 from crankpin.cli.arguments import MOST_ROWS, command, shared
-from crankpin.cli.outputs import draw, left_out, printed
+from crankpin.cli.outputs import draw, left_out, printed, save
 
 if TYPE_CHECKING:
     from crankpin.cli.arguments import Commands, Given
@@ -192,6 +192,7 @@ def add_rank(commands: Commands) -> None:
     shared(ranks, "--hold")
     ranks.add_argument("--refine", action="store_true", help="look between these angles too")
     shared(ranks, "--rpm", "--orders", "--reference-z", "--spectrum", "--units", "--csv", "--plot")
+    shared(ranks, "--save", help="write the best engine at its best bank angle (.toml, .json)")
 
 
 def _rank(given: Given) -> str:
@@ -205,7 +206,7 @@ def _rank(given: Given) -> str:
     points = len(engines) * (1 if angles is None else np.size(angles))
     if points > MOST_ROWS:
         raise InputError(f"{points} points to rank: give {MOST_ROWS} at most")
-    picture = given.picture_file()
+    picture, file = given.picture_file(), given.save_file()
     ranking = rank(
         engines,
         rpm=given.number("--rpm", "rpm"),
@@ -216,5 +217,6 @@ def _rank(given: Given) -> str:
         refine=given.text("--refine"),
         orders=given.orders(),
     )
+    save(ranking.best()[0].engine, file)
     draw(ranking, picture)
     return printed(ranking.table, csv=given.text("--csv"))

@@ -13,7 +13,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.absent import AbsentError
 from crankpin._support.record import read_only
-from crankpin.model import checks, crankpins
+from crankpin.model import checks, crankpins, engine_files
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
@@ -536,17 +536,9 @@ class EngineData:
         OSError
             If the file cannot be read.
         """
-        file = _file_path(path)
-        with file.open("rb") as opened:
-            found = opened.read(
-                _core.LONGEST_FILE + 1
-            )  # no more than the error of a longer one needs
-        try:
-            text = found.decode("utf-8")
-        except UnicodeDecodeError as error:
-            hint = f"{error}; an engine file is UTF-8"
-            raise InputError(f"path = {inputs.shorten(str(path))}: {hint}") from None
-        return cls.from_toml(text) if file.suffix.lower() == ".toml" else cls.from_json(text)
+        file = engine_files.checked(path)
+        text = engine_files.read(file)
+        return cls.from_toml(text) if engine_files.is_toml(file) else cls.from_json(text)
 
     @classmethod
     def _read(cls, core: _CoreEngine) -> Self:
@@ -591,9 +583,10 @@ class EngineData:
         return self._core.to_json()
 
     def save(self, path: str | Path) -> None:
-        """Write the engine to a ``.toml`` or ``.json`` file."""
-        file = _file_path(path)
-        text = self.to_toml() if file.suffix.lower() == ".toml" else self.to_json()
+        """Write the engine to a ``.toml`` or ``.json`` file; TOML has comments that explain it."""
+        file = engine_files.checked(path)
+        toml = engine_files.is_toml(file)
+        text = engine_files.commented(self.to_toml()) if toml else self.to_json()
         file.write_text(text, encoding="utf-8")
 
 
@@ -663,7 +656,3 @@ def _reduced(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _file_text(text: object) -> str:
     return inputs.text("text", text, "give the text of an engine file")
-
-
-def _file_path(path: object) -> Path:
-    return inputs.file_path(path, (".toml", ".json"), "an engine file ends in .toml or .json")

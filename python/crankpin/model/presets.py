@@ -8,11 +8,12 @@ from __future__ import annotations
 import difflib
 import functools
 import math
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,13 @@ from crankpin._support.absent import AbsentError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 
+MISTYPED = 0.9
+"""Likeness, of 1 for the same, from which a name is a preset's with a slip of the finger."""
+NUMBERS = {
+    "two": "2", "three": "3", "four": "4", "five": "5", "six": "6", "seven": "7", "eight": "8",
+    "nine": "9", "ten": "10", "twelve": "12",
+}  # fmt: skip
+"""Numbers of cylinders in words."""
 OWN_PARTS = "-ebook"
 """End of the names of presets that belong to no family: their moving parts are not comparable."""
 
@@ -107,36 +115,63 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
         raise UnknownPresetError(_unknown(name))
     if cylinder is not None and not isinstance(cylinder, Cylinder):
         raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
-    entry = _data()["engines"][name]
-    parts = Cylinder(**_data()["parts"][entry.get("parts", "nominal")])
-    distance = entry.get("spacing", 0.1) if spacing is None else inputs.number("spacing", spacing)
+    found = layout(name)
+    distance = found.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):
         raise InputError(f"spacing = {distance}: give a finite distance in metres")
+    return found.build(found.cylinder if cylinder is None else cylinder, distance)
+
+
+class Layout(NamedTuple):
+    """A builder of :class:`Engine` and its arguments, but for the cylinder and the spacing."""
+
+    builder: str
+    arguments: dict[str, Any]
+    cylinder: Cylinder
+    """Moving parts of the preset, a nominal half litre if its source has none."""
+    spacing: float = 0.1
+    """Distance between neighbouring throws, m."""
+
+    def build(self, cylinder: Cylinder, spacing: float, **changes: Any) -> Engine:  # noqa: ANN401
+        """Return the engine with this cylinder and spacing, and other arguments of the builder."""
+        arguments = self.arguments | changes
+        if "places" in arguments:  # in spacings, and a pin offset for each cylinder
+            places = arguments.pop("places")
+            offsets = arguments.pop("pin_offset", [0.0] * len(places))
+            each = [cylinder.replace(pin_offset=cylinder.pin_offset + more) for more in offsets]
+            return Engine.from_lists(each, z=[spacing * place for place in places], **arguments)
+        if self.builder != "from_lists":
+            arguments["spacing"] = spacing
+        engine: Engine = getattr(Engine, self.builder)(cylinder, **arguments)
+        return engine
+
+
+def layout(name: str = "single") -> Layout:
+    """Return the layout of a preset."""
+    entry = _data()["engines"][name]
     ((builder, arguments),) = (item for item in entry.items() if isinstance(item[1], dict))
-    common: dict[str, Any] = {"name": entry["title"], "source": entry["source"]}
-    common |= {key: entry[key] for key in ("firing_order", "strokes") if key in entry}
-    if builder == "from_lists":
-        return _from_lists(parts if cylinder is None else cylinder, distance, arguments, common)
-    build = getattr(Engine, builder)
-    engine: Engine = build(
-        parts if cylinder is None else cylinder, spacing=distance, **arguments, **common
-    )
-    return engine
+    common = {key: entry[key] for key in ("source", "firing_order", "strokes") if key in entry}
+    parts = Cylinder(**_data()["parts"][entry.get("parts", "nominal")])
+    arguments = {"name": entry["title"]} | common | arguments
+    return Layout(builder, arguments, parts, entry.get("spacing", 0.1))
 
 
-def _from_lists(
-    cylinder: Cylinder, spacing: float, arguments: dict[str, Any], common: dict[str, Any]
-) -> Engine:
-    """Return an engine of lists, with places in spacings and a pin offset for each cylinder."""
-    places = arguments["places"]
-    offsets = arguments.get("pin_offset", [0.0] * len(places))
-    return Engine.from_lists(
-        [cylinder.replace(pin_offset=cylinder.pin_offset + offset) for offset in offsets],
-        tdc_deg=arguments["tdc_deg"],
-        bank_deg=arguments["bank_deg"],
-        z=[spacing * place for place in places],
-        **common,
-    )
+def aliases() -> Mapping[str, str]:
+    """Return usual names, such as "v6", and the presets that stand for them."""
+    return MappingProxyType(_data()["aliases"])
+
+
+def named(name: str) -> str:
+    """Return the preset that a usual name stands for; other names as they are.
+
+    Examples
+    --------
+    >>> named("v6"), named("Straight-six"), named("flat-twin")
+    ('v6-60', 'i6', 'boxer-2')
+    """
+    words = [NUMBERS.get(word, word) for word in name.lower().split("-")]
+    plain = re.sub(r"^(straight|inline)-(?=\d)", "i", "-".join(words))
+    return aliases().get(plain, plain)
 
 
 def family(name: str) -> list[str]:
@@ -158,24 +193,72 @@ def family(name: str) -> list[str]:
     return [each for each in members if not each.endswith(OWN_PARTS)] or [name]
 
 
-def suggestion(name: str) -> str:
-    """Return what to say of a name that is no preset's, with what may have been meant."""
-    typed = name[:80].lower().replace("straight", "inline")
-    near = family(typed)
-    if near == [typed] and typed not in Presets():
-        titles = {engine.name.lower(): each for each, engine in Presets().items()}
-        words = {each: each for each in Presets()} | titles
-        near = [words[each] for each in difflib.get_close_matches(typed, words, n=1, cutoff=0.7)]
-    quoted = " or ".join(f'"{each}"' for each in near)
-    meant = f"did you mean {quoted}? " if near else ""
-    return f'"{labels.cut(labels.printable(name), 80)}": no such preset; {meant}'
+def suggestion(name: str, *, typed: bool = False) -> str:
+    """Return what to say of a name that is no preset's: the nearest ones, and what builds it.
+
+    Parameters
+    ----------
+    name
+        What was given.
+    typed
+        True for words of the command line, False for those of Python.
+    """
+    plain = name[:80].lower()
+    plain = plain if family(plain)[0] in Presets() else named(plain)
+    titles = {engine.name.lower(): each for each, engine in Presets().items()}
+    words = {each: each for each in Presets()} | titles | dict(aliases())
+    meant = family(plain)
+    if meant == [plain] and plain not in Presets():
+        meant = [words[each] for each in difflib.get_close_matches(plain, words, 1, MISTYPED)]
+    built, near = "", meant
+    if not meant:
+        near = [each for each in family(plain.rpartition("-")[0]) if each in Presets()]
+        near = near or [words[each] for each in difflib.get_close_matches(plain, words, 3, 0.7)]
+        built = _recipe(plain, typed=typed)
+    quoted = " or ".join(f'"{each}"' for each in dict.fromkeys(near))
+    question = f"did you mean {quoted}? " if near else ""
+    listing = (
+        '"crankpin presets" lists all; engine files end in .toml or .json'
+        if typed
+        else "crankpin.presets() lists all"
+    )
+    shown = labels.cut(labels.printable(name), 80)
+    return f'"{shown}": no such preset; {question}{built}{listing}'
+
+
+RECIPES = (
+    (r"(u|h)[- ]?\d|square|opposed", "", ""),
+    (r"v[- ]?(?:twin|\d+)", "new vee --bank-angle {0} --throws …", "vee(…, bank_angle_deg={0}, …)"),
+    (r"i\d|twin|parallel", "new inline --throws …", "inline(…, throws_deg=[…])"),
+    (r"flat", "new flat --throws …", "flat(…, throws_deg=[…])"),
+    (r"boxer", "new boxer --throws …", "boxer(…, throws_deg=[…])"),
+    (r"radial", "new radial --cylinders {0}", "radial(…, {0})"),
+    (r"(vr|w|x)[- ]?\d", "new lists --tdc … --banks … --z …", "from_lists(…)"),
+)
+"""How the names of layouts begin, and what builds them."""
+
+
+def _recipe(name: str, *, typed: bool) -> str:
+    """Return which command or call builds an engine of such a name."""
+    number = re.findall(r"(?<=-)\d+(?:\.\d+)?$", name) or ["…"]
+    for pattern, command, call in RECIPES:
+        if not re.match(pattern, name):
+            continue
+        if not command:
+            return "engines of several crankshafts are not modelled; "
+        base = name.rpartition("-")[0]
+        if typed and command.startswith("new vee") and base in aliases():
+            return f"build it by crankpin new {base} --bank-angle {number[0]}; "
+        recipe = f"crankpin {command}" if typed else f"Engine.{call}"
+        return f"build it by {recipe.format(*number)}; "
+    return ""
 
 
 def _unknown(name: object) -> str:
     """Return the message for what is not the name of a preset."""
     if not isinstance(name, str):
         return f"name = {inputs.shorten(name)}: give the name of a preset, as a string"
-    return f"name = {suggestion(name)}crankpin.presets() lists all"
+    return f"name = {suggestion(name)}"
 
 
 def _bank_angle(engine: Engine) -> str:
@@ -186,6 +269,6 @@ def _bank_angle(engine: Engine) -> str:
 
 
 @functools.cache
-def _data() -> dict[str, dict[str, dict[str, Any]]]:
+def _data() -> dict[str, dict[str, Any]]:
     """Return the contents of ``presets.toml``, read once: that takes 8 ms."""
     return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))

@@ -1,0 +1,280 @@
+"""The command that makes an engine file: a layout by its usual name, and weighed parts."""
+
+from __future__ import annotations
+
+import inspect
+import shlex
+import textwrap
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from crankpin._core import InputError
+from crankpin._support import inputs
+from crankpin.cli.arguments import PROG, command, shared
+from crankpin.model import engine_files, presets
+from crankpin.model.cylinder import Cylinder, Rod
+from crankpin.model.data import allowed
+from crankpin.model.engine import Engine
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from crankpin.cli.arguments import Commands, Given
+
+BUILDERS = {
+    "inline": "inline",
+    "vee": "vee",
+    "flat": "flat",
+    "boxer": "boxer",
+    "radial": "radial",
+    "firing-order": "from_firing_order",
+    "lists": "from_lists",
+}
+"""Kind → the builder of :class:`Engine` that takes all of its layout from options."""
+
+LAYOUT: dict[str, tuple[str, str, str]] = {
+    "--bank-angle": ("bank_angle_deg", "angle", "angle between the banks, degrees"),
+    "--throws": ("throws_deg", "angles", "crankpins in the direction of rotation, degrees"),
+    "--pin-split": (
+        "pin_split_deg",
+        "split",
+        "left pin minus right pin, degrees, or even for even firing",
+    ),
+    "--spacing": (
+        "spacing",
+        "m",
+        "distance of neighbouring throws, or rows (default: in proportion to the bore)",
+    ),
+    "--bank-stagger": ("bank_stagger", "m", "distance of the left bank behind the right"),
+    "--odd-bank": ("odd_bank", "text", "bank of cylinder 1 from the flywheel: right or left"),
+    "--numbering": ("numbering", "text", "alternating, or by-bank"),
+    "--cylinders": ("cylinders", "whole", "number of cylinders of a radial"),
+    "--rows": ("rows", "whole", "rows of a radial, 1 or 2"),
+    "--firing-order": ("firing_order", "text", "such as 1-3-4-2"),
+    "--intervals": ("intervals_deg", "angles", "of firing-order: firing intervals, degrees"),
+    "--strokes": ("strokes", "whole", "strokes of a cycle, 4 or 2"),
+    "--tdc": ("tdc_deg", "angles", "of lists: crank angles of top dead centre, degrees"),
+    "--pins": ("pin_deg", "angles", "of lists, for --tdc: directions of the crankpins, degrees"),
+    "--banks": ("bank_deg", "angles", "of lists: directions of the bores, degrees; 90 is upright"),
+    "--z": ("z", "metres", "of lists: places along the crank, from the front"),
+}
+"""Option → argument of a builder, how it is read, and its help."""
+
+LENGTHS = {
+    "--bore": "diameter of the bore",
+    "--stroke": "stroke",
+    "--rod": "rod length between the centres",
+    "--pin-offset": "offset of the piston pin's path from the crank axis (default: 0)",
+    "--rod-centre": "from the big end's centre to the rod's centre of mass (default: a third of "
+    "the rod, so that one third of its mass moves with the piston)",
+}
+MASSES = {
+    "--piston": "piston, pin, rings and clips",
+    "--rod-mass": "rod with bolts and bearing shells",
+    "--small-end": "small end of a rod weighed end by end, for --rod-mass",
+    "--big-end": "its big end",
+    "--reciprocating": "all that moves with the piston, for --piston and the rod's share",
+    "--rotating": "all of one cylinder that turns with the crankpin (default: the rod's share)",
+}
+"""Options of one cylinder's parts → their help."""
+
+
+def add_new(commands: Commands) -> None:
+    """Add the command ``new``."""
+    new = command(
+        commands,
+        "new",
+        "make an engine file: a layout by its usual name, and weighed parts",
+        example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm "
+        "--piston 480g --rod-mass 560g -o harley.toml",
+        run=_new,
+        note="KIND is one of\n"
+        f"{_wrapped(presets.aliases())}\n"
+        f'or any preset ("{PROG} presets" lists them), whose layout is taken with other figures;\n'
+        "or a builder, which takes its layout from options:\n"
+        f"{_wrapped(BUILDERS)}\n"
+        "Lengths and masses take units: 86mm, 3.4in, 480g, 17oz, 1.2lb.",
+    )
+    new.add_argument("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline")
+    parts = new.add_argument_group("parts of one cylinder (default: a nominal half litre)")
+    for options, unit in ((LENGTHS, "LENGTH"), (MASSES, "MASS")):
+        for flag, what in options.items():
+            parts.add_argument(flag, metavar=unit, help=what)
+    layout = new.add_argument_group("layout (default: that of the preset)")
+    for flag, (_, how, what) in LAYOUT.items():
+        several = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"}
+        layout.add_argument(flag, metavar=several.get(how, "A" if how != "m" else "M"), help=what)
+    new.add_argument("--name", help="name of the engine (default: that of its kind)")
+    shared(new, "--units")
+    new.add_argument(
+        "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
+    )
+
+
+def _new(given: Given) -> str:
+    """Write the file; return what the command prints."""
+    typed = given.text("--out")
+    file = None if typed is None else engine_files.checked(typed, "--out")
+    notes = list[str]()
+    cylinder, rotating = _parts(given, notes)
+    engine = _engine(given, cylinder, rotating, notes)
+    if file is None:
+        return engine_files.commented(engine.to_toml())
+    engine.save(file)
+    said = "".join(f"{note}\n" for note in notes)
+    return f"{engine!r}\n{said}Written to {file}: try {PROG} balance {shlex.quote(str(file))}\n"
+
+
+def _engine(
+    given: Given, cylinder: Cylinder | None, rotating: float | None, notes: list[str]
+) -> Engine:
+    """Return the engine of a kind with these parts and what options change in its layout."""
+    kind = given.text("kind")
+    base = _layout(kind)
+    changes = _changes(given, kind, base)
+    if rotating is not None:
+        changes["rotating_mass"] = rotating
+    if "pin_split_deg" in changes or "bank_angle_deg" in changes:
+        changes |= _split(base, changes)
+    spacing = changes.pop("spacing", None)
+    if spacing is None:
+        along = base.builder != "from_lists" or "places" in base.arguments
+        bores = None if cylinder is None else cylinder.bore, base.cylinder.bore
+        ratio = bores[0] / bores[1] if bores[0] and bores[1] else 1.0
+        spacing = float(f"{base.spacing * ratio:.3g}")
+        if along:
+            notes.append(f"Spacing {spacing * 1e3:g} mm, in proportion to the bore (--spacing).")
+    order = base.arguments.get("firing_order", "")
+    known = bool(order) and "firing_order" not in changes
+    changes["source"] = shlex.join([PROG, *given.typed])
+    if (name := given.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
+        changes["name"] = name or ""
+    engine = base.build(
+        cylinder or base.cylinder, spacing, **changes | ({"firing_order": ""} if known else {})
+    )
+    if known and len(engine) == order.replace("+", "-").count("-") + 1:
+        engine = engine.replace(firing_order=allowed(engine.core, order, engine.strokes))
+    if not engine.firing_order:
+        notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
+    if len({*engine.z.tolist()}) == 1:
+        notes[:] = [note for note in notes if not note.startswith("Spacing")]
+    return engine
+
+
+def _layout(kind: str) -> presets.Layout:
+    """Return the layout of a kind, with nothing but nominal parts if options have it all."""
+    if kind in BUILDERS:
+        return presets.layout()._replace(builder=BUILDERS[kind], arguments={})
+    name = presets.named(kind)
+    if name not in presets.Presets():
+        raise InputError(f"KIND = {presets.suggestion(kind, typed=True)}")
+    return presets.layout(name)
+
+
+def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
+    """Return the arguments of the builder that options give."""
+    takes = inspect.signature(getattr(Engine, base.builder)).parameters
+    names = {*takes}
+    if "places" in base.arguments:  # of a preset of lists, whose angles go together
+        names = {"spacing", "firing_order", "strokes"}
+    flags = {flag: name for flag, (name, *_) in LAYOUT.items() if name in names}
+    changes = dict[str, Any]()
+    for flag, (name, how, _) in LAYOUT.items():
+        if given.text(flag) is None:
+            continue
+        if flag not in flags:
+            raise InputError(f"{flag} is not of {kind}, which takes {', '.join(flags)}")
+        changes[name] = _read(given, flag, how)
+    needed = [
+        flag
+        for flag, name in flags.items()
+        if name != "spacing"
+        and takes[name].default is inspect.Parameter.empty
+        and name not in base.arguments | changes
+    ]
+    if needed:
+        raise InputError(f"new {kind} needs {', '.join(needed)}; see {PROG} new --help")
+    return changes
+
+
+def _read(given: Given, flag: str, how: str) -> Any:  # noqa: ANN401 - as the builder takes it
+    """Return the value of an option; angles stay text, which may be a fraction."""
+    text = given.text(flag)
+    if how == "m":
+        return given.number(flag, "m")
+    if how == "metres":
+        return given.numbers(flag, "m")
+    if how == "whole":
+        return given.whole(flag)
+    if how == "text" or (how == "split" and text == "even"):
+        return text
+    listed = [inputs.angle(flag, each.strip().rstrip("°")) for each in text.split(",")]
+    return listed if how == "angles" else inputs.angle(flag, text.strip().rstrip("°"))
+
+
+def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:
+    """Return the pin split of a vee that is to fire evenly, or keeps doing so."""
+    arguments = base.arguments | changes
+    split = changes.get("pin_split_deg")
+    if split not in (None, "even") or (split is None and "pin_split_deg" not in base.arguments):
+        return {}
+    count = 2 * len(arguments["throws_deg"])
+    interval = Fraction(180 * int(arguments.get("strokes", 4)), count)
+    if split is None:  # of a preset: as far from even firing as it was
+        old = Fraction(base.arguments["bank_angle_deg"])
+        interval = old - Fraction(base.arguments["pin_split_deg"])
+    even = Fraction(arguments.get("bank_angle_deg", 180)) - interval
+    return {"pin_split_deg": str(180 - (180 - even) % 360)}
+
+
+def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | None]:
+    """Return the cylinder of the options and what rotates with its pin; None for nominal ones."""
+    lengths = {flag: given.optional(flag, "m") for flag in LENGTHS}
+    masses = {flag: given.optional(flag, "kg") for flag in MASSES}
+    rotating = masses.pop("--rotating")
+    if all(value is None for value in (*lengths.values(), *masses.values())):
+        notes.append(
+            "Moving parts are nominal: give --bore, --stroke, --rod, --piston, --rod-mass."
+        )
+        return None, rotating
+    whole = [flag for flag in ("--stroke", "--rod") if lengths[flag] is None]
+    if whole:
+        raise InputError(f"a cylinder of one's own needs {' and '.join(whole)}")
+    stroke, length = lengths["--stroke"] or 0.0, lengths["--rod"] or 0.0
+    common: dict[str, Any] = {"bore": lengths["--bore"]}
+    common["pin_offset"] = lengths["--pin-offset"] or 0.0
+    if (moving := masses.pop("--reciprocating")) is not None:
+        if other := [flag for flag, mass in masses.items() if mass is not None]:
+            raise InputError(f"{other[0]} does not go with --reciprocating, which has it all")
+        return Cylinder(stroke / 2.0, length, moving, **common), rotating
+    rod = _rod(length, lengths["--rod-centre"], masses, notes)
+    if masses["--piston"] is None:
+        raise InputError("a cylinder of one's own needs --piston, or --reciprocating")
+    cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston"], **common)
+    return cylinder, rod.rotating_mass if rotating is None else rotating
+
+
+def _rod(
+    length: float, centre: float | None, masses: dict[str, float | None], notes: list[str]
+) -> Rod:
+    """Return a rod of known mass and length, its inertia estimated."""
+    mass, small, big = (masses[flag] for flag in ("--rod-mass", "--small-end", "--big-end"))
+    ends = small is not None and big is not None
+    if ends == (mass is not None) or (small is None) != (big is None):
+        raise InputError(
+            "a rod needs --rod-mass, or both --small-end and --big-end, or else give "
+            "--reciprocating and --rotating"
+        )
+    if small is not None and big is not None:
+        mass, centre = small + big, length * small / (small + big)
+    elif centre is None:
+        centre = length / 3.0
+        notes.append(
+            "Of the rod one third moves with the piston and two thirds turn with the crankpin "
+            "(--rod-centre)."
+        )
+    return Rod.estimated(mass or 0.0, length, centre)
+
+
+def _wrapped(names: Iterable[str]) -> str:
+    return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
