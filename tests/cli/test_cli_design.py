@@ -45,7 +45,7 @@ def test_csv_is_the_library_s_numbers(capsys: CAPTURE) -> None:
     argv = ["design", "v10-72", "--bank-angle", "60:120", "--counterweights", "--count", "3"]
     argv += ["--by", "[1].moment.backward,[2].moment.peak", "--csv"]
     head, labels, values = numbers(printed(capsys, *argv), 4)
-    assert head[:4] == ["place", "throws °", "bank angle °", "alike"]
+    assert head[:4] == ["place", "throws °", "bank angle °", "equivalent"]
     assert [row[2] for row in labels] == ["90"] * 3
     assert values.shape == (3, 2)
     assert np.all(values[:, 0] == 0.0)

@@ -1,4 +1,4 @@
-"""Arguments as people type them, converted to what the core takes, and checked on the way."""
+"""Conversion and checks of arguments: from what people type to what the core takes."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ MOST_NUMBERS = _core.LONGEST_AXIS
 """Maximum length of an array: a gibibyte."""
 
 PIECE = 2**16
-"""Numbers converted or copied between two looks at Ctrl-C."""
+"""Numbers converted or copied between checks for Ctrl-C."""
 
 SINGLES = (np.float16, np.float32)
 """Types whose shortest decimal is not that of the double of the same value."""
@@ -55,7 +55,7 @@ HIGHEST_ORDER = 10_000
 _BOOLEANS = {bool, np.bool_}
 
 MOST_ITEMS = 10_000
-"""Items in a list that is taken one by one, such as orders; an endless one is refused."""
+"""Items in a list that is taken one by one, such as orders; an endless one is rejected."""
 
 
 # --- numbers ------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ def _from_list(values: ArrayLike) -> NDArray[Any]:
 
 
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:
-    """Return a copy in doubles; a single stands for the shortest decimal of its own precision."""
+    """Return a copy in doubles; a single is read as the shortest decimal of its own precision."""
     single = values.dtype in SINGLES
     if values.size <= PIECE:
         return np.array(values.astype(str) if single else values, dtype=np.float64)
@@ -191,7 +191,7 @@ def optional_number(name: str, value: Any) -> float | None:  # noqa: ANN401 - as
 
 
 def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
-    """Return one float for each item; a scalar stands for all."""
+    """Return one float for each item; a scalar is that of all."""
     listed: list[float] = vector(name, values).tolist()
     return listed if np.ndim(values) else listed * count
 
@@ -271,7 +271,7 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
 
 
 def items(name: str, values: object, hint: str) -> list[Any]:
-    """Return a list of what an iterable gives, unless it gives too much."""
+    """Return the items of an iterable as a list, up to a limit."""
     # Lists and tuples come first: to find that they are iterable takes microseconds.
     if isinstance(values, (str, bytes)) or not isinstance(values, (list, tuple, Iterable)):
         raise InputError(f"{name} = {shorten(values)}: {hint}")
@@ -287,7 +287,7 @@ def items(name: str, values: object, hint: str) -> list[Any]:
 def angle(name: str, value: object) -> str:
     """Return text that reads back as exactly this angle.
 
-    Strings, fractions and decimals are exact as written, a float stands for its shortest decimal.
+    Strings, fractions and decimals are exact as written, a float is read as its shortest decimal.
     """
     if isinstance(value, Fraction):
         if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT:
@@ -427,6 +427,6 @@ def shorten(value: object) -> str:
 
 
 def reason(error: Exception) -> str:
-    """Return what an error of Python or NumPy says, cut: it may quote a value in full."""
+    """Return the message of an error, shortened: it may quote a value in full."""
     message = " ".join(str(error)[:1000].split())
     return message if len(message) <= 120 else message[:119] + "…"

@@ -46,7 +46,7 @@ def anywidget() -> Any:  # noqa: ANN401 - a module
 
 
 def scipy_optimize() -> Any:  # noqa: ANN401 - a module
-    """Return scipy.optimize, or raise an ImportError that names the extra to install."""
+    """Return ``scipy.optimize``, or raise an ImportError that names the extra to install."""
     return _imported("scipy.optimize", "optimize")
 
 

@@ -1,4 +1,4 @@
-"""How far a long call has come: told to a function, or shown by tqdm."""
+"""Progress of long calls: reported to a function, or shown by tqdm."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Progress: TypeAlias = bool | Callable[[int, int], object]
 def shown(
     progress: Progress, description: str
 ) -> AbstractContextManager[Callable[[int, int], object] | None]:
-    """Return a context of what to call with the steps done and the steps in all, if anything."""
+    """Return a context with a function of the steps done and their total, or with None."""
     if progress is True:
         return _bar(description)
     return nullcontext(None if progress is False else progress)
@@ -36,7 +36,7 @@ def _bar(description: str) -> Iterator[Callable[[int, int], object]]:
 
 
 def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may give
-    """Return what was given, if it can tell progress."""
+    """Return the argument if progress can be reported to it."""
     if progress is True:
         try:
             importlib.import_module("tqdm")

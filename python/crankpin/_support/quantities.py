@@ -1,4 +1,4 @@
-"""Registry of quantities: what a result can hold of an engine, and how it is named and scaled."""
+"""Registry of quantities: names, symbols, units and scaling of what results hold."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ QUANTITIES = {
 """Name of a quantity → its entry."""
 
 PART_WORDS = {"gas": "of gas pressure", "inertia": "of inertia forces"}
-"""Part of a torque → what it is due to."""
+"""Part of a torque → its cause in words."""
 
 PARTS = {
     f"{kind.name}.{part}": kind._replace(name=f"{kind.name}.{part}", words=f"{kind.words} {words}")

@@ -109,7 +109,7 @@ class ByOrder(Keyed, Quantities):
 
     @property
     def _kept(self) -> dict[Any, Any]:
-        """Arrays that were read, and results of orders that were asked for later."""
+        """Arrays that were read, and results of orders that were requested later."""
         return self.__dict__.setdefault("_cache", {})  # type: ignore[no-any-return]
 
     def read(self, quantity: str, what: str) -> NDArray[Any]:

@@ -188,7 +188,7 @@ def star_diagram(
     ------
     InputError
         If the firing order is neither given nor known, the crank does not allow it, or a half order
-        of a two-stroke is asked for.
+        of a two-stroke is requested.
 
     Examples
     --------

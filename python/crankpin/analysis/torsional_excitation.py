@@ -36,7 +36,7 @@ class TorsionalExcitation(Tabled):
     """
 
     engine: Engine
-    """Engine that was asked about."""
+    """The engine."""
     rpm: float
     """Crank speed."""
     orders: tuple[Order, ...]

@@ -36,7 +36,7 @@ def add_counterweights(commands: Commands) -> None:
         example="counterweights v8-crossplane --planes webs --plot weights.png",
         run=_counterweights,
         note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
-        "What stays is in kg·m and kg·m², to be multiplied by ω².",
+        "Residuals are in kg·m and kg·m², to be multiplied by ω².",
     )
     shared(fits, "name")
     fits.add_argument(
@@ -149,7 +149,7 @@ def add_shafts(commands: Commands) -> None:
     fits = command(
         commands,
         "shafts",
-        "balance shafts fitted to an engine, or all hardware against what stays",
+        "balance shafts fitted to an engine, or all hardware against residual",
         example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
         run=_shafts,
         note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"

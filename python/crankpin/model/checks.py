@@ -1,6 +1,6 @@
 """Warnings of figures that no engine has: wrong units, and pins split to the wrong side.
 
-Each check names the argument, its value and the likely mistake. Whoever builds an engine is warned
+Each check names the argument, its value and the likely mistake. The caller is warned
 once per call, however many cylinders are alike.
 """
 

@@ -85,7 +85,7 @@ def load(
     if len(place) != 2:
         raise InputError(f"columns = {inputs.shorten(columns)}: give two, of angle and pressure")
     angles, pressures = (_numbers(split.rows, k) for k in place)
-    # Names with blanks of columns separated by blanks cannot be told apart.
+    # Names with blanks of columns separated by blanks cannot be distinguished.
     apart = len(split.header) == len(split.rows[0])
     heads = [split.header[k] if apart else " ".join(split.header) for k in place]
     radians = bool(_RADIANS.search(heads[0]))

@@ -372,7 +372,7 @@ class Cylinder:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Rod:
-    """A rigid connecting rod, and the two masses and the inertia that stand in for it.
+    """A rigid connecting rod, and the two masses and the inertia that replace it.
 
     It moves as a mass at either end and, for torques, an inertia that swings with it and has no
     mass. Both ends' masses together have the rod's mass and centre of mass, and exert its forces

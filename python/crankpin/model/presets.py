@@ -1,6 +1,6 @@
 """Engines by name: ready-made layouts, and the source of each.
 
-``presets.toml`` beside this file has them; an engine is built when it is asked for.
+``presets.toml`` beside this file has them; an engine is built when it is looked up.
 """
 
 from __future__ import annotations

@@ -190,7 +190,7 @@ def _weight(unbalance: Unbalance) -> _Weight:
 def unbalance_of(weight: _Weight) -> Unbalance:
     """Return an unbalance of the core."""
     amount, angle, z, pin = weight
-    with suppressed():  # Whoever gave it was warned.
+    with suppressed():  # Warned of where it was given.
         return Unbalance(amount, z, _readable(angle), None if pin is None else pin + 1)
 
 

@@ -1,4 +1,4 @@
-"""Balance shafts, sets of hardware, and bob weights: what they leave."""
+"""Balance shafts, sets of hardware and bob weights: residuals."""
 
 from __future__ import annotations
 
@@ -172,7 +172,7 @@ def _balancers(
     if alone and not drawn:
         note_zero(ax)
     numeric(ax.xaxis)
-    label_x(ax, "what stays, % (nothing fitted: 100)")
+    label_x(ax, "residual, % (nothing fitted: 100)")
     add_legend(ax, last=REACHED)
     return ax
 

@@ -156,7 +156,7 @@ def _curves(ax: Axes, result: Comparison, name: str) -> None:
 
 
 def _square(ax: Axes) -> None:
-    """Give orbits a square panel that they fill; crank angles would not tell which is which."""
+    """Give orbits a square panel that they fill; crank angles would not distinguish them."""
     for text in [*ax.texts]:
         if text.get_text():
             text.remove()

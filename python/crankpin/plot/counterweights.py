@@ -1,4 +1,4 @@
-"""Counterweights: where they are and which way they point, and what stays with them."""
+"""Counterweights: where they are, which way they point, and the residual."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
 
 
 def _numbers(ax: Axes, pins: dict[complex, list[int]], radius: float) -> dict[complex, list[int]]:
-    """Join the cylinders of pins whose numbers would overlap, so many points from the axis."""
+    """Join the cylinders of pins whose numbers would overlap at a radius, points."""
     font = FontProperties(size="small")
     labels = [
         (at / abs(at), cylinders)

@@ -92,7 +92,7 @@ def bundle_of(
     """Give every combination of the other dimensions its look.
 
     One dimension: successive colours and dashes; if it is long, a scale of colours for numbers,
-    and the ``NAMED`` engines with the least of ``sizes`` named among thin lines of the others.
+    and the ``NAMED`` engines with the smallest ``sizes`` named among thin lines of the others.
     More dimensions: colours by the first, dashes by the rest, or thin lines if they are many.
     """
     lengths = [len(sweep.coords[dim]) for dim in others]
@@ -186,9 +186,9 @@ def colour_scale(panels: NDArray[Any], sweep: Sweep, dim: str) -> None:
 # --- curves --------------------------------------------------------------------------------------
 
 FEW_POINTS = 40
-"""Up to so many points of a curve are marked."""
+"""Maximum number of points of a curve that are marked."""
 MOST_MARKS = 6
-"""Up to so many zeros of a curve, and texts of a panel, are marked."""
+"""Maximum number of zeros of a curve, and of texts of a panel, that are marked."""
 ZERO, LEAST = "exactly zero", "least of all"
 
 

@@ -402,7 +402,7 @@ class _Legend:
         }
 
     def _arranged(self, names: Sequence[str], pixels: float) -> dict[str, Any]:
-        """Return labels, title and number of columns of a legend so many pixels wide."""
+        """Return labels, title and number of columns of a legend of this width in pixels."""
         font = font_of("legend.fontsize", "small")
         if "fontsize" in self.style:
             font.set_size(self.style["fontsize"])

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 MOST_ENGINES = 4
 """Engines with a row of their own."""
 MOST_ZEROS = 60
-"""Up to so many points at which a quantity vanishes are marked."""
+"""Maximum number of points at which a quantity vanishes that are marked."""
 RANGE = 1e-6
 """Part of the largest peak at which the colours of orders begin."""
 

@@ -175,7 +175,7 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
 
 
 def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
-    """Draw an arrow between two points, moved aside by so many points of type."""
+    """Draw an arrow between two points, moved aside by a distance in points."""
     inches = ax.get_figure(root=True).dpi_scale_trans  # type: ignore[union-attr]
     aside = ScaledTranslation(shift.real / 72.0, shift.imag / 72.0, inches)
     ax.add_patch(

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 MOST_ENGINES = 24
 """Engines shown below each other, the best ones."""
 FEW_POINTS = 40
-"""Up to so many points of a curve are marked."""
+"""Maximum number of points of a curve that are marked."""
 POINTS = 181
 """Bank angles of a design's curve, besides those of the designs."""
 BEST, DESIGN = "best bank angle", "design"

@@ -37,7 +37,7 @@ def in_degrees(value: float) -> str:
 
 
 def rounded(value: float, digits: int = 3) -> str:
-    """Write a number to so many significant digits."""
+    """Write a number to ``digits`` significant digits."""
     return number(float(f"{value:.{digits}g}"))
 
 
@@ -77,7 +77,7 @@ def drawn_quantity(
 ) -> str:
     """Return the quantity asked for; by default the moment, or else the first that exists.
 
-    ``exists`` tells whether a quantity is anywhere different from zero.
+    ``exists`` returns whether a quantity differs from zero anywhere.
     """
     if given is not None:
         return inputs.one_of("quantity", given, among)

@@ -1,4 +1,4 @@
-"""Is the least hardware the least, and the front of hardware against what stays the front?"""
+"""Is the least hardware the least, and the front of hardware against residual the front?"""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ def test_a_heavier_piston_weighs_on_its_pin() -> None:
     np.testing.assert_allclose(cp.bob_weight(heavy).grams, [450, 450, 460, 450])
 
 
-# --- what stays ----------------------------------------------------------------------------------
+# --- residual ------------------------------------------------------------------------------------
 
 ENGINES = {
     **{name: cp.Engine.preset(name) for name in ("single", "v6-90", "i3", "v6-60", "v-twin-90")},

@@ -39,7 +39,7 @@ def test_even_firing_v10_on_shared_pins() -> None:
     assert {each.bank_angle_deg for each in found} == {72.0}
     assert found[0].throws_deg == (0, 144, 216, 288, 72)
     assert all(each.engine.firing_orders()[0].even for each in found)
-    assert sum(each.alike for each in found) == 24
+    assert sum(each.equivalents for each in found) == 24
     values = [each.value for each in found]
     assert values == sorted(values)
 
@@ -204,7 +204,7 @@ def test_all_even_firing_cranks_are_there(cylinders: int, angle: int, throws: in
     listed = {each.throws_deg for each in found}
     listed |= {image.throws_deg for each in found for image in each.images.values()}
     assert listed == expected
-    assert found.cranks == len(expected) == sum(each.alike for each in found)
+    assert found.cranks == len(expected) == sum(each.equivalents for each in found)
 
 
 def test_splits_of_their_own_are_all_there() -> None:

@@ -1,4 +1,4 @@
-"""A crank and its banks as exact angles, the cranks that shake alike, and the orders of throws."""
+"""A crank and its banks as exact angles, equivalent cranks, and orders of throws."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class Crank:
         """Return the engine seen in a mirror that exchanges left and right.
 
         It turns the other way; accelerations are the same with time reversed, so that it shakes
-        alike turning as before. A pin at p comes to 180° − p, in the other bank.
+        the same turning as before. A pin at p comes to 180° − p, in the other bank.
         """
         return Crank.of([-pin for pin in self.left or self.throws], self.splits, self.bank_angle)
 
@@ -150,13 +150,13 @@ class Symmetries:
                     yield ", ".join(changes), found.exchanged() if swap else found
 
     def first(self, crank: Crank, *, exchange: bool = True) -> Crank:
-        """Return the one crank that stands for all that shake alike: the first in order of size."""
+        """Return the representative of all equivalent cranks: the first in order of size."""
         images = (image for _, image in self.images(crank, exchange=exchange))
         return min((crank, *images), key=_size)
 
 
 def _size(crank: Crank) -> tuple[float, ...]:
-    """Return what cranks are sorted by, rounded to what an optimiser finds angles to."""
+    """Return the sort key of a crank, rounded to the accuracy of an optimiser's angles."""
     splits = [part for split in crank.splits for part in (abs(split), split)]
     return tuple(round(float(each), 4) % TURN for each in (*crank.throws, *splits))
 

@@ -66,22 +66,22 @@ def balance_shafts(
     rpm
         Crank speed, needed for a fired engine: its roll torque of gas pressure does not scale with
         the square of the speed as that of shafts does, so that places cancel the whole at this
-        speed. What stays is that at this speed; by default it is over ω².
+        speed. The residual is that at this speed; by default it is over ω².
 
     Returns
     -------
     BalanceShafts
-        The shafts, the engine with them, and what stays.
+        The shafts, the engine with them, and the residual.
 
     Raises
     ------
     InputError
-        If an argument is out of range, or a couple is asked of a single plane.
+        If an argument is out of range, or a single plane is to remove a couple.
 
     Notes
     -----
     From two planes on, force and moment are both removed. In a single plane the sum of squares of
-    what stays is least, moments taken over half the distance between the first and last cylinder;
+    the residual is least, moments taken over half the distance between the first and last cylinder;
     ``remove="force"`` removes all of the force there.
 
     Examples

@@ -1,4 +1,4 @@
-"""Hardware that an engine can be balanced with, against what each set of it leaves."""
+"""Hardware that an engine can be balanced with, against the residual of each set."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def balancer_options(
     orders: Orders = "auto",
     rtol: float | None = None,
 ) -> BalancerOptions:
-    """Compare the hardware that an engine can be balanced with, and what each set leaves.
+    """Compare the sets of hardware that an engine can be balanced with, and their residuals.
 
     Compared are all sets of
 

@@ -1,4 +1,4 @@
-"""Sets of balancing hardware compared: hardware against what stays."""
+"""Sets of balancing hardware compared: hardware against residual."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SHOWN = 30
 
 
 class BalancerOption(Record):
-    """A set of balancing hardware, and what it leaves."""
+    """A set of balancing hardware, and its residual."""
 
     name: str
     """The set in words, such as ``"counterweights + shaft −1"``."""
@@ -39,7 +39,7 @@ class BalancerOption(Record):
     fitted: Engine
     """The engine with them."""
     values: tuple[float, ...] = ()
-    """What stays: the value of each objective, in its unit."""
+    """Residual: the value of each objective, in its unit."""
     on_front: bool = False
     """True if no other set has as few shafts, as little unbalance and as little left."""
     reaches: bool = False
@@ -76,11 +76,11 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     _items, _item, _maker = "options", BalancerOption, "crankpin.balancer_options"
 
     engine: Engine
-    """The engine that was asked about."""
+    """The engine to be balanced."""
     rpm: float
     """Crank speed, rpm."""
     objectives: tuple[Objective, ...]
-    """What is left, to be small."""
+    """The objectives, to be small."""
     targets: tuple[tuple[str, float], ...]
     """Objective and the value that it must not exceed, in its unit."""
     options: tuple[BalancerOption, ...]
@@ -119,7 +119,7 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
 
     @property
     def residual(self) -> Balance:
-        """What stays with the least hardware that reaches the target, at the crank speed."""
+        """Balance with the least hardware that reaches the target, at the crank speed."""
         return balance(self.fitted, self.rpm)
 
     @property
@@ -150,7 +150,7 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
         return optional.data_frame(rows, columns=columns)
 
     def plot(self, ax: Axes | None = None, **style: object) -> Axes:
-        """Draw what each set of the front leaves, in per cent of what there is; return the axes.
+        """Draw the residuals of the front in per cent of the engine's own; return the axes.
 
         Parameters
         ----------
@@ -174,7 +174,7 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
             columns["target"] = ["reached" if each.reaches else "missed" for each in front]
         heads = [(each.head, each.unit) for each in self.objectives]
         return Table.from_rows(
-            f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against what stays, "
+            f"{labels.cut(engine)} at {self.rpm:g} rpm: hardware against residual, "
             f"{len(self.front)} of {len(self)} sets on the Pareto front",
             [*columns, ("unbalance", "kg·m"), *heads],
             list(zip(*columns.values(), strict=True)),

@@ -1,4 +1,4 @@
-"""Bob weights: what a crankshaft is balanced against, and what every balance factor leaves."""
+"""Bob weights: masses that a crankshaft is balanced against, and residuals by balance factor."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ if TYPE_CHECKING:
     from crankpin.model.shafts import Unbalance
 
 TABULATED = (0.0, 0.5, 1.0)
-"""Factors in the table of what stays."""
+"""Factors in the table of residuals."""
 
 
 def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeight:
-    """Return the bob weight of every crankpin for a balance factor, and what it leaves.
+    """Return the bob weight of every crankpin for a balance factor, and the residual.
 
     A crankshaft is balanced with ``rotating + factor · reciprocating`` mass clamped to each pin,
     that of all rods on the pin together. Its counterweights then cancel these masses. Half of the
@@ -102,7 +102,7 @@ class BobWeight(Tabled):
     """
 
     engine: Engine
-    """The engine that was asked about."""
+    """The engine to be balanced."""
     factor: float
     """Share κ of the reciprocating mass."""
     oil: float
@@ -159,7 +159,7 @@ class BobWeight(Tabled):
         """The counterweights of the balanced crankshaft."""
         return self.fitted.counterweights
 
-    # --- what stays -----------------------------------------------------------------------------
+    # --- residual --------------------------------------------------------------------------------
 
     @cached_property
     def residual(self) -> Balance:
@@ -292,7 +292,7 @@ class BobWeight(Tabled):
         )
 
     def table_of_factors(self, factors: ArrayLike | None = None) -> Table:
-        """Return the table of what factors leave of order 1: half axes over ω².
+        """Return the table of residuals of order 1 by factor: half axes over ω².
 
         Parameters
         ----------
@@ -317,11 +317,11 @@ class BobWeight(Tabled):
             header += [f"{name}, longest {unit}", f"shortest {unit}"]
             columns += [longest, abs(shortest)]
         names = [(f"{factor:.6g}", ", ".join(words[factor])) for factor in listed]
-        title = "What stays of order 1, half axes over ω²"
+        title = "Residual of order 1, half axes over ω²"
         return Table.from_rows(title, header, names, np.stack(columns, axis=-1))
 
     def _remarkable(self) -> Iterator[tuple[float, str]]:
-        """Return the factors that are something special, and what."""
+        """Return the factors with a property of their own, and that in words."""
         yield self.factor, ""
         for name in PLANE_VECTORS:
             if (least := self.least(name)) is not None:
@@ -330,7 +330,7 @@ class BobWeight(Tabled):
                 yield factor, f"{name} along {direction_deg:.4g}°"
 
     def plot(self, ax: Axes | None = None, *, quantity: str | None = None, **style: Any) -> Axes:  # noqa: ANN401
-        """Draw what stays of order 1 over the factor: longest and shortest vector; return the axes.
+        """Draw the residual of order 1 over the factor: longest, shortest vector; return the axes.
 
         Parameters
         ----------

@@ -61,7 +61,7 @@ def counterweights(
         between neighbouring throws); a list of places z, m; or a mapping name → z.
     target
         ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
-        each throw brings upon its own two main bearings, by weights between these. That relieves
+        each throw exerts on its own two main bearings, by weights between these. That relieves
         bearings and crankshaft, and the engine as a whole too.
     factor
         Share of the reciprocating mass that is balanced, besides all rotating mass, as by
@@ -82,7 +82,7 @@ def counterweights(
     length
         Where weights cannot remove both, they leave the least ``|force|² + |moment/length|²``, m.
         By default the longest lever of a plane or cylinder, or, for internal targets, half of the
-        distance between main bearings: what stays is then the least sum of squares of their loads.
+        distance between main bearings: the sum of squares of their loads is then least.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def counterweights(
 
     Notes
     -----
-    Weights on the crankshaft change forward parts only, those that turn with it; what stays at best
+    Weights on the crankshaft change forward parts only, those that turn with it; the best residual
     is the backward part. A weight u (kg·m, with its direction) at z makes the force u·ω² and
     the moment i(z − z₀)·u·ω². These are two equations, so that weights at two places remove any
     forward force and moment, and at more places there is a choice.
@@ -130,7 +130,7 @@ def counterweights(
 
 
 class Counterweights(Tabled):
-    """Counterweights fitted to an engine, and what they leave.
+    """Counterweights fitted to an engine, and the residual.
 
     Made by :func:`crankpin.counterweights`.
 
@@ -145,7 +145,7 @@ class Counterweights(Tabled):
     """
 
     engine: Engine
-    """The engine that was asked about."""
+    """The engine to be balanced."""
     places: tuple[tuple[str, float], ...]
     """Planes in which weights could be: names and places, m."""
     fit: Fit
@@ -154,7 +154,7 @@ class Counterweights(Tabled):
     """The weights, each with the name of its plane; planes without are left out."""
     exact: bool
     """True if the weights are proved to remove all that was wanted: by the rank of the equations of
-    those with room within bounds and angles, not by the size of what stays."""
+    those with room within bounds and angles, not by the size of the residual."""
     missing: float
     """Part of what was wanted that they do not remove; 0 where they are exact."""
 
@@ -180,7 +180,7 @@ class Counterweights(Tabled):
             sums[name] = sums.get(name, 0.0) + weight.amount
         return max(sums.values(), default=0.0)
 
-    # --- what stays -----------------------------------------------------------------------------
+    # --- residual --------------------------------------------------------------------------------
 
     @cached_property
     def residual(self) -> Balance:
@@ -189,7 +189,7 @@ class Counterweights(Tabled):
 
     @cached_property
     def verdicts(self) -> dict[str, dict[str, str]]:
-        """Quantity → part → verdict on what stays at order 1.
+        """Quantity → part → verdict on the residual at order 1.
 
         Verdicts are "vanishes", "remains" or "undecided", on the forward and the backward part of
         ``"force"`` and ``"moment"``. Backward parts are those of the engine, which no counterweight
@@ -219,7 +219,7 @@ class Counterweights(Tabled):
         return found
 
     def _meets(self, name: str) -> bool:
-        """Return whether the forward part is exactly what was to stay."""
+        """Return whether the forward part is exactly the one wanted."""
         parts = dict(self.fit.parts)
         if not self.exact or name not in parts:
             return False
@@ -289,7 +289,7 @@ class Counterweights(Tabled):
             note += f" Within {self.missing:.1e} of what was wanted."
         kinds = [QUANTITIES[name] for name, _, _ in vectors]
         return Table(
-            "What stays of order 1, half axes over ω²",
+            "Residual of order 1, half axes over ω²",
             (
                 Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),
                 Column("state", tuple(state for _, state, _ in vectors)),

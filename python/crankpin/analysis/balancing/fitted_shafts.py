@@ -1,4 +1,4 @@
-"""Balance shafts that were fitted to an engine, and what stays."""
+"""Balance shafts fitted to an engine, and the residual."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
     _items, _item, _maker = "hardware", Shaft, "crankpin.balance_shafts"
 
     engine: Engine
-    """The engine that was asked about."""
+    """The engine to be balanced."""
     hardware: tuple[Shaft, ...]
     """The shafts, in the order of the ratios given."""
     exerts: tuple[Turning, ...]
@@ -103,7 +103,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     @cached_property
     def residual(self) -> Balance:
-        """What stays of the shafts' orders at ``rpm``; without it over ω²: at 1 rad/s, N are kg·m.
+        """Residual of the shafts' orders at ``rpm``; without it over ω²: at 1 rad/s, N are kg·m.
 
         It includes the roll torque that the shafts' places make, and that of gas pressure.
         """
@@ -205,7 +205,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
 
     @property
     def table(self) -> Table:
-        """Table of the unbalances; below it what each shaft exerts, and what stays."""
+        """Table of the unbalances; below it what each shaft exerts, and the residual."""
         listed = [
             (k, shaft, weight)
             for k, shaft in enumerate(self.hardware, 1)
@@ -255,7 +255,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         parts = self.parts()
         kinds = [QUANTITIES[each.quantity] for each in parts]
         return Table(
-            "What stays, over ω²",
+            "Residual, over ω²",
             (
                 Column("order", tuple(str(each.order) for each in parts)),
                 Column("quantity", tuple(f"{k.words}, {k.unit_over_square}" for k in kinds)),

@@ -18,7 +18,7 @@ MOST_SHAFTS = 100
 
 @dataclasses.dataclass(frozen=True)
 class ShaftRequest:
-    """A shaft that is asked for; None is free."""
+    """A shaft to be fitted; None is free."""
 
     ratio: int
     """Speed over crank speed."""
@@ -37,7 +37,7 @@ class ShaftRequest:
 def shaft_requests(
     ratios: object, *, x: object, y: object, planes: object, bearings: object, remove: object
 ) -> list[ShaftRequest]:
-    """Return the shafts asked for; :func:`crankpin.balance_shafts` documents the arguments."""
+    """Return the shafts to be fitted; :func:`crankpin.balance_shafts` documents the arguments."""
     listed = _ratios(ratios)
     count = len(listed)
     removals = _removals(remove, listed)

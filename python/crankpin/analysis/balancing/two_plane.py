@@ -1,4 +1,4 @@
-"""Two-plane correction: what a balancing machine measures, moved to where metal can be changed."""
+"""Two-plane correction: measured unbalances moved to planes where metal can be changed."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
 
 
 class TwoPlaneCorrection(Tabled):
-    """Corrections in two planes, and the imbalance that they correct.
+    """Corrections in two planes, and the unbalance that they correct.
 
     Made by :func:`crankpin.two_plane_correction`.
     """
@@ -139,7 +139,7 @@ class TwoPlaneCorrection(Tabled):
 
     @property
     def measured(self) -> tuple[Unbalance, ...]:
-        """The imbalance, as unbalances of a crankshaft, kg·m."""
+        """The unbalance that was measured, as unbalances of a crankshaft, kg·m."""
         return tuple(
             Unbalance(amount * G_MM, z, angle)
             for amount, z, angle in zip(

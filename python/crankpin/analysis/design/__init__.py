@@ -1,5 +1,5 @@
 """Inverse design: cranks, pin splits, bank angles and balancers that minimise objectives.
 
-``question`` what is asked → ``families`` all candidates and their engines → ``optima`` angles that
+``question`` the request → ``families`` all candidates and their engines → ``optima`` angles that
 vary, by the core's objectives with derivatives → ``designs`` the result.
 """

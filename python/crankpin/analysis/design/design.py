@@ -287,14 +287,14 @@ class Search:
         return tuple(designs), swept
 
     def _firing(self, crank: Crank) -> Crank:
-        """Return the first of the cranks that shake alike which fires at the intervals asked for.
+        """Return the first of the equivalent cranks that fires at the intervals given.
 
         A mirror reverses the sequence of the intervals.
         """
         if self._question.intervals is None:
             return crank
-        alike = (crank, *(image for _, image in self._question.symmetries.images(crank)))
-        return next(filter(self._question.firing_order, alike), crank)
+        equivalent = (crank, *(image for _, image in self._question.symmetries.images(crank)))
+        return next(filter(self._question.firing_order, equivalent), crank)
 
     def _values(self, cranks: Sequence[Crank]) -> tuple[Sweep, NDArray[np.float64]]:
         """Return the sweep of the engines, and their objectives: (n_cranks, n_objectives)."""

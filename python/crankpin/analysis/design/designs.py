@@ -47,8 +47,9 @@ class Design(Record):
     crank: Crank
     """Its angles as exact degrees."""
     images: Mapping[str, Crank] = dataclasses.field(repr=False)
-    """Cranks that shake alike, those equal to the crank itself included: by the change that makes
-    them of it: ``"mirrored"`` (left and right exchanged), ``"reversed"`` (front and rear), ``"banks
+    """Change → equivalent crank, which shakes the same; also where it is equal to the crank itself.
+
+    ``"mirrored"`` (left and right exchanged), ``"reversed"`` (front and rear), ``"banks
     exchanged"``, or several of these."""
 
     @property
@@ -72,8 +73,8 @@ class Design(Record):
         return self.crank.pin_split_deg
 
     @property
-    def alike(self) -> int:
-        """Number of different cranks that shake alike, this one included."""
+    def equivalents(self) -> int:
+        """Number of different equivalent cranks, this one included."""
         return len({self.crank, *self.images.values()})
 
 
@@ -86,7 +87,7 @@ class Designs(Listed[Design], Tabled):
     _items, _item, _maker = "designs", Design, "crankpin.design"
 
     question: Question
-    """What was asked."""
+    """The request."""
     objectives: tuple[Objective, ...]
     """The objectives."""
     rpm: float
@@ -98,7 +99,7 @@ class Designs(Listed[Design], Tabled):
     optima: int
     """Number of designs found; ``designs`` are the best of them."""
     cranks: int
-    """Number of cranks that were compared, those that shake alike included; free angles apart."""
+    """Number of cranks that were compared, equivalent ones included; free angles apart."""
 
     @property
     def by(self) -> tuple[str, ...]:
@@ -196,14 +197,14 @@ class Designs(Listed[Design], Tabled):
         heads: list[str | tuple[str, str]] = ["place", ("throws", "°")]
         heads += [("pin split", "°")] if split else []
         heads += [("bank angle", "°")] if vee else []
-        heads += ["alike", *((each.head, each.unit) for each in self.objectives)]
+        heads += ["equivalent", *((each.head, each.unit) for each in self.objectives)]
         rows = []
         for each in designs:
             mark = "" if each.isolated else NEARBY
             row: list[str | float] = [each.place, f"{each.crank.text}{mark}"]
             row += [each.crank.splits_text or "0"] if split else []
             row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
-            rows.append((*row, each.alike))
+            rows.append((*row, each.equivalents))
         values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
         title = f"Designs by {self.description()}"
         if len(designs) < self.optima:

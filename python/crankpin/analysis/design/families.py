@@ -84,7 +84,7 @@ class Family:
 
 
 def families(question: Question) -> tuple[list[Family], int]:
-    """Return the candidates that do not shake alike, and how many there are with those that do."""
+    """Return one of each set of equivalent candidates, and the number of all."""
     found: dict[Family, None] = {}
     everything: set[Family] = set()
     for family in _all(question):
@@ -176,7 +176,7 @@ def _pairs(
 
 
 def _halves(counts: Counter[Exact], size: int) -> Iterator[Counter[Exact]]:
-    """Yield the choices of so many out of these angles."""
+    """Yield the choices of ``count`` of these angles."""
     keys = list(counts)
     for numbers in product(*(range(counts[key] + 1) for key in keys)):
         if sum(numbers) == size:

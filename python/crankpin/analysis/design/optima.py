@@ -281,14 +281,14 @@ def _near(degrees: float, family: Family, digits: int | None) -> Exact:
     if digits is None:
         return simple(Fraction(repr(degrees)))
     if digits == 0:
-        # Parts of a turn that so many throws have, which seven of them do not have in decimals.
+        # Fractions of a turn by the number of throws: those of seven have no decimals.
         steps = 4 * len(family.base.throws)
         return simple(Fraction(round(degrees * steps / TURN) * TURN, steps))
     return simple(Fraction(repr(round(degrees, digits - 1))))
 
 
 def _new(found: Sequence[Optimum], optimum: Optimum, symmetries: Symmetries) -> bool:
-    """Return whether none of those found shakes alike at the same angles, nor is it nearby."""
+    """Return whether none of those found is equivalent at the same angles, or nearby."""
     images = [optimum.crank, *(image for _, image in symmetries.images(optimum.crank))]
     for each in found:
         if any(_alike(image, each.crank) for image in images):

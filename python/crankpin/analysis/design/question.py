@@ -1,4 +1,4 @@
-"""What an inverse design asks: what is given, what is to be chosen, and between which limits."""
+"""Request of an inverse design: what is given, what is to be chosen, and within which limits."""
 
 from __future__ import annotations
 

@@ -158,7 +158,7 @@ def named(label: str) -> Objective:
     found = _PATH.fullmatch(label)
     if not found or (found[1] is None and found[3] in ("forward", "backward")):
         inputs.one_of("by", label, COMMON)
-    assert found is not None  # noqa: S101 - else refused above
+    assert found is not None  # noqa: S101 - else rejected above
     order = None if found[1] is None else inputs.order(float(found[1]))
     quantity, what = found[2] or found[4], found[3] or found[5]
     name = KINDS[quantity].words

@@ -518,7 +518,7 @@ class Sweep(ByOrder, Tabled):
             Figure or SubFigure for the panels; by default a new one.
         kind
             ``"curves"``: over one dimension, a curve for each combination of the others, with the
-            points where an order is exactly zero, and the least of all, marked; ``"parts"``: of
+            points where an order is exactly zero, and the minimum, marked; ``"parts"``: of
             force or moment what turns with the crank and what turns against it, over one numeric
             dimension, a panel for each order and what else was swept; ``"map"``: over two
             numeric dimensions, in colours; ``"orders"``: over one numeric dimension, such as speed,

@@ -158,7 +158,7 @@ def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ..
 
 
 PIECE = 2**20
-"""Random numbers drawn between two looks at Ctrl-C."""
+"""Random numbers drawn between checks for Ctrl-C."""
 
 
 def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[np.float64]]:

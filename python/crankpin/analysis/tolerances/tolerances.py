@@ -171,7 +171,7 @@ def _orders(
 ) -> tuple[tuple[Order, ...], tuple[float, float, float]]:
     """Return the orders of samples, and bounds on what others add to the nominal engine.
 
-    Each cylinder is asked by itself, so that nothing cancels; balance shafts and counterweights
+    Each cylinder is evaluated alone, so that nothing cancels; balance shafts and counterweights
     have no orders but their own.
     """
     if request.orders is not None:
