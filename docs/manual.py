@@ -45,7 +45,8 @@ Without gas pressure, at {rpm:g} rpm (`engine.balance(rpm={rpm:g})`):
 ```
 
 ```{{raw}} html
-<iframe class="turning" src="turning/{name}.html" title="{engine.name}, turning" loading="lazy"></iframe>
+<iframe class="turning" src="turning/{name}.html" loading="lazy"
+title="{engine.name}, turning"></iframe>
 <p><a href="turning/{name}.html">On a page of its own</a></p>
 ```
 
@@ -64,7 +65,8 @@ class Picture(SphinxDirective):
         names = self.env.temp_data.setdefault("names of pictures", {})
         file = GALLERY / "drawn" / f"{hashlib.sha256(code.encode()).hexdigest()[:16]}.png"
         file.parent.mkdir(parents=True, exist_ok=True)
-        exec(compile(code, self.env.docname, "exec"), names)  # noqa: S102 - of the page
+        lines = compile(code, self.env.docname, "exec")
+        exec(lines, names)  # noqa: S102 - of the page
         plt.gcf().savefig(file, dpi=100, bbox_inches="tight")
         plt.close("all")
         shown = nodes.literal_block(code, code, language="python")
