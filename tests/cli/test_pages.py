@@ -21,6 +21,13 @@ def test_view_writes_the_library_s_page(tmp_path: Path, capsys: pytest.CaptureFi
     assert capsys.readouterr().out == f"{theirs}: {theirs.stat().st_size / 1e3:.0f} kB\n"
 
 
+def test_view_writes_a_compact_page(tmp_path: Path) -> None:
+    ours, theirs = tmp_path / "ours.html", tmp_path / "theirs.html"
+    cp.Engine.preset("i4").save_html(ours, compact=True)
+    assert main(["view", "i4", "--out", f"{theirs}", "--compact"]) == 0
+    assert theirs.read_text(encoding="utf-8") == ours.read_text(encoding="utf-8")
+
+
 def test_view_takes_a_spectrum_and_a_file(tmp_path: Path) -> None:
     engine = cp.Engine.preset("i4")
     engine.save(tmp_path / "i4.toml")

@@ -554,6 +554,97 @@ def test_light_and_dark(open_engine: Open) -> None:
     assert brightness(dark_ink) > brightness(dark_paper) + 500
 
 
+# --- compact ------------------------------------------------------------------------------------
+
+SIZES = [(640, 360), (960, 540), (1280, 720), (360, 740), (480, 300)]
+"""A lecture's output cell, slides, a phone, a narrow frame."""
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("engine", [V16, cp.Engine.preset("i4"), everything(), radial()])
+def test_a_compact_page_fits_a_slide(
+    open_engine: Open, engine: cp.Engine, size: tuple[int, int]
+) -> None:
+    width, height = size
+    page = open_engine(engine, save={"compact": True}, viewport={"width": width, "height": height})
+    page.get_by_label("vector shown").select_option("torque")
+    reach = page.evaluate(
+        "['scrollWidth', 'scrollHeight'].map((each) => document.documentElement[each])"
+    )
+    assert reach[0] <= width
+    assert reach[1] <= height
+    boxes = page.eval_on_selector_all(
+        ".scene, .dial, dl, h1, .settings :is(button, input, span)",
+        """found => found.map((each) => {
+            const { left, top, right, bottom } = each.getBoundingClientRect();
+            return [left, top, right, bottom];
+        })""",
+    )
+    for left, top, right, bottom in boxes:
+        assert 0 <= left <= right <= width
+        assert 0 <= top <= bottom <= height
+    # The engine is the largest, and no control lies over another.
+    scene, dial = (page.locator(name).bounding_box() for name in (".scene", ".dial"))
+    assert scene is not None
+    assert dial is not None
+    assert scene["height"] >= 0.3 * height
+    assert dial["height"] >= 0.2 * height
+    overlapping = page.evaluate(
+        """() => {
+            const parts = [...document.querySelectorAll(
+                ".settings :is(button, input), .settings .setting > span:first-child")]
+                .map((each) => [each, each.getBoundingClientRect()]);
+            return parts.flatMap(([a, p], k) => parts.slice(k + 1).filter(([, q]) =>
+                p.left < q.right - 1 && q.left < p.right - 1
+                && p.top < q.bottom - 1 && q.top < p.bottom - 1)
+                .map(([b]) => [a.outerHTML, b.outerHTML]));
+        }"""
+    )
+    assert overlapping == []
+
+
+@pytest.mark.parametrize(
+    ("engine", "third"), [(V8, "bank angle"), (cp.Engine.preset("i4"), "rod ratio")]
+)
+def test_a_compact_page_has_three_controls(
+    open_engine: Open, engine: cp.Engine, third: str
+) -> None:
+    page = open_engine(engine, save={"compact": True})
+    sliders = page.locator("input[type=range]")
+    assert [each.get_attribute("aria-label") for each in sliders.all()] == [
+        "turn the crank",
+        "engine speed",
+        third,
+    ]
+    freeze(page)
+    arrow = ".arrow, .twist"
+    before = page.locator(arrow).first.get_attribute("d")
+    for key, reached in [("ArrowRight", 1), ("Shift+ArrowRight", 11), ("Home", 0)]:
+        page.keyboard.press(key)
+        assert angle(page) == reached
+    page.get_by_role("button", name="play").click()
+    page.clock.run_for(500)
+    assert angle(page) > 20
+    page.keyboard.press("Space")
+    stopped = angle(page)
+    page.clock.run_for(500)
+    assert angle(page) == stopped
+    assert page.locator(arrow).first.get_attribute("d") != before
+    drawn = page.locator(".bore").first.get_attribute("d")
+    page.get_by_label(third, exact=True).fill("0.4" if third == "rod ratio" else "60")
+    assert page.locator(".bore").first.get_attribute("d") != drawn
+
+
+def test_a_compact_page_shows_what_shakes_most(open_engine: Open) -> None:
+    chosen = {}
+    for name in ("i4", "v8-crossplane", "i6"):
+        page = open_engine(cp.Engine.preset(name), save={"compact": True})
+        chosen[name] = page.get_by_label("vector shown").input_value()
+    assert chosen == {"i4": "force", "v8-crossplane": "moment", "i6": "torque"}
+    with pytest.raises(cp.InputError, match=r"^compact = 1"):
+        V8.view(compact=1)  # type: ignore[arg-type]
+
+
 # --- for long -----------------------------------------------------------------------------------
 
 

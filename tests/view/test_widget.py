@@ -212,6 +212,40 @@ def test_numbers_are_the_core_s(shown: Any, engine: cp.Engine) -> None:  # noqa:
     assert mine == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
+def test_speed_of_a_fired_engine_is_the_core_s(shown: Any) -> None:  # noqa: ANN401 - a fixture
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    engine = cp.Engine.preset("i4", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    widget = engine.view(rpm=5000, inertia=0.2)
+    wheel = cp.flywheel(engine, rpm=5000, inertia=0.2)
+    angles = 2.0 * np.arange(361)
+    found = np.interp(angles, wheel.theta_deg, wheel.speed_rpm)
+    np.testing.assert_array_equal(widget.core["curve"]["speed"], found)
+    page = shown(widget)
+    altered = json.loads(json.dumps(widget.core))
+    altered["curve"]["speed"] = [1.5 * each for each in altered["curve"]["speed"]]
+    page.evaluate("core => host.receive({ core })", altered)
+    assert values(page)["crank-speed"] == pytest.approx(1.5 * found[0], rel=1e-15)
+    # At idle it would stop; without gas nothing drives it.
+    widget.rpm = 20
+    assert widget.core["curve"]["speed"] is None
+    assert V8.view().core["curve"]["speed"] is None
+    with pytest.raises(cp.InputError, match="has no torque that drives it"):
+        V8.view(inertia=0.2)
+
+
+def test_compact_widget(shown: Any) -> None:  # noqa: ANN401 - a fixture
+    page = shown(V8.view(compact=True))
+    box = page.locator(".crankpin").bounding_box()
+    assert (box["width"], box["height"]) == (640, 360)
+    page.evaluate("host.receive({ bank_angle_deg: 60, angle_deg: 33 })")
+    assert (values(page)["bank-angle"], values(page)["crank-angle"]) == (60, 33)
+    page.get_by_label("turn the crank").fill("77")
+    assert page.evaluate("host.saved") == [["angle_deg", 77]]
+    # JupyterLab leaves its keys alone.
+    focused = page.evaluate("document.activeElement.getAttribute('data-lm-suppress-shortcuts')")
+    assert focused == "true"
+
+
 def test_nothing_is_left_when_the_output_is_cleared(shown: Any) -> None:  # noqa: ANN401 - a fixture
     page = shown(V8.view())
     page.get_by_role("button", name="play").click()

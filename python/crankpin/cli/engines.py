@@ -106,6 +106,11 @@ def add_view(commands: Commands) -> None:
     shared(page, "name")
     page.add_argument("--out", metavar="FILE", required=True, help="the page to write (.html)")
     shared(page, "--rpm", help="crank speed at first (default: %(default)s)")
+    page.add_argument(
+        "--compact",
+        action="store_true",
+        help="the cross-section and one vector alone, for a slide or a frame of 640 by 360 pixels",
+    )
     shared(page, "--reference-z", "--spectrum", "--units")
 
 
@@ -113,7 +118,12 @@ def _view(given: Given) -> str:
     """Write the page; return what the command prints."""
     engine = given.engine("view")
     file = Path(given.text("--out"))
-    engine.save_html(file, rpm=given.number("--rpm", "rpm"), spectrum=given.spectrum())
+    engine.save_html(
+        file,
+        rpm=given.number("--rpm", "rpm"),
+        spectrum=given.spectrum(),
+        compact=given.text("--compact"),
+    )
     return f"{file}: {file.stat().st_size / 1e3:.0f} kB\n"
 
 

@@ -407,7 +407,9 @@ class Engine(Builders):
         self,
         rpm: float = 3000.0,
         *,
+        inertia: float | None = None,
         spectrum: Spectrum | None = None,
+        compact: bool = False,
     ) -> EngineWidget:
         """Return the engine turning, as a widget for notebooks (needs anywidget).
 
@@ -418,9 +420,16 @@ class Engine(Builders):
         ----------
         rpm
             Crank speed at first.
+        inertia
+            Of a fired engine, the moment of inertia of all that turns with the crank, kg·m², as in
+            :func:`crankpin.flywheel`; by default that with which the speed varies by 1 % at
+            ``rpm``.
         spectrum
             As in :meth:`balance`: order → amplitude of one cylinder's force over ω², in kg·m. The
             page has no torque then.
+        compact
+            Whether to show the cross-section and one vector alone, with three controls: for a
+            lecture, 640 by 360 pixels.
 
         Raises
         ------
@@ -431,14 +440,16 @@ class Engine(Builders):
         """
         from crankpin.view.widget import EngineWidget
 
-        return EngineWidget(self, rpm, spectrum=spectrum)
+        return EngineWidget(self, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
 
     def save_html(
         self,
         path: str | Path,
         *,
         rpm: float = 3000.0,
+        inertia: float | None = None,
         spectrum: Spectrum | None = None,
+        compact: bool = False,
     ) -> None:
         """Write the engine turning, as a page that needs a browser alone and loads nothing.
 
@@ -446,8 +457,8 @@ class Engine(Builders):
         ----------
         path
             Name of the file, which ends in ``.html``.
-        rpm, spectrum
-            As in :meth:`view`.
+        rpm, inertia, spectrum, compact
+            As in :meth:`view`; a compact page fills its window, such as a frame on a slide.
 
         Raises
         ------
@@ -458,7 +469,7 @@ class Engine(Builders):
         """
         from crankpin.view.page import save_html
 
-        save_html(self, path, rpm=rpm, spectrum=spectrum)
+        save_html(self, path, rpm=rpm, inertia=inertia, spectrum=spectrum, compact=compact)
 
     # --- text and pictures ----------------------------------------------------------------------
 

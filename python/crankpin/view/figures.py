@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.flywheel import flywheel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+    from numpy.typing import NDArray
 
     from crankpin._support.inputs import Spectrum
     from crankpin.analysis.quantity import Quantity
@@ -24,6 +28,8 @@ HIGHEST_ORDER = 24
 """Highest order of the pistons whose phasors a page has."""
 CURVE_STEP = 2.0
 """Degrees between the samples of a curve."""
+IRREGULARITY = 0.01
+"""Largest less smallest speed, over the mean, of a page whose moment of inertia is not given."""
 PRESSURE_STEP = 0.5
 """Degrees between the samples of a cycle, between which a page interpolates."""
 
@@ -80,7 +86,14 @@ class Settings:
         return changed.replace(cylinder=cylinders)
 
 
-def figures(engine: Engine, rpm: float, *, spectrum: Spectrum | None) -> dict[str, Any]:
+def figures(
+    engine: Engine,
+    rpm: float,
+    *,
+    spectrum: Spectrum | None,
+    inertia: float | None = None,
+    compact: bool = False,
+) -> dict[str, Any]:
     """Return an engine as plain lists and numbers: metres, kilograms, degrees.
 
     Raises
@@ -114,12 +127,14 @@ def figures(engine: Engine, rpm: float, *, spectrum: Spectrum | None) -> dict[st
         ],
         "firing_deg": engine.firing().angles_deg.tolist() if engine.firing_order else None,
         "gas": _gas(engine),
+        "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
+        "compact": inputs.flag("compact", compact),
         "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
     }
 
 
 def core_numbers(
-    engine: Engine, settings: Settings, *, spectrum: Spectrum | None
+    engine: Engine, settings: Settings, *, spectrum: Spectrum | None, inertia: float | None = None
 ) -> dict[str, Any]:
     """Return the core's phasors by order and its curves over a turn, of an engine at settings.
 
@@ -155,8 +170,32 @@ def core_numbers(
                 name: [None] if spectrum is not None else waveform.read(quantity).tolist()
                 for name, quantity in torques.items()
             },
+            "speed": _speeds(changed, settings.rpm, inertia, waveform.theta_deg),
         },
     }
+
+
+def _inertia(engine: Engine, rpm: float, inertia: float | None) -> float | None:
+    """Return the moment of inertia that turns with the crank, kg·m²: by default a stated one."""
+    if inertia is not None:
+        return flywheel(engine, rpm=rpm, inertia=inertia).inertia
+    if not engine.fired or rpm == 0.0:
+        return None
+    return flywheel(engine, rpm=rpm, irregularity=IRREGULARITY).inertia
+
+
+def _speeds(
+    engine: Engine, rpm: float, inertia: float | None, theta_deg: NDArray[np.float64]
+) -> list[float] | None:
+    """Return the crank's speeds, rpm; None without a flywheel, or if the crank would stop."""
+    if inertia is None:
+        return None
+    try:
+        found = flywheel(engine, rpm=rpm, inertia=inertia)
+    except InputError:
+        return None
+    speeds: list[float] = np.interp(theta_deg, found.theta_deg, found.speed_rpm).tolist()
+    return speeds
 
 
 def _gas(engine: Engine) -> dict[str, Any] | None:
@@ -175,6 +214,7 @@ def _distinct_cycles(engine: Engine) -> list[Cycle]:
 
 def _cylinders(engine: Engine) -> list[dict[str, Any]]:
     cycles = engine.cycles or (None,) * len(engine)
+    starts = engine.firing_deg.tolist() if engine.cycles else cycles
     places = {each: k for k, each in enumerate(_distinct_cycles(engine))}
     banks = {number: k for k, bank in enumerate(engine.banks.values()) for number in bank}
     return [
@@ -192,8 +232,9 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
             "z": z,
             "bore": cylinder.bore,
             "cycle": None if cycle is None else places[cycle],
+            "pressure_deg": start,
         }
-        for number, (cylinder, tdc, bore, z, rotating, cycle) in enumerate(
+        for number, (cylinder, tdc, bore, z, rotating, cycle, start) in enumerate(
             zip(
                 engine.cylinders,
                 engine.tdc_deg.tolist(),
@@ -201,6 +242,7 @@ def _cylinders(engine: Engine) -> list[dict[str, Any]]:
                 engine.z.tolist(),
                 engine.rotating_mass.tolist(),
                 cycles,
+                starts,
                 strict=True,
             ),
             start=1,

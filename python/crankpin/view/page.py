@@ -14,6 +14,8 @@ from crankpin.model import presets
 from crankpin.view.figures import figures
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from crankpin._support.inputs import Spectrum
     from crankpin.model.engine import Engine
 
@@ -32,12 +34,16 @@ def save_html(
     path: str | Path,
     *,
     rpm: float = 3000.0,
+    inertia: float | None = None,
     spectrum: Spectrum | None = None,
+    compact: bool = False,
 ) -> None:
     """Write a page in which an engine turns; :meth:`Engine.save_html` documents the arguments."""
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
-    known = figures(engine, rpm, spectrum=spectrum)
-    text = document(engine.name or "Engine", "page.mjs", f"page({as_json(known)});")
+    known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+    view = "Compact" if compact else "Full"
+    entries = (f"{view.lower()}.mjs", "page.mjs")
+    text = document(engine.name or "Engine", entries, f"page({view}, {as_json(known)});")
     file.write_text(text, encoding="utf-8")
 
 
@@ -69,7 +75,7 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
         files.append(file)
     index = place / "index.html"
     call = f"gallery({as_json(listed)});"
-    index.write_text(document("Engines", "gallery.mjs", call, GALLERY_HEAD), encoding="utf-8")
+    index.write_text(document("Engines", ("gallery.mjs",), call, GALLERY_HEAD), encoding="utf-8")
     return [index, *files]
 
 
@@ -78,10 +84,10 @@ def speed_of(preset: str, rpm: float) -> float:
     return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm
 
 
-def document(title: str, entry: str, call: str, body: str = "") -> str:
-    """Return a page that loads nothing: a module and what it imports, and a call of it."""
+def document(title: str, entries: Iterable[str], call: str, body: str = "") -> str:
+    """Return a page that loads nothing: modules and what they import, and a call of one."""
     return Template(_read("page.html")).substitute(
-        title=html.escape(title), style=style(), script=f"{module(entry)}\n{call}", body=body
+        title=html.escape(title), style=style(), script=f"{module(*entries)}\n{call}", body=body
     )
 
 
@@ -90,8 +96,8 @@ def style() -> str:
     return _read("view.css")
 
 
-def module(entry: str) -> str:
-    """Return a module with all that it imports, as one module.
+def module(*entries: str) -> str:
+    """Return modules with all that they import, as one module.
 
     The modules import each other by name, without renaming, and no two have a name in common: one
     after the other, without ``import`` and ``export``, they are one module. Comments and indents
@@ -107,7 +113,8 @@ def module(entry: str) -> str:
             visit(each)
         found[name] = INDENT.sub("", EXPORT.sub("", COMMENT.sub("", IMPORT.sub("", text))))
 
-    visit(entry)
+    for entry in entries:
+        visit(entry)
     return "\n".join(found.values())
 
 

@@ -51,11 +51,13 @@ class EngineWidget(anywidget.AnyWidget):
         engine: Engine,
         rpm: float = 3000.0,
         *,
+        inertia: float | None = None,
         spectrum: Spectrum | None = None,
+        compact: bool = False,
     ) -> None:
         self._engine = engine
-        self._loads: dict[str, Any] = {"spectrum": spectrum}
-        known = figures(engine, rpm, **self._loads)
+        known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
+        self._loads: dict[str, Any] = {"spectrum": spectrum, "inertia": known["flywheel"]}
         super().__init__(**dataclasses.asdict(Settings.of(engine, rpm)))
         self.set_trait("figures", known)
         self._recompute()

@@ -46,6 +46,7 @@ export function configure(figures, settings) {
     reference: figures.reference_z,
     cycle: figures.strokes === 2 ? 360 : 720,
     gas: Boolean(figures.gas),
+    flywheel: figures.flywheel,
     firing: figures.firing_deg && cylinders.map((each) => each.strokes),
     settings,
   };

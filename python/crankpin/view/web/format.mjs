@@ -16,6 +16,12 @@ export function scaleFor(largest, unit) {
   return { unit: `${prefix}${unit}`, text: (value) => signed((value / factor).toFixed(decimals)) };
 }
 
+/** A way of writing values from `low` to `high` in a unit, with three digits of what they differ by. */
+export function betweenScale(low, high, unit) {
+  const decimals = high > low ? Math.min(Math.max(2 - Math.floor(Math.log10(high - low)), 0), 9) : 0;
+  return { unit, text: (value) => value.toFixed(decimals) };
+}
+
 /** A number with this many decimals at most. */
 export function short(value, decimals) {
   return signed(String(Number(value.toFixed(decimals))));

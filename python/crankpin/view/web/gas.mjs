@@ -5,10 +5,10 @@ import { reduced } from "./complex.mjs";
 /**
  * The gas load of a cylinder whose top dead centre was moved to `tdcDeg`; null without pressure.
  *
- * `gas` of the figures has absolute pressures in Pa over a cycle from the firing top dead centre on,
- * at equal angles, the first repeated at the end.
+ * `gas` of the figures has absolute pressures in Pa over a cycle from the firing top dead centre on
+ * (the crankpin in line with the bore, wherever the piston is highest), at equal angles, the first repeated at the end.
  */
-export function gasLoad({ gas, firing_deg: firing, strokes }, given, tdcDeg) {
+export function gasLoad({ gas, strokes }, given, tdcDeg) {
   if (!gas || given.cycle === null) return null;
   const moved = tdcDeg - given.tdc_deg;
   return {
@@ -16,7 +16,7 @@ export function gasLoad({ gas, firing_deg: firing, strokes }, given, tdcDeg) {
     crankcase: gas.crankcase,
     area: 0.25 * Math.PI * given.bore ** 2,
     span: strokes === 2 ? 360 : 720,
-    fires: firing[given.number - 1] + moved - 360 * Math.round(moved / 360),
+    fires: given.pressure_deg + moved - 360 * Math.round(moved / 360),
   };
 }
 

@@ -6,11 +6,10 @@ export const HEIGHT = 76; // pixels
 
 export class History {
   /** `curves` are names of its curves, with the labels beside them if there are several. */
-  constructor({ title, curves, positive = false }) {
-    this.positive = positive;
+  constructor({ title, curves, detail = "" }) {
     this.line = svg("path", { class: "zero-line" });
     this.frame = svg("path", { class: "frame" });
-    this.title = svg("text", { class: "title" }, title);
+    this.title = svg("text", { class: "title" }, title, detail);
     this.note = svg("text", { class: "note" });
     this.ends = [1, -1].map(() => numbered(svg, "text", "tick", { class: "tick" }));
     this.unit = svg("text", { class: "tick" });
@@ -39,7 +38,7 @@ export class History {
   }
 
   /** Draw what is known; `missing` says why there is nothing. `x` is the place of an angle. */
-  layout({ largest, scale, curves, missing }, cycle, x) {
+  layout({ range: [low, high], scale, curves, missing }, cycle, x) {
     if (this.note.textContent !== missing) this.note.textContent = missing;
     const [shown, hidden] = missing ? [this.note, this.known] : [this.known, this.note];
     if (shown.parentNode !== this.element) {
@@ -48,12 +47,8 @@ export class History {
     }
     this.values = missing ? [] : curves.map(({ value }) => value);
     if (missing) return;
-    const [zero, reach] = this.positive ? [HEIGHT / 2 - 3, HEIGHT - 6] : [0, HEIGHT / 2 - 3];
-    this.y = (value) => this.middle + zero - (value / largest) * reach;
-    this.ends.forEach((element, k) => {
-      const value = k ? (this.positive ? 0 : -largest) : largest;
-      show(element, value, scale.text(value));
-    });
+    this.y = (value) => this.middle + (HEIGHT - 6) * (0.5 - (value - low) / (high - low));
+    [high, low].forEach((value, k) => show(this.ends[k], value, scale.text(value)));
     if (this.unit.textContent !== scale.unit) this.unit.textContent = scale.unit;
     curves.forEach(({ samples, span = 360 }, k) => {
       const turn = samples.length - 1;

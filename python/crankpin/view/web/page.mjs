@@ -1,9 +1,7 @@
 // The file: a view that fills the page.
 
-import { View } from "./view.mjs";
-
-/** Show an engine in the page, and give its view to scripts as `crankpin`. */
-export function page(figures) {
+/** Show an engine in the page by `Full` or `Compact`, and give its view to scripts as `crankpin`. */
+export function page(View, figures) {
   const view = new View(figures, { keysOn: document });
   document.body.append(view.element);
   const name = document.title;

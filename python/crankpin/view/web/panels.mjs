@@ -2,6 +2,12 @@
 
 import { html, svg } from "./dom.mjs";
 
+/** A whole page: what is in it has its style, and its keys once it has the focus. */
+export function region(title, name, ...children) {
+  const attributes = { class: `crankpin ${name}`, tabindex: "0", role: "region", "aria-label": title };
+  return html("div", attributes, ...children);
+}
+
 /** A picture under its title. */
 export function panel(title, ...children) {
   return html("figure", { class: "panel" }, html("figcaption", {}, title), ...children);

@@ -10,7 +10,7 @@ export const angularSpeed = (rpm) => (rpm * 2 * Math.PI) / 60;
  * Places in metres, force in N, moment and torque in N·m, at a crank angle in degrees.
  *
  * Exact kinematics; an engine with a given spectrum sums `orders`, and its torque is null. Of the
- * torque `gas` and `inertia` are the parts.
+ * torque `gas` and `inertia` are the parts; `moving` is the moment of inertia of pistons and rods.
  */
 export function poseAt(engine, orders, thetaDeg) {
   const crank = unit(thetaDeg);
@@ -53,6 +53,7 @@ function exactLoads(engine, cylinders, weights, square) {
   const moment = [0, 0];
   let inertia = 0;
   let gas = 0;
+  let moving = 0;
   const apply = (fx, fy, z) => {
     const lever = z - engine.reference;
     force[0] += fx;
@@ -66,10 +67,12 @@ function exactLoads(engine, cylinders, weights, square) {
     const along = -m * r * square * moved.acceleration;
     apply(along * cylinder.direction[0], along * cylinder.direction[1], cylinder.z);
     inertia -= along * r * (moved.velocity + cylinder.proportions.offset);
+    moving += m * (r * moved.velocity) ** 2;
     if (pressure !== null) gas += gasTorque(cylinder.gas, r, pressure, moved.velocity);
     if (excess) {
       const { velocity, acceleration } = swing(cylinder.proportions, cos, sin);
       inertia += excess * square * acceleration * (1 + velocity);
+      moving += excess * velocity ** 2;
     }
   });
   engine.unbalances.forEach(({ ratio, axis, amount, z }, k) => {
@@ -78,7 +81,7 @@ function exactLoads(engine, cylinders, weights, square) {
     apply(fx, fy, z);
     inertia += axis[0] * fy - axis[1] * fx;
   });
-  return { force, moment, torque: inertia + gas, inertia, gas };
+  return { force, moment, torque: inertia + gas, inertia, gas, moving };
 }
 
 /** Sum of orders: x + iy = Σ forward·e^{inθ} + backward·e^{−inθ}. */

@@ -1,7 +1,7 @@
 // The numbers of the engine as a whole, now and over a turn.
 
-import { html, numbered, show } from "./dom.mjs";
-import { scaleFor, short } from "./format.mjs";
+import { html, numbered, show, svg } from "./dom.mjs";
+import { betweenScale, scaleFor, short } from "./format.mjs";
 import { STRINGS } from "./strings.mjs";
 
 const VECTORS = ["force", "moment"];
@@ -12,6 +12,10 @@ export class Readouts {
     const output = (name) => numbered(html, "output", name, { "aria-live": "off" });
     this.angle = output("crank-angle");
     this.torque = output("torque");
+    this.speed = Object.fromEntries(["crank-speed", "irregularity", "inertia"].map((name) =>
+      [name, numbered(svg, "tspan", name)]));
+    this.speedLine = svg("tspan", { class: "detail" }, ...Object.entries(this.speed)
+      .flatMap(([name, element]) => [` ${STRINGS.speeds[name]} `, element]));
     this.vectors = Object.fromEntries(VECTORS.map((quantity) =>
       [quantity, AXES.map((axis) => output(`${quantity}-${axis}`))]));
     this.longest = Object.fromEntries([...VECTORS, "torque", "orbit"].map((quantity) =>
@@ -45,7 +49,7 @@ export class Readouts {
     ];
   }
 
-  /** Choose units and digits for the largest values of a turn. */
+  /** Choose units and digits for the largest values of a turn, and for speeds in a range. */
   layout(peaks) {
     this.scales = {};
     for (const [quantity, largest] of Object.entries(peaks)) {
@@ -59,12 +63,25 @@ export class Readouts {
     this.write(this.longest[quantity], quantity, largest);
   }
 
-  pose({ thetaDeg, torque, ...vectors }) {
+  /** Follow the range of the crank's speeds about their mean, if there are any, with a moment of inertia. */
+  layoutSpeed(speeds, mean, inertia) {
+    this.speedLine.toggleAttribute("hidden", !speeds);
+    if (!speeds) return;
+    const [low, high] = speeds;
+    this.scales.speed = betweenScale(low, high, STRINGS.rpm);
+    const { speed: elements } = this;
+    const share = (high - low) / mean;
+    show(elements.irregularity, share, `${Number((100 * share).toPrecision(3))} %,`);
+    show(elements.inertia, inertia, `${Number(inertia.toPrecision(3))} kg·m²`);
+  }
+
+  pose({ thetaDeg, torque, speed, ...vectors }) {
     show(this.angle, thetaDeg, `${short(thetaDeg, 3)}${STRINGS.degrees}`);
     for (const quantity of VECTORS) {
       vectors[quantity].forEach((value, k) =>
         this.write(this.vectors[quantity][k], quantity, value));
     }
+    if (speed) show(this.speed["crank-speed"], speed, `${this.scales.speed.text(speed)} ${STRINGS.rpm},`);
     if (torque === null) show(this.torque, "", STRINGS.noTorque);
     else this.write(this.torque, "torque", torque);
   }

@@ -30,6 +30,7 @@ export const STRINGS = {
   space: { isometric: "Isometric", oblique: "Oblique, from the flywheel end" },
   choices: {
     hold: "held as the banks turn",
+    dial: "vector shown",
     side: "side of the engine",
     space: "direction from which the engine is seen rocking",
   },
@@ -50,6 +51,9 @@ export const STRINGS = {
   torque: "Roll torque",
   torques: { gas: "gas", inertia: "inertia", torque: "whole" },
   pressure: "Pressure in the cylinders, absolute",
+  crankSpeed: "Crank speed",
+  speeds: { "crank-speed": "", irregularity: "irregularity", inertia: "with a moment of inertia of" },
+  stalls: "the crank would stop: too little inertia for this speed",
   about: "about z",
   noTorque: "not determined by a spectrum",
   balanced: "balanced",
@@ -62,7 +66,7 @@ export const STRINGS = {
   orders: "Order by order: phasors",
   noOrders: "All orders of force and moment are balanced.",
   timeline: "Over the crank angle",
-  timelineDescribed: "Force, moment, torque and pressure over a cycle, and the strokes of each cylinder",
+  timelineDescribed: "Force, moment, torque, pressure and speed over a cycle, and the strokes of each cylinder",
   strokes: {
     power: "power", exhaust: "exhaust", intake: "intake", compression: "compression",
   },

@@ -1,6 +1,7 @@
 // One turn of the crank: the curves that are drawn, and how far they reach.
 
 import { angularSpeed, poseAt } from "./pose.mjs";
+import { speeds } from "./speed.mjs";
 
 /** Degrees between the samples of a curve. */
 const STEP = 2;
@@ -11,11 +12,11 @@ const NOISE = 1e-11;
 /** The highest order that matters loses less than this part of its peak between two samples. */
 const BETWEEN = 0.03;
 
-/** Forces, moments and torques of a turn, its last sample that of the first; with gas of a cycle. */
+/** Forces, moments, torques and speeds of a turn, its last sample that of the first; with gas of a cycle. */
 export function turn(engine, orders) {
-  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [] };
+  const curve = { force: [], moment: [], torque: [], inertia: [], gas: [], moving: [] };
   for (let theta = 0; theta <= (engine.gas ? engine.cycle : 360); theta += STEP) {
-    const { force, moment, torque, inertia, gas } = poseAt(engine, orders, theta);
+    const { force, moment, torque, inertia, gas, moving } = poseAt(engine, orders, theta);
     if (theta <= 360) {
       curve.force.push(force);
       curve.moment.push(moment);
@@ -23,8 +24,9 @@ export function turn(engine, orders) {
     curve.torque.push(torque);
     curve.inertia.push(inertia);
     curve.gas.push(gas);
+    curve.moving.push(moving);
   }
-  return curve;
+  return { ...curve, speed: speeds(engine, curve) };
 }
 
 /** Bounds of what the cylinders make one by one, at order 1. */

@@ -7,7 +7,7 @@ const SIZE = 200;
 const RADIUS = 84;
 
 /** Least length that fills a dial, over what the cylinders make one by one: less is drawn shorter. */
-const LEAST = 1e-3;
+export const LEAST = 1e-3;
 
 /** A round picture of vectors about its centre. */
 export class Dial {

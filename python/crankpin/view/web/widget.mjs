@@ -1,6 +1,7 @@
 // The module that Jupyter and its kin load: a view whose state is the widget's.
 
-import { View } from "./view.mjs";
+import { Compact } from "./compact.mjs";
+import { Full } from "./full.mjs";
 
 /** Traits that the page and Python share, by the names of the state's entries. */
 const SHARED = ["angle_deg", "rpm", "bank_angle_deg", "rod_ratio", "hold"];
@@ -9,7 +10,8 @@ const SHARED = ["angle_deg", "rpm", "bank_angle_deg", "rod_ratio", "hold"];
 const PACE = 100;
 
 function render({ model, el }) {
-  const view = new View(model.get("figures"));
+  const figures = model.get("figures");
+  const view = new (figures.compact ? Compact : Full)(figures);
   // JupyterLab looks at the focused control before what it stands in: each must say that its keys
   // are not the notebook's.
   view.element.addEventListener("focusin",

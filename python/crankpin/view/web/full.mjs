@@ -1,0 +1,198 @@
+// The whole page: three pictures of the engine, dials, phasors and curves over a cycle.
+
+import { scale, unit } from "./complex.mjs";
+import { choice } from "./controls.mjs";
+import { html, numbered, show } from "./dom.mjs";
+import { Ends } from "./ends.mjs";
+import { roundBelow, scaleFor, short } from "./format.mjs";
+import { frames } from "./frames.mjs";
+import { pressureAt } from "./gas.mjs";
+import { legend, panel, region, section } from "./panels.mjs";
+import { Phasors } from "./phasors.mjs";
+import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
+import { Scene } from "./scene.mjs";
+import { STRINGS } from "./strings.mjs";
+import { STROKES } from "./strokes.mjs";
+import { Timeline } from "./timeline.mjs";
+import { Arrow, Orbits, Twist } from "./vectors.mjs";
+import { View } from "./view.mjs";
+
+export class Full extends View {
+  build(title) {
+    const { figures } = this;
+    this.width = 900;
+    Object.assign(this.state, { exaggeration: null, still: new Set(), ...frames(figures) });
+    const { side, space } = this.state;
+    this.scenes = [
+      new Scene("cross", [390, 350], [40, 26]),
+      new Scene(side, [480, 345], [14, 20]),
+      new Scene(space, [480, 345], [14, 22]),
+    ];
+    this.frames = [choice("side", STRINGS.side, this), choice("space", STRINGS.space, this)];
+    this.ends = new Ends(this.scenes[2]);
+    this.force = new Arrow(STRINGS.force, "force");
+    this.moment = new Arrow(STRINGS.moment, "moment");
+    this.orbits = new Orbits(STRINGS.crankEnds, ["front", "flywheel"]);
+    this.twist = new Twist(STRINGS.torque);
+    this.phasors = new Phasors();
+    this.timeline = new Timeline((within) => {
+      const { angle_deg: angle } = this.state;
+      const { cycle } = this.engine;
+      this.set({ angle_deg: Math.floor(angle / cycle) * cycle + within, playing: false });
+    });
+    this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
+    this.stretched = numbered(html, "span", "stretch");
+    this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
+    this.element = region(title, "", this.header.element, this.transport.element, this.settings.element,
+      html("div", { class: "views" },
+        panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
+        panel(this.frames[0], this.scenes[1].element),
+        panel(this.frames[1], this.scenes[2].element)),
+      this.stretchedLine,
+      html("div", { class: "dials" }, ...this.dials()),
+      section(STRINGS.orders, legend(["forward", "backward"], STRINGS.legend), this.phasors.element),
+      section(STRINGS.timeline,
+        figures.firing_deg ? legend(STROKES
+          .filter((name) => figures.strokes === 4 || name === "power" || name === "compression"),
+        STRINGS.strokes) : "",
+        legend(figures.firing_deg ? ["fires", "tdc"] : ["tdc"], STRINGS.marks),
+        this.timelineBox),
+      html("p", { class: "hint" }, `${STRINGS.block} ${STRINGS.ownScales}`),
+      html("p", { class: "hint" }, STRINGS.keys),
+    );
+    this.resized = new ResizeObserver(([entry]) => {
+      this.width = entry.contentRect.width;
+      this.layoutTimeline();
+      this.timeline.pose(this.last);
+    });
+    this.resized.observe(this.timelineBox);
+  }
+
+  dials() {
+    const { readouts } = this;
+    return [
+      panel(STRINGS.force, this.force.element, readouts.listOf("force")),
+      panel(STRINGS.moment, this.moment.element, readouts.listOf("moment")),
+      panel(STRINGS.crankEnds, this.orbits.element, legend(["front", "flywheel"], STRINGS.ends),
+        readouts.listOfOrbits()),
+      panel(STRINGS.torque, this.twist.element, readouts.listOfTorque()),
+    ];
+  }
+
+  destroy() {
+    this.resized.disconnect();
+    super.destroy();
+  }
+
+  changed(keys) {
+    ["side", "space"].forEach((key, k) => {
+      if (!keys.includes(key)) return;
+      this.frames[k].value = this.state[key];
+      this.scenes[k + 1].look(this.state[key]);
+    });
+    if (keys.some((key) => ["exaggeration", "still"].includes(key))) this.layoutRocking();
+  }
+
+  layout(whole) {
+    const { stretch } = this.scenes[0].dimensions;
+    show(this.stretched, stretch, short(stretch, 1));
+    this.stretchedLine.hidden = stretch === 1;
+    this.settings.layout(this.shown);
+    this.phasors.layout(this.shown, whole);
+    this.force.layout(this.curve.force, this.peaks.force, whole.force);
+    this.moment.layout(this.curve.moment, this.peaks.moment, whole.moment);
+    this.twist.layout(this.peaks.torque);
+    this.layoutRocking();
+    this.layoutTimeline();
+  }
+
+  layoutRocking() {
+    const { state, engine, scenes } = this;
+    const chosen = this.shown.filter(({ order }) => !state.still.has(order));
+    this.rocking = rocking(engine, chosen);
+    const { ends, radius } = scenes[2].dimensions;
+    const largest = Math.max(...ends.map((z) => largestDisplacement(this.rocking, z)));
+    if (state.exaggeration === null) {
+      // At first the engine rocks by up to a third of the crank radius.
+      state.exaggeration = largest > 0 ? Math.min(roundBelow((radius / 3) / largest), 5e4) : 1;
+    }
+    const turned = Array.from({ length: 91 }, (_, k) => unit(4 * k));
+    const moved = turned.map((crank) => displacement(this.rocking, crank));
+    const traced = ends.map((z) => moved.map((at) => at(z)));
+    this.ends.trace(traced.map((orbit) => orbit.map((at) => scale(at, state.exaggeration))));
+    const reach = Math.max(...traced.flat().map(([x, y]) => Math.hypot(x, y)));
+    this.orbits.layout(traced, reach);
+    this.readouts.choose("orbit", reach);
+    this.settings.show(state);
+  }
+
+  layoutTimeline() {
+    const about = (most) => [-most, most];
+    const { curve, engine, peaks: largest, readouts: { scales } } = this;
+    const component = (quantity, k) => ({
+      name: "xy"[k], label: STRINGS.components[quantity][k],
+      samples: curve[quantity].map((each) => each[k]), value: (pose) => pose[quantity][k],
+    });
+    const histories = ["force", "moment"].map((quantity) => ({
+      title: STRINGS[quantity], range: about(largest[quantity]), scale: scales[quantity],
+      curves: [component(quantity, 0), component(quantity, 1)],
+      missing: largest[quantity] ? "" : STRINGS.balanced,
+    }));
+    const known = curve.torque[0] !== null;
+    const span = engine.gas ? engine.cycle : 360;
+    const torques = engine.gas && known ? ["gas", "inertia", "torque"] : ["torque"];
+    histories.push({
+      title: STRINGS.torque, scale: scales.torque,
+      range: about(torques.length > 1
+        ? Math.max(...torques.flatMap((name) => curve[name].map(Math.abs))) : largest.torque),
+      curves: torques.map((name) => ({
+        name, span, label: torques.length > 1 ? STRINGS.torques[name] : "",
+        samples: curve[name], value: (pose) => pose[name],
+      })),
+      missing: known ? (largest.torque ? "" : STRINGS.balanced) : STRINGS.noTorque,
+    });
+    if (engine.gas && known) histories.push(this.pressures(span), this.crankSpeed(span));
+    this.timeline.layout(this.engine, histories, Math.max(this.width, 300));
+  }
+
+  /** The history of the pressures in all cylinders. */
+  pressures(span) {
+    const { cylinders } = this.engine;
+    const fired = cylinders.flatMap(({ gas }, k) => (gas ? [k] : []));
+    const largest = Math.max(...fired.flatMap((k) => cylinders[k].gas.samples));
+    const angles = Array.from({ length: span / 2 + 1 }, (_, k) => 2 * k);
+    return {
+      title: STRINGS.pressure, range: [0, largest], missing: "",
+      scale: scaleFor(largest, STRINGS.units.pressure),
+      curves: fired.map((k) => ({
+        name: "pressure", span, value: (pose) => pose.cylinders[k].pressure,
+        samples: angles.map((angle) => pressureAt(cylinders[k].gas, angle)),
+      })),
+    };
+  }
+
+  /** The history of the crank's speed. */
+  crankSpeed(span) {
+    const { curve: { speed }, readouts, speeds } = this;
+    const [low, high] = speeds ?? [0, 0];
+    return {
+      title: STRINGS.crankSpeed, detail: readouts.speedLine, range: [low, high], scale: readouts.scales.speed,
+      missing: high > low ? "" : speed ? STRINGS.balanced : STRINGS.stalls,
+      curves: [{ name: "speed", span, samples: speed, value: (pose) => pose.speed }],
+    };
+  }
+
+  draw(pose, strokes) {
+    const still = () => [0, 0];
+    const moved = displacement(this.rocking, pose.crank);
+    const rocks = (z) => scale(moved(z), this.state.exaggeration);
+    this.scenes.forEach((scene, k) => scene.pose(pose, strokes, k ? rocks : still));
+    this.ends.pose(rocks);
+    this.force.pose(pose.force);
+    this.moment.pose(pose.moment);
+    this.twist.pose(pose.torque);
+    this.orbits.pose(this.scenes[2].dimensions.ends.map(moved));
+    this.phasors.pose(pose.crank);
+    this.timeline.pose(pose);
+  }
+}
