@@ -52,3 +52,7 @@ pub use readings::{balance, exact, flywheel, internal, peaks, sweep, tolerances,
 
 /// Complex numbers as ndarray and `NumPy` share them.
 pub type Complex64 = num_complex::Complex64;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

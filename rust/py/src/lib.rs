@@ -30,7 +30,8 @@ mod waveform;
 #[global_allocator]
 static ALLOCATOR: reserve::Allocator = reserve::Allocator;
 
-#[pymodule]
+// Free-threaded Python runs the module under its lock: without it the module is untested.
+#[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     reserve::allocate();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
