@@ -33,7 +33,14 @@ if TYPE_CHECKING:
 RPM = 10.0
 NAMES = list(cp.presets())
 # Tops dead centre of the right rows come from an arc sine; banks of the V14s from an argument.
-IRRATIONAL = {"vr6", "w12", "w16", *(name for name in NAMES if name.startswith("v14-"))}
+IRRATIONAL = {
+    "vr5",
+    "vr6",
+    "w8",
+    "w12",
+    "w16",
+    *(name for name in NAMES if name.startswith("v14-")),
+}
 # Sums of at most 16 terms, each rounded a few times to 1.1e-16.
 ROUNDING = 1e-13
 

@@ -19,6 +19,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from conftest import DATA
+from crankpin import cli
 from crankpin.cli import main
 from crankpin.cli.arguments import Given
 from matplotlib import pyplot as plt
@@ -32,6 +33,7 @@ IJESC = [
 IJESC_SPECTRUM = {1: 1.487 * 0.045, 2: 1.487 * 0.045**2 / 0.158}
 BANK_ANGLES = np.arange(10.0, 171.0, 10.0)
 CAPTURE = pytest.CaptureFixture[str]
+COMMANDS = [each.__name__.removeprefix("add_").replace("_", "-") for each in cli.COMMANDS]
 
 
 def printed(capsys: CAPTURE, *argv: str) -> str:
@@ -595,7 +597,7 @@ def test_version(capsys: CAPTURE) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", [[], ["presets"], ["balance"], ["sweep"], ["rank"]])
+@pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])
 def test_examples_of_help_run(
     capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]
 ) -> None:
@@ -604,8 +606,8 @@ def test_examples_of_help_run(
     (example,) = re.findall(r"example:\n  crankpin (.*)\n", capsys.readouterr().out)
     monkeypatch.chdir(tmp_path)
     assert printed(capsys, *example.split())
-    pictures = re.findall(r"--plot (\S+)", example)
-    assert [file.name for file in tmp_path.iterdir()] == pictures
+    written = re.findall(r"(?:--plot|--save|--out|-o) (\S+)", example)
+    assert sorted(file.name for file in tmp_path.iterdir()) == sorted(written)
 
 
 # --- as a program -------------------------------------------------------------------------------

@@ -145,7 +145,8 @@ def _engine(
         if along:
             notes.append(f"Spacing {spacing * 1e3:g} mm, in proportion to the bore (--spacing).")
     order = base.arguments.get("firing_order", "")
-    known = bool(order) and "firing_order" not in changes
+    required = base.builder == "from_firing_order"
+    known = bool(order) and "firing_order" not in changes and not required
     changes["source"] = shlex.join([PROG, *given.typed])
     if (name := given.text("--name")) is not None or {"throws_deg", "strokes"} & changes.keys():
         changes["name"] = name or ""

@@ -169,6 +169,8 @@ def named(name: str) -> str:
     >>> named("v6"), named("Straight-six"), named("flat-twin")
     ('v6-60', 'i6', 'boxer-2')
     """
+    if name.lower() in Presets():
+        return name.lower()
     words = [NUMBERS.get(word, word) for word in name.lower().split("-")]
     plain = re.sub(r"^(straight|inline)-(?=\d)", "i", "-".join(words))
     return aliases().get(plain, plain)
@@ -204,7 +206,7 @@ def suggestion(name: str, *, typed: bool = False) -> str:
         True for words of the command line, False for those of Python.
     """
     plain = name[:80].lower()
-    plain = plain if family(plain)[0] in Presets() else named(plain)
+    plain = plain if family(plain) != [plain] else named(plain)
     titles = {engine.name.lower(): each for each, engine in Presets().items()}
     words = {each: each for each in Presets()} | titles | dict(aliases())
     meant = family(plain)

@@ -1,0 +1,234 @@
+"""Does the shell make the engines that Python makes, from what a builder has measured?"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import crankpin as cp
+import matplotlib as mpl
+import pytest
+from crankpin.cli import main
+from crankpin.cli.new import BUILDERS
+
+CAPTURE = pytest.CaptureFixture[str]
+HARLEY = (
+    "v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm --piston 480g --rod-mass 560g"
+)
+PARTS = "--bore 100mm --stroke 90mm --rod 150mm --reciprocating 500g --rotating 400g"
+CYLINDER = cp.Cylinder(0.045, 0.15, 0.5, bore=0.1)
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    mpl.use("agg")
+
+
+def printed(capsys: CAPTURE, line: str) -> str:
+    """What a run that succeeds prints."""
+    assert main(line.split()) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+def made(capsys: CAPTURE, line: str) -> cp.Engine:
+    """The engine that ``new`` prints, without its source."""
+    engine = cp.Engine.from_toml(printed(capsys, f"new {line}"))
+    assert engine.source == f"crankpin new {line}"
+    return engine.replace(source="")
+
+
+def refused(capsys: CAPTURE, line: str) -> str:
+    """What a run that fails says, one line."""
+    assert main(line.split()) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    (said,) = err.splitlines()
+    return said.removeprefix("crankpin: error: ")
+
+
+# --- a builder's own engine -----------------------------------------------------------------------
+
+
+def test_a_45_degree_twin_from_weighed_parts(capsys: CAPTURE) -> None:
+    said = printed(capsys, f"new {HARLEY} -o harley.toml")
+    assert said.startswith("V-twin 45°: 2 cylinders, bank angle 45°\n")
+    assert "Of the rod one third moves with the piston" in said
+    assert said.endswith("Written to harley.toml: try crankpin balance harley.toml\n")
+    engine = cp.Engine.load("harley.toml")
+    (cylinder, _) = engine.cylinders
+    assert (cylinder.stroke, cylinder.rod_length, cylinder.bore) == (0.0968, 0.189, 0.0889)
+    # A third of 560 g and 480 g; two thirds. Rounded a few times to 1.1e-16.
+    assert cylinder.reciprocating_mass == pytest.approx(0.48 + 0.56 / 3, rel=1e-15)
+    assert engine.rotating_mass.tolist() == pytest.approx([0.56 * 2 / 3] * 2, rel=1e-15)
+    assert cylinder.rod == cp.Rod.estimated(0.56, 0.189, 0.063)
+    assert engine.firing().intervals_text == "405-315"
+    assert "V-twin 45° at 3000 rpm" in printed(capsys, "balance harley.toml")
+    assert "crank_radius = 0.0484  # m, half the stroke\n" in Path("harley.toml").read_text("utf-8")
+
+
+def test_figures_in_any_unit_are_the_same_engine(capsys: CAPTURE) -> None:
+    metric = made(capsys, HARLEY)
+    twin = "v-twin --bank-angle 45"
+    for line in (
+        f"{twin} --units mm,g --bore 88.9 --stroke 96.8 --rod 189 --piston 480 --rod-mass 560",
+        f"{twin} --bore 3.5in --stroke 9.68cm --rod 0.189 --piston 0.48kg --rod-mass .56",
+    ):
+        assert made(capsys, line) == metric
+
+
+def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) -> None:
+    parts = "single --bore 86mm --stroke 86mm --rod 145mm --piston 400g"
+    ends = made(capsys, f"{parts} --small-end 150g --big-end 450g")
+    centre = made(capsys, f"{parts} --rod-mass 600g --rod-centre 36.25mm")
+    for engine in (ends, centre):
+        # 0.6 kg · 36.25/145 = 0.15 kg; a handful of roundings.
+        assert engine.cylinders[0].reciprocating_mass == pytest.approx(0.55, rel=1e-15)
+        assert engine.rotating_mass[0] == pytest.approx(0.45, rel=1e-15)
+    weighed = made(capsys, f"{parts} --rod-mass 600g --rotating 500g")
+    assert weighed.rotating_mass.tolist() == [0.5]
+
+
+def test_json_and_names(capsys: CAPTURE) -> None:
+    printed(capsys, "new boxer-4 --name Flat -o flat.json")
+    assert json.loads(Path("flat.json").read_text("utf-8"))["name"] == "Flat"
+
+
+# --- kinds ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", cp.presets())
+def test_a_preset_is_a_kind(capsys: CAPTURE, name: str) -> None:
+    preset = cp.Engine.preset(name)
+    # The e-book's rotating mass belongs to its layout, as in Engine.preset(…, cylinder=…).
+    assert made(capsys, name) == preset.replace(source="")
+
+
+LAYOUTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "inline": ("--throws 0,360/7 --strokes 2", {"throws_deg": [0, "360/7"], "strokes": 2}),
+    "vee": (
+        "--bank-angle 75 --throws 0,180 --pin-split -15 --odd-bank left --numbering by-bank",
+        {"bank_angle_deg": 75, "throws_deg": [0, 180], "pin_split_deg": -15, "odd_bank": "left",
+         "numbering": "by-bank"},
+    ),
+    "flat": ("--throws 0,180 --bank-stagger 40mm", {"throws_deg": [0, 180], "bank_stagger": 0.04}),
+    "boxer": ("--throws 0,120,240 --firing-order 1-6-3-2-5-4",
+              {"throws_deg": [0, 120, 240], "firing_order": "1-6-3-2-5-4"}),
+    "radial": ("--cylinders 14 --rows 2", {"cylinders": 14, "rows": 2}),
+    "firing-order": ("--firing-order 1-3-4-2", {"firing_order": "1-3-4-2"}),
+    "lists": ("--tdc 0,120 --banks 90,100 --z 0,80mm",
+              {"tdc_deg": [0, 120], "bank_deg": [90, 100], "z": [0, 0.08]}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", BUILDERS)
+def test_a_builder_is_a_kind(capsys: CAPTURE, kind: str) -> None:
+    typed, arguments = LAYOUTS[kind]
+    if kind != "lists":
+        typed, arguments = f"{typed} --spacing 0.12", arguments | {"spacing": 0.12}
+    build = getattr(cp.Engine, BUILDERS[kind])
+    expected = build(CYLINDER, **arguments, rotating_mass=0.4)
+    assert made(capsys, f"{kind} {typed} {PARTS}") == expected
+
+
+def test_spacing_is_in_proportion_to_the_bore(capsys: CAPTURE) -> None:
+    # 100 mm at 86 mm, to three digits.
+    assert made(capsys, f"i4 {PARTS}").z.tolist() == pytest.approx([0, 0.116, 0.232, 0.348])
+    assert "Spacing 116 mm" in printed(capsys, f"new i4 {PARTS} -o i4.toml")
+    assert "Spacing" not in printed(capsys, f"new single {PARTS} -o i1.toml")
+
+
+@pytest.mark.parametrize(
+    ("typed", "split", "even"),
+    [
+        ("v6 --bank-angle 90", -30.0, True),  # as even as the preset
+        ("v6 --bank-angle 360/7", -68.571428571, True),
+        ("v6 --bank-angle 90 --pin-split 0", 0.0, False),
+        ("v8 --bank-angle 60", 0.0, False),  # on shared pins
+        ("v8 --bank-angle 60 --pin-split even", -30.0, True),
+        ("v-twin --bank-angle 45 --pin-split even", 45.0, True),
+        ("vee --bank-angle 90 --throws 0,72,288,144,216 --pin-split even", 18.0, None),
+    ],
+)
+def test_pin_splits_that_fire_evenly(
+    capsys: CAPTURE, typed: str, split: float, even: bool | None
+) -> None:
+    engine = made(capsys, typed)
+    assert engine.pin_split_deg[0] == pytest.approx(split, abs=1e-9)
+    if even is not None:
+        assert engine.fires_evenly is even
+    else:
+        assert engine.firing_orders()[0].even
+
+
+def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE) -> None:
+    said = printed(capsys, "new i4 --throws 0,180,0,180 -o i4.toml")
+    assert 'No firing order is known: "crankpin firing" lists those of the crank.' in said
+    assert cp.Engine.load("i4.toml").firing_order == ""
+    assert cp.Engine.load("i4.toml").name == ""  # not "Inline-4" of the usual crank
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("new v6-75", '"v6-75": no such preset; .* build it by crankpin new v6 --bank-angle 75; '),
+        ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
+        ("new v8 --cylinders 8", "--cylinders is not of v8, which takes --bank-angle, --throws, "),
+        ("new vr6 --throws 0", "--throws is not of vr6, which takes --spacing, --firing-order"),
+        ("new v6 --stroke 80mm", "a cylinder of one's own needs --rod"),
+        ("new v6 --stroke 80mm --rod 150mm", "a rod needs --rod-mass, or both --small-end and "),
+        ("new v6 --stroke 80mm --rod 150mm --rod-mass 1 --small-end 1", "a rod needs --rod-mass"),
+        ("new v6 --stroke 80mm --rod 150mm --rod-mass 500g", "needs --piston, or --reciprocating"),
+        ("new v6 --stroke 80mm --rod 150mm --reciprocating 1 --piston 1", "--piston does not go"),
+        ("new v6 --stroke 80lb --rod 150mm --reciprocating 1", "--stroke = 80lb: give a number"),
+        ("new v6 --stroke 300mm --rod 150mm --reciprocating 1", "rod_length = 0.15"),
+        ("new v6 --bank-angle 60/x", "--bank-angle = 60/x: give degrees"),
+        ("new v6 -o v6.txt", "--out = 'v6.txt': an engine file ends in .toml or .json"),
+        ("new", "the following arguments are required: KIND"),
+        ("new i4 --firing-order 1-2-3-3", "firing_order"),
+    ],
+)
+def test_refusals(capsys: CAPTURE, line: str, message: str) -> None:
+    assert re.search(re.sub(r"([.(])(?!\*)", r"\\\1", message), refused(capsys, line))
+    assert list(Path().iterdir()) == []
+
+
+# --- what commands find ---------------------------------------------------------------------------
+
+
+def test_what_is_found_is_saved(capsys: CAPTURE) -> None:
+    v6 = cp.Engine.preset("v6-90", rotating_mass=0.3)
+    v6.save("v6.toml")
+    printed(capsys, "counterweights v6.toml --planes ends --save weights.toml")
+    assert cp.Engine.load("weights.toml") == cp.counterweights(v6, planes="ends").fitted
+    printed(capsys, "bob-weight v6.toml --factor 52% --oil 4g --save bob.json")
+    assert cp.Engine.load("bob.json") == cp.bob_weight(v6, 0.52, 0.004).fitted
+    names = ["v6-60", "v6-90", "v6-120"]
+    printed(capsys, f"rank {' '.join(names)} --bank-angle own --save best.toml")
+    ranked = cp.rank([cp.Engine.preset(name) for name in names], rpm=3000, by="total.moment.peak")
+    assert cp.Engine.load("best.toml") == ranked[0].engine
+
+
+def test_the_design_of_a_place_is_saved(capsys: CAPTURE) -> None:
+    line = "design i4 --even-firing --count 3"
+    printed(capsys, f"{line} --save first.toml")
+    printed(capsys, f"{line} --pick 2 --save second.toml")
+    found = cp.design(
+        4, layout="inline", cylinder=cp.Engine.preset("i4").cylinders[0], spacing=0.1, rpm=3000,
+        even_firing=True, count=3, by="total.moment.peak",
+    )  # fmt: skip
+    assert cp.Engine.load("first.toml") == found[0].engine
+    assert cp.Engine.load("second.toml") == found[1].engine != found[0].engine
+    assert "--pick = 0: give the place" in refused(capsys, f"{line} --pick 0")
+    assert "--pick = 4: give the place" in refused(capsys, f"{line} --pick 4 --save x.toml")
+
+
+def test_a_file_that_cannot_be_an_engine_s_is_rejected_first(capsys: CAPTURE) -> None:
+    commands = ["counterweights", "bob-weight", "rank", "design", "shafts --ratio=-1"]
+    for command in commands:
+        line = f"{command} v6-90 --save x.txt"
+        assert "--save = 'x.txt': an engine file ends in" in refused(capsys, line)

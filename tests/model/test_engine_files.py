@@ -1,0 +1,221 @@
+"""Does the schema describe the engine files that are written and read, in its words?"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from typing import TYPE_CHECKING, Any
+
+import crankpin as cp
+import pytest
+from crankpin.model import engine_files
+from jsonschema import Draft202012Validator
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+SCHEMA = engine_files.schema()
+VALIDATOR = Draft202012Validator(SCHEMA)
+ROD = cp.Rod(mass=0.6, inertia=0.0025, length=0.15, to_crankpin=0.05)
+PISTON_AND_ROD = cp.Cylinder.from_rod(ROD, crank_radius=0.045, piston_mass=0.4, bore=0.088)
+EVERYTHING = (
+    cp.Engine.vee(
+        PISTON_AND_ROD, bank_angle_deg=60, throws_deg=[0, "360/7"], spacing=0.1, rotating_mass=0.4,
+        firing_order="1-2-3-4", name="Whole {bank_angle}", source="a # and a [table]",
+    )
+    .with_counterweights([cp.Unbalance(0.01, z=0, angle_deg="180/7", pin=1), cp.Unbalance(0, 0.1)])
+    .with_shafts([cp.Shaft(-1, [cp.Unbalance(0.01, z=0.1)], x=0.1, name="balancer")])
+    .replace(mains=[-0.05, 0.05, 0.15], reference_z=0.02)
+    .with_cycle([cp.Cycle.example(), None, cp.Cycle(range(0, 720, 90), [2e5] * 8), None],
+                crankcase=1e5)
+)  # fmt: skip
+TWO_CRANKS = """
+schema = 1
+cranks = [{ x = 0.2, y = 0, ratio = -1 }]
+placements = [
+  { tdc_deg = 0, bank_deg = 90, z = 0 }, { tdc_deg = 0, bank_deg = 90, z = 0, crank = 1 },
+]
+cylinder = { crank_radius = 0.05, rod_length = 0.15, reciprocating_mass = 0.5 }
+"""
+ENGINES = {
+    "everything": EVERYTHING,
+    "cylinders of their own": cp.Engine.preset("vr6"),
+    "two-stroke": cp.Engine.preset("i2-180-two-stroke"),
+    "vee at 0°": cp.Engine.vee(PISTON_AND_ROD, bank_angle_deg=0, throws_deg=[0], spacing=0.1),
+    "two cranks": cp.Engine.from_toml(TWO_CRANKS),
+    "lines in its name": cp.Engine.preset("single").replace(name="one\n[two]\nz = 3", source="'''"),
+}
+
+
+def mistakes(data: object) -> list[str]:
+    """What the schema says of a file."""
+    return [each.message for each in VALIDATOR.iter_errors(data)]
+
+
+def test_the_schema_is_one() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_the_schema_accepts_what_is_written(name: str, tmp_path: Path) -> None:
+    engine = ENGINES[name]
+    engine.save(tmp_path / "engine.toml")
+    engine.save(tmp_path / "engine.json")
+    text = (tmp_path / "engine.toml").read_text(encoding="utf-8")
+    assert mistakes(tomllib.loads(text)) == []
+    assert mistakes(json.loads((tmp_path / "engine.json").read_text(encoding="utf-8"))) == []
+    assert cp.Engine.load(tmp_path / "engine.toml") == engine
+    assert cp.Engine.load(tmp_path / "engine.json") == engine
+
+
+@pytest.mark.parametrize("name", cp.presets())
+def test_the_schema_accepts_presets(name: str) -> None:
+    assert mistakes(json.loads(cp.Engine.preset(name).to_json())) == []
+
+
+TABLES = {  # where an unknown entry is put → the part of the schema that lists the known ones
+    "": SCHEMA,
+    "cylinder": SCHEMA["$defs"]["cylinder"],
+    "cylinder.rod": SCHEMA["$defs"]["rod"],
+    "placements.0": SCHEMA["$defs"]["placement"],
+    "counterweights.0": SCHEMA["$defs"]["unbalance"],
+    "shafts.0": SCHEMA["$defs"]["shaft"],
+    "shafts.0.unbalances.0": SCHEMA["$defs"]["unbalance"],
+    "cranks.0": SCHEMA["$defs"]["crank"],
+    "cycles.0": SCHEMA["$defs"]["cycle"],
+}
+
+
+def everything() -> dict[str, Any]:
+    """All there can be, as data."""
+    data: dict[str, Any] = json.loads(EVERYTHING.to_json())
+    return data | {"cranks": [{"x": 0.2, "y": 0, "ratio": -1}], "strokes": 4}
+
+
+def inside(data: Any, place: str) -> Any:  # noqa: ANN401 - of JSON
+    """The table at a place."""
+    for key in filter(None, place.split(".")):
+        data = data[int(key) if key.isdigit() else key]
+    return data
+
+
+@pytest.mark.parametrize("place", TABLES)
+def test_the_schema_has_the_entries_that_the_reader_knows(place: str) -> None:
+    data = everything()
+    cp.Engine.from_json(json.dumps(data))
+    inside(data, place)["zzz"] = 1
+    assert mistakes(data)
+    with pytest.raises(cp.InputError, match="unknown field `zzz`") as caught:
+        cp.Engine.from_json(json.dumps(data))
+    listed = re.findall("`([a-z_]+)`", str(caught.value))[1:]
+    entries = list(TABLES[place]["properties"])
+    assert listed
+    assert entries[: len(listed)] == listed
+    if "…" not in str(caught.value):
+        assert entries == listed
+    for entry in entries[len(listed) :]:  # of more than the message has room for
+        data = everything()
+        inside(data, place)[entry] = {"zzz": 1}
+        with pytest.raises(cp.InputError) as caught:
+            cp.Engine.from_json(json.dumps(data))
+        assert f"unknown field `{entry}`" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("place", "entry", "value"),
+    [
+        ("", "schema", 2),
+        ("", "schema", None),
+        ("", "placements", None),
+        ("", "placements", []),
+        ("", "strokes", 3),
+        ("", "name", 3),
+        ("", "mains", "none"),
+        ("", "reference_z", "middle"),
+        ("", "crankcase", -1.0),
+        ("cylinder", "crank_radius", None),
+        ("cylinder", "crank_radius", 0.0),
+        ("cylinder", "crank_radius", "45mm"),
+        ("cylinder", "rod_length", -0.15),
+        ("cylinder", "reciprocating_mass", None),
+        ("cylinder", "reciprocating_mass", -1.0),
+        ("cylinder", "bore", 0.0),
+        ("cylinder", "piston_mass", -0.1),
+        ("cylinder.rod", "mass", None),
+        ("cylinder.rod", "inertia", -1.0),
+        ("placements.0", "tdc_deg", None),
+        ("placements.0", "tdc_deg", "upright"),
+        ("placements.0", "bank_deg", "360/"),
+        ("placements.0", "bank_deg", "51.3/2.5"),
+        ("placements.0", "z", "0 m"),
+        ("placements.0", "rotating_mass", -1.0),
+        ("placements.0", "crank", -1),
+        ("placements.0", "cycle", 0),
+        ("placements.0", "second_turn", "yes"),
+        ("counterweights.0", "amount", -0.1),
+        ("counterweights.0", "angle_deg", None),
+        ("counterweights.0", "pin", 0),
+        ("shafts.0", "ratio", 0),
+        ("shafts.0", "ratio", 1.5),
+        ("shafts.0", "unbalances", None),
+        ("cranks.0", "ratio", 0),
+        ("cranks.0", "x", None),
+        ("cycles.0", "pressure", None),
+        ("cycles.0", "strokes", 3),
+        ("cycles.0", "degree", 0),
+    ],
+)
+def test_schema_and_reader_reject_the_same_mistakes(place: str, entry: str, value: object) -> None:
+    data = everything()
+    if value is None:
+        del inside(data, place)[entry]
+    else:
+        inside(data, place)[entry] = value
+    assert mistakes(data)
+    with pytest.raises(cp.InputError):
+        cp.Engine.from_json(json.dumps(data))
+
+
+@pytest.mark.parametrize("angle", ["90", " 360/7 ", "-1e2", "49.54", "+.5", "513 / 25"])
+def test_the_schema_takes_angles_that_the_reader_takes(angle: str) -> None:
+    data = everything()
+    del data["firing_order"], data["cycles"], data["crankcase"]
+    for placement in data["placements"]:
+        placement.pop("cycle", None)
+        placement.pop("second_turn", None)
+    data["placements"][0]["tdc_deg"] = angle
+    assert mistakes(data) == []
+    cp.Engine.from_json(json.dumps(data))
+
+
+def test_files_explain_each_entry_once() -> None:
+    text = engine_files.commented(EVERYTHING.to_toml())
+    assert tomllib.loads(text) == tomllib.loads(EVERYTHING.to_toml())
+    comments = [line.rpartition("  # ")[2] for line in text.splitlines() if "  # " in line]
+    about = engine_files.descriptions()
+    assert set(comments) <= set(about.values())
+    assert text.count(f"  # {about['placements.tdc_deg']}\n") == 1
+    known = {
+        f"{table.strip('[]')}.{line.partition(' = ')[0]}".strip(".")
+        for table, lines in _tables(EVERYTHING.to_toml())
+        for line in lines
+    }
+    assert known <= set(about)  # no entry without words
+    assert len(comments) >= len(known)
+
+
+def _tables(text: str) -> list[tuple[str, list[str]]]:
+    found = [("", list[str]())]
+    for line in filter(None, text.splitlines()):
+        if line.startswith("["):
+            found.append((line, []))
+        else:
+            found[-1][1].append(line)
+    return found
+
+
+def test_words_of_the_schema_fit_behind_an_entry() -> None:
+    for place, words in engine_files.descriptions().items():
+        assert "\n" not in words, place
+        assert len(words) <= 100, place
