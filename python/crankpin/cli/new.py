@@ -225,7 +225,7 @@ def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:
         old = Fraction(base.arguments["bank_angle_deg"])
         interval = old - Fraction(base.arguments["pin_split_deg"])
     even = Fraction(arguments.get("bank_angle_deg", 180)) - interval
-    return {"pin_split_deg": str(180 - (180 - even) % 360)}
+    return {"pin_split_deg": str(even)}
 
 
 def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | None]:
