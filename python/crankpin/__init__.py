@@ -20,12 +20,12 @@ from crankpin.analysis.balancing.two_plane import two_plane_correction
 from crankpin.analysis.bearings import bearing_loads
 from crankpin.analysis.comparison import compare
 from crankpin.analysis.design.design import design
+from crankpin.analysis.firing import throws
 from crankpin.analysis.flywheel import flywheel
 from crankpin.analysis.gas_exchange import PortTiming, ValveTiming
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.star import star_diagram
 from crankpin.analysis.sweeps.sweep import sweep
-from crankpin.analysis.throws import throws
 from crankpin.analysis.tolerances.match_parts import match_parts
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.analysis.torsional_excitation import torsional_excitation

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 Item = TypeVar("Item")
 
 
+class AbsentError(InputError, AttributeError):
+    """A quantity that this object does not have; ``hasattr`` is False for it."""
+
+
 @dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(dataclasses.field,))
 class Record:
     """Base class whose subclasses are frozen dataclasses with read-only arrays.

@@ -10,9 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.absent import AbsentError
 from crankpin._support.quantities import QUANTITIES
-from crankpin._support.record import read_only
+from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
 

@@ -10,9 +10,8 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.absent import AbsentError
 from crankpin._support.quantities import KINDS, PARTS, Kind
-from crankpin._support.record import Record, read_only
+from crankpin._support.record import AbsentError, Record, read_only
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:

@@ -10,9 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.absent import AbsentError
 from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
-from crankpin._support.record import Record
+from crankpin._support.record import AbsentError, Record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

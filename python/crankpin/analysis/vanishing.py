@@ -10,8 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
-from crankpin._support.absent import AbsentError
-from crankpin._support.record import Record, Tabled, read_only
+from crankpin._support.record import AbsentError, Record, Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.request import engine_core

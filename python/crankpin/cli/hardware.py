@@ -8,11 +8,10 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
-from crankpin.analysis.balancing.balance_shafts import balance_shafts
+from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.analysis.balancing.shaft_requests import REMOVE
 from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, printed, save
 

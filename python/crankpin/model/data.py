@@ -11,8 +11,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
-from crankpin._support.absent import AbsentError
-from crankpin._support.record import read_only
+from crankpin._support.record import AbsentError, read_only
 from crankpin.model import checks, crankpins, engine_files
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from crankpin._support import labels
-from crankpin._support.absent import AbsentError
+from crankpin._support.record import AbsentError
 from crankpin._support.tables import SHOWN, Table
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders

@@ -19,7 +19,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
-from crankpin._support.absent import AbsentError
+from crankpin._support.record import AbsentError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 

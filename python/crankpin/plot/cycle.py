@@ -1,17 +1,28 @@
-"""Cylinder pressure over crank angle, and over volume."""
+"""Pictures over a cycle: cylinder pressure, and the speed with a flywheel."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.lines import Line2D
 
 from crankpin._support import labels
+from crankpin.analysis.flywheel import Flywheel
 from crankpin.model.computed_cycles import area
 from crankpin.model.cycle import Cycle
 from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
-from crankpin.plot.style import SERIES, count_series, series
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    check_one_place,
+    label_x,
+    label_y,
+    make_panels,
+    set_title,
+)
+from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 
 if TYPE_CHECKING:
@@ -61,3 +72,42 @@ def _swept(cylinder: Cylinder, theta_deg: Any) -> Any:  # noqa: ANN401 - arrays
     rod, offset = cylinder.rod_length + cylinder.crank_radius, cylinder.pin_offset
     highest = np.sqrt((rod - offset) * (rod + offset))
     return 1e6 * area(cylinder) * (highest - cylinder.position(theta_deg))
+
+
+@picture.register(Flywheel)
+def _flywheel(
+    result: Flywheel,
+    ax: Any = None,  # noqa: ANN401 - checked
+    *,
+    figure: Any = None,  # noqa: ANN401 - checked
+    label: str | None = None,
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
+    given = mpl.cbook.normalize_kwargs(style, Line2D)
+    theta = result.theta_deg
+    gas = "torque" if result.engine is None else "gas"
+    curves = {gas: result.torque}
+    if result.engine is not None:
+        curves |= {"inertia": result.inertia_torque, "sum": result.torque + result.inertia_torque}
+    drawn = [(curves, result.load, "load", "torque on the crank, N·m")]
+    drawn.append(({"speed": result.speed_rpm}, result.rpm + 0.0 * theta, "mean", "speed, rpm"))
+    # On axes that were given, the speed alone.
+    for panel, (lines, level, name, quantity) in zip(
+        panels.axes[:, 0], drawn[-len(panels.axes) :], strict=True
+    ):
+        looks = series(panel, len(lines), given)
+        for (text, values), look in zip(lines.items(), looks, strict=True):
+            named = ", ".join(filter(None, [label, text]))
+            panel.plot(theta, values, gid=SERIES, label=named, **look)
+        thin: dict[str, Any] = {"color": muted(panel), "linewidth": 0.8, "linestyle": "--"}
+        panel.plot(theta, level, gid="", label=name, **thin)
+        numeric(panel.yaxis)
+        label_y(panel, quantity)
+        add_legend(panel)
+    span(panels.axes[-1, 0], theta)
+    degrees(panels.axes[-1, 0].xaxis)
+    label_x(panels.axes[-1, 0], "crank angle")
+    panels.set_title(result.title, f"irregularity {100.0 * result.irregularity:.3g} %")
+    return panels.drawn

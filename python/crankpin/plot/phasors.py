@@ -1,4 +1,4 @@
-"""Phasor diagrams: what the cylinders add to a balance, head to tail, an order a column."""
+"""Phasors of the cylinders: what they add to a balance, head to tail, and star diagrams."""
 
 from __future__ import annotations
 
@@ -8,16 +8,20 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.patches import FancyArrowPatch
+from matplotlib.patches import Circle, FancyArrowPatch
 from matplotlib.transforms import ScaledTranslation
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis import contributions as adding
+from crankpin.analysis.star import StarDiagram
 from crankpin.plot import ticks
+from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
     add_figure_legend,
+    add_legend,
+    axes_or_new,
     inches_of,
     label_x,
     label_y,
@@ -26,7 +30,9 @@ from crankpin.plot.layout import (
     points_of,
     set_figure_title,
     set_panel_title,
+    set_title,
 )
+from crankpin.plot.shapes import listed, outside
 from crankpin.plot.style import colours, foreground, muted
 from crankpin.plot.words import drawn_quantity, number, rounded
 
@@ -37,7 +43,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
     from numpy.typing import NDArray
 
-    from crankpin._support.inputs import Orders
+    from crankpin._support.inputs import Order, Orders
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.contributions import Contribution
 
@@ -46,7 +52,7 @@ ORDERS = (1, 2)
 SUM = 4.0
 """Points of the sum's line, below those of the arms."""
 NOTHING = 1e-9
-"""Phasors below this part of the longest arrow are not drawn."""
+"""Phasors and vectors below this part of the longest are not drawn."""
 
 
 def phasors(
@@ -245,3 +251,68 @@ def _axis_label(kind: str, axis: int) -> str:
     if kind in PLANE_VECTORS:
         return f"{QUANTITIES[kind].components[axis].split(' (')[0]}, {QUANTITIES[kind].unit}"
     return f"{('real', 'imaginary')[axis]} part, {QUANTITIES[kind].unit}"
+
+
+# --- star diagrams --------------------------------------------------------------------------------
+
+DIRECTIONS = 9
+"""Decimals to which vectors of one direction agree."""
+
+
+@picture.register(StarDiagram)
+def _star(
+    result: StarDiagram,
+    ax: Axes | None = None,
+    *,
+    order: Order | None = None,
+    **style: Any,  # noqa: ANN401
+) -> Axes:
+    shown = _shown(result) if order is None else inputs.order(order)
+    vectors = result.vectors[result.place(shown)]
+    total, longest = result[shown], float(np.abs(vectors).max(initial=0.0))
+    ax = axes_or_new(ax)
+    ax.set_aspect("equal")
+    ax.set(xticks=[], yticks=[], xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), frame_on=False)
+    ax.add_patch(Circle((0.0, 0.0), 1.0, fill=False, color=muted(ax, 0.35), linewidth=0.8))
+    set_title(ax, labels.name_of(result.engine), f"order {shown}, {_finding(result, shown)}")
+    if not longest:
+        note_zero(ax)
+        return ax
+    looks = {"color": colours(ax, 1)[0], "linewidth": 1.5} | style
+    rays: dict[complex, list[int]] = {}
+    for cylinder, vector in enumerate(vectors.tolist(), start=1):
+        if abs(vector) > NOTHING * longest:
+            rays.setdefault(complex(np.round(vector / abs(vector), DIRECTIONS)), []).append(
+                cylinder
+            )
+    for numbers in rays.values():
+        # Of vectors of one direction the longest covers the others, whose tips are marked.
+        tips = [complex(vectors[cylinder - 1]) / longest for cylinder in numbers]
+        farthest = max(tips, key=abs)
+        arrow(ax, 0j, farthest, 0j, **looks)
+        ax.plot(np.real(tips), np.imag(tips), ".", color=looks["color"], gid="tip")
+        outside(ax, farthest, listed(numbers), fontsize="small")
+    size = float(np.abs(vectors).sum())
+    handles = [Line2D([], [], color=looks["color"], linewidth=1.5, label="cylinders")]
+    if total:
+        arrow(ax, 0j, total / size, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
+        share = f"sum, {rounded(100.0 * abs(total) / size)} % of all lengths"
+        handles.append(Line2D([], [], color=muted(ax, 0.5), linewidth=SUM, label=share))
+    ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
+    add_legend(ax, handles=handles)
+    return ax
+
+
+def _shown(result: StarDiagram) -> Order:
+    """Return the first order that remains without being major, else the first that remains."""
+    remaining = result.verdicts.remaining
+    minor = [order for order in remaining if order not in result.major]
+    return [*minor, *remaining, *result.orders][0]
+
+
+def _finding(result: StarDiagram, order: Order) -> str:
+    if order in result.major:
+        return f"major: sum {rounded(abs(result[order]), 4)}"
+    if result.verdicts[order] == "vanishes":
+        return "sum 0, proved"
+    return f"sum {rounded(abs(result[order]), 4)}"

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders
+    from crankpin.analysis.balancing.balance_shafts import Remove
     from crankpin.analysis.balancing.planes import Planes, Turning
-    from crankpin.analysis.balancing.shaft_requests import Remove
     from crankpin.analysis.ranking.objectives import Measure, Objective
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft, Unbalance

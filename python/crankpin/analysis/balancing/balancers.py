@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin._support import labels, optional
-from crankpin._support.absent import AbsentError
-from crankpin._support.record import Listed, Record, Tabled
+from crankpin._support.record import AbsentError, Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
