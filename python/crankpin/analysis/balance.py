@@ -114,20 +114,6 @@ class Balance(ByOrder, Tabled):
         )
 
     @property
-    def orders(self) -> tuple[Order, ...]:
-        """Multiples of crank speed, ascending where they were chosen."""
-        return self.__dict__["_orders"]  # type: ignore[no-any-return]
-
-    @property
-    def omitted(self) -> tuple[Order, ...]:
-        """With ``orders="auto"``: orders that were left out although they are not zero.
-
-        Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
-        includes them.
-        """
-        return self.__dict__["_omitted"]  # type: ignore[no-any-return]
-
-    @property
     def fired(self) -> bool:
         """True if gas pressure is counted."""
         return self.within[0].fired if self.within is not None else self.engine.fired

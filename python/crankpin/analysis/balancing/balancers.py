@@ -12,6 +12,7 @@ from crankpin._support.record import AbsentError, Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
+from crankpin.analysis.ranking.objectives import ByObjectives
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,7 +57,7 @@ class BalancerOption(Record):
         return (*self.counterweights, *self.shafts)
 
 
-class BalancerOptions(Listed[BalancerOption], Tabled):
+class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     """Sets of balancing hardware, fewest shafts and least unbalance first.
 
     A sequence of :class:`~crankpin.types.BalancerOption`. Made by
@@ -84,11 +85,6 @@ class BalancerOptions(Listed[BalancerOption], Tabled):
     """Objective and the value that it must not exceed, in its unit."""
     options: tuple[BalancerOption, ...]
     """All sets."""
-
-    @property
-    def by(self) -> tuple[str, ...]:
-        """Names of the objectives."""
-        return tuple(each.label for each in self.objectives)
 
     @property
     def front(self) -> tuple[BalancerOption, ...]:

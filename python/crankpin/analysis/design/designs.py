@@ -16,7 +16,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.cranks import HALF, Crank
 from crankpin.analysis.design.families import engines_of, turned
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.ranking.objectives import named
+from crankpin.analysis.ranking.objectives import ByObjectives, named
 from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class Design(Record):
         return len({self.crank, *self.images.values()})
 
 
-class Designs(Listed[Design], Tabled):
+class Designs(ByObjectives, Listed[Design], Tabled):
     """Designs sorted by objectives.
 
     A sequence of :class:`Design`, the best first. Made by :func:`crankpin.design`.
@@ -100,16 +100,6 @@ class Designs(Listed[Design], Tabled):
     """Number of designs found; ``designs`` are the best of them."""
     cranks: int
     """Number of cranks that were compared, equivalent ones included; free angles apart."""
-
-    @property
-    def by(self) -> tuple[str, ...]:
-        """Names of the objectives."""
-        return tuple(objective.label for objective in self.objectives)
-
-    @property
-    def unit(self) -> str:
-        """Unit of the first objective; empty where it is a function."""
-        return self.objectives[0].unit
 
     @cached_property
     def engines(self) -> tuple[Engine, ...]:
@@ -176,9 +166,7 @@ class Designs(Listed[Design], Tabled):
 
     def description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, the speed and the balancers in words."""
-        least = ", then ".join(each.words for each in self.objectives[:objectives])
-        if self.orders is not None:
-            least = least.replace("all orders", "all of the orders given")
+        least = self._minimised(objectives, given=self.orders is not None)
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
 
     def _balancers(self) -> list[str]:

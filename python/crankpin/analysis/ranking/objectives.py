@@ -78,6 +78,28 @@ class Objective(NamedTuple):
         return value
 
 
+class ByObjectives:
+    """Mixin of results that are sorted by objectives."""
+
+    if TYPE_CHECKING:
+        objectives: tuple[Objective, ...]
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Names of the objectives."""
+        return tuple(objective.label for objective in self.objectives)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the first objective; empty where it is a function."""
+        return self.objectives[0].unit
+
+    def _minimised(self, count: int | None, *, given: bool) -> str:
+        """Return the objectives, all or the first few, in words; with the orders as given."""
+        words = ", then ".join(each.words for each in self.objectives[:count])
+        return words.replace("all orders", "all of the orders given") if given else words
+
+
 def again(swept: Sweep, **changes: object) -> Sweep:
     """Return the same sweep of the same list of engines with some arguments changed."""
     request = swept.request

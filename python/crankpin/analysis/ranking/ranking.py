@@ -15,7 +15,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.ranking.objectives import again, of_table
+from crankpin.analysis.ranking.objectives import ByObjectives, again, of_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -52,7 +52,7 @@ class Choice(Record):
         return self.values[0]
 
 
-class Ranking(Listed[Choice], Tabled):
+class Ranking(ByObjectives, Listed[Choice], Tabled):
     """Engines sorted by objectives, each at its best bank angles.
 
     A sequence of :class:`Choice`, the best first. Made by :func:`crankpin.rank`.
@@ -80,11 +80,6 @@ class Ranking(Listed[Choice], Tabled):
     """Values of each objective: (n_engines, n_angles), in its unit."""
     choices: tuple[Choice, ...]
     """The engines, the best first."""
-
-    @property
-    def by(self) -> tuple[str, ...]:
-        """Names of the objectives."""
-        return tuple(objective.label for objective in self.objectives)
 
     @property
     def engines(self) -> tuple[Engine, ...]:
@@ -143,11 +138,6 @@ class Ranking(Listed[Choice], Tabled):
             raise InputError(f"count = {inputs.shorten(count)}: {remedy}")
         return self.choices[: int(wanted)]
 
-    @property
-    def unit(self) -> str:
-        """Unit of the first objective; empty where it is a function."""
-        return self.objectives[0].unit
-
     # --- tables and pictures --------------------------------------------------------------------
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
@@ -168,9 +158,7 @@ class Ranking(Listed[Choice], Tabled):
 
     def description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
-        least = ", then ".join(each.words for each in self.objectives[:objectives])
-        if self.sweep.request.orders is not None:
-            least = least.replace("all orders", "all of the orders given")
+        least = self._minimised(objectives, given=self.sweep.request.orders is not None)
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
 
     @property

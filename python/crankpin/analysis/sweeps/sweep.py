@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Order, Orders, Spectrum
+    from crankpin._support.inputs import Orders, Spectrum
     from crankpin._support.progress import Progress
     from crankpin.analysis.sweeps.dask import Chunks
     from crankpin.model.engine import Hold
@@ -197,20 +197,6 @@ class Sweep(ByOrder, Tabled):
             [self.names is not None, *(name in dims for name in AXES)],
         )
         self.__dict__.update(_core=core, _orders=tuple(core.orders), _omitted=tuple(core.omitted))
-
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """Multiples of crank speed, ascending where they were chosen."""
-        return self.__dict__["_orders"]  # type: ignore[no-any-return]
-
-    @property
-    def omitted(self) -> tuple[Order, ...]:
-        """With ``orders="auto"``: orders left out that are not zero at every point.
-
-        Orders above the last candidate add less than a hundredth of ``rtol``; ``error_bound``
-        includes them.
-        """
-        return self.__dict__["_omitted"]  # type: ignore[no-any-return]
 
     @cached_property
     def error_bound(self) -> Mapping[str, float]:
