@@ -71,3 +71,8 @@ __all__ = [
     "two_plane_correction",
     "types",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, so that completion offers no modules."""
+    return __all__

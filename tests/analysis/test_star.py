@@ -221,9 +221,9 @@ def test_a_balance_says_which_zeros_of_a_fired_engine_are_proved() -> None:
         .balance(3000, orders=HALVES)
     )
     for quantity in ("torque", "crank_torque"):
-        assert [n for n in HALVES if b.proved_zero(quantity, n)] == [n for n in HALVES if n % 2]
+        assert [n for n in HALVES if b._proved_zero(quantity, n)] == [n for n in HALVES if n % 2]
         assert getattr(b, quantity)[0.5].status == "zero, proved"
-    assert b.proved_zero("force", 0.5)
+    assert b._proved_zero("force", 0.5)
 
 
 # --- results ------------------------------------------------------------------------------------

@@ -226,6 +226,11 @@ def test_given_arrays_are_copied() -> None:
     np.testing.assert_array_equal(s.coords["rpm"], [1000.0, 2000.0])
 
 
+def test_completion_offers_what_is_public() -> None:
+    assert dir(cp) == sorted(cp.__all__)
+    assert [name for name in dir(cp) if inspect.ismodule(getattr(cp, name))] == ["types"]
+
+
 # --- copies -------------------------------------------------------------------------------------
 
 

@@ -137,19 +137,19 @@ class Balance(ByOrder, Tabled):
         return self.engine.reference_z if plane is None else plane
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset: name of the engine, speed, and the plane of moments."""
         return {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
 
-    def with_request(self, request: Request) -> Self:
+    def _with_request(self, request: Request) -> Self:
         """Return the same balance by another request."""
-        check_request(request, "Balance.at_orders")
+        check_request(request, "Engine.balance")
         within = self.within
         if within is not None:
-            within = (within[0].with_request(request), within[1])
+            within = (within[0]._with_request(request), within[1])
         return self.replace(request=request, within=within)
 
-    def proved_zero(self, quantity: str, order: Order) -> bool:
+    def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         whole, _, part = inputs.one_of("quantity", quantity, KINDS).partition(".")
         order = one_order(order)
@@ -254,7 +254,7 @@ class Balance(ByOrder, Tabled):
     def table(self) -> Table:
         """Table that is shown: peaks by order and of all together, negligible orders left out."""
         names = [name for name in self.request.quantities if name != "crank_torque"]
-        shown, left_out = self.shown_orders(*names)
+        shown, left_out = self._shown_orders(*names)
         mean = ("mean",) if self.fired else ()
         columns = [Column("order", (*mean, *(self.orders[k] for k in shown), ALL))]
         for name in names:

@@ -65,7 +65,7 @@ class ByOrder(Keyed, Quantities):
         return {}
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset of the result."""
         return {}
 
@@ -111,7 +111,7 @@ class ByOrder(Keyed, Quantities):
         >>> b[2].moment.peak, round(b.about(0.0)[2].moment.peak, 1)
         (np.float64(0.0), np.float64(1390.4))
         """
-        return self.with_request(self.request.about(point))
+        return self._with_request(self.request.about(point))
 
     # --- arrays ---------------------------------------------------------------------------------
 
@@ -166,34 +166,34 @@ class ByOrder(Keyed, Quantities):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         raise NotImplementedError
 
-    def with_order(self, order: Order) -> ByOrder:
+    def _with_order(self, order: Order) -> ByOrder:
         """Return this result if it has an order, else the same of that order alone."""
         if order_key(order) in (*self.orders, ALL):
             return self
         found: ByOrder | None = self._kept.get(order)
         if found is None:
-            found = self._kept.setdefault(order, self.at_orders((order,)))
+            found = self._kept.setdefault(order, self._at_orders((order,)))
         return found
 
-    def with_request(self, request: Request) -> Self:
+    def _with_request(self, request: Request) -> Self:
         """Return the same result by another request."""
         raise NotImplementedError
 
-    def at_orders(self, orders: tuple[Order, ...]) -> Self:
+    def _at_orders(self, orders: tuple[Order, ...]) -> Self:
         """Return the same result at the orders given."""
         wanted = inputs.half_orders(orders)
         if wanted is None:
             raise InputError(f"orders = {inputs.shorten(orders)}: give orders, such as (1, 2)")
-        return self.with_request(self.request.at_orders(tuple(wanted)))
+        return self._with_request(self.request.at_orders(tuple(wanted)))
 
-    def proved_zero(self, quantity: str, order: Order) -> bool:
+    def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         name = inputs.one_of("quantity", quantity, QUANTITIES)
         raise AbsentError(f"{name}: proofs are those of a balance, not of a sweep")
 
     # --- tables -----------------------------------------------------------------------------------
 
-    def shown_orders(self, *names: str) -> tuple[tuple[int, ...], tuple[Order, ...]]:
+    def _shown_orders(self, *names: str) -> tuple[tuple[int, ...], tuple[Order, ...]]:
         """Return places of the orders that tables and pictures show, and the orders they leave out.
 
         Orders chosen automatically are left out where every peak is below
@@ -217,10 +217,6 @@ class ByOrder(Keyed, Quantities):
         shown = tuple(place for place in places if kept[place])
         return shown, tuple(self.orders[place] for place in places if not kept[place])
 
-    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the quantities named, all that there are if none is named."""
-        return self.request.named(quantities, fired=self.fired)
-
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, order, quantity and component (needs pandas).
 
@@ -239,7 +235,7 @@ class ByOrder(Keyed, Quantities):
         >>> s.to_pandas("torque").columns.tolist()
         ['rpm', 'order', 'quantity', 'component', 'real', 'imag', 'peak', 'unit']
         """
-        return export.to_pandas(self, self.named(quantities))
+        return export.to_pandas(self, self.request.named(quantities, fired=self.fired))
 
     def to_xarray(self, *quantities: str, split_complex: bool = False) -> xr.Dataset:
         """Return phasors, peaks, totals and bounds with dimensions and units (needs xarray).
@@ -260,7 +256,9 @@ class ByOrder(Keyed, Quantities):
         >>> s.to_xarray("force").force.dims
         ('rpm', 'order', 'axis')
         """
-        return export.to_xarray(self, self.named(quantities), split_complex=split_complex)
+        return export.to_xarray(
+            self, self.request.named(quantities, fired=self.fired), split_complex=split_complex
+        )
 
 
 def total_peaks(

@@ -72,7 +72,7 @@ def compare(
     second = balance(after, rpm, orders=orders, **options)
     both = tuple(sorted({*first.orders, *second.orders}))
     if both:
-        first, second = first.at_orders(both), second.at_orders(both)
+        first, second = first._at_orders(both), second._at_orders(both)
     return Comparison(first, second)
 
 
@@ -164,7 +164,7 @@ class Comparison(Tabled):
         """
         return draw(self, ax, figure=figure, quantity=quantity, **style)
 
-    def shown_orders(self, quantity: str) -> list[int]:
+    def _shown_orders(self, quantity: str) -> list[int]:
         """Return places of the orders that tables and pictures show: those that are not negligible.
 
         Parameters
@@ -194,7 +194,7 @@ class Comparison(Tabled):
             kind = QUANTITIES[name]
             before, after = self._peaks(name)
             change = 100.0 * self.change(name)
-            shown = self.shown_orders(name)
+            shown = self._shown_orders(name)
             texts += [(f"{kind.words}, {kind.unit}", self.orders[k]) for k in shown]
             rows += [(before[k], after[k], change[k]) for k in shown]
             if len(shown) > 1:

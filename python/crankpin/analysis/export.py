@@ -81,7 +81,7 @@ def to_xarray(
     if inputs.flag("split_complex", split_complex):
         arrays = {name: _split(variable) for name, variable in arrays.items()}
         coords["part"] = ("part", ["re", "im"])
-    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, {**result.attributes, **bounds})
+    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, {**result._attributes, **bounds})
     return found
 
 
@@ -165,5 +165,5 @@ def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Data
         for name in quantities
     }
     coords = _labelled(result.coords, quantities)
-    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, result.attributes)
+    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, result._attributes)
     return found

@@ -243,14 +243,14 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
             )
         if np.any(self._read("phasors")):
             return "summed" if self.order in self.result.orders else "omitted"
-        proved = self.result.proved_zero(self.name, self.order)
+        proved = self.result._proved_zero(self.name, self.order)
         return "zero, proved" if proved else "zero within rounding"
 
     def _read(self, what: str) -> Any:  # noqa: ANN401 - an array, or a number of one order
         if self.order is None:
             return self.result.read(self.name, what)
         if self.order != ALL:
-            one = self.result.with_order(self.order)
+            one = self.result._with_order(self.order)
             at = (slice(None),) * len(one.dims) + (one.orders.index(self.order),)
             return one.read(self.name, what)[at]
         if what not in ("peak", "peak_xy"):
@@ -323,7 +323,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         """
         if self.result.dims or self.order is not None:
             raise AbsentError("table is that of a balance's orders: use the table of the result")
-        shown, left_out = self.result.shown_orders(self.name)
+        shown, left_out = self.result._shown_orders(self.name)
         if self.result.fired and not self.kind.planar:
             return self._table_of_parts(list(shown), labels.not_shown(left_out))
         columns = [Column("order", (*(self.orders[k] for k in shown), ALL))]

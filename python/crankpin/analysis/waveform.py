@@ -124,7 +124,7 @@ class OverAngle:
         return {"theta_deg": self.theta_deg}
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset of the result."""
         raise NotImplementedError
 
@@ -132,10 +132,6 @@ class OverAngle:
         """Return the names of a quantity's dimensions."""
         name = inputs.one_of("quantity", quantity, KINDS)
         return (*self.coords, "axis") if KINDS[name].planar else tuple(self.coords)
-
-    def named(self, quantities: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the quantities named, all that there are if none is named."""
-        return self.request.named(quantities, fired=self.fired)
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).
@@ -147,7 +143,7 @@ class OverAngle:
         *quantities
             ``"force"``, ``"moment"``, ``"torque"``, ``"crank_torque"``; by default all there are.
         """
-        return export.waveforms_to_pandas(self, self.named(quantities))
+        return export.waveforms_to_pandas(self, self.request.named(quantities, fired=self.fired))
 
     def to_xarray(self, *quantities: str) -> xr.Dataset:
         """Return arrays with named dimensions and units (needs xarray).
@@ -164,7 +160,7 @@ class OverAngle:
         >>> s.waveform([0, 90, 180]).to_xarray("force").force.dims
         ('rpm', 'theta_deg', 'axis')
         """
-        return export.waveforms_to_xarray(self, self.named(quantities))
+        return export.waveforms_to_xarray(self, self.request.named(quantities, fired=self.fired))
 
 
 class Waveform(OverAngle, Tabled):
@@ -245,7 +241,7 @@ class Waveform(OverAngle, Tabled):
         return self.__dict__["_by_name"][quantity]  # type: ignore[no-any-return]
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset: name of the engine, and speed."""
         return {"engine": self.engine.name, "rpm": self.rpm}
 

@@ -127,7 +127,7 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     quantity = given.text("--quantity")
     symbols = QUANTITIES[quantity].symbols
     peaks = result.read(quantity, "peak_xy" if QUANTITIES[quantity].planar else "peak")
-    shown, left = result.shown_orders(quantity)
+    shown, left = result._shown_orders(quantity)
     if given.text("--csv"):
         shown, left = tuple(range(len(result.orders))), ()
     note = f"{labels.not_shown(left)}\n" if left else ""

@@ -38,7 +38,7 @@ class Engine(Builders):
 
     Three lists describe it: the crank angle of each cylinder's top dead centre, the direction of
     its bore and its place along the crank. Made by :meth:`from_lists` from these; by
-    :meth:`inline`, :meth:`vee`, :meth:`flat` and :meth:`boxer` from throws; by
+    :meth:`inline`, :meth:`vee`, :meth:`flat` and :meth:`boxer` from throws; by :meth:`radial`; by
     :meth:`from_firing_order`; by :meth:`preset`; or from a file. An engine does not change;
     :meth:`replace` returns another. Two engines are equal if all their figures, their names and
     their firing orders are.

@@ -76,7 +76,7 @@ def phasors(
     shown = inputs.explicit_half_orders(
         orders if orders is not None else result.request.orders or ORDERS
     )
-    whole = result.at_orders(tuple(shown))
+    whole = result._at_orders(tuple(shown))
     arms = adding.contributions(whole, kind)
     sums = adding.phasors(whole, kind)
     rows = ("forward", "backward") if kind in PLANE_VECTORS else ("",)

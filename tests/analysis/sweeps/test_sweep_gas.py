@@ -106,7 +106,7 @@ def test_orders_and_waveforms_are_those_of_the_pressure_times_the_piston_speed()
         left = np.abs(summed.read(name) - exact.read(name)).max()
         # The bound is the sum of the orders left out: they peak together within a factor of 50.
         assert 0.02 * s.error_bound["torque"] < left <= s.error_bound["torque"]
-    assert (s.force.peak == plain.at_orders(s.orders).force.peak).all()
+    assert (s.force.peak == plain._at_orders(s.orders).force.peak).all()
 
 
 def test_mean_torque_counts_in_totals_and_waveforms_of_orders_that_vanish() -> None:

@@ -249,7 +249,7 @@ class Sweep(ByOrder, Tabled):
         )
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset of the sweep: arguments given as single values, and ``hold``."""
         return dict(self.fixed) | ({"hold": self.hold} if self.hold else {})
 
@@ -258,9 +258,9 @@ class Sweep(ByOrder, Tabled):
         made, (kind, fields) = super().__reduce__()
         return made, (kind, fields | {"progress": False})
 
-    def with_request(self, request: Request) -> Self:
+    def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
-        return self.replace(request=check_request(request, "Sweep.at_orders"))
+        return self.replace(request=check_request(request, "crankpin.sweep"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         if what in ("forward", "backward"):
@@ -477,7 +477,7 @@ class Sweep(ByOrder, Tabled):
             )
         from crankpin.analysis.sweeps.dask import dataset  # noqa: PLC0415 - it makes sweeps
 
-        return dataset(self, chunks, self.named(quantities))
+        return dataset(self, chunks, self.request.named(quantities, fired=self.fired))
 
     def plot(
         self,

@@ -158,9 +158,9 @@ class SweepWaveform(OverAngle, Record):
         return MappingProxyType({**self.sweep.coords, "theta_deg": self.theta_deg})
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset: those of the sweep."""
-        return self.sweep.attributes
+        return self.sweep._attributes
 
     # --- pictures -------------------------------------------------------------------------------
 

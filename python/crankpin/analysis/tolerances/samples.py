@@ -119,7 +119,7 @@ class Tolerances(ByOrder, Tabled):
         return {"sample": np.arange(self.samples)}
 
     @property
-    def attributes(self) -> Mapping[str, Any]:
+    def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset: engine, speed, seed and spreads."""
         return {
             "engine": self.engine.name, "rpm": self.rpm, "seed": self.seed,
@@ -130,7 +130,7 @@ class Tolerances(ByOrder, Tabled):
         """Return one of the arrays of a quantity, read-only."""
         return self.source.read(quantity, what)
 
-    def with_request(self, request: Request) -> Tolerances:
+    def _with_request(self, request: Request) -> Tolerances:
         """Raise an InputError: samples have the orders and the plane that were given."""
         orders = check_request(request, "crankpin.tolerances").orders
         known = labels.orders_text(self.orders)
