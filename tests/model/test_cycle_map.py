@@ -89,7 +89,7 @@ def test_maps_that_are_none_are_named(changes: dict[str, Any], message: str) -> 
 def test_nothing_is_extrapolated() -> None:
     with pytest.raises(cp.InputError, match=r"rpm = 900\.0: the map has 1000 to 4000"):
         MAP.at(rpm=900, load=0.5)
-    with pytest.raises(cp.InputError, match="load = nan: the map has 0 to 1"):
+    with pytest.raises(cp.InputError, match="load = NaN: the map has 0 to 1"):
         MAP.at(rpm=1000, load=np.nan)
     with pytest.raises(cp.InputError, match="shapes that broadcast"):
         MAP.torque_harmonics(CYLINDER, 1, rpm=[1000, 2000], load=LOADS)

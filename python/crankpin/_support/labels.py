@@ -28,6 +28,7 @@ SWEPT = {
     "rod_ratio": ("rod ratio", ""),
     "pin_offset": ("pin offset", " m"),
     "rpm": ("", " rpm"),
+    "load": ("load", ""),
 }
 """Swept dimension → its name, and the text that follows its value."""
 

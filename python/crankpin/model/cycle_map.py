@@ -164,16 +164,11 @@ def _weights(
     name: str, axis: NDArray[np.float64], at: float | NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the weight of each value of an axis in linear interpolation: (…, n)."""
-    at = np.asarray(at)
-    if at.size and not (np.min(at) >= axis[0] and np.max(at) <= axis[-1]):
-        given = inputs.shorten(at.tolist())
-        raise InputError(f"{name} = {given}: the map has {axis[0]:g} to {axis[-1]:g}")
-    upper = np.clip(np.searchsorted(axis, at), min(1, len(axis) - 1), None)
-    lower = np.maximum(upper - 1, 0)
-    span = np.where(upper > lower, axis[upper] - axis[lower], 1.0)
-    share = (at - axis[lower]) / span
-    places = np.arange(len(axis))
-    weights = (places == lower[..., np.newaxis]) * (1.0 - share)[..., np.newaxis]
-    above = (upper > lower)[..., np.newaxis] & (places == upper[..., np.newaxis])
-    found: NDArray[np.float64] = weights + above * share[..., np.newaxis]
+    values = np.asarray(at, dtype=np.float64)
+    lower, share = _core.places_on_axis(name, axis, values.ravel())
+    weights = np.zeros((values.size, len(axis)))
+    rows = np.arange(values.size)
+    weights[rows, np.minimum(lower + 1, len(axis) - 1)] = share
+    weights[rows, lower] = 1.0 - share
+    found: NDArray[np.float64] = weights.reshape(*values.shape, len(axis))
     return found

@@ -159,12 +159,12 @@ proptest! {
             for k in 0..ORDERS.len() {
                 for (vector, phasors) in VECTORS.into_iter().zip(&phasors) {
                     for (axis, expected) in alone.xy(vector, k).into_iter().enumerate() {
-                        same(phasors[[0, i, 0, 0, 0, k, axis]], expected, size);
+                        same(phasors[[0, i, 0, 0, 0, 0, k, axis]], expected, size);
                     }
                 }
                 let torque = alone.wrenches[k].torque();
-                same(phasors[2][[0, i, 0, 0, 0, k]], torque.roll, size);
-                same(phasors[3][[0, i, 0, 0, 0, k]], torque.crank, size);
+                same(phasors[2][[0, i, 0, 0, 0, 0, k]], torque.roll, size);
+                same(phasors[3][[0, i, 0, 0, 0, 0, k]], torque.crank, size);
             }
             for (j, θ) in thetas.iter().map(|θ: &f64| θ.to_radians()).enumerate() {
                 let plain = kinematics(&there, reference, θ).0.map(|value| value * square());
@@ -570,8 +570,8 @@ fn half_orders_of_inertia_are_zero() {
             |sweep: &Sweep| sweep.peaks(quantity, Figure::Length, &Cancel::new()).unwrap();
         let (all, second) = (lengths(&all), lengths(&second));
         for angle in 0..2 {
-            let row = [0, 1, 2].map(|order| all[[0, angle, 0, 0, 0, order]]);
-            assert_eq!(row, [0.0, second[[0, angle, 0, 0, 0, 0]], 0.0]);
+            let row = [0, 1, 2].map(|order| all[[0, angle, 0, 0, 0, 0, order]]);
+            assert_eq!(row, [0.0, second[[0, angle, 0, 0, 0, 0, 0]], 0.0]);
             assert!(row[1] > 0.0);
         }
     }

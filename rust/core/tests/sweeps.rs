@@ -208,6 +208,7 @@ fn axes(
         rod_ratio: (k / 3 % 2 == 1).then(|| ratios.to_vec()),
         pin_offset: (k / 6 == 1).then(|| offsets.to_vec()),
         rpm: rpm.to_vec(),
+        map: None,
     })
 }
 
@@ -409,7 +410,7 @@ fn what_rounding_can_leave_is_zero_and_no_more() {
                 let engine = nearly_balanced(more, inertia);
                 if quantity == TORQUE { engine } else { boxer(&engine, rotating_mass) }
             };
-            let first = alone(axes, [0; 5]);
+            let first = alone(axes, [0; 6]);
             let of = |more: f64| {
                 let balance = by_orders(&there(&engine(more), &first), &REQUEST, &[order]);
                 let OfBalance { phasors, bounds, .. } = OfBalance::new(&balance, quantity);
@@ -572,7 +573,7 @@ fn cranks_that_cannot_turn_are_refused() {
             let some = |values: &[f64]| (!values.is_empty()).then(|| values.to_vec());
             let axes = Axes { rod_ratio: some(ratios), pin_offset: some(offsets), ..good.clone() };
             let found = new(&axes, &[1], None);
-            let shape = [1, 1, ratios.len().max(1), offsets.len().max(1), 1];
+            let shape = [1, 1, ratios.len().max(1), offsets.len().max(1), 1, 1];
             let alone: Vec<String> =
                 places(shape).map(|place| refusal(new(&alone(&axes, place), &[1], None))).collect();
             let fails = alone.iter().any(|told| !told.is_empty());
@@ -601,9 +602,10 @@ fn a_sweep_tells_what_it_is() {
         rod_ratio: Some(vec![0.3, 0.2]),
         pin_offset: Some(vec![0.001; 5]),
         rpm: vec![3000.0, 6000.0, 1000.0, 0.0],
+        map: None,
     };
     let all = new(&axes, &[4, 2, 1], None).unwrap();
-    assert_eq!(all.shape(), [2, 3, 2, 5, 4]);
+    assert_eq!(all.shape(), [2, 3, 2, 5, 4, 1]);
     assert_eq!((all.orders(), all.omitted()), (&whole(&[4, 2, 1])[..], &[][..]));
     assert_eq!(all.error_bound(), [0.0; 3]);
     assert_eq!(all.axes().rpm, axes.rpm);
@@ -624,7 +626,7 @@ fn a_sweep_tells_what_it_is() {
         (CRANK_TORQUE, Figure::Sum, &[]),
     ];
     for (quantity, figure, tail) in tails {
-        let shape = [&[2, 3, 2, 5, 4], tail].concat();
+        let shape = [&[2, 3, 2, 5, 4, 1], tail].concat();
         assert_eq!(all.result_shape(quantity, figure), shape);
         let length = shape.iter().product::<usize>();
         // Room for as much, no less and no more.
@@ -685,6 +687,7 @@ fn whoever_no_longer_waits_is_told_so() {
         rod_ratio: Some(evenly(200, RATIOS)),
         pin_offset: None,
         rpm: vec![3000.0, 1000.0],
+        map: None,
     };
     let engines = || vec![plain(), mixed()];
     let stopped = |result: Result<_, Error>| result.err() == Some(Error::Cancelled);
@@ -965,8 +968,7 @@ proptest! {
             bank_angle: angles.map(|angles| (angles.to_vec(), hold)),
             rod_ratio: ratios.map(Vec::from),
             pin_offset: offsets.map(Vec::from),
-            rpm: vec![2000.0],
-        };
+            rpm: vec![2000.0], map: None };
         few_orders_are_chosen(&[Arc::new(engine)], &axes, 10_f64.powf(-digits), true);
     }
 }
@@ -1000,12 +1002,12 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
         for quantity in [Quantity::Force, Quantity::Moment] {
             for figure in [Figure::Amplitude, Figure::Turning] {
                 let phasors = sweep.phasors(quantity, figure, &Cancel::new()).unwrap();
-                assert_eq!(phasors.shape(), [1, 1, 1, 1, 2, 0, 2]);
+                assert_eq!(phasors.shape(), [1, 1, 1, 1, 2, 1, 0, 2]);
             }
             for (figure, shape) in [
-                (Figure::Length, &[1, 1, 1, 1, 2, 0][..]),
-                (Figure::Sum, &[1, 1, 1, 1, 2, 2]),
-                (Figure::LengthOfSum, &[1, 1, 1, 1, 2]),
+                (Figure::Length, &[1, 1, 1, 1, 2, 1, 0][..]),
+                (Figure::Sum, &[1, 1, 1, 1, 2, 1, 2]),
+                (Figure::LengthOfSum, &[1, 1, 1, 1, 2, 1]),
             ] {
                 let peaks = sweep.peaks(quantity, figure, &Cancel::new()).unwrap();
                 assert_eq!(peaks.shape(), shape);

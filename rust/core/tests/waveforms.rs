@@ -292,6 +292,7 @@ fn each_row_of_a_sweep_is_a_waveform() {
             rod_ratio: (k / 3 % 2 == 1).then(|| vec![0.4, 0.1]),
             pin_offset: (k / 6 == 1).then(|| vec![-0.003, 0.0, 0.005]),
             rpm: vec![3000.0, 500.0],
+            map: None,
         };
         each_row_is_a_waveform(&engines, &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
         each_row_is_a_waveform(&[weighted()], &axes, &[1, 2, 4, 6, 3], &thetas(40), [1, 5]);
@@ -320,6 +321,7 @@ fn nothing_depends_on_how_many_rows_and_angles_there_are() {
         rod_ratio: Some(evenly(7, [0.1, 0.4])),
         pin_offset: Some(evenly(5, [-0.003, 0.003])),
         rpm: evenly(3, [1000.0, 4000.0]),
+        map: None,
     };
     each_row_is_a_waveform(&[mixed(), plain()], &axes, &[1, 2, 4], &thetas(300), [31, 57]);
 }

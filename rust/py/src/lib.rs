@@ -72,6 +72,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(balancing::fit_shafts, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::pair_heights, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::shared, module)?)?;
+    module.add_function(wrap_pyfunction!(pressure::places_on_axis, module)?)?;
     module.add_function(wrap_pyfunction!(firing::check_timing, module)?)?;
     module.add_function(wrap_pyfunction!(firing::inline_throws, module)?)?;
     module.add_function(wrap_pyfunction!(firing::vee_throws, module)?)?;

@@ -7,6 +7,7 @@ use crankpin_core::layout::Strokes;
 use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Ideal};
+use crankpin_core::pressure::map::between;
 use crankpin_core::{Complex64, Order, order};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -26,6 +27,22 @@ impl Hash for Cycle {
         (given.theta_deg.len(), given.strokes, &given.name).hash(state);
         given.pressure.first().map(|value| value.to_bits()).hash(state);
     }
+}
+
+/// Places of values among the speeds or loads of a map: the lower neighbour of each, and the weight of the
+/// upper one.
+#[pyfunction]
+pub fn places_on_axis<'py>(
+    py: Python<'py>,
+    name: &str,
+    axis: PyReadonlyArray1<'_, f64>,
+    values: PyReadonlyArray1<'_, f64>,
+) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>)> {
+    let (axis, values) = (axis.as_slice()?, values.as_slice()?);
+    let places = interrupt::run(py, |cancel| between(name, axis, values, cancel))?;
+    let lower = places.iter().map(|place| place.lower as i64).collect();
+    let shares = places.iter().map(|place| place.share).collect();
+    Ok((frozen(py, lower), frozen(py, shares)))
 }
 
 /// Values of each point, as the core keeps them.

@@ -1,14 +1,13 @@
 //! Sweeps.
 
 use crankpin_core as core;
-use crankpin_core::sweep::{Axes, Figure, Quantity};
+use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
 use crankpin_core::{Cancel, Complex64, Error, memory};
-use ndarray::Array1;
-use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
 use crate::balance;
-use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
+use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
 use crate::engine::{Engine, hold};
 use crate::interrupt;
 use crate::waveform::CrankAngles;
@@ -17,8 +16,8 @@ use crate::waveform::CrankAngles;
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Sweep {
     sweep: core::Sweep,
-    /// Which of engine, bank angle, rod ratio, pin offset and speed are dimensions of the result.
-    swept: [bool; 5],
+    /// Which of engine, bank angle, rod ratio, pin offset, speed and load are dimensions of the result.
+    swept: [bool; 6],
 }
 
 fn quantity(name: &str) -> PyResult<Quantity> {
@@ -87,12 +86,13 @@ impl Sweep {
         rod_ratio: Option<PyReadonlyArray1<'_, f64>>,
         pin_offset: Option<PyReadonlyArray1<'_, f64>>,
         rpm: PyReadonlyArray1<'_, f64>,
+        cycles: Option<[PyReadonlyArray1<'_, f64>; 3]>,
         orders: Option<Vec<OrderNumber>>,
         rtol: f64,
         reference_z: Option<f64>,
         spectrum: Option<Vec<(u32, Complex64)>>,
         torque: bool,
-        swept: [bool; 5],
+        swept: [bool; 6],
     ) -> PyResult<Self> {
         let held = match (&bank_angle_deg, held) {
             (Some(_), Some(held)) => Some(hold(held)?),
@@ -113,6 +113,12 @@ impl Sweep {
         let bank_angle = slice(bank_angle_deg.as_ref())?;
         let (rod_ratio, pin_offset) = (slice(rod_ratio.as_ref())?, slice(pin_offset.as_ref())?);
         let rpm = rpm.as_slice()?;
+        let map = match &cycles {
+            Some([rpm, loads, load]) => {
+                Some([rpm.as_slice()?, loads.as_slice()?, load.as_slice()?])
+            }
+            None => None,
+        };
         let sweep = interrupt::run(py, |cancel| {
             let list =
                 |values: Option<&[f64]>| values.map(|v| memory::copied(v, cancel)).transpose();
@@ -121,6 +127,14 @@ impl Sweep {
                 rod_ratio: list(rod_ratio)?,
                 pin_offset: list(pin_offset)?,
                 rpm: memory::copied(rpm, cancel)?,
+                map: match map {
+                    Some([rpm, loads, load]) => Some(MapAxes {
+                        rpm: memory::copied(rpm, cancel)?,
+                        loads: memory::copied(loads, cancel)?,
+                        load: memory::copied(load, cancel)?,
+                    }),
+                    None => None,
+                },
             };
             if let Some(orders) = orders {
                 return core::Sweep::new(engines, axes, orders, reference_z, cancel);
@@ -128,12 +142,6 @@ impl Sweep {
             core::Sweep::within(rtol, engines, axes, reference_z, torque, cancel)
         })?;
         Ok(Self { sweep: if torque { sweep } else { sweep.without_torque() }, swept })
-    }
-
-    /// Lengths of engine, bank angle, rod ratio, pin offset, speed.
-    #[getter]
-    fn shape(&self) -> [usize; 5] {
-        self.sweep.shape()
     }
 
     #[getter]
@@ -155,23 +163,6 @@ impl Sweep {
     #[getter]
     fn mean_piston_speed(&self) -> f64 {
         self.sweep.mean_piston_speed()
-    }
-
-    /// Values of an axis.
-    fn axis<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let axes = self.sweep.axes();
-        let values = match name {
-            "bank_angle_deg" => axes.bank_angle.as_ref().map(|(angles, _)| angles),
-            "rod_ratio" => axes.rod_ratio.as_ref(),
-            "pin_offset" => axes.pin_offset.as_ref(),
-            "rpm" => Some(&axes.rpm),
-            _ => None,
-        };
-        let values = values.ok_or_else(|| {
-            python_error(Error::value("axis", name, "give a quantity that is swept"))
-        })?;
-        let copy = interrupt::run(py, |cancel| memory::copied(values, cancel))?;
-        Ok(frozen(py, Array1::from(copy)))
     }
 
     fn phasors<'py>(

@@ -1,4 +1,4 @@
-"""Sweeps over engines, bank angle, rod ratio, pin offset and speed."""
+"""Sweeps over engines, bank angle, rod ratio, pin offset, speed and load."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -23,6 +23,7 @@ from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.model.engine import Engine
 
@@ -35,9 +36,10 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Orders, Spectrum
     from crankpin._support.progress import Progress
     from crankpin.analysis.sweeps.dask import Chunks
+    from crankpin.model.cycle_map import CycleMap
     from crankpin.model.engine import Hold
 
-AXES = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm")
+AXES = ("bank_angle_deg", "rod_ratio", "pin_offset", "rpm", "load")
 """Dimensions after "engine", in the order of results."""
 MOST_SHOWN = 1000
 """Points of a sweep whose values are shown: more would take long to compute at a prompt."""
@@ -53,6 +55,9 @@ def sweep(
     hold: Hold | None = None,
     rod_ratio: ArrayLike | None = None,
     pin_offset: ArrayLike | None = None,
+    load: ArrayLike | None = None,
+    cycle: CycleMap | Sequence[CycleMap | None] | None = None,
+    crankcase: float = ATMOSPHERE,
     orders: Orders = "auto",
     rtol: float | None = None,
     spectrum: Spectrum | None = None,
@@ -64,7 +69,7 @@ def sweep(
     Crank angle is not sampled: each point is a layout sum times a harmonic. Every array argument is
     a dimension of the result; a scalar is not. Values are computed when they are first read. Of
     engines with cycles (:meth:`Engine.with_cycle`) torques include that of gas pressure, which does
-    not depend on speed.
+    not depend on speed; with ``cycle`` it is that of a map's cycle at each speed and load.
 
     Parameters
     ----------
@@ -82,8 +87,16 @@ def sweep(
         Crank radius / rod length; the radius stays, the rod changes.
     pin_offset
         Pin offset of every cylinder, m.
+    load
+        Loads at which ``cycle`` is read, in its unit.
+    cycle
+        Cycles over speed and load, for all cylinders, or for each a map of the same speeds and
+        loads, None for a cylinder without gas load. They replace those of the engines. Harmonics
+        are linear in pressure: those of the map's own cycles are computed once, and interpolated.
+    crankcase
+        Absolute pressure below the pistons, Pa, with ``cycle``.
     orders
-        Whole multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
+        Multiples of crank speed, or ``"auto"`` for the fewest that reach ``rtol`` at every
         point. Choosing takes no longer for more points: it bounds every order over the axes.
     rtol, spectrum
         As in :meth:`Engine.balance`. Moments are about each engine's own reference plane.
@@ -125,15 +138,24 @@ def sweep(
     """
     shown = progress_bar.checked(progress)
     listed, names = _listed(engines)
-    given = {"bank_angle_deg": bank_angle_deg, "rod_ratio": rod_ratio, "pin_offset": pin_offset}
-    swept = {name: values for name, values in given.items() if values is not None} | {"rpm": rpm}
+    given = {
+        "bank_angle_deg": bank_angle_deg,
+        "rod_ratio": rod_ratio,
+        "pin_offset": pin_offset,
+        "rpm": rpm,
+        "load": load,
+    }
+    swept = {name: values for name, values in given.items() if values is not None}
     axes: dict[str, NDArray[np.float64] | float] = {}
     for name, values in swept.items():
         array = inputs.array(name, values)
         axes[name] = inputs.copied(inputs.vector(name, array)) if array.ndim else float(array)
     held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
-    whole = Sweep(tuple(listed), names, axes, held, request, shown)
+    if cycle is None and load is not None:
+        raise InputError(f"load = {inputs.shorten(load)}: is that of a map; give cycle=CycleMap(…)")
+    maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
+    whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
     return whole
 
@@ -143,8 +165,8 @@ class Sweep(ByOrder, Tabled):
 
     The quantities are those of :class:`Balance` over more dimensions: ``s.moment.backward``,
     ``s.total.force.peak``, ``s[2].torque.peak``. Dimensions, where swept, come in the order
-    ``engine``, ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, then ``order`` and
-    ``axis``. Arrays are computed when they are first read, and kept. Made by
+    ``engine``, ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, ``load``, then ``order``
+    and ``axis``. Arrays are computed when they are first read, and kept. Made by
     :func:`crankpin.sweep`.
 
     Examples
@@ -171,6 +193,8 @@ class Sweep(ByOrder, Tabled):
     """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
     request: Request
     """The options of the sweep, checked."""
+    gas: GasMap | None = None
+    """Cycles over speed and load, and the pressure below the pistons; None without ``cycle``."""
     progress: Progress = field(default=False, compare=False, repr=False)
     """The progress bar, as given."""
 
@@ -182,13 +206,15 @@ class Sweep(ByOrder, Tabled):
             for name, values in self.axes.items()
         }
         dims = self.dims
+        cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
-            [engine_core(engine) for engine in self.engines],
+            cores if self.gas is None else self.gas.fired(self.engines),
             axes.get("bank_angle_deg"),
             self.hold,
             axes.get("rod_ratio"),
             axes.get("pin_offset"),
             axes["rpm"],
+            None if self.gas is None else self.gas.places(axes.get("load")),
             request.orders,
             request.rtol,
             request.reference_z,
@@ -209,7 +235,7 @@ class Sweep(ByOrder, Tabled):
     @property
     def fired(self) -> bool:
         """True if gas pressure is counted, of any engine."""
-        return any(engine.fired for engine in self.engines)
+        return self.gas is not None or any(engine.fired for engine in self.engines)
 
     @property
     def core(self) -> _core.Sweep:
@@ -291,7 +317,7 @@ class Sweep(ByOrder, Tabled):
         ----------
         **selection
             A swept value for each swept dimension, or for some: ``engine`` (a name),
-            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``.
+            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, ``rpm``, ``load``.
 
         Raises
         ------
@@ -371,7 +397,8 @@ class Sweep(ByOrder, Tabled):
         ----------
         **selection
             A swept value for each swept dimension that changes the engine: ``engine`` (a name),
-            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``. ``rpm`` may be given too.
+            ``bank_angle_deg``, ``rod_ratio``, ``pin_offset``, with ``cycle`` also ``rpm`` and
+            ``load``. ``rpm`` may be given without it too.
 
         Raises
         ------
@@ -394,12 +421,10 @@ class Sweep(ByOrder, Tabled):
             values = at[inputs.one_of("dimension", name, list(at))]
             at[name] = [values[_place(name, value, values)]]
         for name, values in at.items():
-            if len(values) > 1 and name != "rpm":
+            if len(values) > 1 and (name != "rpm" or self.gas is not None):
                 raise InputError(f"{name} is swept: give the value at which the engine is wanted")
         place = list(self.coords["engine"]).index(at["engine"][0]) if "engine" in at else 0
         engine = self.engines[place]
-        if "bank_angle_deg" in at and self.hold is not None:
-            engine = engine.with_bank_angle(float(at["bank_angle_deg"][0]), hold=self.hold)
         changes = []
         for cylinder in engine.cylinders:
             changed = {}
@@ -408,7 +433,14 @@ class Sweep(ByOrder, Tabled):
             if "pin_offset" in at:
                 changed["pin_offset"] = float(at["pin_offset"][0])
             changes.append(cylinder.replace(**changed))
-        return engine if tuple(changes) == engine.cylinders else engine.replace(cylinder=changes)
+        if tuple(changes) != engine.cylinders:
+            engine = engine.replace(cylinder=changes)
+        if self.gas is not None:
+            engine = self.gas.at(engine, float(at["rpm"][0]), float(at["load"][0]))
+        if "bank_angle_deg" in at and self.hold is not None:
+            # Last: banks that move take along the angles at which their cylinders fire.
+            engine = engine.with_bank_angle(float(at["bank_angle_deg"][0]), hold=self.hold)
+        return engine
 
     # --- over crank angle -----------------------------------------------------------------------
 

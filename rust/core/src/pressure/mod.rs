@@ -8,6 +8,7 @@ pub mod burn;
 pub mod chamber;
 mod harmonics;
 mod interpolant;
+pub mod map;
 
 use serde::{Deserialize, Serialize};
 

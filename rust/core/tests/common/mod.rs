@@ -85,11 +85,11 @@ pub fn in_line() -> Arc<Engine> {
     ])
 }
 
-/// Indices along engine, bank angle, rod ratio, pin offset and speed, in the order of a result.
-pub fn places(shape: [usize; 5]) -> impl Iterator<Item = [usize; 5]> {
+/// Indices along engine, bank angle, rod ratio, pin offset, speed and load, in the order of a result.
+pub fn places(shape: [usize; 6]) -> impl Iterator<Item = [usize; 6]> {
     (0..shape.iter().product()).map(move |mut index: usize| {
-        let mut place = [0; 5];
-        for axis in (0..5).rev() {
+        let mut place = [0; 6];
+        for axis in (0..6).rev() {
             (place[axis], index) = (index % shape[axis], index / shape[axis]);
         }
         place
@@ -97,13 +97,14 @@ pub fn places(shape: [usize; 5]) -> impl Iterator<Item = [usize; 5]> {
 }
 
 /// The axes at a place alone.
-pub fn alone(axes: &Axes, [_, angle, ratio, offset, speed]: [usize; 5]) -> Axes {
+pub fn alone(axes: &Axes, [_, angle, ratio, offset, speed, _]: [usize; 6]) -> Axes {
     let only = |values: &Option<Vec<f64>>, k: usize| values.as_ref().map(|values| vec![values[k]]);
     Axes {
         bank_angle: axes.bank_angle.as_ref().map(|(angles, hold)| (vec![angles[angle]], *hold)),
         rod_ratio: only(&axes.rod_ratio, ratio),
         pin_offset: only(&axes.pin_offset, offset),
         rpm: vec![axes.rpm[speed]],
+        map: None,
     }
 }
 

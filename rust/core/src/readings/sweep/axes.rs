@@ -20,12 +20,28 @@ pub struct Axes {
     pub pin_offset: Option<Vec<f64>>,
     /// Speeds.
     pub rpm: Vec<f64>,
+    /// Loads, of engines with the cycles of a map.
+    pub map: Option<MapAxes>,
+}
+
+/// Speeds and loads at which a map has cycles, and the loads swept.
+#[derive(Debug, Clone)]
+pub struct MapAxes {
+    /// Speeds of the cycles, ascending.
+    pub rpm: Vec<f64>,
+    /// Loads of the cycles, ascending.
+    pub loads: Vec<f64>,
+    /// Loads.
+    pub load: Vec<f64>,
 }
 
 impl Axes {
     /// ω² of each speed.
     pub(super) fn squares(&self, cancel: &Cancel) -> Result<Vec<f64>> {
         length("rpm", self.rpm.len())?;
+        if let Some(map) = &self.map {
+            length("load", map.load.len())?;
+        }
         let mut squares = memory::room(self.rpm.len())?;
         each(&self.rpm, cancel, |rpm| angular_speed(rpm).map(|omega| squares.push(omega * omega)))?;
         Ok(squares)

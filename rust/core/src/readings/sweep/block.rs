@@ -13,7 +13,6 @@ type Lanes = [f64; LANES];
 /// Sums of every order at up to [`LANES`] rows.
 pub(super) struct Block {
     orders: Vec<Sums>,
-    mean: Lanes,
 }
 
 /// Real and imaginary parts of an order's forward part and of the conjugate of its backward part (or
@@ -70,7 +69,7 @@ impl Places for EachPlace {
 
 impl Block {
     pub fn new(orders: usize) -> Self {
-        Self { orders: vec![Sums::default(); orders], mean: [0.0; LANES] }
+        Self { orders: vec![Sums::default(); orders] }
     }
 
     /// Sums at the rows from this one on, bank angle by bank angle and point by point.
@@ -102,9 +101,6 @@ impl Block {
         angle: &impl Places,
         point: &impl Places,
     ) {
-        if let Some(mean) = &coefficients.mean {
-            self.mean = point.of(mean, 0);
-        }
         let orders = waves.of_order.iter().zip(&coefficients.by_order);
         for (sums, (waves_of_order, coefficients)) in self.orders.iter_mut().zip(orders) {
             let parts = [&mut sums.forward, &mut sums.backward_conj];
@@ -123,11 +119,6 @@ impl Block {
             }
             sums.bound = point.of(coefficients, 12);
         }
-    }
-
-    /// Mean over the turn.
-    pub fn mean(&self, i: usize) -> f64 {
-        self.mean[i]
     }
 
     /// Bound of the rounding error.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::block::LANES;
-use super::harmonics::{PointHarmonics, Points};
+use super::harmonics::PointHarmonics;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
@@ -93,9 +93,7 @@ pub(super) struct Coefficients {
     /// Real and imaginary parts of cos, sin and rest of the forward and of the backward part, and the
     /// bound of rounding errors.
     pub by_order: Vec<Padded<13>>,
-    /// Means, where there are any.
-    pub mean: Option<Padded<1>>,
-    /// Points, each at every speed if the sums depend on it otherwise than by ω².
+    /// Number of points.
     pub points: usize,
 }
 
@@ -104,13 +102,12 @@ impl Coefficients {
         sweep: &Sweep,
         quantity: Quantity,
         (loads, layout): (&Loads, &Layout),
-        points: &Points,
+        points: Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let count = points.range.len();
-        let mean = sweep.means(loads, quantity, points, cancel)?;
+        let count = points.len();
         let gears = &loads.gears;
-        let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, points, cancel)?;
+        let harmonics = PointHarmonics::new(sweep, (gears, layout), quantity, &points, cancel)?;
         let mut by_order = memory::room(layout.len())?;
         for (k, sums) in layout.iter().enumerate() {
             cancel.check()?;
@@ -137,6 +134,6 @@ impl Coefficients {
             }
             by_order.push(columns);
         }
-        Ok(Self { by_order, mean, points: count })
+        Ok(Self { by_order, points: count })
     }
 }

@@ -1,16 +1,14 @@
 //! What a sweep's rod ratios and pin offsets change: the harmonics of its gears.
 
-use std::mem;
 use std::ops::Range;
 
-use super::factors::Padded;
 use super::layout::Layout;
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::gear::Gear;
 use crate::gear::harmonics::rod::TorqueHarmonics;
 use crate::gear::harmonics::table;
-use crate::load::{Harmonic, Loads, Scale};
+use crate::load::Harmonic;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -18,35 +16,6 @@ use crate::numbers::order::Order;
 
 /// Real and imaginary parts at some points, order by order.
 type Columns = Vec<[Vec<f64>; 2]>;
-
-/// Points of rod ratio and pin offset, each at these speeds where the sums of a row add up what scales
-/// with ω² and what does not.
-pub(super) struct Points<'a> {
-    pub range: Range<usize>,
-    /// ω² of each speed.
-    pub squares: Option<&'a [f64]>,
-}
-
-impl Points<'_> {
-    fn speeds(&self) -> usize {
-        self.squares.map_or(1, <[f64]>::len)
-    }
-
-    /// Without the speeds.
-    fn of_gears(&self) -> Range<usize> {
-        self.range.start / self.speeds()..self.range.end.div_ceil(self.speeds())
-    }
-
-    /// A column of the points at each speed, from that of the points.
-    fn at_speeds(&self, column: Vec<f64>, scale: Scale) -> Result<Vec<f64>> {
-        let Some(squares) = self.squares else { return Ok(column) };
-        let factor = |square: f64| if scale == Scale::Speed { square } else { 1.0 };
-        let all = column.iter().flat_map(|&value| squares.iter().map(move |&s| value * factor(s)));
-        let mut found = memory::room(self.range.len())?;
-        found.extend(all.skip(self.range.start % self.speeds()).take(self.range.len()));
-        Ok(found)
-    }
-}
 
 /// Harmonics at some points of rod ratio and pin offset.
 pub(super) struct PointHarmonics(Vec<(Harmonic, Columns)>);
@@ -57,18 +26,13 @@ impl PointHarmonics {
         sweep: &Sweep,
         (gears, layout): (&[Gear], &Layout),
         quantity: Quantity,
-        points: &Points,
+        points: &Range<usize>,
         cancel: &Cancel,
     ) -> Result<Self> {
         let mut found: Vec<(Harmonic, Columns)> = Vec::new();
         for harmonic in layout.iter().flatten().map(|sum| sum.harmonic) {
             if found.iter().all(|(known, _)| *known != harmonic) {
-                let of_gears = points.of_gears();
-                let mut columns = sweep.columns(gears, harmonic, quantity, of_gears, cancel)?;
-                for column in columns.iter_mut().flatten() {
-                    cancel.check()?;
-                    *column = points.at_speeds(mem::take(column), harmonic.scale())?;
-                }
+                let columns = sweep.columns(gears, harmonic, quantity, points.clone(), cancel)?;
                 found.push((harmonic, columns));
             }
         }
@@ -83,39 +47,18 @@ impl PointHarmonics {
 }
 
 impl Sweep {
-    /// Means of a quantity at some points, where it has any.
-    pub(super) fn means(
-        &self,
-        loads: &Loads,
-        quantity: Quantity,
-        points: &Points,
-        cancel: &Cancel,
-    ) -> Result<Option<Padded<1>>> {
-        if !self.has_mean(quantity) {
-            return Ok(None);
-        }
-        let (volumes, on_crank) = (loads.volumes(), matches!(quantity, Quantity::CrankTorque(_)));
-        let mut means = memory::room(points.of_gears().len())?;
-        for point in points.of_gears() {
-            let mut mean = 0.0;
-            for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
-                let (_, of_gear) = self.at_point(gear, point)?.gas(&[], cancel)?;
-                mean += volume * of_gear[usize::from(on_crank)];
-            }
-            means.push(mean);
-        }
-        let mut column = Padded::zeros(points.range.len())?;
-        let means = points.at_speeds(means, Scale::Given)?;
-        column.values[..means.len()].copy_from_slice(&means);
-        Ok(Some(column))
+    /// Rod ratio and pin offset of a point, where they are swept.
+    pub(super) fn at(&self, point: usize) -> (Option<f64>, Option<f64>) {
+        let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
+        let in_a_row = offsets.as_ref().map_or(1, Vec::len);
+        let ratio = ratios.as_ref().map(|ratios| ratios[point / in_a_row]);
+        (ratio, offsets.as_ref().map(|offsets| offsets[point % in_a_row]))
     }
 
     /// A gear with the rod ratio and pin offset of a point.
     pub(super) fn at_point(&self, gear: &Gear, point: usize) -> Result<Gear> {
-        let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
-        let in_a_row = offsets.as_ref().map_or(1, Vec::len);
-        let ratio = ratios.as_ref().map(|ratios| ratios[point / in_a_row]);
-        gear.replaced(ratio, offsets.as_ref().map(|offsets| offsets[point % in_a_row]))
+        let (ratio, offset) = self.at(point);
+        gear.replaced(ratio, offset)
     }
 
     fn columns(

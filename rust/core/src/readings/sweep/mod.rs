@@ -1,7 +1,8 @@
-//! Sweeps over engines, bank angle, rod ratio, pin offset and speed, without a sample of θ.
+//! Sweeps over engines, bank angle, rod ratio, pin offset, speed and load, without a sample of θ.
 //!
 //! One point of a sweep is a product: ω², harmonics of rod ratio and pin offset, and sums of the
-//! engine's loads with its banks turned.
+//! engine's loads with its banks turned. Torque of pressure does not scale with ω²; harmonics are
+//! linear in pressure, so that those of a map of cycles are interpolated over speed and load.
 
 mod axes;
 mod block;
@@ -10,6 +11,7 @@ mod factors;
 mod harmonics;
 mod kernel;
 mod layout;
+mod operating;
 mod placed;
 mod tiles;
 mod waveform;
@@ -18,9 +20,10 @@ use std::sync::Arc;
 
 use ndarray::{Array, IxDyn};
 
-pub use self::axes::Axes;
+pub use self::axes::{Axes, MapAxes};
 use self::block::Block;
 use self::kernel::{Job, Number};
+use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
@@ -66,8 +69,11 @@ pub enum Figure {
 /// Engines and axes, checked; values are evaluated when they are asked for.
 #[derive(Debug)]
 pub struct Sweep {
+    /// Each as often as a map has cycles, with one of them after the other.
     engines: Vec<Arc<Engine>>,
     axes: Axes,
+    /// Places of speeds and loads in a map of cycles.
+    nodes: Nodes,
     orders: Vec<Order>,
     references: Vec<f64>,
     /// The largest rod ratio, and the offset of largest magnitude, where they are swept.
@@ -82,11 +88,12 @@ pub struct Sweep {
     error_bound: [f64; 3],
 }
 
-/// Axes: engine, bank angle, rod ratio, pin offset, speed; then orders and components, if any.
+/// Axes: engine, bank angle, rod ratio, pin offset, speed, load; then orders and components, if any.
 pub type Values<T> = Array<T, IxDyn>;
 
 impl Sweep {
-    /// Checks everything that can be wrong.
+    /// Checks everything that can be wrong. With a map of cycles there are as many engines in a row as it
+    /// has cycles: those of one engine, load by load of one speed after the other.
     pub fn new(
         engines: Vec<Arc<Engine>>,
         axes: Axes,
@@ -97,6 +104,11 @@ impl Sweep {
         order::check_list(&orders)?;
         axes::not_empty("engines", engines.len())?;
         let squares = axes.squares(cancel)?;
+        let nodes = Nodes::new(&axes, cancel)?;
+        if !engines.len().is_multiple_of(nodes.count()) {
+            let hint = format!("give each engine {} times, with every cycle", nodes.count());
+            return Err(Error::value("engines", engines.len(), hint));
+        }
         axes.check(&engines, cancel)?;
         let extremes = axes.check_geometry(&engines, cancel)?;
         let references = engines.iter().map(|engine| engine.reference(reference_z));
@@ -106,6 +118,7 @@ impl Sweep {
             fired: engines.iter().any(|engine| engine.gas().is_some()),
             engines,
             axes,
+            nodes,
             orders,
             extremes,
             squares,
@@ -114,16 +127,17 @@ impl Sweep {
         })
     }
 
-    /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed.
+    /// Lengths of the axes engine, bank angle, rod ratio, pin offset, speed, load.
     #[must_use]
-    pub fn shape(&self) -> [usize; 5] {
+    pub fn shape(&self) -> [usize; 6] {
         let length = |values: &Option<Vec<f64>>| values.as_ref().map_or(1, Vec::len);
         [
-            self.engines.len(),
+            self.engines.len() / self.nodes.count(),
             self.axes.bank_angle.as_ref().map_or(1, |(angles, _)| angles.len()),
             length(&self.axes.rod_ratio),
             length(&self.axes.pin_offset),
             self.squares.len(),
+            self.nodes.loads(),
         ]
     }
 
@@ -215,15 +229,74 @@ impl Sweep {
         out: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
+        let width = self.checked_width(quantity, figure, out.len())?;
+        if width == 0 {
+            out.fill(Complex64::default());
+            return Ok(());
+        }
+        self.spread(quantity, width, out, cancel, |quantity, out, factor| {
+            self.phasor_rows(quantity, figure, out, factor, cancel)
+        })
+    }
+
+    /// [`Self::peaks`] into a buffer as long as the product of [`Self::result_shape`].
+    pub fn write_peaks(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
+        let width = self.checked_width(quantity, figure, out.len())?;
+        if width == 0 {
+            out.fill(0.0);
+            return Ok(());
+        }
+        let has_gas = self.has_gas(quantity);
+        let finder = figure.is_of_sum().then(|| {
+            let orders = &self.orders;
+            if has_gas { PeakFinder::about_mean(orders) } else { PeakFinder::new(orders) }
+        });
+        let finder = finder.transpose()?;
+        let means = |quantity, out: &mut [f64], _| self.mean_rows(quantity, out, cancel);
+        if figure == Figure::Mean {
+            return self.spread(quantity, width, out, cancel, means);
+        }
+        if has_gas && figure != Figure::ZeroBound {
+            let orders = self.orders.len();
+            let phasors = self.operating(quantity, orders, |quantity, out, factor| {
+                self.phasor_rows(quantity, Figure::Amplitude, out, factor, cancel)
+            })?;
+            let Some(finder) = finder else { return phasors.magnitudes(out, cancel) };
+            let means = self.operating(quantity, 1, means)?;
+            return phasors.beside(&means, out, cancel, |phasors, mean| {
+                finder.beside_mean(mean, phasors, cancel)
+            });
+        }
+        self.spread(quantity, width, out, cancel, |quantity, out, factor| {
+            self.peak_rows((quantity, figure), finder.as_ref(), out, factor, cancel)
+        })
+    }
+
+    /// Phasors of every row, times a factor.
+    fn phasor_rows(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        out: &mut [Complex64],
+        factor: f64,
+        cancel: &Cancel,
+    ) -> Result<()> {
         let components = if figure == Figure::Turning { 2 } else { quantity.components() };
-        let orders = self.orders.len();
-        self.fill(
-            (quantity, figure),
+        let width = self.orders.len() * components;
+        let job = Job { sweep: self, quantity, width, slow: false, cancel };
+        job.rows(
             out,
-            cancel,
+            factor,
             #[inline(always)]
             |block: &Block, factor: f64, out: &mut [Complex64]| {
-                for (i, row) in out.chunks_exact_mut(orders * components).enumerate() {
+                for (i, row) in out.chunks_exact_mut(width).enumerate() {
                     for (order, phasors) in row.chunks_exact_mut(components).enumerate() {
                         let values = if figure == Figure::Turning {
                             let [forward, backward_conj] = block.turning(order, i);
@@ -241,34 +314,25 @@ impl Sweep {
         )
     }
 
-    /// [`Self::peaks`] into a buffer as long as the product of [`Self::result_shape`].
-    pub fn write_peaks(
+    /// A figure of every row, times a factor.
+    fn peak_rows(
         &self,
-        quantity: Quantity,
-        figure: Figure,
+        (quantity, figure): (Quantity, Figure),
+        finder: Option<&PeakFinder>,
         out: &mut [f64],
+        factor: f64,
         cancel: &Cancel,
     ) -> Result<()> {
-        let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
-        let (orders, has_mean) = (&self.orders, self.has_mean(quantity));
-        let finder = figure.is_of_sum().then(|| {
-            if has_mean { PeakFinder::about_mean(orders) } else { PeakFinder::new(orders) }
-        });
-        let finder = finder.transpose()?;
-        let (orders, components) = (orders.len(), quantity.components());
-        self.fill(
-            (quantity, figure),
+        let (orders, components) = (self.orders.len(), quantity.components());
+        let (width, slow) = (self.width(quantity, figure), figure.is_of_sum());
+        let job = Job { sweep: self, quantity, width, slow, cancel };
+        job.rows(
             out,
-            cancel,
+            factor,
             #[inline(always)]
             |block: &Block, factor: f64, out: &mut [f64]| {
-                match (figure, &finder) {
+                match (figure, finder) {
                     (Figure::Length, _) => block.lengths(factor, out),
-                    (Figure::Mean, _) => {
-                        for (i, mean) in out.iter_mut().enumerate() {
-                            *mean = block.mean(i) * factor;
-                        }
-                    }
                     (Figure::ZeroBound, _) => {
                         for (i, row) in out.chunks_exact_mut(orders).enumerate() {
                             for (order, bound) in row.iter_mut().enumerate() {
@@ -280,12 +344,7 @@ impl Sweep {
                         for (i, row) in out.chunks_exact_mut(components).enumerate() {
                             cancel.check()?;
                             for (peak, phasors) in row.iter_mut().zip(block.by_component(i)) {
-                                *peak = factor
-                                    * if has_mean {
-                                        finder.beside_mean(block.mean(i), &phasors, cancel)?
-                                    } else {
-                                        finder.along_axis(&phasors, cancel)?
-                                    };
+                                *peak = factor * finder.along_axis(&phasors, cancel)?;
                             }
                         }
                     }
@@ -331,46 +390,36 @@ impl Sweep {
             .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
     }
 
-    /// Evaluates every row; `finish` writes rows from their sums and a factor.
-    fn fill<T: Number>(
-        &self,
-        (quantity, figure): (Quantity, Figure),
-        out: &mut [T],
-        cancel: &Cancel,
-        finish: impl Fn(&Block, f64, &mut [T]) -> Result<()> + Sync,
-    ) -> Result<()> {
+    /// Numbers of a row, after a check of a buffer for all rows; zero where the buffer then is zero.
+    fn checked_width(&self, quantity: Quantity, figure: Figure, room: usize) -> Result<usize> {
         self.check_known(quantity)?;
         let shape = self.result_shape(quantity, figure);
-        if out.len() != shape.iter().product::<usize>() {
-            return Err(Error::value("out", out.len(), format!("give room for {shape:?}")));
+        if room != shape.iter().product::<usize>() {
+            return Err(Error::value("out", room, format!("give room for {shape:?}")));
         }
-        if out.is_empty() || self.orders.is_empty() && !self.has_mean(quantity) {
-            out.fill(T::default());
-            return Ok(());
-        }
-        let width = shape[5..].iter().product();
-        let slow = figure.is_of_sum();
-        let squares = &self.squares[..];
-        let ones: Vec<f64>;
-        let (within, after) = match quantity.part() {
-            Some(TorquePart::Whole) if self.fired => (Some(squares), &[1.0][..]),
-            Some(TorquePart::Gas) => {
-                ones = memory::collected(squares.iter().map(|_| 1.0))?;
-                (None, &ones[..])
-            }
-            _ => (None, squares),
-        };
-        Job { sweep: self, quantity, width, slow, within, after, cancel, finish }.run(out)
+        let known = !self.orders.is_empty() || self.has_gas(quantity);
+        Ok(if known { self.width(quantity, figure) } else { 0 })
     }
 
-    /// Whether a mean counts in a quantity.
-    fn has_mean(&self, quantity: Quantity) -> bool {
+    /// Numbers of a row.
+    fn width(&self, quantity: Quantity, figure: Figure) -> usize {
+        self.result_shape(quantity, figure)[self.shape().len()..].iter().product()
+    }
+
+    /// Whether pressure counts in a quantity.
+    fn has_gas(&self, quantity: Quantity) -> bool {
         self.fired && matches!(quantity.part(), Some(TorquePart::Whole | TorquePart::Gas))
+    }
+
+    /// Engines that a quantity takes: of a map of cycles all for pressure, else one for each.
+    fn engines_of(&self, quantity: Quantity) -> impl Iterator<Item = usize> + use<> {
+        let every = quantity.part() == Some(TorquePart::Gas);
+        (0..self.engines.len()).step_by(if every { 1 } else { self.nodes.count() })
     }
 
     /// Number of points of rod ratio and pin offset.
     fn points(&self) -> usize {
-        let [_, _, ratios, offsets, _] = self.shape();
+        let [_, _, ratios, offsets, ..] = self.shape();
         ratios * offsets
     }
 
@@ -392,6 +441,14 @@ impl Quantity {
         match self {
             Self::Force | Self::Moment => &[2],
             Self::Torque(_) | Self::CrankTorque(_) => &[],
+        }
+    }
+
+    /// The same torque, of this part.
+    fn with_part(self, part: TorquePart) -> Self {
+        match self {
+            Self::CrankTorque(_) => Self::CrankTorque(part),
+            _ => Self::Torque(part),
         }
     }
 

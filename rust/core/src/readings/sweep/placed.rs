@@ -3,10 +3,14 @@
 
 use std::ops::Range;
 
-use super::Quantity;
+use super::{Quantity, Sweep};
+use crate::gear::GearKind;
 use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Proportions};
+use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
+use crate::load::{Alike, Loads};
+use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
+use crate::numbers::error::Result;
 use crate::readings::balance::TorquePart;
 use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
 
@@ -22,20 +26,58 @@ pub(super) struct PlacedPoint {
     pub pistons: Vec<Proportions>,
     /// Those of the pistons under pressure.
     pub pressures: Vec<Proportions>,
-    /// ω² of its rows.
-    pub squares: Vec<f64>,
+}
+
+impl Sweep {
+    /// An engine with one of the swept bank angles.
+    pub(super) fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
+        let reference = self.references[engine];
+        let engine = &self.engines[engine];
+        let loads = match &self.axes.bank_angle {
+            Some((angles, hold)) => {
+                let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
+                Loads::new(&turned, reference, Alike::Dimensions)
+            }
+            None => Loads::new(engine, reference, Alike::Dimensions),
+        };
+        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
+    }
+
+    /// A point of rod ratio and pin offset.
+    pub(super) fn placed_point(
+        &self,
+        kinematics: &Kinematics,
+        point: usize,
+    ) -> Result<PlacedPoint> {
+        let (ratio, offset) = self.at(point);
+        let at = |cylinder: &Cylinder| cylinder.proportions_with(ratio, offset);
+        let pistons = kinematics.pistons.iter().map(|pistons| at(&pistons.cylinder));
+        let pressures = kinematics.pressures.iter().map(|pressures| match &pressures.gear.kind {
+            GearKind::SliderCrank { cylinder, .. } => at(cylinder),
+            GearKind::Given(_) => Ok(pressures.proportions),
+        });
+        Ok(PlacedPoint {
+            pistons: pistons.collect::<Result<_>>()?,
+            pressures: pressures.collect::<Result<_>>()?,
+        })
+    }
 }
 
 impl Placed {
-    /// Writes the values of every row at some crank angles, at most [`BLOCK`].
+    /// Writes the values of every row, times a factor, at some crank angles, at most [`BLOCK`]; of
+    /// torque that of inertia or that of pressure, which takes none.
     #[inline(always)]
     pub fn write<'o>(
         &self,
         quantity: Quantity,
+        factor: f64,
         angles: &CrankAngles,
         range: Range<usize>,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
+        if quantity.part() == Some(TorquePart::Gas) {
+            return self.gas(matches!(quantity, Quantity::Torque(_)), angles, range, outs);
+        }
         let cranks = |p: &Pistons| Cranks::new(p, &Units::at_speed(angles, range.clone(), p.ratio));
         let cranks: Vec<Cranks> = self.kinematics.pistons.iter().map(cranks).collect();
         let [mut x, mut y] = [AngleColumn::ZERO, AngleColumn::ZERO];
@@ -50,31 +92,31 @@ impl Placed {
             units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
         }
         match quantity {
-            Quantity::Force => self.planar(0, &cranks, &[x, y], outs),
-            Quantity::Moment => self.planar(1, &cranks, &[x, y], outs),
-            Quantity::Torque(part) | Quantity::CrankTorque(part) => {
-                // Pressure does not scale with speed.
-                let on_block = matches!(quantity, Quantity::Torque(_));
-                let gas = |point: &PlacedPoint| {
-                    let mut sum = AngleColumn::ZERO;
-                    let pressures = self.kinematics.pressures.iter().zip(&point.pressures);
-                    for (pressures, proportions) in
-                        pressures.filter(|_| part != TorquePart::Inertia)
-                    {
-                        let mut torque = AngleColumn::ZERO;
-                        pressures.add(proportions, angles, range.clone(), &mut torque[..]);
-                        let [block, crank] = pressures.gear.senses();
-                        let sense = if on_block { -block } else { crank };
-                        sum.iter_mut().zip(&torque[..]).for_each(|(sum, t)| *sum += sense * t);
-                    }
-                    sum
-                };
-                let inertia = part != TorquePart::Gas;
-                if on_block {
-                    self.torque::<true>(inertia, &cranks, &y, &gas, outs);
-                } else {
-                    self.torque::<false>(inertia, &cranks, &AngleColumn::ZERO, &gas, outs);
-                }
+            Quantity::Force => self.planar(0, factor, &cranks, &[x, y], outs),
+            Quantity::Moment => self.planar(1, factor, &cranks, &[x, y], outs),
+            Quantity::Torque(_) => self.torque::<true>(factor, &cranks, &y, outs),
+            Quantity::CrankTorque(_) => {
+                self.torque::<false>(factor, &cranks, &AngleColumn::ZERO, outs);
+            }
+        }
+    }
+
+    /// Torque of pressure.
+    fn gas<'o>(
+        &self,
+        on_block: bool,
+        angles: &CrankAngles,
+        range: Range<usize>,
+        outs: &mut impl Iterator<Item = &'o mut [f64]>,
+    ) {
+        for (point, out) in self.points.iter().zip(outs) {
+            out.fill(0.0);
+            for (pressures, proportions) in self.kinematics.pressures.iter().zip(&point.pressures) {
+                let mut torque = AngleColumn::ZERO;
+                pressures.add(proportions, angles, range.clone(), &mut torque[..]);
+                let [block, crank] = pressures.gear.senses();
+                let sense = if on_block { -block } else { crank };
+                out.iter_mut().zip(&torque[..]).for_each(|(out, torque)| *out += sense * torque);
             }
         }
     }
@@ -84,12 +126,13 @@ impl Placed {
     fn planar<'o>(
         &self,
         which: usize,
+        factor: f64,
         cranks: &[Cranks],
         unbalances: &[AngleColumn; 2],
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        for PlacedPoint { pistons: proportions, squares, .. } in &self.points {
+        for (PlacedPoint { pistons: proportions, .. }, out) in self.points.iter().zip(outs) {
             let [mut x, mut y] = unbalances.clone();
             for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
                 let along = pistons.planar[which];
@@ -99,8 +142,9 @@ impl Placed {
                     y[i] = along.im.mul_add(acceleration, y[i]);
                 }
             }
-            for (&square, out) in squares.iter().zip(&mut *outs) {
-                write_pairs(square, &x, &y, out);
+            let (pairs, _) = out.as_chunks_mut::<2>();
+            for (pair, (x, y)) in pairs.iter_mut().zip(x.iter().zip(&y[..])) {
+                *pair = [factor * x, factor * y];
             }
         }
     }
@@ -109,14 +153,13 @@ impl Placed {
     #[inline(always)]
     fn torque<'o, const ROLL: bool>(
         &self,
-        inertia: bool,
+        factor: f64,
         cranks: &[Cranks],
         unbalances: &AngleColumn,
-        gas: &impl Fn(&PlacedPoint) -> AngleColumn,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let pistons = &self.kinematics.pistons;
-        for point @ PlacedPoint { pistons: proportions, squares, .. } in &self.points {
+        for (PlacedPoint { pistons: proportions, .. }, out) in self.points.iter().zip(outs) {
             let mut sum = unbalances.clone();
             for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
                 let [on_block, on_crank] = pistons.senses();
@@ -137,13 +180,7 @@ impl Placed {
                     }
                 }
             }
-            let gas = gas(point);
-            for (&square, out) in squares.iter().zip(&mut *outs) {
-                let square = if inertia { square } else { 0.0 };
-                for ((out, sum), gas) in out.iter_mut().zip(&sum[..]).zip(&gas[..]) {
-                    *out = square.mul_add(*sum, *gas);
-                }
-            }
+            out.iter_mut().zip(&sum[..]).for_each(|(out, sum)| *out = factor * sum);
         }
     }
 }
@@ -187,14 +224,5 @@ impl Cranks {
             to_above: self.to_above[i],
             to_below: self.to_below[i],
         }
-    }
-}
-
-/// x and y, times a factor, in turns.
-#[inline(always)]
-fn write_pairs(factor: f64, x: &AngleColumn, y: &AngleColumn, out: &mut [f64]) {
-    let (pairs, _) = out.as_chunks_mut::<2>();
-    for (pair, (x, y)) in pairs.iter_mut().zip(x.iter().zip(&y[..])) {
-        *pair = [factor * x, factor * y];
     }
 }

@@ -4,14 +4,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::placed::{Placed, PlacedPoint};
+use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Figure, Quantity, Sweep};
 use crate::Complex64;
-use crate::gear::GearKind;
-use crate::gear::slider_crank::Cylinder;
-use crate::load::{Alike, Loads};
-use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -19,9 +15,9 @@ use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
-use crate::readings::kinematics::{BLOCK, Kinematics};
+use crate::readings::kinematics::BLOCK;
 
-/// Points, each at a speed, that share a tile of cosines and sines.
+/// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;
 /// Crank angles of a task: a stretch of memory long enough that the processor foresees it.
 const SPAN: usize = 4 * TILE;
@@ -55,38 +51,33 @@ impl Sweep {
         }
         self.check_known(quantity)?;
         let rows = Rows { angles, components: quantity.components(), cancel };
-        if exact {
-            return self.by_kinematics(quantity, &rows, out);
-        }
-        if self.orders.is_empty() {
-            out.fill(0.0);
-        } else {
-            self.sum_orders(quantity, &rows, out)?;
-        }
-        if self.has_mean(quantity) {
-            let mut means: Vec<f64> = memory::zeros(shape[..5].iter().product())?;
-            self.write_peaks(quantity, Figure::Mean, &mut means, cancel)?;
-            for (mean, row) in means.iter().zip(out.chunks_mut(angles.len().max(1))) {
-                cancel.check()?;
-                for torque in row {
-                    *torque += mean;
-                }
+        self.spread(quantity, angles.len() * rows.components, out, cancel, |part, out, factor| {
+            if exact {
+                self.by_kinematics(part, &rows, factor, out)
+            } else {
+                self.by_orders(part, &rows, factor, out)
             }
-        }
-        Ok(())
+        })
     }
 
-    fn sum_orders(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
-        self.check_size(quantity, Figure::Amplitude, size_of::<Complex64>())?;
-        let phasors = self.result_shape(quantity, Figure::Amplitude).iter().product();
-        let mut phasors: Vec<Complex64> = memory::zeros(phasors)?;
-        self.write_phasors(quantity, Figure::Amplitude, &mut phasors, rows.cancel)?;
-        self.by_orders(&phasors, rows, out)
-    }
-
-    fn by_orders(&self, phasors: &[Complex64], rows: &Rows, out: &mut [f64]) -> Result<()> {
+    /// Rows times a factor, of which what scales otherwise has none.
+    fn by_orders(
+        &self,
+        quantity: Quantity,
+        rows: &Rows,
+        factor: f64,
+        out: &mut [f64],
+    ) -> Result<()> {
         let (orders, components) = (self.orders.len(), rows.components);
         let width = orders * components;
+        let mut means: Vec<f64> = memory::zeros(self.rows_of(quantity))?;
+        self.mean_rows(quantity, &mut means, rows.cancel)?;
+        if width == 0 {
+            return rows.add(&means, out);
+        }
+        let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(quantity) * width)?;
+        self.phasor_rows(quantity, Figure::Amplitude, &mut phasors, factor, rows.cancel)?;
+        let phasors = &phasors[..];
         let tiles = |range: &Range<usize>, terms: &[OrderWave]| {
             Tiles::new(rows.angles, range, &self.orders, terms)
         };
@@ -119,47 +110,36 @@ impl Sweep {
                     },
                 );
             },
-        )
+        )?;
+        rows.add(&means, out)
     }
 
-    fn by_kinematics(&self, quantity: Quantity, rows: &Rows, out: &mut [f64]) -> Result<()> {
+    fn by_kinematics(
+        &self,
+        quantity: Quantity,
+        rows: &Rows,
+        factor: f64,
+        out: &mut [f64],
+    ) -> Result<()> {
         if self.engines.iter().any(|engine| engine.spectrum().is_some()) {
             let hint = "exact kinematics needs the slider-crank; sum orders";
             return Err(Error::value("spectrum", "given", hint));
         }
-        let [_, angles, ratios, offsets, speeds] = self.shape();
-        let list = |values: &Option<Vec<f64>>, k: usize| values.as_ref().map(|values| values[k]);
+        let (angles, points) = (self.bank_angles().len(), self.points());
+        let engines: Vec<usize> = self.engines_of(quantity).collect();
         rows.fill(
             out,
             |rows_of| {
                 let mut placed: Vec<Placed> = Vec::new();
                 let mut last = None;
                 for row in rows_of {
-                    let (point, speed) = (row / speeds, row % speeds);
-                    let (place, point) = (point / (ratios * offsets), point % (ratios * offsets));
-                    if last.is_none_or(|(before, _)| before != place) {
-                        placed.push(self.placed(place / angles, place % angles)?);
+                    let (place, point) = (row / points, row % points);
+                    if last != Some(place) {
+                        placed.push(self.placed(engines[place / angles], place % angles)?);
+                        last = Some(place);
                     }
                     let Some(here) = placed.last_mut() else { continue };
-                    if last != Some((place, point)) {
-                        let ratio = list(&self.axes.rod_ratio, point / offsets);
-                        let offset = list(&self.axes.pin_offset, point % offsets);
-                        let at = |cylinder: &Cylinder| cylinder.proportions_with(ratio, offset);
-                        let pistons = here.kinematics.pistons.iter().map(|p| at(&p.cylinder));
-                        let pressures = here.kinematics.pressures.iter();
-                        let pressures = pressures.map(|pressures| match &pressures.gear.kind {
-                            GearKind::SliderCrank { cylinder, .. } => at(cylinder),
-                            GearKind::Given(_) => Ok(pressures.proportions),
-                        });
-                        here.points.push(PlacedPoint {
-                            pistons: pistons.collect::<Result<_>>()?,
-                            pressures: pressures.collect::<Result<_>>()?,
-                            squares: Vec::new(),
-                        });
-                    }
-                    let Some(rows) = here.points.last_mut() else { continue };
-                    rows.squares.push(self.squares[speed]);
-                    last = Some((place, point));
+                    here.points.push(self.placed_point(&here.kinematics, point)?);
                 }
                 Ok(placed)
             },
@@ -172,7 +152,7 @@ impl Sweep {
                             let mut outs =
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
                             for here in placed {
-                                here.write(quantity, rows.angles, part.clone(), &mut outs);
+                                here.write(quantity, factor, rows.angles, part.clone(), &mut outs);
                             }
                         }
                     },
@@ -180,23 +160,9 @@ impl Sweep {
             },
         )
     }
-
-    /// An engine with one of the swept bank angles.
-    fn placed(&self, engine: usize, angle: usize) -> Result<Placed> {
-        let reference = self.references[engine];
-        let engine = &self.engines[engine];
-        let loads = match &self.axes.bank_angle {
-            Some((angles, hold)) => {
-                let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Loads::new(&turned, reference, Alike::Dimensions)
-            }
-            None => Loads::new(engine, reference, Alike::Dimensions),
-        };
-        Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
-    }
 }
 
-/// Rows of a result: one for each point at a speed, over crank angle.
+/// Rows over crank angle: one for each engine, bank angle, and point of rod ratio and pin offset.
 struct Rows<'a> {
     angles: &'a CrankAngles,
     /// Numbers to an angle.
@@ -205,6 +171,18 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// Adds the mean of each row, if it has any.
+    fn add(&self, means: &[f64], out: &mut [f64]) -> Result<()> {
+        let rows = out.chunks_mut(self.angles.len().max(1));
+        for (&mean, row) in means.iter().zip(rows).filter(|(mean, _)| **mean != 0.0) {
+            self.cancel.check()?;
+            for torque in row {
+                *torque += mean;
+            }
+        }
+        Ok(())
+    }
+
     /// Prepares some rows, then evaluates spans of their angles; in parallel where there is enough.
     ///
     /// No value depends on how the work is split.

@@ -18,7 +18,7 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
         let columns_of = (0..4).map(|wave| columns(angles, 7 * wave)).collect();
         let waves = Waves { columns: columns_of, of_order, angles };
         let by_order = (0..orders).map(|order| columns(points, 100 * (order + 1))).collect();
-        let coefficients = Coefficients { by_order, mean: Some(columns(points, 7)), points };
+        let coefficients = Coefficients { by_order, points };
         let mut block = Block::new(orders);
         // Also of a first row within an angle, and of rows after the last one.
         for row in [0, 5, 13, (angles * points).saturating_sub(3)] {
@@ -38,8 +38,6 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
                     };
                     let (expected, bound) = ([part(0), part(1)], c(12));
                     assert_eq!(block.bound(order, i), bound);
-                    let mean = coefficients.mean.as_ref().unwrap();
-                    assert_eq!(block.mean(i), mean.values[row % points]);
                     assert_eq!(block.turning(order, i), expected.map(|p| snapped(p, bound)));
                     let [x, y] = [expected[0] + expected[1], expected[0] - expected[1]];
                     let xy = [x, -Complex64::i() * y].map(|p| snapped(p, bound));

@@ -36,7 +36,7 @@ fn cancellation_stops_at_the_next_stretch() {
             let rows = 2 * of_engine;
             // Pieces of values times speeds are steps too.
             let pieces = if rpm.len() > 1 { (rows * rpm.len()).div_ceil(PIECE) } else { 0 };
-            let axes = Axes { bank_angle, rod_ratio, pin_offset: None, rpm };
+            let axes = Axes { bank_angle, rod_ratio, rpm, ..Axes::default() };
             let orders = vec![Order::whole(2).unwrap()];
             let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
             // Raises the flag once so many rows are done.
@@ -50,8 +50,11 @@ fn cancellation_stops_at_the_next_stretch() {
                     }
                     Ok(())
                 };
-                let what = (Quantity::Force, Figure::Length);
-                let result = sweep.fill(what, &mut out, &cancel, finish);
+                let quantity = Quantity::Force;
+                let job = Job { sweep: &sweep, quantity, width: 1, slow: false, cancel: &cancel };
+                let result = sweep.spread(quantity, 1, &mut out, &cancel, |_, out, factor| {
+                    job.rows(out, factor, finish)
+                });
                 (result, done.into_inner(), cancel.progress())
             };
             assert_eq!(run(usize::MAX), (Ok(()), rows, (rows + pieces, rows + pieces)));
@@ -73,21 +76,4 @@ fn cancellation_stops_at_the_next_stretch() {
 /// Numbers without a pattern, each a whole number of quarters: sums of products are exact.
 pub(in crate::readings::sweep) fn numbers(count: usize, seed: usize) -> Vec<f64> {
     (0..count).map(|k| ((k * 37 + seed * 101) % 113) as f64 * 0.25 - 14.0).collect()
-}
-
-#[test]
-fn rows_are_scaled_from_any_row_and_speed_on() {
-    let (rows, speeds, width) = (numbers(3 * 4, 1), numbers(5, 2), 3);
-    let all: Vec<f64> = rows
-        .chunks(width)
-        .flat_map(|row| speeds.iter().map(move |speed| row.iter().map(move |v| v * speed)))
-        .flatten()
-        .collect();
-    for first in 0..20 {
-        for count in 0..=20 - first {
-            let mut out = vec![f64::NAN; count * width];
-            scale(&rows, &speeds, width, first, &mut out);
-            assert_eq!(out, all[first * width..(first + count) * width]);
-        }
-    }
 }

@@ -1,0 +1,296 @@
+//! Rows of a sweep at its speeds and loads.
+//!
+//! A row without either is evaluated once; at a speed it is multiplied by ω². Torque of pressure does not
+//! scale so: a row of it for each cycle of a map is weighted as the cycles are, by linear interpolation
+//! over speed and load, and added.
+
+use rayon::prelude::*;
+
+use super::axes::Axes;
+use super::kernel::{Number, PIECE};
+use super::{Quantity, Sweep};
+use crate::Complex64;
+use crate::numbers::cancel::Cancel;
+use crate::numbers::error::Result;
+use crate::numbers::memory;
+use crate::numbers::pool;
+use crate::numbers::simd::vectorised;
+use crate::pressure::map::{Between, between};
+use crate::readings::balance::TorquePart;
+
+/// Numbers written between two checks for cancellation, of rows that are long.
+const STRETCH: usize = 1 << 16;
+
+/// Places of a sweep's speeds and loads in its map of cycles; without one a single cycle of weight 1.
+#[derive(Debug)]
+pub(super) struct Nodes {
+    loads_of_map: usize,
+    speeds_of_map: usize,
+    /// One for each speed, or none.
+    speeds: Vec<Between>,
+    loads: Vec<Between>,
+}
+
+impl Nodes {
+    pub fn new(axes: &Axes, cancel: &Cancel) -> Result<Self> {
+        let Some(map) = &axes.map else {
+            let one = Between { lower: 0, share: 0.0 };
+            return Ok(Self {
+                loads_of_map: 1,
+                speeds_of_map: 1,
+                speeds: vec![],
+                loads: vec![one],
+            });
+        };
+        Ok(Self {
+            loads_of_map: map.loads.len(),
+            speeds_of_map: map.rpm.len(),
+            speeds: between("rpm", &map.rpm, &axes.rpm, cancel)?,
+            loads: between("load", &map.loads, &map.load, cancel)?,
+        })
+    }
+
+    /// Number of cycles.
+    pub fn count(&self) -> usize {
+        self.speeds_of_map * self.loads_of_map
+    }
+
+    /// Number of loads swept.
+    pub fn loads(&self) -> usize {
+        self.loads.len()
+    }
+
+    /// Cycles and their weights at a speed and a load.
+    fn weights(&self, speed: usize, load: usize) -> [(usize, f64); 4] {
+        let at_speed = self.speeds.get(speed).copied().unwrap_or(Between { lower: 0, share: 0.0 });
+        let mut weights = [(0, 0.0); 4];
+        let places = at_speed.weights().into_iter().flat_map(|of_speed| {
+            self.loads[load].weights().map(move |of_load| (of_speed, of_load))
+        });
+        for (out, ((speed, a), (load, b))) in weights.iter_mut().zip(places) {
+            *out = (speed * self.loads_of_map + load, a * b);
+        }
+        weights
+    }
+}
+
+/// Rows of inertia and of pressure, and what they become at each speed and load.
+pub(super) struct Operating<'a, T> {
+    sweep: &'a Sweep,
+    /// Rows over ω², by engine, bank angle and point; none where only pressure counts.
+    inertia: Vec<T>,
+    /// The same of pressure, with the cycle after the engine; none where inertia alone counts.
+    gas: Vec<T>,
+    width: usize,
+}
+
+/// A row at a speed and a load.
+#[derive(Clone, Copy)]
+struct Place {
+    row: usize,
+    speed: usize,
+    load: usize,
+}
+
+impl Sweep {
+    /// Writes rows at every speed and load; `evaluate` writes those of a quantity over ω², times a factor.
+    pub(super) fn spread<T: Number>(
+        &self,
+        quantity: Quantity,
+        width: usize,
+        out: &mut [T],
+        cancel: &Cancel,
+        evaluate: impl Fn(Quantity, &mut [T], f64) -> Result<()>,
+    ) -> Result<()> {
+        if out.is_empty() {
+            return Ok(());
+        }
+        if let [square] = self.squares[..]
+            && self.nodes.loads() == 1
+            && !self.has_gas(quantity)
+        {
+            return evaluate(quantity, out, square);
+        }
+        self.operating(quantity, width, evaluate)?.write(out, cancel)
+    }
+
+    /// Rows of a quantity before they are written at every speed and load.
+    pub(super) fn operating<T: Number>(
+        &self,
+        quantity: Quantity,
+        width: usize,
+        evaluate: impl Fn(Quantity, &mut [T], f64) -> Result<()>,
+    ) -> Result<Operating<'_, T>> {
+        let rows = |quantity: Quantity| {
+            let mut rows = memory::zeros(self.rows_of(quantity) * width)?;
+            evaluate(quantity, &mut rows, 1.0)?;
+            Ok(rows)
+        };
+        let (inertia, gas) = if self.has_gas(quantity) {
+            let whole = quantity.part() == Some(TorquePart::Whole);
+            let inertia = whole.then(|| rows(quantity.with_part(TorquePart::Inertia)));
+            (inertia.transpose()?, Some(rows(quantity.with_part(TorquePart::Gas))?))
+        } else {
+            (Some(rows(quantity)?), None)
+        };
+        let [inertia, gas] = [inertia, gas].map(Option::unwrap_or_default);
+        Ok(Operating { sweep: self, inertia, gas, width })
+    }
+
+    /// Number of rows of a quantity without speed and load.
+    pub(super) fn rows_of(&self, quantity: Quantity) -> usize {
+        self.engines_of(quantity).count() * self.bank_angles().len() * self.points()
+    }
+
+    /// Means of pressure's torque of every row.
+    pub(super) fn mean_rows(
+        &self,
+        quantity: Quantity,
+        out: &mut [f64],
+        cancel: &Cancel,
+    ) -> Result<()> {
+        if quantity.part() != Some(TorquePart::Gas) {
+            return Ok(());
+        }
+        let on_crank = matches!(quantity, Quantity::CrankTorque(_));
+        let (angles, points) = (self.bank_angles().len(), self.points());
+        for (engine, out) in self.engines_of(quantity).zip(out.chunks_mut(angles * points)) {
+            let loads = self.loads(engine);
+            let volumes = loads.volumes();
+            let mut means = memory::room(points)?;
+            for point in 0..points {
+                let mut mean = 0.0;
+                for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
+                    let (_, of_gear) = self.at_point(gear, point)?.gas(&[], cancel)?;
+                    mean += volume * of_gear[usize::from(on_crank)];
+                }
+                means.push(mean);
+            }
+            for out in out.chunks_mut(points) {
+                cancel.check()?;
+                out.copy_from_slice(&means);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T: Number> Operating<'_, T> {
+    /// Writes every row at every speed and load.
+    pub fn write(&self, out: &mut [T], cancel: &Cancel) -> Result<()> {
+        self.each(out, self.width, 1, cancel, |place, _, out| {
+            self.row(place, out);
+            Ok(())
+        })
+    }
+
+    /// Writes one row at a speed and a load.
+    #[inline(always)]
+    fn row(&self, place: Place, out: &mut [T]) {
+        let (sweep, width) = (self.sweep, self.width);
+        if self.inertia.is_empty() {
+            out.fill(T::default());
+        } else {
+            let square = sweep.squares[place.speed];
+            let row = &self.inertia[place.row * width..][..width];
+            out.iter_mut().zip(row).for_each(|(out, &value)| *out = value * square);
+        }
+        if self.gas.is_empty() {
+            return;
+        }
+        let of_engine = sweep.bank_angles().len() * sweep.points();
+        let (engine, rest) = (place.row / of_engine, place.row % of_engine);
+        for (node, weight) in sweep.nodes.weights(place.speed, place.load) {
+            if weight == 0.0 {
+                continue;
+            }
+            let row = (engine * sweep.nodes.count() + node) * of_engine + rest;
+            let row = &self.gas[row * width..][..width];
+            out.iter_mut().zip(row).for_each(|(out, &value)| *out = *out + value * weight);
+        }
+    }
+
+    /// Hands every row at every speed and load, room for one, and the place of its result to a function;
+    /// a number of the result takes some `cost` times as long as a product.
+    fn each<O: Send>(
+        &self,
+        out: &mut [O],
+        width: usize,
+        cost: usize,
+        cancel: &Cancel,
+        work: impl Fn(Place, &mut [T], &mut [O]) -> Result<()> + Sync,
+    ) -> Result<()> {
+        let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
+        let rows = (STRETCH / (self.width.max(width) * cost).max(1)).clamp(1, PIECE);
+        let large = pool::worth(out.len() * cost);
+        let pieces = rows * width;
+        cancel.expect(out.len().div_ceil(pieces));
+        let piece = |(k, out): (usize, &mut [O])| {
+            let mut room: Vec<T> = memory::zeros(self.width)?;
+            let at = k * rows;
+            let mut place =
+                Place { row: at / loads / speeds, speed: at / loads % speeds, load: at % loads };
+            vectorised(
+                #[inline(always)]
+                || {
+                    for out in out.chunks_exact_mut(width) {
+                        work(place, &mut room, out)?;
+                        place.load += 1;
+                        if place.load == loads {
+                            (place.load, place.speed) = (0, place.speed + 1);
+                            if place.speed == speeds {
+                                (place.speed, place.row) = (0, place.row + 1);
+                            }
+                        }
+                    }
+                    Ok(())
+                },
+            )?;
+            cancel.step()
+        };
+        if large {
+            let pieces = out.par_chunks_mut(pieces).enumerate();
+            return pool::run(cancel, || pieces.try_for_each(piece));
+        }
+        out.chunks_mut(pieces).enumerate().try_for_each(piece)
+    }
+}
+
+impl Operating<'_, Complex64> {
+    /// Writes the magnitudes of every row.
+    pub fn magnitudes(&self, out: &mut [f64], cancel: &Cancel) -> Result<()> {
+        self.each(
+            out,
+            self.width,
+            1,
+            cancel,
+            #[inline(always)]
+            |place, room, out| {
+                self.row(place, room);
+                for (out, phasor) in out.iter_mut().zip(room) {
+                    *out = phasor.re.mul_add(phasor.re, phasor.im * phasor.im).sqrt();
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// Writes a number found from every row of phasors and its mean.
+    pub fn beside(
+        &self,
+        means: &Operating<'_, f64>,
+        out: &mut [f64],
+        cancel: &Cancel,
+        find: impl Fn(&[Complex64], f64) -> Result<f64> + Sync,
+    ) -> Result<()> {
+        // A search for an extremum takes some hundred times as long.
+        self.each(out, 1, 256, cancel, |place, room, out| {
+            cancel.check()?;
+            self.row(place, room);
+            let mut mean = [0.0];
+            means.row(place, &mut mean);
+            out[0] = find(room, mean[0])?;
+            Ok(())
+        })
+    }
+}
