@@ -149,6 +149,7 @@ impl Sweep {
         out: &mut [f64],
         cancel: &Cancel,
     ) -> Result<()> {
+        out.fill(0.0);
         if quantity.part() != Some(TorquePart::Gas) {
             return Ok(());
         }
