@@ -128,13 +128,13 @@ def test_orders_left_out_are_within_their_bound_at_every_point() -> None:
     assert s.orders != tuple(given)
     exact, summed = s.waveform(THETA, exact=True), s.waveform(THETA)
     left = abs(exact.crank_torque - summed.crank_torque).max(axis=-1)
-    assert left.max() <= s.error_bound.torque
+    assert left.max() <= s.error_bound["torque"]
     # A bound of sums that peak together, not one that is met by chance.
-    assert left.max() > 0.02 * s.error_bound.torque
+    assert left.max() > 0.02 * s.error_bound["torque"]
     # What is left out is a small part of one cylinder's largest torque at the largest load.
     one = cp.Engine.inline(CYLINDER, throws_deg=[0], spacing=0.1).with_cycle(cycle(6000.0, 1.0))
     largest = abs(one.waveform(rpm=0, theta_deg=THETA).crank_torque).max()
-    assert s.error_bound.torque < 3e-2 * largest
+    assert s.error_bound["torque"] < 3e-2 * largest
 
 
 def test_loads_are_a_dimension_of_everything_that_is_read() -> None:
