@@ -11,6 +11,7 @@ from crankpin.analysis.bearings import BearingLoads
 from crankpin.analysis.closed_form import ClosedForm
 from crankpin.analysis.comparison import Comparison
 from crankpin.analysis.design.designs import Design, Designs
+from crankpin.analysis.explain import Explanation
 from crankpin.analysis.firing import Firing
 from crankpin.analysis.flywheel import Flywheel
 from crankpin.analysis.quantity import OrderBalance, Quantity
@@ -39,6 +40,7 @@ __all__ = [
     "Counterweights",
     "Design",
     "Designs",
+    "Explanation",
     "Firing",
     "Flywheel",
     "Match",

@@ -105,6 +105,15 @@ def test_balance_prints_what_python_prints(capsys: CAPTURE) -> None:
     assert text == repr(cp.Engine.preset("v8-crossplane").balance(3000, orders=[1, 2, 4])) + "\n"
 
 
+def test_explain_prints_a_sentence_a_line(capsys: CAPTURE) -> None:
+    v8 = cp.Engine.preset("v8-crossplane")
+    argv = ["explain", "v8-crossplane", "--rpm", "6000"]
+    assert printed(capsys, *argv).splitlines() == list(v8.explain(6000).sentences)
+    assert printed(capsys, "explain", "v8-crossplane") == f"{v8.explain()}\n"
+    beside = printed(capsys, *argv, "--reference-z", "100", "--units", "mm")
+    assert beside == f"{v8.replace(reference_z=0.1).explain(6000)}\n"
+
+
 @pytest.mark.parametrize("suffix", [".toml", ".json"])
 def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"engine{suffix}"

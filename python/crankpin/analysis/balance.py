@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 TURNING = ("forward", "backward")
 """Parts of a vector in the cross-section plane."""
+EXPLAINED = 3
+"""Sentences under a table in notebooks."""
 UNIT_RPM = 30.0 / math.pi
 """Crank speed at which ω is 1 rad/s."""
 
@@ -198,6 +200,16 @@ class Balance(ByOrder, Tabled):
         return found
 
     # --- tables and pictures --------------------------------------------------------------------
+
+    def _repr_html_(self) -> str | None:
+        """Return the table and, under it, what matters most in words."""
+        from crankpin.analysis.explain import Explanation  # noqa: PLC0415 - made of balances
+
+        table = super()._repr_html_()
+        if self.request.pairs is not None:
+            return table
+        engine = self.engine.replace(reference_z=self.reference_z)
+        return f"{table}{Explanation(engine, self.rpm).html(most=EXPLAINED)}"
 
     def plot(
         self,

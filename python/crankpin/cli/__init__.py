@@ -18,6 +18,7 @@ COMMANDS = (
     engines.add_presets,
     new.add_new,
     shaking.add_balance,
+    shaking.add_explain,
     shaking.add_sweep,
     shaking.add_rank,
     engines.add_firing,

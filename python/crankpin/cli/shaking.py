@@ -1,4 +1,4 @@
-"""Commands on how engines shake: balance, sweep, rank."""
+"""Commands on how engines shake: balance, explain, sweep, rank."""
 
 from __future__ import annotations
 
@@ -52,6 +52,25 @@ def _balance(given: Given) -> str:
     draw(balance, picture, quantity=given.text("--quantity"))
     text = printed(balance.table, csv=given.text("--csv"))
     return text if given.text("--csv") or chosen["orders"] != "auto" else text + left_out(balance)
+
+
+def add_explain(commands: Commands) -> None:
+    """Add the command ``explain``."""
+    one = command(
+        commands,
+        "explain",
+        "how an engine shakes and why, in plain sentences",
+        example="explain v8-crossplane --rpm 6000",
+        run=_explain,
+    )
+    shared(one, "name")
+    shared(one, "--rpm", default=None, help="crank speed (default: figures without a speed)")
+    shared(one, "--reference-z", "--units")
+
+
+def _explain(given: Given) -> str:
+    """Return what the command prints."""
+    return f"{given.engine('explain').explain(given.optional('--rpm', 'rpm'))}\n"
 
 
 def add_sweep(commands: Commands) -> None:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Orders, Spectrum
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.closed_form import ClosedForm
+    from crankpin.analysis.explain import Explanation
     from crankpin.analysis.firing import Firing
     from crankpin.analysis.vanishing import VanishingOrders
     from crankpin.analysis.waveform import Waveform
@@ -400,6 +401,34 @@ class Engine(Builders):
         from crankpin.analysis.closed_form import closed_form
 
         return closed_form(self, order, quantity, reference_z=reference_z)
+
+    def explain(self, rpm: float | None = None) -> Explanation:
+        """Return how the engine shakes, in plain sentences.
+
+        Parameters
+        ----------
+        rpm
+            Crank speed, for figures in N and N·m; by default they are relative to the first-order
+            force of one piston.
+
+        Returns
+        -------
+        Explanation
+
+        Raises
+        ------
+        InputError
+            If an argument is out of range.
+
+        Examples
+        --------
+        >>> import crankpin as cp
+        >>> cp.Engine.preset("i4").explain(rpm=6000).sentences[0]
+        'Order 2 leaves a shaking force of 9.27 kN, up and down: all four pistons pull together.'
+        """
+        from crankpin.analysis.explain import explain
+
+        return explain(self, rpm)
 
     # --- pages ----------------------------------------------------------------------------------
 

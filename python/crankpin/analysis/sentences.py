@@ -1,0 +1,263 @@
+"""The words of an explanation: a sentence for each kind of finding."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from crankpin._support.labels import NEGLIGIBLE
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from crankpin._support.inputs import Order
+    from crankpin.analysis.explain import Explanation, Finding
+
+NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
+    *("eleven", "twelve"),
+)
+"""Small numbers in words."""
+SPEEDS: dict[Order, str] = {1: "crank speed", 2: "twice crank speed"}
+"""Order that a balance shaft removes → its speed."""
+AXES = {
+    "force": ("sideways", "up and down", "along a line at"),
+    "moment": ("in pitch", "in yaw", "about an axis at"),
+}
+"""Direction of a vector along +x, along +y, and before an angle from +x."""
+LISTED = 4
+"""Most pairs of cylinders that a sentence lists."""
+LINE = 1e-9
+"""Forward and backward parts that differ by less make a straight line."""
+SAME = 0.005
+"""Peaks that differ by less are as large in three digits, or nearly."""
+
+
+def sentence(finding: Finding, whole: Explanation) -> str:
+    """Return a finding in words."""
+    text = WORDS[finding.kind](finding, whole)
+    return f"{text[0].upper()}{text[1:]}."
+
+
+# --- figures ------------------------------------------------------------------------------------
+
+
+def figure(value: float, unit: str, *, up: bool = False) -> str:
+    """Return a value with three digits, or rounded up to two, and its unit with a prefix."""
+    if up:
+        step = 10.0 ** (math.floor(math.log10(value)) - 1)
+        value = math.ceil(value / step * (1.0 - 1e-12)) * step
+    prefix, scale = "", 1.0
+    for name, factor in (("k", 1e3), ("M", 1e6)):
+        if value >= 0.9995 * factor and unit in ("N", "N·m"):
+            prefix, scale = name, factor
+    return f"{value / scale:.3g} {prefix}{unit}"
+
+
+def size(value: float, quantity: str, whole: Explanation, *, up: bool = False) -> str:
+    """Return a force or moment: with a speed in N or N·m, else relative to one piston's force."""
+    if whole.rpm is not None:
+        return figure(value, QUANTITIES[quantity].unit, up=up)
+    if not whole.unit:
+        return f"{figure(value, QUANTITIES[quantity].unit_over_square, up=up)} times ω²"
+    part = "piston" if any(each.reciprocating_mass for each in whole.engine.cylinders) else "throw"
+    force, share = f"one {part}'s first-order force", value / whole.unit
+    if quantity == "moment":
+        return f"{force} at a lever of {figure(1e3 * share, 'mm', up=up)}"
+    if abs(share - 1.0) <= SAME:
+        return force
+    text = figure(100.0 * share, "% of", up=up) if share < 1.0 else figure(share, "times", up=up)
+    return f"{text} {force}"
+
+
+def words(finding: Finding) -> str:
+    """Return ``shaking force`` or ``rocking moment``."""
+    return QUANTITIES[finding.quantity].words
+
+
+def listed(items: Iterable[str]) -> str:
+    """Return items joined by commas and "and"."""
+    *before, last = items
+    return f"{', '.join(before)} and {last}" if before else last
+
+
+def orders(found: Sequence[Order]) -> str:
+    """Return ``order 2`` or ``orders 1 and 2``."""
+    return f"order{'s' * (len(found) > 1)} {listed(f'{each:g}' for each in found)}"
+
+
+def number(count: int) -> str:
+    """Return a count in words, from 13 on in figures."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
+
+
+# --- sentences ----------------------------------------------------------------------------------
+
+
+def _shakes(finding: Finding, whole: Explanation) -> str:
+    forward, backward, tilt = finding.values
+    peak = size(forward + backward, finding.quantity, whole)
+    how = _shape(forward, backward, tilt, finding.quantity)
+    found = f"{orders(finding.orders)} leaves a {words(finding)} of {peak}, {how}"
+    if finding.reason != "together":
+        return found
+    count = len(whole.engine)
+    return f"{found}: {'both' if count == 2 else f'all {number(count)}'} pistons pull together"
+
+
+def _shape(forward: float, backward: float, tilt: float, quantity: str) -> str:
+    """Return how a vector moves."""
+    if not (forward and backward):
+        return f"constant in size, turning {'with' if forward else 'against'} the crank"
+    level, upright, other = AXES[quantity]
+    named = {0.0: level, 90.0: upright}
+    direction = named.get(round(abs(tilt), 1), f"{other} {tilt:.3g}°")
+    if abs(forward - backward) <= LINE * (forward + backward):
+        return direction
+    return f"largest {direction}, turning {'with' if forward > backward else 'against'} the crank"
+
+
+def _remedy(finding: Finding, whole: Explanation) -> str:
+    kept, *ratios = finding.values
+    what = f"the {words(finding)} of {orders(finding.orders)}"
+    other = "other counterweights" if whole.engine.counterweights else "counterweights"
+    if not ratios:
+        return f"{other} could remove all of {what}"
+    senses = ["with" if ratio > 0 else "against" for ratio in ratios]
+    speed = SPEEDS[finding.orders[0]]
+    shaft = f"a balance shaft at {speed}, {senses[0]} the crank"
+    if len(ratios) > 1:
+        both = f"one {senses[0]} the crank and one {senses[1]} it"
+        shaft = f"two balance shafts at {speed}, {both}"
+    if finding.reason:
+        left = size(kept, finding.quantity, whole)
+        rest = "the rest turns against the crank, and takes a balance shaft that does so"
+        return f"{other} could bring {what} down to {left}; {rest} at {speed}"
+    if finding.orders == (1,):
+        return f"no counterweight reaches {what}: it takes {shaft}"
+    return f"{shaft}, would remove {what}"
+
+
+def _bob_weights(finding: Finding, whole: Explanation) -> str:
+    rotating = "all rotating and " if whole.engine.rotating_mass.any() else ""
+    instead = " in place of the counterweights" if whole.engine.counterweights else ""
+    return (
+        f"bob weights of {rotating}half the reciprocating mass{instead} remove what turns with "
+        f"the crank at {orders(finding.orders)}, of force and moment"
+    )
+
+
+def _hardware(finding: Finding, whole: Explanation) -> str:
+    forward, backward, *after = finding.values
+    before, now = forward + backward, sum(after)
+    there = whole.engine.shafts or whole.engine.counterweights
+    if finding.reason == "counterweights":
+        there = whole.engine.counterweights
+    s = "s" * (len(there) == 1)
+    subject = f"the {finding.reason[:-1]}" if s else finding.reason
+    what = f"{words(finding)} of {orders(finding.orders)}"
+    was, left = (size(each, finding.quantity, whole) for each in (before, now))
+    if not before:
+        return f"{subject} bring{s} a {what}: {left}"
+    if not now:
+        zero = "exactly zero" if finding.proved else "zero to within rounding"
+        return f"{subject} remove{s} the whole {what}, {was}: it is {zero}"
+    if abs(now - before) <= SAME * before:
+        return f"{subject} leave{s} the {what} at {left} and turn{s} its direction"
+    for part, still, sense in ((forward, after[0], "with"), (backward, after[1], "against")):
+        if part and not still:
+            all_of = f"all of the {what} that turns {sense} the crank"
+            return f"{subject} remove{s} {all_of}: it changes from {was} to {left}"
+    verb = "reduce" if now < before else "raise"
+    return f"{subject} {verb}{s} the {what} from {was} to {left}"
+
+
+def _cancels(finding: Finding, whole: Explanation) -> str:
+    count, many = len(whole.engine), "s" * (len(finding.orders) > 1)
+    zero = "exactly zero" if finding.proved else "zero to within rounding"
+    pairs = ", ".join(f"{one} and {other}" for one, other in finding.groups)
+    named = f" ({pairs})" if 0 < len(finding.groups) <= LISTED else ""
+    cylinders = "the cylinder is" if count == 1 else "all cylinders are"
+    opposite = "pistons" if finding.quantity == "force" else "cylinders"
+    banks = len(whole.engine.banks)
+    pistons = "the pistons of each bank" if banks > 1 else "the pistons"
+    why = {
+        "plane": f"{cylinders} in the reference plane",
+        "pairs": f"opposite {opposite} cancel in pairs{named}",
+        "mirrored": f"front and rear mirror each other{named}",
+        "evenly": f"{pistons} pull at even intervals",
+        "each": f"{pistons} cancel one another",
+        "between": f"the {'banks' if banks < count else 'cylinders'} cancel one another",
+    }[finding.reason]
+    verb = "are" if many else "is"
+    return f"the {words(finding)}{many} of {orders(finding.orders)} {verb} {zero}: {why}"
+
+
+def _rest(finding: Finding, whole: Explanation) -> str:
+    other = "other " * bool(finding.orders)
+    least = (whole.unit, whole.unit * whole.lever)
+    found = [
+        f"a {QUANTITIES[name].words} of {size(value, name, whole, up=True)}"
+        for name, value, scale in zip(PLANE_VECTORS, finding.values, least, strict=True)
+        if value > NEGLIGIBLE * scale
+    ]
+    if not found:
+        return f"no {other}order is as large as a millionth of one piston's first-order force"
+    return f"all {other}orders together make at most {listed(found)}"
+
+
+def _inertia_torque(finding: Finding, whole: Explanation) -> str:
+    peak = f": {figure(finding.values[0], 'N·m')}" if whole.rpm is not None else ""
+    return f"the roll torque of the moving parts is largest at {orders(finding.orders)}{peak}"
+
+
+def _gas_torque(finding: Finding, whole: Explanation) -> str:
+    mean, *peaks = (figure(value, "N·m") for value in finding.values)
+    each = (f"{peak} at order {order:g}" for peak, order in zip(peaks, finding.orders, strict=True))
+    return f"gas pressure turns the crank with {mean} on average, and peaks of {listed(each)}"
+
+
+def _firing(finding: Finding, whole: Explanation) -> str:
+    order = whole.engine.firing_order
+    if len(finding.values) == 1:
+        return f"the cylinder fires every {finding.values[0]:g}°"
+    if finding.reason == "evenly":
+        return f"it fires evenly, every {finding.values[0]:.6g}°: {order}"
+    intervals = "-".join(f"{each:.6g}" for each in finding.values)
+    return f"it fires unevenly, at intervals of {intervals}°: {order}"
+
+
+def _gas_orders(finding: Finding, whole: Explanation) -> str:
+    first = 2 * len(whole.engine) / whole.engine.strokes
+    if finding.orders == (first,):
+        lower = ": all lower orders cancel exactly" if len(whole.engine) > 1 else ""
+        return f"gas torque begins at order {first:g}{lower}"
+    return (
+        f"{finding.reason.removesuffix('ly')} firing leaves gas torque of {orders(finding.orders)}"
+    )
+
+
+def _articulated(finding: Finding, whole: Explanation) -> str:
+    rods = "each rod is computed on the crankpin itself"
+    return (
+        f"{number(len(finding.groups[0]))} rods share a crankpin: {rods}; a master rod with "
+        "articulated rods, which moves its pistons differently, is not modelled"
+    )
+
+
+WORDS: dict[str, Callable[[Finding, Explanation], str]] = {
+    "hardware": _hardware,
+    "shakes": _shakes,
+    "remedy": _remedy,
+    "bob weights": _bob_weights,
+    "cancels": _cancels,
+    "rest": _rest,
+    "inertia torque": _inertia_torque,
+    "gas torque": _gas_torque,
+    "firing": _firing,
+    "gas orders": _gas_orders,
+    "articulated": _articulated,
+}
+"""Kind of a finding → its sentence, without capital and full stop."""
