@@ -119,6 +119,11 @@ WITH_HARDWARE = [
     I4.with_counterweights([cp.Unbalance(0.01, 0.1)]),
     I4.replace(cylinder=CYLINDER).with_cycle(PETROL),
     RADIAL,
+    # Two stars of three, 30° apart; and one of three within one of twice three.
+    *(
+        cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1)
+        for throws in ([0, 120, 240, 30, 150, 270], [0, 0, 120, 120, 240, 240, 60, 180, 300])
+    ),
     # Nothing but rotating mass, and nothing at all but a shaft.
     cp.Engine.inline(
         CYLINDER.replace(reciprocating_mass=0.0), throws_deg=[0, 90], spacing=0.1, rotating_mass=0.3
@@ -256,6 +261,7 @@ def cancels(each: Finding, numbers: Numbers) -> None:
                     gaps = np.diff([*turns, turns[0] + 1])
                     gaps = gaps[(gaps > 1e-9) & (gaps < 1 - 1e-9)]
                     assert np.ptp(gaps) < 1e-9
+                    assert len(bank) % len(gaps) == 0  # as many at a time
         else:
             assert each.reason == "between"
             assert not all(zero)
@@ -485,6 +491,16 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
     ),
     (cp.Engine.preset("i3"), None, ("Order 1 leaves a rocking moment of one piston's first-order "
      "force at a lever of 173 mm, in pitch.")),
+    (
+        cp.Engine.preset("w12"),
+        6000,
+        "Order 1 leaves a rocking moment of 623 N·m, largest in yaw, turning with the crank.",
+    ),
+    (
+        cp.Engine.preset("v14-49.54"),
+        6000,
+        "rocking moment of 1.67 kN·m, largest in yaw, turning against the crank.",
+    ),
     (cp.Engine.preset("boxer-6"), None, ("No order is as large as a millionth of one piston's "
      "first-order force.")),
     (
@@ -501,8 +517,8 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         ("Seven rods share a crankpin: each rod is computed on the crankpin itself; a master rod "
         "with articulated rods, which moves its pistons differently, is not modelled."),
     ),
-    (WITH_HARDWARE[10], None, "one throw's first-order force"),
-    (WITH_HARDWARE[11], None, ("a shaking force of 0.04 kg·m times ω², constant in size, turning "
+    (WITH_HARDWARE[-2], None, "one throw's first-order force"),
+    (WITH_HARDWARE[-1], None, ("a shaking force of 0.04 kg·m times ω², constant in size, turning "
      "with the crank.")),
 ]  # fmt: skip
 
