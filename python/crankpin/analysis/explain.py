@@ -147,8 +147,7 @@ class Explanation(Record):
         for sums in both:
             yield from sums.cancelling(noticed)
         rest = tuple(
-            float(each.peaks[~each.shakes].sum() + getattr(chosen.error_bound, each.name))
-            for each in both
+            float(each.peaks[~each.shakes].sum() + chosen.error_bound[each.name]) for each in both
         )
         yield Finding("rest", "", tuple(orders[k] for _, k in shaking), rest)
         yield from self._torques()
@@ -234,7 +233,7 @@ class Sums:
         parts = contributions(balance, name)
         self.turning = phasors(balance, name)
         """Forward and backward parts: (2, n_orders), as of contributions."""
-        self.ellipse = getattr(balance, name).ellipse
+        self.tilt_deg = getattr(balance, name).tilt_deg
         self.peaks = balance.read(name, "peak")
         self.shakes = (self.peaks > MATTERS * size) & (self.peaks > 0.0)
         self.cylinders = np.array([each.phasors for each in parts[: len(self.engine)]])
@@ -272,7 +271,7 @@ class Sums:
         order = self.orders[k]
         forward, backward = np.abs(self.turning[:, k]).tolist()
         reason = "together" if self.name == "force" and self._together(k) else ""
-        values = (forward, backward, float(self.ellipse.tilt_deg[k]))
+        values = (forward, backward, float(self.tilt_deg[k]))
         yield Finding("shakes", self.name, (order,), values, reason)
         if order <= REMOVABLE:
             ratios = [order] * bool(forward and order > 1) + [-order] * bool(backward)
