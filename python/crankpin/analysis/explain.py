@@ -1,4 +1,4 @@
-"""How an engine shakes, as findings: what stays, what cancels and why, and what would help."""
+"""How an engine shakes, as findings: the residual, what cancels and why, and what would help."""
 
 from __future__ import annotations
 
