@@ -129,7 +129,7 @@ class Explanation(Record):
         """Yield the findings, what matters most first."""
         chosen = self._balance(torque=False)
         orders = tuple(sorted({*chosen.orders, *range(1, HIGHEST + 1)}))
-        balance, verdicts = chosen.at_orders(orders), self.engine.vanishing_orders(orders)
+        balance, verdicts = chosen._at_orders(orders), self.engine.vanishing_orders(orders)
         force = Sums(balance, "force", self.unit, verdicts.force)
         moment = Sums(balance, "moment", self.unit * self.lever, verdicts.moment)
         both = (force, moment)
