@@ -30,7 +30,7 @@ def test_it_counts_the_presets() -> None:
 
 
 def test_its_two_commands_are_there() -> None:
-    commands = re.findall(r"^pip install .*$", README, re.MULTILINE)
+    commands = re.findall(r'^pip install "\..*$', README, re.MULTILINE)
     assert len(commands) == 2
     assert commands[0].startswith('pip install ".[plot]" && python -m crankpin sweep ')
     assert commands[1] == 'pip install ".[test]" && pytest'
