@@ -112,7 +112,7 @@ def make_gallery(app: Sphinx) -> None:
             description=presets.descriptions[name],
             rpm=rpm,
             balance=engine.balance(rpm=rpm),
-            sentences="",
+            sentences="\n".join(f"* {each}" for each in engine.explain().sentences),
         )
         _write(GALLERY / f"{name}.md", text)
         rows.append(f"* [{engine.name}]({name}.md) (`{name}`): {presets.descriptions[name]}")
