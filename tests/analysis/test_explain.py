@@ -25,7 +25,7 @@ from rederivation import time_domain
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from crankpin.analysis.explain import Finding
+    from crankpin.analysis.findings import Finding
 
 RPM = 3000.0
 OMEGA_SQUARED = (2 * np.pi * RPM / 60) ** 2
@@ -269,8 +269,8 @@ def cancels(each: Finding, numbers: Numbers) -> None:
 
 def hardware(each: Finding, numbers: Numbers) -> None:
     (order,), unit, engine = each.orders, numbers.unit(each.quantity), numbers.engine
-    weights = each.reason == "counterweights"
-    bare = engine.with_counterweights([]) if weights else engine.with_shafts([])
+    bare = engine.with_counterweights([]) if "counterweights" in each.reason else engine
+    bare = bare.with_shafts([]) if "balance shafts" in each.reason else bare
     before = getattr(bare.balance(RPM, orders=[order])[order], each.quantity)
     after = numbers.of(each.quantity, order)
     expected = [abs(part) for b in (before, after) for part in (b.forward, b.backward)]
@@ -415,7 +415,8 @@ def test_every_kind_and_every_reason_occurs() -> None:
     assert {kind for kind, _ in found} == set(CHECKS)
     reasons = {"plane", "pairs", "mirrored", "evenly", "each", "between"}
     assert {reason for kind, reason in found if kind == "cancels"} == reasons
-    assert {"counterweights", "balance shafts"} == {r for kind, r in found if kind == "hardware"}
+    groups = {"counterweights", "balance shafts", "counterweights and balance shafts"}
+    assert {reason for kind, reason in found if kind == "hardware"} == groups
 
 
 SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
@@ -482,7 +483,22 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         None,
         "Bob weights of half the reciprocating mass in place of the counterweights remove",
     ),
-    (WITH_HARDWARE[6], 3000, "The balance shaft removes the whole shaking force of order 1, 955 N"),
+    (
+        WITH_HARDWARE[6],
+        3000,
+        "The counterweight and the balance shaft remove the whole shaking force of order 1, 1.91 k",
+    ),
+    (
+        cp.balance_shafts(SINGLE, -1, x=0.1, y=0.0).fitted,
+        3000,
+        ("The balance shaft removes all of the shaking force of order 1 that turns against the "
+        "crank: it changes from 1.91 kN to 955 N."),
+    ),
+    (
+        cp.Engine.preset("i2-180"),
+        None,
+        "The shaking force of order 1 is exactly zero: the pistons are opposite.",
+    ),
     (WITH_HARDWARE[7], 3000, "The counterweight brings a shaking force of order 1: 987 N."),
     (
         cp.Engine.preset("i2-360"),

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from crankpin._support.inputs import Order
-    from crankpin.analysis.explain import Explanation, Finding
+    from crankpin.analysis.explain import Explanation
+    from crankpin.analysis.findings import Finding
 
 NUMBERS = (
     *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
@@ -152,11 +153,16 @@ def _bob_weights(finding: Finding, whole: Explanation) -> str:
 def _hardware(finding: Finding, whole: Explanation) -> str:
     forward, backward, *after = finding.values
     before, now = forward + backward, sum(after)
-    there = whole.engine.shafts or whole.engine.counterweights
-    if finding.reason == "counterweights":
-        there = whole.engine.counterweights
-    s = "s" * (len(there) == 1)
-    subject = f"the {finding.reason[:-1]}" if s else finding.reason
+    there = {
+        "counterweights": whole.engine.counterweights,
+        "balance shafts": whole.engine.shafts,
+    }
+    acting = [
+        f"the {group[:-1]}" if len(there[group]) == 1 else group
+        for group in finding.reason.split(" and ")
+    ]
+    subject = " and ".join(acting)
+    s = "s" * (acting[0].startswith("the ") and len(acting) == 1)
     what = f"{words(finding)} of {orders(finding.orders)}"
     was, left = (size(each, finding.quantity, whole) for each in (before, now))
     if not before:
@@ -178,14 +184,17 @@ def _cancels(finding: Finding, whole: Explanation) -> str:
     count, many = len(whole.engine), "s" * (len(finding.orders) > 1)
     zero = "exactly zero" if finding.proved else "zero to within rounding"
     pairs = ", ".join(f"{one} and {other}" for one, other in finding.groups)
-    named = f" ({pairs})" if 0 < len(finding.groups) <= LISTED else ""
+    named = f" ({pairs})" if 1 < len(finding.groups) <= LISTED else ""
     cylinders = "the cylinder is" if count == 1 else "all cylinders are"
     opposite = "pistons" if finding.quantity == "force" else "cylinders"
     banks = len(whole.engine.banks)
     pistons = "the pistons of each bank" if banks > 1 else "the pistons"
+    alone = len(finding.groups) == 1 and count == 2
     why = {
         "plane": f"{cylinders} in the reference plane",
-        "pairs": f"opposite {opposite} cancel in pairs{named}",
+        "pairs": f"the {opposite} are opposite"
+        if alone
+        else f"opposite {opposite} cancel in pairs{named}",
         "mirrored": f"front and rear mirror each other{named}",
         "evenly": f"{pistons} pull at even intervals",
         "each": f"{pistons} cancel one another",
