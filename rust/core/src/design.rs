@@ -418,7 +418,7 @@ impl Merit {
         if !all.is_empty() {
             order::check_list(&all)?;
         }
-        let gears = GearHarmonics::new(&loads, true, &all, cancel)?;
+        let gears = GearHarmonics::new(&loads, true, &all, &[], cancel)?;
         let wanted = Wanted { planar: true, roll: true, by_bank: false };
         let by_order: Vec<[Vec<TurningPhasor>; 4]> = all
             .iter()

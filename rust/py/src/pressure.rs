@@ -208,21 +208,6 @@ impl Cycle {
         })?;
         Ok((torque.mean, PyArray1::from_vec(py, torque.phasors)))
     }
-
-    /// Bounds of the sum of phasors above each order up to one, ½, 1, …, in halves.
-    fn tails<'py>(
-        &self,
-        py: Python<'py>,
-        parts: Parts,
-        crankcase: f64,
-        halves: u32,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let proportions = cylinder(parts)?.proportions();
-        let highest = Order::from_halves(halves).or_raise()?;
-        let tails =
-            interrupt::run(py, |cancel| self.0.tails(&proportions, crankcase, highest, cancel))?;
-        Ok(PyArray1::from_vec(py, tails))
-    }
 }
 
 fn chamber(parts: Parts, bore: f64, compression_ratio: f64, strokes: u32) -> PyResult<Chamber> {

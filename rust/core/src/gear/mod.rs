@@ -87,27 +87,38 @@ impl Gear {
     }
 
     /// Torque of the pressure over piston area and crank radius, Pa, on the block and on the main
-    /// crank: harmonics and mean. The forces are internal, so that either balances the other.
-    pub fn gas(&self, orders: &[Order], cancel: &Cancel) -> Result<(TorqueHarmonics, [f64; 2])> {
+    /// crank: harmonics and mean, from those of [`Self::gas_up_to`] if they are known. The forces are
+    /// internal, so that either balances the other.
+    pub fn gas(
+        &self,
+        orders: &[Order],
+        known: Option<&GasTorque>,
+        cancel: &Cancel,
+    ) -> Result<(TorqueHarmonics, [f64; 2])> {
         let Some(Pressure { cycle, crankcase }) = &self.pressure else {
             let zero = vec![Complex64::default(); orders.len()];
             return Ok((TorqueHarmonics { roll: zero.clone(), crank: zero }, [0.0; 2]));
         };
         let [on_block, on_crank] = self.senses();
-        let GasTorque { mean, phasors } = cycle.torque(self, *crankcase, orders, cancel)?;
+        let GasTorque { mean, phasors } = cycle.torque(self, *crankcase, orders, known, cancel)?;
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
         let crank = phasors.iter().map(|phasor| phasor * on_crank).collect();
         Ok((TorqueHarmonics { roll, crank }, [-on_block * mean, on_crank * mean]))
     }
 
-    /// Bounds of the sum of all harmonics of the torque of the pressure above each order up to one.
-    pub fn gas_tails(&self, highest: Order, cancel: &Cancel) -> Result<Vec<f64>> {
+    /// Harmonics ½, 1, 1½ … of the torque of the pressure on a crank, and bounds of the sum of all above
+    /// each, up to an order; none without pressure.
+    pub fn gas_up_to(
+        &self,
+        highest: Order,
+        cancel: &Cancel,
+    ) -> Result<Option<(GasTorque, Vec<f64>)>> {
         let (Some(Pressure { cycle, crankcase }), GearKind::SliderCrank { proportions, .. }) =
             (&self.pressure, &self.kind)
         else {
-            return Ok(vec![0.0; highest.halves() as usize]);
+            return Ok(None);
         };
-        cycle.tails(proportions, *crankcase, highest, cancel)
+        cycle.torque_up_to(proportions, *crankcase, highest, cancel).map(Some)
     }
 
     /// Largest torque of the pressure over piston area and crank radius, Pa, among those at whole

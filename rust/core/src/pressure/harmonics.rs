@@ -14,6 +14,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
+use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// Torque on a crank over piston area and crank radius, Pa.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +23,15 @@ pub struct GasTorque {
     pub mean: f64,
     /// Peak phasors of the orders asked for.
     pub phasors: Vec<Complex64>,
+}
+
+impl GasTorque {
+    /// The phasors of some orders, of one that has all halves up to the highest of them.
+    fn at(&self, orders: &[Order]) -> Option<Self> {
+        let phasor = |order: &Order| self.phasors.get(order.halves() as usize - 1).copied();
+        let phasors = orders.iter().map(phasor).collect::<Option<_>>()?;
+        Some(Self { mean: self.mean, phasors })
+    }
 }
 
 /// Nodes that are summed at once: they stay in the cache.
@@ -63,8 +73,8 @@ static NODES: LazyLock<Vec<Vec<(f64, f64)>>> =
 
 /// A point of the quadrature.
 struct Abscissa {
-    /// Crank angle, radians.
-    theta: f64,
+    /// Crank angle.
+    theta_deg: f64,
     /// Weight, radians.
     weight: f64,
     /// Torque there.
@@ -75,14 +85,19 @@ struct Abscissa {
 
 impl Cycle {
     /// Torque on the crank of a gear over piston area and crank radius, of the pressure above the
-    /// crankcase's: its mean, and its phasors at orders of the gear's own crank.
+    /// crankcase's: its mean, and its phasors at orders of the gear's own crank; those of `known`, at
+    /// orders ½, 1, 1½ …, where it reaches so far.
     pub(crate) fn torque(
         &self,
         gear: &Gear,
         crankcase: f64,
         orders: &[Order],
+        known: Option<&GasTorque>,
         cancel: &Cancel,
     ) -> Result<GasTorque> {
+        if let Some(found) = known.and_then(|known| known.at(orders)) {
+            return Ok(found);
+        }
         self.torque_of(slider_crank(gear)?, crankcase, orders, cancel)
     }
 
@@ -97,18 +112,18 @@ impl Cycle {
         self.integrate(proportions, crankcase, orders, cancel).map(|(torque, _)| torque)
     }
 
-    /// Bounds of the sum of the magnitudes of all phasors above order ½, 1, 1½ … up to one; infinite
-    /// where the torque jumps.
+    /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above
+    /// each; infinite where the torque jumps.
     ///
     /// By Cauchy and Schwarz from those of the slope: Σ|cₖ| ≤ √(Σ k⁻² · Σ k²|cₖ|²), and the last sum is
     /// known from the mean square of the slope less that of the orders below (Parseval).
-    pub fn tails(
+    pub fn torque_up_to(
         &self,
         proportions: &Proportions,
         crankcase: f64,
         highest: Order,
         cancel: &Cancel,
-    ) -> Result<Vec<f64>> {
+    ) -> Result<(GasTorque, Vec<f64>)> {
         let orders = (1..=highest.halves()).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
         let (torque, slope) = self.integrate(proportions, crankcase, &orders, cancel)?;
         let step = if self.strokes == Strokes::Four { 0.5 } else { 1.0 };
@@ -120,7 +135,8 @@ impl Cycle {
             let last = (k / step).floor() * step;
             (left.max(0.0) + QUADRATURE * slope).sqrt() / (step * (last + 0.5 * step)).sqrt()
         };
-        Ok(orders.iter().zip(&torque.phasors).map(tail).collect())
+        let tails = orders.iter().zip(&torque.phasors).map(tail).collect();
+        Ok((torque, tails))
     }
 
     /// Torque, and twice the mean square of its slope: infinite where it jumps.
@@ -199,7 +215,7 @@ impl Cycle {
                 let motion = proportions.motion(unit.im, unit.re);
                 let gauge = pressure - crankcase;
                 chunk.push(Abscissa {
-                    theta: centred + offset,
+                    theta_deg: middle + offset.to_degrees(),
                     weight: weight * half * width,
                     // The piston's way down is minus its distance from the crank.
                     torque: -gauge * motion.velocity,
@@ -233,6 +249,8 @@ impl Cycle {
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.
 #[derive(Default)]
 struct Powers {
+    /// Crank angle of each node, and zeros up to whole lanes.
+    degrees: Vec<f64>,
     /// Weight times torque of each node, and zeros up to whole lanes.
     weighted: Vec<f64>,
     wave: Wave,
@@ -249,21 +267,15 @@ struct Wave {
 }
 
 impl Wave {
-    fn fill(&mut self, nodes: &[Abscissa], halves: u32) {
-        self.cos.clear();
-        self.sin.clear();
-        for node in nodes {
-            let (sin, cos) = (0.5 * f64::from(halves) * node.theta).sin_cos();
-            self.cos.push(cos);
-            self.sin.push(sin);
-        }
-        let whole = nodes.len().next_multiple_of(LANES);
-        self.cos.resize(whole, 1.0);
-        self.sin.resize(whole, 0.0);
-    }
-
-    fn lanes(&self) -> impl Iterator<Item = (&[f64; LANES], &[f64; LANES])> {
-        self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
+    fn fill(&mut self, degrees: &[f64], halves: u32) {
+        let order = 0.5 * f64::from(halves);
+        let multiples: Vec<f64> = degrees.iter().map(|degrees| order * degrees).collect();
+        self.cos.resize(degrees.len(), 0.0);
+        self.sin.resize(degrees.len(), 0.0);
+        vectorised(
+            #[inline(always)]
+            || sin_cos_degrees(&multiples, &mut self.sin, &mut self.cos),
+        );
     }
 }
 
@@ -277,41 +289,48 @@ impl Powers {
     ) -> Result<()> {
         self.weighted.clear();
         self.weighted.extend(nodes.iter().map(|node| node.weight * node.torque));
-        self.weighted.resize(nodes.len().next_multiple_of(LANES), 0.0);
+        self.degrees.clear();
+        self.degrees.extend(nodes.iter().map(|node| node.theta_deg));
+        for values in [&mut self.weighted, &mut self.degrees] {
+            values.resize(nodes.len().next_multiple_of(LANES), 0.0);
+        }
         self.gap = 0;
         let mut before = 0;
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
-            if gap > 2 || i % FRESH == 0 {
-                self.wave.fill(nodes, order);
+            let fresh = gap > 2 || i % FRESH == 0;
+            if fresh {
+                self.wave.fill(&self.degrees, order);
                 cancel.check()?;
-            } else {
-                if gap != self.gap {
-                    self.step.fill(nodes, gap);
-                    self.gap = gap;
-                }
-                self.turn();
+            } else if gap != self.gap {
+                self.step.fill(&self.degrees, gap);
+                self.gap = gap;
             }
-            *sum += self.sum();
+            *sum += vectorised(
+                #[inline(always)]
+                || self.sum(!fresh),
+            );
         }
         Ok(())
     }
 
-    /// Turn the wave by the step.
-    fn turn(&mut self) {
-        let waves = self.wave.cos.iter_mut().zip(&mut self.wave.sin);
-        for ((cos, sin), (&c, &s)) in waves.zip(self.step.cos.iter().zip(&self.step.sin)) {
-            (*cos, *sin) = (*cos * c - *sin * s, *cos * s + *sin * c);
-        }
-    }
-
-    /// Sum of torque times the conjugate wave, by lanes.
-    fn sum(&self) -> Complex64 {
+    /// Sum of torque times the conjugate wave, by lanes; the wave turned by the step before if wanted.
+    #[inline(always)]
+    fn sum(&mut self, turned: bool) -> Complex64 {
         let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        for (weighted, (cos, sin)) in
-            self.weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
-        {
+        let Self { weighted, wave: Wave { cos, sin }, step, .. } = self;
+        let waves = cos.as_chunks_mut::<LANES>().0.iter_mut().zip(sin.as_chunks_mut::<LANES>().0);
+        let [steps_cos, steps_sin] =
+            [&step.cos, &step.sin].map(|of| if turned { of.as_chunks::<LANES>().0 } else { &[] });
+        let mut steps = steps_cos.iter().zip(steps_sin);
+        for (weighted, (cos, sin)) in weighted.as_chunks::<LANES>().0.iter().zip(waves) {
+            if let Some((c, s)) = steps.next() {
+                for k in 0..LANES {
+                    (cos[k], sin[k]) =
+                        (cos[k] * c[k] - sin[k] * s[k], cos[k] * s[k] + sin[k] * c[k]);
+                }
+            }
             for k in 0..LANES {
                 re[k] += weighted[k] * cos[k];
                 im[k] -= weighted[k] * sin[k];

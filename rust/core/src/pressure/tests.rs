@@ -205,7 +205,7 @@ fn tails_bound_what_is_left_out_and_are_close() {
     let p = Proportions::new(0.3, 0.0).unwrap();
     let cycle = table(even(360, 720.0), smooth, 4).unwrap();
     let highest = Order::whole(40).unwrap();
-    let tails = cycle.tails(&p, ATMOSPHERE, highest, &Cancel::new()).unwrap();
+    let tails = cycle.torque_up_to(&p, ATMOSPHERE, highest, &Cancel::new()).unwrap().1;
     let orders: Vec<Order> = (1..=600).map(|h| Order::from_halves(h).unwrap()).collect();
     let torque = cycle.torque_of(&p, ATMOSPHERE, &orders, &Cancel::new()).unwrap();
     for (above, tail) in tails.iter().enumerate() {
@@ -217,7 +217,7 @@ fn tails_bound_what_is_left_out_and_are_close() {
     // A jump where the piston moves has a divergent sum; one where it stands has not.
     let jump = |at: f64| {
         let cycle = panels(|t| 1e5 + 1e4 * (t - at), &[at, at + 720.0], 3);
-        cycle.tails(&p, 0.0, highest, &Cancel::new()).unwrap()[79]
+        cycle.torque_up_to(&p, 0.0, highest, &Cancel::new()).unwrap().1[79]
     };
     assert_eq!(jump(90.0), f64::INFINITY);
     assert!(jump(0.0) < 1e7);

@@ -6,20 +6,23 @@ use crate::load::{Harmonic, Loads, Scale, Source, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
+use crate::pressure::GasTorque;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
 
 /// Wrenches of the given orders, in their order, those of inertia over ω²; what vanishes to within
 /// rounding is zero.
 ///
 /// Torque is zero where it is not wanted; a spectrum of forces does not determine it. The means are
-/// those of the torques of pressure on the block and on the crank.
+/// those of the torques of pressure on the block and on the crank; `gas` are the harmonics of these, by
+/// gear, where they are known.
 pub(crate) fn wrenches(
     loads: &Loads,
     torque: bool,
     orders: &[Order],
+    gas: &[Option<GasTorque>],
     cancel: &Cancel,
 ) -> Result<(Vec<Wrench>, [f64; 2])> {
-    let gears = GearHarmonics::new(loads, torque, orders, cancel)?;
+    let gears = GearHarmonics::new(loads, torque, orders, gas, cancel)?;
     let unbalanced = loads.unbalance_orders();
     let wrench = |(k, &order): (usize, &Order)| {
         cancel.check()?;
@@ -64,14 +67,21 @@ pub(crate) struct GearHarmonics {
 }
 
 impl GearHarmonics {
-    pub fn new(loads: &Loads, torque: bool, orders: &[Order], cancel: &Cancel) -> Result<Self> {
+    pub fn new(
+        loads: &Loads,
+        torque: bool,
+        orders: &[Order],
+        known: &[Option<GasTorque>],
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let (mut force, mut torques, mut gas) = (Vec::new(), Vec::new(), Vec::new());
         for (k, gear) in loads.gears.iter().enumerate() {
             force.push(gear.force(orders, cancel)?);
             if torque {
                 let rod = loads.has_rod_inertia(k).then(|| gear.rod_torque(orders, cancel));
                 torques.push((gear.torque(orders, cancel)?, rod.transpose()?));
-                let fired = gear.pressure.is_some().then(|| gear.gas(orders, cancel));
+                let known = known.get(k).and_then(Option::as_ref);
+                let fired = gear.pressure.is_some().then(|| gear.gas(orders, known, cancel));
                 gas.push(fired.transpose()?);
             }
         }

@@ -186,7 +186,7 @@ pub fn balance(
     let mut balance = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
-            let (wrenches, mean) = wrenches(&loads, torque, orders, cancel)?;
+            let (wrenches, mean) = wrenches(&loads, torque, orders, &[], cancel)?;
             Balance {
                 orders: orders.clone(),
                 omitted: Vec::new(),

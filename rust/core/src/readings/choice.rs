@@ -13,6 +13,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::Order;
+use crate::pressure::GasTorque;
 use crate::readings::amplitude::wrenches;
 use crate::wrench::Wrench;
 
@@ -25,6 +26,10 @@ const LEAST_OF_GAS: f64 = 1e-3;
 /// Highest order of the torque of pressure that is evaluated; that of a cycle in which it jumps declines
 /// like 1/n.
 const HIGHEST_OF_GAS: u32 = 192;
+
+/// Order up to which the torque of pressure is integrated first; then to four times it, as far as
+/// [`HIGHEST_OF_GAS`].
+pub(crate) const FIRST_OF_GAS: u32 = 48;
 
 /// Orders chosen for an engine, those of inertia over ω² so that they serve any speed.
 pub(crate) struct Chosen {
@@ -55,12 +60,15 @@ pub(crate) fn within(
     let [force, moment, inertia] = tail(loads, orders.last(), torque, &loads.gears);
     let mut gas = GasOrders::default();
     if torque {
-        gas = GasOrders::new(rtol, loads, &loads.gears, cancel)?;
+        // As far as the others at once, which have a part of gas too.
+        let last = orders.last().map_or(0, |order| order.halves().div_ceil(2));
+        let highest = last.clamp(FIRST_OF_GAS, HIGHEST_OF_GAS);
+        gas = GasOrders::new(rtol, loads, &loads.gears, highest, cancel)?;
         orders.extend(&gas.orders);
         orders.sort_unstable();
         orders.dedup();
     }
-    let (all, mean) = wrenches(loads, torque, &orders, cancel)?;
+    let (all, mean) = wrenches(loads, torque, &orders, &gas.torques, cancel)?;
     let sizes: Vec<[f64; 4]> = all.iter().map(sizes).collect();
     let mut error_bound = [force, moment, inertia, gas.tail];
     let [force, moment, torque] = scales.map(|scale| rtol * scale);
@@ -160,7 +168,6 @@ pub(crate) fn candidates(
 pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[Gear]) -> [f64; 3] {
     let last = last.map_or(0, |order| order.halves() / 2);
     let bounds: Vec<[f64; 3]> = gears.iter().map(|gear| gear.tail(last, torque)).collect();
-    let times = |weight: f64, bound: f64| if weight == 0.0 { 0.0 } else { weight * bound };
     let mut sum = [0.0; 3];
     for load in &loads.list {
         let Source::Piston { gear, second_moment, rod_inertia } = load.source else { continue };
@@ -175,6 +182,11 @@ pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[G
         }
     }
     sum
+}
+
+/// Zero times infinity is zero.
+pub(crate) fn times(weight: f64, bound: f64) -> f64 {
+    if weight == 0.0 { 0.0 } else { weight * bound }
 }
 
 /// What a tolerance is relative to, over ω²: for force the largest m·r of a cylinder, amplitude of
@@ -222,14 +234,22 @@ pub(crate) struct GasOrders {
     pub tail: f64,
     /// What may be left out, N·m.
     pub allowed: f64,
+    /// Harmonics ½, 1, 1½ … of each gear that has pressure.
+    pub torques: Vec<Option<GasTorque>>,
 }
 
 impl GasOrders {
     /// Of an engine; what may be left out is this part of the largest torque of a cylinder, or
-    /// [`LEAST_OF_GAS`].
+    /// [`LEAST_OF_GAS`]. Orders up to `highest` are looked at before any above.
     /// `gears` are those of the loads, at the point of a sweep where their harmonics decrease most
     /// slowly.
-    pub fn new(rtol: f64, loads: &Loads, gears: &[Gear], cancel: &Cancel) -> Result<Self> {
+    pub fn new(
+        rtol: f64,
+        loads: &Loads,
+        gears: &[Gear],
+        mut highest: u32,
+        cancel: &Cancel,
+    ) -> Result<Self> {
         let (volumes, mut largest, mut step) = (loads.volumes(), 0.0_f64, 2);
         for load in &loads.list {
             let Source::Pressure { gear: k } = load.source else { continue };
@@ -243,22 +263,26 @@ impl GasOrders {
         if allowed == 0.0 {
             return Ok(Self::default());
         }
-        let mut highest = 24;
         loop {
             let mut tails = vec![0.0; 2 * highest as usize];
-            for (gear, weight) in gears.iter().zip(&volumes).filter(|(_, w)| **w > 0.0) {
-                let found = gear.gas_tails(Order::whole(highest)?, cancel)?;
-                tails.iter_mut().zip(found).for_each(|(sum, tail)| *sum += weight * tail);
+            let mut torques = Vec::new();
+            for (gear, weight) in gears.iter().zip(&volumes) {
+                let found = gear.gas_up_to(Order::whole(highest)?, cancel)?;
+                torques.push(found.map(|(torque, of_gear)| {
+                    let own = of_gear.into_iter().map(|tail| times(*weight, tail));
+                    tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
+                    torque
+                }));
             }
             let enough = tails.iter().position(|&tail| tail <= 0.25 * allowed);
             let Some(last) = enough.or((highest == HIGHEST_OF_GAS).then_some(tails.len() - 1))
             else {
-                highest *= 2;
+                highest = HIGHEST_OF_GAS.min(4 * highest);
                 continue;
             };
             let halves = (1..=last as u32 + 1).filter(|halves| halves % step == 0);
             let orders = halves.map(Order::from_halves).collect::<Result<_>>()?;
-            return Ok(Self { orders, tail: tails[last], allowed });
+            return Ok(Self { orders, tail: tails[last], allowed, torques });
         }
     }
 }

@@ -38,7 +38,7 @@ use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::readings::balance::TorquePart;
-use crate::readings::choice::{GasOrders, candidates, few, scales, tail};
+use crate::readings::choice::{FIRST_OF_GAS, GasOrders, candidates, few, scales, tail, times};
 
 /// Rod ratio up to which every order of the torque of masses without offset grows with it.
 const TORQUE_GROWS: f64 = 0.95;
@@ -87,7 +87,7 @@ impl Sweep {
             }
             let mut gas = GasOrders::default();
             if torque && sweep.fired {
-                gas = GasOrders::new(rtol, loads, &gears, cancel)?;
+                gas = GasOrders::new(rtol, loads, &gears, FIRST_OF_GAS, cancel)?;
                 sweep.orders.extend(&gas.orders);
             }
             slowest.push(gears);
@@ -145,8 +145,8 @@ impl Sweep {
             cancel.check()?;
             let mut tail = 0.0;
             for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
-                let tails = self.at_point(gear, point)?.gas_tails(last, cancel)?;
-                tail += volume * tails.last().copied().unwrap_or(0.0);
+                let found = self.at_point(gear, point)?.gas_up_to(last, cancel)?;
+                tail += volume * found.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
             }
             worst = worst.max(tail);
         }
@@ -244,7 +244,7 @@ impl Sweep {
             let mut sizes = [vec![0.0_f64; orders.len()], vec![0.0; orders.len()]];
             for point in 0..self.points() {
                 let (TorqueHarmonics { roll, crank }, _) =
-                    self.at_point(gear, point)?.gas(orders, cancel)?;
+                    self.at_point(gear, point)?.gas(orders, None, cancel)?;
                 for (sizes, values) in sizes.iter_mut().zip([roll, crank]) {
                     sizes.iter_mut().zip(values).for_each(|(s, v)| *s = s.max(v.norm()));
                 }
@@ -299,11 +299,6 @@ fn span(parts: &[Swung; 2], rounding: f64) -> f64 {
     };
     let size = parts.iter().map(part).sum();
     if size <= rounding { 0.0 } else { size }
-}
-
-/// Zero times infinity is zero.
-fn times(size: f64, largest: f64) -> f64 {
-    if size == 0.0 { 0.0 } else { size * largest }
 }
 
 impl Quantity {

@@ -133,7 +133,7 @@ pub(super) fn of(
     let force = match harmonic {
         Harmonic::Torque(_) => return gear.torque(orders, cancel),
         Harmonic::Rod(_) => return gear.rod_torque(orders, cancel),
-        Harmonic::Gas(_) => return Ok(gear.gas(orders, cancel)?.0),
+        Harmonic::Gas(_) => return Ok(gear.gas(orders, None, cancel)?.0),
         Harmonic::One => vec![Complex64::new(1.0, 0.0); orders.len()],
         Harmonic::Force(_) => gear.force(orders, cancel)?,
     };

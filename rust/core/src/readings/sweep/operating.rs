@@ -162,7 +162,7 @@ impl Sweep {
             for point in 0..points {
                 let mut mean = 0.0;
                 for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
-                    let (_, of_gear) = self.at_point(gear, point)?.gas(&[], cancel)?;
+                    let (_, of_gear) = self.at_point(gear, point)?.gas(&[], None, cancel)?;
                     mean += volume * of_gear[usize::from(on_crank)];
                 }
                 means.push(mean);
