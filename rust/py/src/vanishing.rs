@@ -65,7 +65,7 @@ pub fn star<'py>(
 ) -> PyResult<Star<'py>> {
     let (firing, orders, count) = (&firing.0, orders(halves)?, weights.len());
     let stars = interrupt::run(py, |cancel| {
-        let stars = Stars::new(firing.phases(), weights, vec![0; count], cancel)?;
+        let stars = Stars::new(firing.phases(), weights, vec![(0, false); count], cancel)?;
         let at = |&order: &Order| {
             cancel.check()?;
             stars.at(order)

@@ -41,17 +41,19 @@ pub struct Stars {
     halves: Vec<PartOfTurn>,
     weights: Vec<f64>,
     multiples: Multiples,
-    /// Groups of which only the vectors of one have a known ratio.
-    groups: Vec<usize>,
+    /// Groups of which only the vectors of one have a known ratio, and whether the vector is that of the
+    /// mirrored gear.
+    groups: Vec<(usize, bool)>,
 }
 
 impl Stars {
     /// Of angles of firing within two turns, with a weight for each cylinder. Cylinders of different
-    /// groups have vectors of no known ratio.
+    /// groups have vectors of no known ratio. Of mirrored ones, of opposite pin offsets, a part is the
+    /// same and the rest has the opposite sign.
     pub fn new(
         fire: Vec<Angle>,
         weights: Vec<f64>,
-        groups: Vec<usize>,
+        groups: Vec<(usize, bool)>,
         cancel: &Cancel,
     ) -> Result<Self> {
         if weights.len() != fire.len() {
@@ -77,10 +79,12 @@ impl Stars {
         let cycle_of = |i: usize| gas.map_or(Some(0), |gas| gas.cycle_of[i]);
         let sizes = |(i, place): (usize, &Station)| {
             let gear = &place.cylinder;
-            let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset()];
+            let sizes = [gear.crank_radius(), gear.rod_length(), gear.pin_offset().abs()];
             (sizes, engine.details()[i].bore, cycle_of(i))
         };
-        let groups = first_equal(engine.stations().iter().enumerate().map(sizes));
+        let groups = first_equal(engine.stations().iter().enumerate().map(sizes)).into_iter();
+        let mirrored = engine.stations().iter().map(|place| place.cylinder.pin_offset() < 0.0);
+        let groups: Vec<_> = groups.zip(mirrored).collect();
         let weights = (0..groups.len()).map(|i| f64::from(u8::from(cycle_of(i).is_some())));
         Self::new(fire, weights.collect(), groups, cancel)
     }
@@ -101,19 +105,29 @@ impl Stars {
         let first = (turns(0), self.halves[0].symbol);
         let is_major = (0..self.fire.len())
             .all(|k| self.halves[k].symbol == first.1 && (turns(k) - first.0).is_integer());
-        let mut sums: BTreeMap<(usize, usize, usize), Vec<(Ratio, Ratio)>> = BTreeMap::new();
+        // Each term with its sign in the sum of a gear's vectors and of those of the mirrored one.
+        let mut sums: BTreeMap<_, Vec<(Ratio, Ratio, bool)>> = BTreeMap::new();
         for (k, &(unit, weight)) in self.multiples.of.iter().enumerate() {
-            let key = (self.groups[k], unit, self.halves[k].symbol);
-            sums.entry(key).or_default().push((-turns(k), weight));
+            let (group, mirrored) = self.groups[k];
+            let key = (group, unit, self.halves[k].symbol);
+            sums.entry(key).or_default().push((-turns(k), weight, mirrored));
         }
         let mut left = 0;
         for terms in sums.values() {
             let (weights, _) = whole(&terms.iter().map(|term| term.1).collect::<Vec<_>>())?;
-            let roots = terms.iter().zip(weights);
-            let roots: Vec<_> = roots
-                .map(|((turns, _), weight)| (*turns.numer(), *turns.denom(), weight))
-                .collect();
-            left += usize::from(!RootSum::new(&roots, 1)?.vanishes()?);
+            // A·a + B·b of two unknown harmonics a, b is (A + B)·(a + b)/2 + (A − B)·(a − b)/2.
+            let remains = |factor: fn(bool) -> i128| -> Result<usize> {
+                let roots = terms.iter().zip(&weights).map(|((turns, _, mirrored), weight)| {
+                    (*turns.numer(), *turns.denom(), weight * factor(*mirrored))
+                });
+                let sum = RootSum::new(&roots.collect::<Vec<_>>(), 1)?;
+                Ok(usize::from(!sum.vanishes()?))
+            };
+            let apart = remains(|mirrored| i128::from(mirrored))? + remains(|m| i128::from(!m))?;
+            left += match apart {
+                2 => remains(|_| 1)? + remains(|mirrored| 1 - 2 * i128::from(mirrored))?,
+                _ => apart,
+            };
         }
         let verdict = match left {
             0 => Verdict::Vanishes,
@@ -137,7 +151,7 @@ mod tests {
 
     fn stars(fire: &[f64], weights: &[f64]) -> Stars {
         let fire = fire.iter().map(|&degrees| Angle::from_degrees(degrees).unwrap()).collect();
-        Stars::new(fire, weights.to_vec(), vec![0; weights.len()], &Cancel::new()).unwrap()
+        Stars::new(fire, weights.to_vec(), vec![(0, false); weights.len()], &Cancel::new()).unwrap()
     }
 
     fn at(stars: &Stars, halves: u32) -> Star {
@@ -195,8 +209,31 @@ mod tests {
         assert_eq!(at(&decimals, 2).verdict, Verdict::Vanishes);
         assert!(at(&decimals, 2).sum == Complex64::default());
         let other = [0.0, 360.0].map(|degrees| Angle::from_degrees(degrees).unwrap()).to_vec();
-        let unlike = Stars::new(other, vec![1.0; 2], vec![0, 1], &Cancel::new()).unwrap();
+        let unlike =
+            Stars::new(other, vec![1.0; 2], vec![(0, false), (1, false)], &Cancel::new()).unwrap();
         assert_eq!(at(&unlike, 1).verdict, Verdict::Undecided);
-        assert!(Stars::new(Vec::new(), vec![1.0], vec![0], &Cancel::new()).is_err());
+        assert!(Stars::new(Vec::new(), vec![1.0], vec![(0, false)], &Cancel::new()).is_err());
+    }
+
+    #[test]
+    fn vectors_of_mirrored_gears_remain_where_they_have_one_size() {
+        // A V of opposite offsets: the banks fire in turn, a third of the cycle within a bank.
+        let fire: Vec<Angle> =
+            (0..6).map(|k| Angle::from_degrees(120.0 * f64::from(k)).unwrap()).collect();
+        let of = |groups: Vec<(usize, bool)>| {
+            Stars::new(fire.clone(), vec![1.0; 6], groups, &Cancel::new()).unwrap()
+        };
+        let mirrored = of((0..6).map(|k| (0, k % 2 == 1)).collect());
+        let unlike = of((0..6).map(|k| (k % 2, false)).collect());
+        for halves in 1..=24 {
+            let major = halves % 3 == 0;
+            let expected = |of_major| if major { of_major } else { Verdict::Vanishes };
+            assert_eq!(at(&mirrored, halves).verdict, expected(Verdict::Remains), "{halves}");
+            assert_eq!(at(&unlike, halves).verdict, expected(Verdict::Undecided), "{halves}");
+        }
+        // Sums of different sizes may cancel for some pressure.
+        let two_and_one = of((0..6).map(|k| (0, k == 1)).collect());
+        assert_eq!(at(&two_and_one, 12).verdict, Verdict::Undecided);
+        assert_eq!(at(&two_and_one, 2).verdict, Verdict::Remains);
     }
 }
