@@ -89,7 +89,7 @@ fn closed_forms_stop_when_asked() {
     let engine = Arc::new(many_parts());
     let cancel = Arc::new(Cancel::new());
     let (theirs, flag) = (Arc::clone(&engine), Arc::clone(&cancel));
-    let worker = std::thread::spawn(move || closed_form(&theirs, 1, true, None, &flag));
+    let worker = std::thread::spawn(move || closed_form(&theirs, Order::FIRST, true, None, &flag));
     std::thread::sleep(Duration::from_millis(20));
     cancel.raise();
     let start = Instant::now();

@@ -1,9 +1,9 @@
 //! Counterweights and balance shafts.
 
-use crankpin_core::Complex64;
 use crankpin_core::balancing;
 use crankpin_core::balancing::shafts::{self, Remove};
 use crankpin_core::balancing::weights::{self, Minimise};
+use crankpin_core::{Complex64, Order};
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -37,7 +37,7 @@ pub fn roll_torque(
     order: u32,
     rpm: Option<f64>,
 ) -> PyResult<Complex64> {
-    let core = &engine.get().0;
+    let (core, order) = (&engine.get().0, Order::whole(order).or_raise()?);
     interrupt::run(engine.py(), |cancel| balancing::roll_torque(core, order, rpm, cancel))
 }
 

@@ -1,9 +1,11 @@
 //! Force and moment in closed form.
 
+use crankpin_core::Order;
 use crankpin_core::exact::closed_form::{self as core, ClosedForm, LoadMotion, LoadPart, Phasor};
 use crankpin_core::rational::Ratio;
 use pyo3::prelude::*;
 
+use crate::convert::OrRaise;
 use crate::engine::Engine;
 use crate::interrupt;
 
@@ -24,7 +26,7 @@ pub fn closed_form(
     moment: bool,
     reference_z: Option<f64>,
 ) -> PyResult<Form> {
-    let engine = engine.get().0.clone();
+    let (engine, order) = (engine.get().0.clone(), Order::whole(order).or_raise()?);
     let found = interrupt::run(py, |cancel| {
         core::closed_form(&engine, order, moment, reference_z, cancel)
     })?;

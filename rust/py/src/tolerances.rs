@@ -2,7 +2,7 @@
 
 use crankpin_core as core;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES, largest_sums};
-use crankpin_core::{Complex64, Error, Request};
+use crankpin_core::{Complex64, Error, Order, Request};
 use ndarray::{Array, Array3, IntoDimension};
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -55,6 +55,7 @@ impl Tolerances {
         let distribution = choice("distribution", distribution, &distributions)?;
         let request = Request { rpm, reference_z, torque };
         let engine = &engine.get().0;
+        let orders = Order::all_whole(&orders).or_raise()?;
         let plan = interrupt::run(py, |cancel| {
             core::tolerances::Tolerances::new(
                 engine,

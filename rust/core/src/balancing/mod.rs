@@ -15,6 +15,7 @@ use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::order::Order;
 use crate::readings::balance::{Orders, Request, angular_speed, balance};
 use crate::wrench::Wrench;
 
@@ -38,14 +39,15 @@ impl TurningPart {
 
 /// Part of an engine's force and moment that turns with a shaft of this ratio, over ω².
 pub fn turning(engine: &Engine, ratio: i32, cancel: &Cancel) -> Result<TurningPart> {
-    Ok(TurningPart::of(&over_square(engine, ratio.unsigned_abs(), false, cancel)?, ratio))
+    let order = Order::whole(ratio.unsigned_abs())?;
+    Ok(TurningPart::of(&over_square(engine, order, false, cancel)?, ratio))
 }
 
 /// Phasor of an order of the roll torque on the block, over ω²; with that of gas pressure, which does
 /// not scale with speed, at the speed of a fired engine.
 pub fn roll_torque(
     engine: &Engine,
-    order: u32,
+    order: Order,
     rpm: Option<f64>,
     cancel: &Cancel,
 ) -> Result<Complex64> {
@@ -67,11 +69,11 @@ fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex
     }
 }
 
-fn over_square(engine: &Engine, order: u32, torque: bool, cancel: &Cancel) -> Result<Wrench> {
+fn over_square(engine: &Engine, order: Order, torque: bool, cancel: &Cancel) -> Result<Wrench> {
     // 1 rad/s
     let rpm = 30.0 / std::f64::consts::PI;
     let request = Request { rpm, reference_z: None, torque };
-    let found = balance(engine, &request, &Orders::whole(&[order])?, cancel)?;
+    let found = balance(engine, &request, &Orders::Given(vec![order]), cancel)?;
     Ok(found.wrenches[0])
 }
 

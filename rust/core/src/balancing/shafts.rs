@@ -11,6 +11,7 @@ use crate::engine::{Engine, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::order::Order;
 
 /// What a shaft is to remove of its part of an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +70,7 @@ pub fn fit(
     let mut beyond: Option<f64> = None;
     let orders: BTreeSet<u32> = wanted.iter().map(|each| each.ratio.unsigned_abs()).collect();
     for order in orders {
-        let there = over_square(engine, order, true, cancel)?;
+        let there = over_square(engine, Order::whole(order)?, true, cancel)?;
         let torque = super::roll_of(engine, &there, rpm)?;
         let mut free = Vec::new();
         for ratio in [order as i32, -(order as i32)] {

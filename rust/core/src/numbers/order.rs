@@ -55,6 +55,12 @@ impl Order {
         self.0.is_multiple_of(2).then_some(self.0 / 2)
     }
 
+    /// Whether it is 1, 3, 5 …
+    #[must_use]
+    pub fn is_odd(self) -> bool {
+        self.0 % 4 == 2
+    }
+
     /// The order as a number.
     #[must_use]
     pub fn number(self) -> f64 {
@@ -98,6 +104,8 @@ mod tests {
             (1.5, None, "1.5".into())
         );
         assert_eq!(Order::whole(4).unwrap().as_whole(), Some(4));
+        let odd = |halves: &u32| Order::from_halves(*halves).unwrap().is_odd();
+        assert_eq!((1..=10).filter(odd).collect::<Vec<_>>(), [2, 6, 10]);
         assert_eq!(Order::whole(1), Ok(Order::FIRST));
         assert_eq!(Order::whole(HIGHEST_ORDER).unwrap().halves(), 2 * HIGHEST_ORDER);
     }

@@ -144,21 +144,23 @@ fn weights(loads: &[Load], cancel: &Cancel) -> Result<(usize, Vec<Ratio>)> {
 /// Force, or moment about the plane z = `reference_z`, of one order.
 pub fn closed_form(
     engine: &Engine,
-    order: u32,
+    order: Order,
     moment: bool,
     reference_z: Option<f64>,
     cancel: &Cancel,
 ) -> Result<ClosedForm> {
-    let of_order = Order::whole(order)?;
+    if order.as_whole().is_none() {
+        return Err(refused("order", order, "a whole order: inertia has no others"));
+    }
     let mut loads = super::loads(engine, reference_z)?;
     if loads.gears.len() > 1 {
         return Err(refused("cylinders", "of different proportions", "rods and offsets alike"));
     }
-    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == of_order));
+    loads.list.retain(|load| load.unbalance_order().is_none_or(|of| of == order));
     let offset = loads.cylinders()[0].pin_offset();
     let (unit, weights) = weights(&loads.list, cancel)?;
     if loads.list.len() > engine.stations().len() {
-        if order > 1 {
+        if order > Order::FIRST {
             let hint =
                 "no unbalance at an order above 1, to whose harmonic it has no rational ratio";
             return Err(refused("shafts", format!("of order {order}"), hint));
@@ -194,9 +196,8 @@ pub fn closed_form(
             phase: part_of_turn("tdc_deg", load.phase)?,
         });
     }
-    let no_harmonic = offset == 0.0 && order > 1 && order % 2 == 1;
-    let (denominator, [forward, backward_conj]) =
-        sums(&loads, of_order, &products, moment, cancel)?;
+    let no_harmonic = offset == 0.0 && order > Order::FIRST && order.is_odd();
+    let (denominator, [forward, backward_conj]) = sums(&loads, order, &products, moment, cancel)?;
     // x = f + b*, y = −i(f − b*), b* conjugate.
     let x = forward.plus(&backward_conj, 1)?;
     let y = forward.plus(&backward_conj, -1)?.turned(-1, 4);
@@ -262,6 +263,16 @@ mod tests {
     use crate::gear::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
+    /// Of a whole order.
+    fn of_order(
+        engine: &Engine,
+        order: u32,
+        moment: bool,
+        reference: Option<f64>,
+    ) -> Result<ClosedForm> {
+        closed_form(engine, Order::whole(order)?, moment, reference, &Cancel::new())
+    }
+
     fn crossplane() -> Engine {
         let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
         let throws = [(0.0, 0.0), (270.0, 0.13), (90.0, 0.26), (180.0, 0.39)];
@@ -278,7 +289,7 @@ mod tests {
 
     #[test]
     fn the_couple_of_the_cross_plane_eight_is_root_ten() {
-        let form = closed_form(&crossplane(), 1, true, None, &Cancel::new()).unwrap();
+        let form = of_order(&crossplane(), 1, true, None).unwrap();
         assert!((form.spacing - 0.13).abs() < 1e-15);
         assert_eq!(form.parts[0].lever, Ratio::new(-3, 2));
         let square = &form.phasors[2].square;
@@ -313,8 +324,7 @@ mod tests {
         for engine in [turning(&v8), turning(&two), v8, two, single] {
             for (order, reference) in [(1, None), (2, Some(0.0)), (4, None), (1, Some(0.52))] {
                 for moment in [false, true] {
-                    let form =
-                        closed_form(&engine, order, moment, reference, &Cancel::new()).unwrap();
+                    let form = of_order(&engine, order, moment, reference).unwrap();
                     let rpm = 60.0 / std::f64::consts::TAU;
                     let orders = crate::Orders::whole(&[order]).unwrap();
                     let request = Request { rpm, reference_z: reference, torque: false };
@@ -347,9 +357,7 @@ mod tests {
                     assert!(!form.no_harmonic);
                 }
             }
-            let none = |order| {
-                closed_form(&engine, order, false, None, &Cancel::new()).unwrap().no_harmonic
-            };
+            let none = |order| of_order(&engine, order, false, None).unwrap().no_harmonic;
             assert!(none(3) && none(5) && !none(1) && !none(6));
         }
     }
@@ -359,17 +367,12 @@ mod tests {
         let mut places = crossplane().stations().to_vec();
         places[3].z = 0.13 * 2.0_f64.sqrt();
         let engine = Engine::new("", "", places.clone()).unwrap();
-        assert!(
-            closed_form(&engine, 1, true, None, &Cancel::new())
-                .unwrap_err()
-                .to_string()
-                .contains('z')
-        );
-        assert!(closed_form(&engine, 1, false, None, &Cancel::new()).is_ok());
+        assert!(of_order(&engine, 1, true, None).unwrap_err().to_string().contains('z'));
+        assert!(of_order(&engine, 1, false, None).is_ok());
         places[3].bank = Angle::from_degrees(49.541_234_567_89).unwrap();
         let error = |places: &[Station], order| {
             let engine = Engine::new("", "", places.to_vec()).unwrap();
-            closed_form(&engine, order, false, None, &Cancel::new()).unwrap_err().to_string()
+            of_order(&engine, order, false, None).unwrap_err().to_string()
         };
         let text = error(&places, 1);
         assert!(text.contains("bank_deg = 49.54123456789"), "{text}");
@@ -383,7 +386,7 @@ mod tests {
         places[2].rotating_mass = 0.25;
         assert!(error(&places, 1).contains("pin_offset = 0.01"));
         let engine = Engine::new("", "", places).unwrap();
-        assert!(closed_form(&engine, 2, false, None, &Cancel::new()).is_ok());
+        assert!(of_order(&engine, 2, false, None).is_ok());
     }
 
     #[test]
@@ -392,7 +395,7 @@ mod tests {
         let massless = Cylinder::new(0.05, 0.15, 0.0, 0.0).unwrap();
         places[0].cylinder = massless;
         let engine = Engine::new("", "", places.clone()).unwrap();
-        let form = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap();
+        let form = of_order(&engine, 1, false, None).unwrap();
         assert_eq!(form.unit, 1);
         let weights: Vec<Ratio> = form.parts.iter().map(|part| part.weight).collect();
         assert_eq!(weights, [Ratio::ZERO, Ratio::ONE, Ratio::ONE]);
@@ -400,7 +403,7 @@ mod tests {
             place.cylinder = massless;
         }
         let engine = Engine::new("", "", places).unwrap();
-        let error = closed_form(&engine, 1, false, None, &Cancel::new()).unwrap_err().to_string();
+        let error = of_order(&engine, 1, false, None).unwrap_err().to_string();
         assert!(error.contains("reciprocating_mass"), "{error}");
     }
 }

@@ -123,7 +123,7 @@ impl Proof {
         &self,
         sums: &SymbolSums,
         quantity: ProofQuantity,
-        order: u32,
+        order: Order,
         cancel: &Cancel,
     ) -> (Verdict, Option<Error>) {
         let torque = quantity == ProofQuantity::Torque;
@@ -147,7 +147,7 @@ impl Proof {
     fn decided(
         &self,
         terms: &[SymbolTerm],
-        order: u32,
+        order: Order,
         torque: bool,
         view: View,
         cancel: &Cancel,
@@ -176,7 +176,9 @@ impl Proof {
             {
                 Verdict::Remains
             }
-            2 if order == 1 && !torque && self.balanced_angle(&left, order)? => Verdict::Vanishes,
+            2 if order == Order::FIRST && !torque && self.balanced_angle(&left, order)? => {
+                Verdict::Vanishes
+            }
             _ => Verdict::Undecided,
         })
     }
@@ -186,7 +188,7 @@ impl Proof {
     /// |A| = |B| is decided in integers. The angle between s and t at which they then cancel is in
     /// general no part of a turn; angles that are doubles and rounded from it stand for it, as those
     /// of 360/7 do.
-    fn balanced_angle(&self, left: &[(Symbol, Vec<&SymbolTerm>)], order: u32) -> Result<bool> {
+    fn balanced_angle(&self, left: &[(Symbol, Vec<&SymbolTerm>)], order: Order) -> Result<bool> {
         let [(s, a), (t, b)] = left else { return Ok(false) };
         if (s.channel, s.weight, s.lever) != (t.channel, t.weight, t.lever) {
             return Ok(false);
@@ -214,7 +216,7 @@ impl Proof {
     }
 
     /// The number that symbols stand for, of directions and phases that are doubles.
-    fn unit_of(&self, symbol: &Symbol, order: u32) -> Option<Complex64> {
+    fn unit_of(&self, symbol: &Symbol, order: Order) -> Option<Complex64> {
         let first = |list: &[PartOfTurn], index: usize, angle: fn(&Load) -> Angle| {
             let place = list.iter().position(|part| part.symbol == index && index > 0);
             let angle = place.map_or(Angle::ZERO, |i| angle(&self.loads.list[i]));
@@ -228,14 +230,14 @@ impl Proof {
             SymbolEntry::Conjugate => -1,
             SymbolEntry::Component => return None,
         };
-        Some(direction.cis(sign) * phase.cis(-i64::from(order)))
+        Some(direction.cis(sign) * phase.cis(-i64::from(order.halves() / 2)))
     }
 
     /// Whether a harmonic is known not to be zero; see the head of this file.
     fn is_nonzero(
         &self,
         channel: Channel,
-        order: u32,
+        order: Order,
         torque: bool,
         view: View,
         cancel: &Cancel,
@@ -251,29 +253,31 @@ impl Proof {
             }
         };
         let centred = cylinder.pin_offset() == 0.0;
-        if (centred && inertia == 0.0 && masses != 0.0) || (!torque && order == 1 && !view.parts) {
+        if (centred && inertia == 0.0 && masses != 0.0)
+            || (!torque && order == Order::FIRST && !view.parts)
+        {
             return Ok(true);
         }
-        let proportions = cylinder.proportions();
+        let (proportions, own) = (cylinder.proportions(), order.halves() / 2);
         let terms = if torque {
-            let of_masses = harmonics::torque::torque(&proportions, &[order], cancel)?.roll[0];
-            let of_rod = harmonics::rod::torque(&proportions, &[order], cancel)?.roll[0];
+            let of_masses = harmonics::torque::torque(&proportions, &[own], cancel)?.roll[0];
+            let of_rod = harmonics::rod::torque(&proportions, &[own], cancel)?.roll[0];
             [of_masses * masses, of_rod * inertia]
         } else {
-            let force = harmonics::coefficients(&proportions, &[order], cancel)?[0];
+            let force = harmonics::coefficients(&proportions, &[own], cancel)?[0];
             [force, Complex64::default()]
         };
         let value = terms[0] + terms[1];
         let value = match (view.parts, channel) {
             (false, _) => value.norm(),
             (true, OddOfMasses(_) | OddOfRod(_) | OddOfGear(_)) => value.re.abs(),
-            (true, _) if torque || order % 2 == 1 => value.im.abs(),
+            (true, _) if torque || order.is_odd() => value.im.abs(),
             (true, _) => value.re.abs(),
         };
         // p₂ of l/r and e/r.
         let reach = proportions.rod - proportions.offset.abs();
         let root = 1.0 / (reach + (reach * reach - 1.0).max(0.0).sqrt());
-        let n = f64::from(order);
+        let n = order.number();
         let made_of = n * n * root.powf(n - 2.0) * (masses + inertia.abs());
         Ok(value > 1e-12 * made_of && value > 1e-9 * (terms[0].norm() + terms[1].norm()))
     }
@@ -390,7 +394,7 @@ pub fn vanishing(
                 ),
                 // Inertia repeats in every turn.
                 (_, None) => (Verdict::Vanishes, None),
-                (_, Some(whole)) => proof.verdict(&sums, quantity, whole, cancel),
+                (_, Some(_)) => proof.verdict(&sums, quantity, order, cancel),
             };
             of_order[k] = verdict;
             if let Some(text) = error.map(|error| error.to_string())

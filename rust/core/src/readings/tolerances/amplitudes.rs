@@ -11,12 +11,12 @@ use crate::numbers::error::Result;
 /// m·r²·ω²; of the same of the rod's inertia over it and ω². Empty where there are none.
 pub(super) type Amplitudes = [Vec<[Vec<f64>; 2]>; 5];
 
-/// Harmonics of a cylinder for other crank radii and rod lengths, m.
+/// Harmonics of a cylinder, by their numbers, for other crank radii and rod lengths, m.
 pub(super) fn amplitudes(
     cylinder: &Cylinder,
     wants_torque: bool,
     (radii, rods): (&[f64], &[f64]),
-    orders: &[u32],
+    numbers: &[u32],
     cancel: &Cancel,
 ) -> Result<Amplitudes> {
     let offset = cylinder.pin_offset();
@@ -25,16 +25,16 @@ pub(super) fn amplitudes(
     if centred {
         // Many samples at once.
         let ratios: Vec<f64> = radii.iter().zip(rods).map(|(r, l)| r / l).collect();
-        let mut values = vec![0.0; ratios.len() * orders.len()];
+        let mut values = vec![0.0; ratios.len() * numbers.len()];
         let columns = |values: &[f64], factors: [f64; 2]| -> Vec<[Vec<f64>; 2]> {
             let column =
-                |k, by: f64| values.iter().skip(k).step_by(orders.len()).map(move |v| by * v);
-            (0..orders.len()).map(|k| factors.map(|by| column(k, by).collect())).collect()
+                |k, by: f64| values.iter().skip(k).step_by(numbers.len()).map(move |v| by * v);
+            (0..numbers.len()).map(|k| factors.map(|by| column(k, by).collect())).collect()
         };
-        table::write_centred(&ratios, orders, None, &mut values, cancel)?;
+        table::write_centred(&ratios, numbers, None, &mut values, cancel)?;
         found[0] = columns(&values, [1.0, 0.0]);
         if wants_torque {
-            torque_table::write_centred_roll(&ratios, orders, &mut values, cancel)?;
+            torque_table::write_centred_roll(&ratios, numbers, &mut values, cancel)?;
             found[1] = columns(&values, [0.0, 1.0]);
             found[2] = columns(&values, [0.0, -1.0]);
         }
@@ -42,7 +42,7 @@ pub(super) fn amplitudes(
     for (&radius, &length) in radii.iter().zip(rods).filter(|_| !centred || has_rod) {
         let proportions = Cylinder::new(radius, length, 0.0, offset)?.proportions();
         let mut push = |list: usize, harmonics: Vec<Complex64>| {
-            found[list].resize_with(orders.len(), Default::default);
+            found[list].resize_with(numbers.len(), Default::default);
             for ([re, im], value) in found[list].iter_mut().zip(harmonics) {
                 re.push(value.re);
                 im.push(value.im);
@@ -53,13 +53,13 @@ pub(super) fn amplitudes(
             push(list + 1, crank);
         };
         if has_rod {
-            push_torque(3, rod::torque(&proportions, orders, cancel)?);
+            push_torque(3, rod::torque(&proportions, numbers, cancel)?);
         }
         if !centred && wants_torque {
-            push_torque(1, torque::torque(&proportions, orders, cancel)?);
+            push_torque(1, torque::torque(&proportions, numbers, cancel)?);
         }
         if !centred {
-            push(0, harmonics::coefficients(&proportions, orders, cancel)?);
+            push(0, harmonics::coefficients(&proportions, numbers, cancel)?);
         }
     }
     Ok(found)

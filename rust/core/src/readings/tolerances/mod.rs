@@ -17,6 +17,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
+use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::readings::balance::{Balance, Orders, Request, Vector, angular_speed, balance};
 use crate::readings::peaks::PeakFinder;
@@ -131,7 +132,7 @@ impl Tolerances {
     pub fn new(
         engine: &Engine,
         request: &Request,
-        orders: &[u32],
+        orders: &[Order],
         (spreads, distribution): (&[Vec<f64>; FIGURES], Distribution),
         pin_of: &[usize],
         cancel: &Cancel,
@@ -147,7 +148,7 @@ impl Tolerances {
             check_spreads(engine, pin_of, figure, spreads)?;
         }
         check_reach(engine, pin_of, spreads, distribution.largest())?;
-        let nominal = balance(engine, request, &Orders::whole(orders)?, cancel)?;
+        let nominal = balance(engine, request, &Orders::Given(orders.to_vec()), cancel)?;
         let reference = engine.reference(request.reference_z)?;
         let terms = Terms::new(engine, pin_of, orders, reference, request.torque, cancel)?;
         let omega = angular_speed(request.rpm)?;

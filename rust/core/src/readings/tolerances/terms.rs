@@ -13,7 +13,7 @@ use crate::Complex64;
 use crate::engine::{Engine, Station};
 use crate::load::{Alike, Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
 use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
@@ -44,7 +44,9 @@ struct Deviating {
 
 /// Loads of an engine whose figures deviate.
 pub(super) struct Terms {
-    orders: Vec<u32>,
+    orders: Vec<Order>,
+    /// The same as harmonics of a gear.
+    harmonics: Vec<u32>,
     torque: bool,
     places: Vec<Station>,
     loads: Loads,
@@ -60,11 +62,16 @@ impl Terms {
     pub fn new(
         engine: &Engine,
         pin_of: &[usize],
-        orders: &[u32],
+        orders: &[Order],
         reference: f64,
         torque: bool,
         cancel: &Cancel,
     ) -> Result<Self> {
+        let whole = |order: &Order| {
+            let hint = "give whole orders: those of inertia, which tolerances are of";
+            order.as_whole().ok_or_else(|| Error::value("orders", order, hint))
+        };
+        let harmonics: Vec<u32> = orders.iter().map(whole).collect::<Result<_>>()?;
         // Every pin carries mass: a tolerance of none is an unbalance too.
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
@@ -82,13 +89,14 @@ impl Terms {
         loads.list.retain(|_| kept.next().unwrap_or_default());
         let nominal = |Station { cylinder, .. }: &Station| {
             let lengths = (&[cylinder.crank_radius()][..], &[cylinder.rod_length()][..]);
-            amplitudes(cylinder, torque, lengths, orders, cancel)
+            amplitudes(cylinder, torque, lengths, &harmonics, cancel)
         };
         let nominal = engine.stations().iter().map(nominal).collect::<Result<_>>()?;
         let mut one = Amplitudes::default();
         one[0] = vec![[vec![1.0], vec![0.0]]; orders.len()];
         Ok(Self {
             orders: orders.to_vec(),
+            harmonics,
             torque,
             places: engine.stations().to_vec(),
             loads,
@@ -118,7 +126,7 @@ impl Terms {
             cancel.check()?;
             let radius = around(cylinder.crank_radius(), &radii[self.pin_of[i]]);
             let rod = around(cylinder.rod_length(), &rods[i]);
-            amplitudes(cylinder, self.torque, (&radius, &rod), &self.orders, cancel)
+            amplitudes(cylinder, self.torque, (&radius, &rod), &self.harmonics, cancel)
         };
         let changed: Vec<Amplitudes> =
             if deviates(Parameter::CrankRadius) || deviates(Parameter::RodLength) {
@@ -157,11 +165,11 @@ impl Terms {
         };
         let loads: Vec<Drawn> = self.deviating.iter().zip(&self.loads.list).map(drawn).collect();
         let wanted = Wanted { planar: true, roll: self.torque, by_bank: false };
-        let of_order = |(k, &order): (usize, &u32)| {
+        let of_order = |(k, &order): (usize, &Order)| {
             cancel.check()?;
             let arithmetic = Samples { loads: &loads, k, phasors: Phasors { reference } };
             let mut sums = SampleSums { force: [ZEROS; 2], moment: [ZEROS; 2], torque: [ZEROS; 2] };
-            for term in superpose(&arithmetic, &self.loads, Order::whole(order)?, wanted) {
+            for term in superpose(&arithmetic, &self.loads, order, wanted) {
                 // Empty where nothing was added: an unbalance turns one way.
                 let planar = sums.force.iter_mut().chain(&mut sums.moment);
                 for (sum, part) in planar.zip(term.force.iter().chain(&term.moment)) {
@@ -191,7 +199,10 @@ impl Terms {
                 },
             )
         };
-        angles.iter().map(|angles| self.orders.iter().map(|&n| turn(angles, n)).collect()).collect()
+        angles
+            .iter()
+            .map(|angles| self.harmonics.iter().map(|&n| turn(angles, n)).collect())
+            .collect()
     }
 }
 

@@ -63,7 +63,14 @@ fn spreads() -> [Vec<f64>; FIGURES] {
 
 fn made(spreads: &[Vec<f64>; FIGURES], distribution: Distribution) -> Result<Tolerances> {
     let spreads = (spreads, distribution);
-    Tolerances::new(&engine(), &REQUEST, &ORDERS, spreads, &PINS, &Cancel::new())
+    Tolerances::new(
+        &engine(),
+        &REQUEST,
+        &Order::all_whole(&ORDERS)?,
+        spreads,
+        &PINS,
+        &Cancel::new(),
+    )
 }
 
 /// Deviations between minus and plus each spread, by a low-discrepancy sequence.
@@ -237,7 +244,8 @@ fn spreads_that_leave_no_engine_are_rejected() {
     assert_eq!(error(Parameter::RotatingMass, vec![9.0; 4], normal), "");
     for pins in [&[0, 0, 1][..], &[0, 0, 2, 2], &[0, 0, 0, 9]] {
         let none = (&NONE, normal);
-        let made = Tolerances::new(&engine(), &REQUEST, &ORDERS, none, pins, &Cancel::new());
+        let orders = Order::all_whole(&ORDERS).unwrap();
+        let made = Tolerances::new(&engine(), &REQUEST, &orders, none, pins, &Cancel::new());
         assert!(made.is_err(), "{pins:?}");
     }
 }

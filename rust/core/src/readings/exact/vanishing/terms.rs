@@ -156,15 +156,15 @@ impl Proof {
     }
 
     /// Channels of a piston's force and their signs; none where its harmonic is zero.
-    fn force_channels(&self, motion: usize, order: u32, view: View) -> Vec<(Channel, i128)> {
+    fn force_channels(&self, motion: usize, order: Order, view: View) -> Vec<(Channel, i128)> {
         use Channel::{Masses, One};
-        let (mirrored, odd) = (self.mirrored[motion], order % 2 == 1);
+        let (mirrored, odd) = (self.mirrored[motion], order.is_odd());
         let offset = self.motions[motion].pin_offset();
         let sign = offset.signum() as i128;
-        match (offset == 0.0, order, view.parts) {
-            (true, 1, _) => vec![(One, 1)],
+        match (offset == 0.0, order == Order::FIRST, view.parts) {
+            (true, true, _) => vec![(One, 1)],
             (true, _, _) if odd => vec![],
-            (_, 1, true) => vec![(One, 1), (Masses(mirrored), sign)],
+            (_, true, true) => vec![(One, 1), (Masses(mirrored), sign)],
             (_, _, false) => vec![(Masses(motion), 1)],
             (_, _, true) => vec![(Masses(mirrored), if odd { sign } else { 1 })],
         }
@@ -193,7 +193,7 @@ impl Proof {
         &self,
         harmonic: Harmonic,
         share: &Share,
-        order: u32,
+        order: Order,
         view: View,
     ) -> Vec<(Channel, i128)> {
         let both = |motion: usize| (motion, self.mirrored[motion]);
@@ -248,7 +248,7 @@ impl Proof {
         &self,
         sums: &SymbolSums,
         quantity: ProofQuantity,
-        order: u32,
+        order: Order,
         view: View,
     ) -> Result<Vec<SymbolTerm>> {
         let mut terms = Vec::new();

@@ -186,8 +186,15 @@ fn proportions_are_equal_as_typed() {
         let twin = Engine::new("", "", vec![place(small, 0.0), place(large, 90.0)]).unwrap();
         assert_eq!(verdicts(&twin, 2)[..8], [V; 8]);
         assert_eq!(verdicts(&twin, 2)[8], R);
-        let form =
-            |moment| super::super::closed_form::closed_form(&twin, 2, moment, None, &Cancel::new());
+        let form = |moment| {
+            super::super::closed_form::closed_form(
+                &twin,
+                Order::whole(2).unwrap(),
+                moment,
+                None,
+                &Cancel::new(),
+            )
+        };
         assert!(form(false).unwrap().phasors[1].square.iter().all(|&c| c == 0));
     }
     // Masses of five digits, no simple fraction of each other: 480.13 of 510 with 510 of 480.13.
