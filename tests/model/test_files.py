@@ -152,9 +152,9 @@ def test_what_was_made_of_a_rod_stays_consistent() -> None:
 @pytest.mark.parametrize(
     ("mains", "message"),
     [
-        ([0.0, 0.2], "the throw at 0 m; give places in front of, between and behind"),
-        ([-0.05, 0.25], "the throw at 0.3 m"),
-        ([-0.1, 0.1, 0.4], "the throw at 0.1 m"),
+        ([0.0, 0.2], "the throw of cylinder 1 is .* give places in front of, between and behind"),
+        ([-0.05, 0.25], "the throw of cylinder 4 is outside"),
+        ([-0.1, 0.1, 0.4], "the throw of cylinder 2 is outside or at a bearing"),
         ([0.1], "give two or more places"),
         ([0.4, -0.1], "give two or more places in m, ascending"),
         ("none", "give numbers"),

@@ -106,7 +106,7 @@ class BearingLoads(Tabled):
     def __post_init__(self) -> None:
         engine, rpm = engine_core(self.engine), inputs.number("rpm", self.rpm)
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
-        core = _core.Internal(engine, rpm, self.engine.mains.tolist())
+        core = _core.Internal(engine, rpm)
         values = dict(zip(LOADS, core.loads(theta), strict=True))
         self.__dict__.update(rpm=rpm, theta_deg=theta, _internal=core, _values=values)
         super().__post_init__()

@@ -12,7 +12,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.record import AbsentError, read_only
-from crankpin.model import checks, crankpins, engine_files
+from crankpin.model import checks, engine_files
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle
 from crankpin.model.cylinder import Cylinder
@@ -204,7 +204,7 @@ class EngineData:
         outside the last throw as the bearing on its other side. An engine with throws at one place
         only has one a crank radius in front of them and one behind.
         """
-        return read_only(np.array(self._core.mains or crankpins.default_mains(self._core)))
+        return read_only(np.array(self._core.bearings))
 
     @property
     def reference_z(self) -> float:
@@ -623,7 +623,6 @@ def core_of_lists(
     bearings = [] if mains is None else inputs.vector("mains", mains).tolist()
     plane = inputs.optional_number("reference_z", reference_z)
     core = core.keeping([one._details for one in each], bearings, plane)
-    crankpins.check_mains(core)
     checks.units(core)
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
     if plane is not None:

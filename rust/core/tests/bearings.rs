@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use common::{angle, weighted};
+use common::{angle, mixed, weighted};
 use crankpin_core::engine::{Details, Gas};
 use crankpin_core::internal::{Bearing, Internal, Part, TurningAxes};
 use crankpin_core::pressure::{Cycle, Given};
@@ -155,10 +155,31 @@ fn cancellation_stops_every_reading() {
 }
 
 #[test]
-fn an_engine_of_unknown_bearings_or_motion_has_no_loads() {
+fn bearings_are_between_throws_unless_they_are_given() {
+    // Cylinders of one bank, or as far apart as a crank radius, are on throws of their own.
+    let z = [0.05, 0.1, 0.17, 0.21, 0.29, 0.33, 0.4];
+    let throws = [0.05, 0.1, 0.19, 0.31, 0.4];
+    let places: Vec<f64> = mixed().throw_places().iter().map(|place| place.z).collect();
+    assert_close(&places, &throws);
+    let bearings = mixed().bearings();
+    assert_close(&bearings, &[0.025, 0.075, 0.145, 0.25, 0.355, 0.445]);
+    assert_eq!(mixed().with_mains(bearings.clone()).unwrap().bearings(), bearings);
+    assert_close(&yoke().with_mains(Vec::new()).unwrap().bearings(), &[-0.05, 0.05]);
+    for mains in [vec![0.06, 0.5], vec![0.0, 0.35], vec![0.0, z[1], 0.5]] {
+        let error = mixed().with_mains(mains).unwrap_err().to_string();
+        assert!(error.starts_with("mains = [") && error.contains("the throw of"), "{error}");
+    }
+}
+
+/// To a few units in the last place.
+fn assert_close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
+}
+
+#[test]
+fn an_engine_of_unknown_motion_has_no_loads() {
     let refused = |engine: &Engine| Internal::new(engine, RPM).err().unwrap().to_string();
-    let bare = engine().with_mains(Vec::new()).unwrap();
-    assert!(refused(&bare).starts_with("mains = none: "));
     let spectrum = Spectrum::new(vec![(1, Complex64::new(1.0, 0.0))]).unwrap();
     assert!(refused(&engine().with_spectrum(spectrum)).starts_with("spectrum = given: "));
 }

@@ -4,6 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
+use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::{Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error};
@@ -47,6 +48,14 @@ type GivenWeight = (f64, Angle, f64, Option<usize>);
 
 /// Bore, piston mass, and the rod's mass, inertia and place of its centre.
 type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
+
+/// Numbers of the cylinders on a crankpin, its direction in degrees, and its place in m.
+type Pin = (Vec<usize>, f64, f64);
+
+/// Cylinders by number.
+fn numbers(cylinders: &[usize]) -> Vec<usize> {
+    cylinders.iter().map(|k| k + 1).collect()
+}
 
 /// An unbalance for Python.
 pub fn weight(unbalance: &Unbalance) -> Weight {
@@ -402,9 +411,29 @@ impl Engine {
         self.0.reference_z()
     }
 
+    /// Places of main bearings that were given.
     #[getter]
     fn mains(&self) -> Vec<f64> {
         self.0.mains().to_vec()
+    }
+
+    /// Places of main bearings, given or by default.
+    #[getter]
+    fn bearings(&self) -> Vec<f64> {
+        self.0.bearings()
+    }
+
+    /// Crankpins from front to flywheel, those of one throw a list.
+    fn throws(&self) -> Vec<Vec<Pin>> {
+        let pin = |pin: Crankpin| (numbers(&pin.cylinders), pin.pin.degrees(), pin.z);
+        let throw = |throw: Vec<Crankpin>| throw.into_iter().map(pin).collect();
+        self.0.throws().into_iter().map(throw).collect()
+    }
+
+    /// Places of the throws along the crank, ascending, and the cylinders at each.
+    fn throw_places(&self) -> Vec<(f64, Vec<usize>)> {
+        let places = self.0.throw_places().into_iter();
+        places.map(|place| (place.z, numbers(&place.cylinders))).collect()
     }
 
     #[getter]

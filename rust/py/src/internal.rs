@@ -34,8 +34,8 @@ impl Internal {
 #[pymethods]
 impl Internal {
     #[new]
-    fn new(engine: &Bound<'_, Engine>, rpm: f64, mains: Vec<f64>) -> PyResult<Self> {
-        let engine = engine.get().0.with_mains(mains).or_raise()?;
+    fn new(engine: &Bound<'_, Engine>, rpm: f64) -> PyResult<Self> {
+        let engine = crankpin_core::Engine::clone(&engine.get().0);
         internal::Internal::new(&engine, rpm).or_raise()?;
         Ok(Self { engine, rpm })
     }

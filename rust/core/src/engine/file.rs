@@ -539,7 +539,7 @@ mod tests {
                 };
                 let details = (0..engine.stations().len()).map(details).collect();
                 let engine = engine.with_details(details).unwrap();
-                let engine = engine.with_mains(vec![-0.1, 0.25]).unwrap();
+                let engine = engine.with_mains(engine.bearings()).unwrap();
                 let engine = engine.with_reference(Some(0.125)).unwrap();
                 let other = Crank { axis: [0.25, -0.125], ratio: -1 };
                 let crank_of = (0..engine.stations().len()).map(|i| i % 2).collect();

@@ -4,6 +4,7 @@
 //! of comparing numbers and a vee at 0° stays a vee.
 
 mod banks;
+pub mod crankpins;
 pub mod file;
 mod firing_order;
 mod gas;
@@ -304,7 +305,7 @@ impl Engine {
         &self.details
     }
 
-    /// Places of the main bearings along the crank, ascending, m; empty where they are not known.
+    /// Places of the main bearings that were given, ascending, m; see [`Self::bearings`].
     #[must_use]
     pub fn mains(&self) -> &[f64] {
         &self.mains
@@ -396,7 +397,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// The same engine with main bearings at these places; none where they are not known.
+    /// The same engine with main bearings at these places; none for those of [`Self::bearings`].
     pub fn with_mains(&self, mains: Vec<f64>) -> Result<Self> {
         for (i, &z) in mains.iter().enumerate() {
             limits::finite(&format!("mains[{i}]"), z)?;
@@ -406,6 +407,7 @@ impl Engine {
             let hint = "give two or more places in m, ascending, from the front to the flywheel";
             return Err(Error::value("mains", format!("{mains:?}"), hint));
         }
+        self.check_throws_between(&mains)?;
         Ok(Self { mains, ..self.clone() })
     }
 

@@ -88,15 +88,12 @@ impl Turning {
 }
 
 impl Internal {
-    /// Of an engine whose main bearings are known.
+    /// Of an engine, on its main bearings.
     pub fn new(engine: &Engine, rpm: f64) -> Result<Self> {
         engine.check_one_crank("bearing_loads")?;
         if engine.spectrum().is_some() {
             let hint = "bearing loads need the slider-crank; leave out the spectrum";
             return Err(Error::value("spectrum", "given", hint));
-        }
-        if engine.mains().is_empty() {
-            return Err(Error::value("mains", "none", "give the places of the main bearings"));
         }
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
@@ -111,7 +108,7 @@ impl Internal {
             rods: Vec::new(),
             on_crank: all(of_crank),
             on_shafts: all(of_shafts),
-            mains: engine.mains().to_vec(),
+            mains: engine.bearings(),
         };
         for (i, load) in pistons.iter().enumerate() {
             let rod = DrivenRod::new(engine, i, load, square)?;

@@ -1,0 +1,133 @@
+//! Crankpins, throws and main bearings, read off an engine's stations.
+
+use super::Engine;
+use super::layout::MOST_ROUNDING;
+use crate::numbers::angle::Angle;
+use crate::numbers::error::{Error, Result, shorten};
+
+/// Distance along the crank, in crank radii, up to which two throws are at one place.
+const SAME_PLACE: f64 = 1e-6;
+
+/// A crankpin and the cylinders whose rods share it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Crankpin {
+    /// Cylinders by index, ascending.
+    pub cylinders: Vec<usize>,
+    /// Direction from +x at θ = 0.
+    pub pin: Angle,
+    /// Place along the crank, midway between its cylinders', m.
+    pub z: f64,
+}
+
+/// Throws at one place along the crank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThrowPlace {
+    /// Place, m.
+    pub z: f64,
+    /// Cylinders by index.
+    pub cylinders: Vec<usize>,
+}
+
+impl Engine {
+    /// The crankpins from front to flywheel, those of one throw a list.
+    ///
+    /// Cylinders of different banks whose places are less than a crank radius apart are on one throw.
+    /// Those of them whose pins are at one place share a crankpin; a throw has several where pins are
+    /// split, and in a boxer.
+    #[must_use]
+    pub fn throws(&self) -> Vec<Vec<Crankpin>> {
+        let stations = self.stations();
+        let radius = |k: usize| stations[k].cylinder.crank_radius();
+        let pins: Vec<Angle> = stations.iter().map(super::Station::pin).collect();
+        let on_one_throw = |k: usize, other: usize| {
+            let apart = (stations[k].z - stations[other].z).abs();
+            self.bank_of(k) != self.bank_of(other) && apart < radius(k)
+        };
+        let on_one_pin = |k: usize, other: usize| {
+            let turned = (pins[k].degrees() - pins[other].degrees() + 180.0).rem_euclid(360.0);
+            radius(k) == radius(other) && (turned - 180.0).abs() <= MOST_ROUNDING
+        };
+        let crankpin = |mut cylinders: Vec<usize>| {
+            let (pin, z) = (pins[cylinders[0]], middle(cylinders.iter().map(|&k| stations[k].z)));
+            cylinders.sort_unstable();
+            Crankpin { cylinders, pin, z }
+        };
+        let mut from_front: Vec<usize> = (0..stations.len()).collect();
+        from_front.sort_by(|&a, &b| stations[a].z.total_cmp(&stations[b].z));
+        let throws = grouped(&from_front, on_one_throw).into_iter();
+        throws.map(|on| grouped(&on, on_one_pin).into_iter().map(crankpin).collect()).collect()
+    }
+
+    /// Places of the throws along the crank, ascending; those at one place are one.
+    #[must_use]
+    pub fn throw_places(&self) -> Vec<ThrowPlace> {
+        let most = SAME_PLACE * self.largest_crank_radius();
+        let place = |throw: Vec<Crankpin>| ThrowPlace {
+            z: middle(throw.iter().map(|pin| pin.z)),
+            cylinders: throw.into_iter().flat_map(|pin| pin.cylinders).collect(),
+        };
+        let mut places: Vec<ThrowPlace> = self.throws().into_iter().map(place).collect();
+        places.sort_by(|a, b| a.z.total_cmp(&b.z));
+        places.dedup_by(|next, place| {
+            let is_same = next.z - place.z <= most;
+            if is_same {
+                place.cylinders.append(&mut next.cylinders);
+            }
+            is_same
+        });
+        places
+    }
+
+    /// Places of the main bearings along the crank, ascending, m: those given, or else one midway between
+    /// neighbouring throws and one as far beyond the first and the last as the next is from them.
+    #[must_use]
+    pub fn bearings(&self) -> Vec<f64> {
+        if !self.mains().is_empty() {
+            return self.mains().to_vec();
+        }
+        let places: Vec<f64> = self.throw_places().iter().map(|place| place.z).collect();
+        let [first, last] = [places[0], places[places.len() - 1]];
+        let between = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        let between: Vec<f64> = between.collect();
+        let (Some(front), Some(rear)) = (between.first(), between.last()) else {
+            let radius = self.largest_crank_radius();
+            return vec![first - radius, first + radius];
+        };
+        [&[2.0 * first - front][..], &between, &[2.0 * last - rear]].concat()
+    }
+
+    /// Rejects main bearings that leave a throw outside, or one at a bearing.
+    pub(super) fn check_throws_between(&self, mains: &[f64]) -> Result<()> {
+        let [front, .., rear] = mains else { return Ok(()) };
+        let outside = |z: f64| !(*front < z && z < *rear) || mains.contains(&z);
+        match self.throw_places().into_iter().find(|place| outside(place.z)) {
+            None => Ok(()),
+            Some(place) => {
+                let number = place.cylinders[0] + 1;
+                let hint = format!(
+                    "the throw of cylinder {number} is outside or at a bearing; give places in front \
+                     of, between and behind the throws"
+                );
+                Err(Error::value("mains", shorten(&format!("{mains:?}")), hint))
+            }
+        }
+    }
+}
+
+/// Puts each cylinder into the first group to whose every member it is alike.
+fn grouped(cylinders: &[usize], alike: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for &k in cylinders {
+        match groups.iter_mut().find(|group| group.iter().all(|&other| alike(k, other))) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
+        }
+    }
+    groups
+}
+
+/// Midway between the first and the last place.
+fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (low, high) = (places.clone().reduce(f64::min), places.reduce(f64::max));
+    f64::midpoint(low.unwrap_or_default(), high.unwrap_or_default())
+}
