@@ -122,8 +122,6 @@ def balance_shafts(
         [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
         speed,
     )
-    if speed == 0.0:
-        raise InputError(f"rpm = {speed:g}: shafts make no force at rest; give a speed above zero")
     if beyond is not None:
         warn(
             "the roll torque is not cancelled: shafts that do so would be "

@@ -56,15 +56,20 @@ pub fn roll_torque(
 
 /// The roll torque of an order's wrench over ω².
 fn roll_of(engine: &Engine, wrench: &Wrench, rpm: Option<f64>) -> Result<Complex64> {
-    let omega = rpm.map(angular_speed).transpose()?;
-    match omega {
-        _ if engine.gas().is_none() => Ok(wrench.inertia.roll),
-        Some(omega) if omega > 0.0 => Ok(wrench.inertia.roll + wrench.gas.roll / (omega * omega)),
-        _ => {
-            let given = rpm.map_or_else(|| "None".to_owned(), |rpm| format!("{rpm:?}"));
+    match rpm {
+        Some(rpm) => {
+            let omega = angular_speed(rpm)?;
+            if omega == 0.0 {
+                let hint = "shafts make no force at rest; give a speed above 0";
+                return Err(Error::figure("rpm", rpm, hint));
+            }
+            Ok(wrench.inertia.roll + wrench.gas.roll / (omega * omega))
+        }
+        None if engine.gas().is_none() => Ok(wrench.inertia.roll),
+        None => {
             let hint = "the torque of gas pressure does not scale with speed as that of shafts \
                         does; give the crank speed, above 0, at which they cancel it";
-            Err(Error::value("rpm", given, hint))
+            Err(Error::value("rpm", "None", hint))
         }
     }
 }
