@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Alike, Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
+use crate::load::{Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -399,7 +399,7 @@ impl Merit {
         removed: &[i32],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let loads = Loads::new(engine, engine.reference(None)?, Alike::Proportions);
+        let loads = Loads::new(engine, engine.reference(None)?);
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];

@@ -2,7 +2,10 @@ use std::f64::consts::TAU;
 
 use super::*;
 use crate::Spectrum;
+use crate::engine::Engine;
 use crate::engine::{Shaft, Station, Unbalance};
+use crate::gear::slider_crank::Cylinder;
+use crate::gear::{Gear, GearKind};
 
 const REFERENCE: f64 = 0.03;
 
@@ -45,8 +48,8 @@ pub(crate) fn engine() -> Engine {
         .unwrap()
 }
 
-fn loads(engine: &Engine, alike: Alike) -> Loads {
-    Loads::new(engine, REFERENCE, alike)
+fn loads(engine: &Engine) -> Loads {
+    Loads::new(engine, REFERENCE)
 }
 
 fn whole(order: u32) -> Order {
@@ -71,7 +74,7 @@ fn close(found: Complex64, expected: Complex64) {
 
 #[test]
 fn loads_are_pistons_then_crank_unbalances_then_shafts() {
-    let loads = loads(&engine(), Alike::Proportions);
+    let loads = loads(&engine());
     let list: Vec<_> =
         loads.list.iter().map(|l| (l.weight, l.direction.degrees(), l.z, l.bank)).collect();
     assert_eq!(
@@ -95,17 +98,15 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
 
 #[test]
 fn pistons_alike_share_a_gear() {
-    assert_eq!(loads(&engine(), Alike::Dimensions).gears.len(), 2);
-    // One of half the size has the same proportions.
+    assert_eq!(loads(&engine()).gears.len(), 2);
+    // One of half the size has the same proportions, but not where a sweep replaces its pin offset.
     let halved = engine().stations()[0];
     let cylinder = Cylinder::new(0.025, 0.075, 0.5, 0.0).unwrap();
     let halved = Engine::new("", "", vec![halved, Station { cylinder, ..halved }]).unwrap();
-    let count = |alike| loads(&halved, alike).gears.len();
-    assert_eq!((count(Alike::Dimensions), count(Alike::Proportions)), (2, 1));
+    assert_eq!(loads(&halved).gears.len(), 2);
     // A spectrum has the masses in it.
     let spectrum = Spectrum::new([(1, Complex64::new(2.0, 0.0))]).unwrap();
-    let given =
-        Loads::new(&engine().with_spectrum(spectrum.clone()), REFERENCE, Alike::Proportions);
+    let given = Loads::new(&engine().with_spectrum(spectrum.clone()), REFERENCE);
     assert_eq!(given.gears, [Gear { kind: GearKind::Given(spectrum), ratio: 1, pressure: None }]);
     let weights = given.list.into_iter().map(|load| load.weight);
     assert_eq!(weights.take(4).collect::<Vec<_>>(), [1.0, 1.0, 1.0, 0.3 * 0.05]);
@@ -162,7 +163,7 @@ fn written_out(order: u32) -> [[Complex64; 5]; 3] {
 
 #[test]
 fn sums_are_those_of_loads_written_out() {
-    let loads = loads(&engine(), Alike::Dimensions);
+    let loads = loads(&engine());
     for order in 1..5 {
         let terms = sums(&loads, order, false);
         let of = |harmonic| {
@@ -197,7 +198,7 @@ fn sums_are_those_of_loads_written_out() {
 
 #[test]
 fn sizes_are_sums_of_terms() {
-    let loads = loads(&engine(), Alike::Dimensions);
+    let loads = loads(&engine());
     let of = |order: u32, planar, roll| {
         let terms = sums(&loads, order, false);
         let found = |harmonic| terms.iter().find(|term| term.harmonic == harmonic).unwrap();
@@ -225,7 +226,7 @@ fn banks_turn_their_loads() {
     assert_eq!((by.right, by.angle()), (0, angle(70.0)));
     for (hold, to) in [Hold::Pins, Hold::Firing].into_iter().zip([100.0, 35.5]) {
         let turned = engine.with_bank_angle(angle(to), hold).unwrap();
-        let [before, after] = [&engine, &turned].map(|engine| loads(engine, Alike::Dimensions));
+        let [before, after] = [&engine, &turned].map(|engine| loads(engine));
         // The left bank turns ahead by this, the right one back.
         let turn_of = |bank: Option<usize>| match bank {
             None => 0.0,

@@ -88,6 +88,19 @@ pub fn map<I: Send, T: Send>(
     run(cancel, || items.into_par_iter().map(function).collect())
 }
 
+/// Do some work for each item, in parallel where so many numbers, counted as for [`worth`], are worth it.
+pub fn each<I: Send>(
+    cancel: &Cancel,
+    items: Vec<I>,
+    numbers: usize,
+    work: impl Fn(I) -> Result<()> + Send + Sync,
+) -> Result<()> {
+    if worth(numbers) {
+        return map(cancel, items, work).map(drop);
+    }
+    items.into_iter().try_for_each(work)
+}
+
 /// Make the calling thread the only worker of a pool, so that rayon starts no threads for it.
 fn become_pool_of_one() {
     if !ALONE.replace(true)

@@ -295,7 +295,6 @@ mod tests {
     use super::*;
     use crate::engine::Station;
     use crate::gear::slider_crank::Cylinder;
-    use crate::load::Alike;
     use crate::numbers::angle::Angle;
 
     #[test]
@@ -310,7 +309,7 @@ mod tests {
         };
         let share = |inertias: [f64; 2], motion: usize| {
             let engine = Engine::new("", "", inertias.map(place).to_vec()).unwrap();
-            let loads = Loads::new(&engine, 0.0, Alike::Proportions);
+            let loads = Loads::new(&engine, 0.0);
             rod_share(&loads, motion, &[1.0, 1.0, 4.0])
         };
         assert_eq!(share([0.0, 0.0], 0), 0.0);

@@ -5,7 +5,7 @@
 //! torque is what the change of J makes of the speed, and counted with T it would count twice.
 
 use crate::engine::Engine;
-use crate::load::{Alike, Loads};
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
@@ -412,7 +412,7 @@ fn mean_of(three: &[f64]) -> f64 {
 fn moving(engine: Option<&Engine>, edges_deg: &[f64], cancel: &Cancel) -> Result<[Vec<f64>; 2]> {
     let mut found = [memory::zeros(edges_deg.len())?, memory::zeros(edges_deg.len())?];
     let Some(engine) = engine else { return Ok(found) };
-    let loads = Loads::new(engine, engine.reference(None)?, Alike::Proportions);
+    let loads = Loads::new(engine, engine.reference(None)?);
     let kinematics = Kinematics::new(&loads);
     for part in parts(0..edges_deg.len(), BLOCK) {
         cancel.check()?;

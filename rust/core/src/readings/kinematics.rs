@@ -6,7 +6,7 @@ use crate::Complex64;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
 use crate::gear::{Gear, Pressure};
-use crate::load::{Loads, Source};
+use crate::load::{Loads, Source, found_or};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
@@ -132,55 +132,47 @@ impl Kinematics {
             match load.source {
                 Source::Piston { gear, second_moment, rod_inertia } => {
                     let same = |p: &Pistons| p.gear == gear && p.tdc == load.phase;
-                    let k = pistons.iter().position(same).unwrap_or_else(|| {
-                        pistons.push(Pistons {
-                            gear,
-                            cylinder: cylinders[gear],
-                            ratio,
-                            tdc: load.phase,
-                            phase: load.phase.cis(-i64::from(ratio.abs())),
-                            planar: Default::default(),
-                            arm: 0.0,
-                            second_moment: 0.0,
-                            rod_inertia: 0.0,
-                        });
-                        pistons.len() - 1
+                    let sum = found_or(&mut pistons, same, || Pistons {
+                        gear,
+                        cylinder: cylinders[gear],
+                        ratio,
+                        tdc: load.phase,
+                        phase: load.phase.cis(-i64::from(ratio.abs())),
+                        planar: Default::default(),
+                        arm: 0.0,
+                        second_moment: 0.0,
+                        rod_inertia: 0.0,
                     });
                     // The force is against the acceleration of the piston away from the crank.
-                    for (sum, term) in pistons[k].planar.iter_mut().zip([-force, -lever * force]) {
+                    for (sum, term) in sum.planar.iter_mut().zip([-force, -lever * force]) {
                         *sum += term;
                     }
-                    pistons[k].arm -= (load.axis.conj() * force).im;
-                    pistons[k].second_moment += second_moment * square;
-                    pistons[k].rod_inertia += rod_inertia * square;
+                    sum.arm -= (load.axis.conj() * force).im;
+                    sum.second_moment += second_moment * square;
+                    sum.rod_inertia += rod_inertia * square;
                 }
                 Source::Unbalance => {
-                    let k = unbalances.iter().position(|u| u.ratio == ratio).unwrap_or_else(|| {
-                        unbalances.push(Unbalances { ratio, ..Unbalances::default() });
-                        unbalances.len() - 1
-                    });
+                    let none = || Unbalances { ratio, ..Unbalances::default() };
+                    let sum = found_or(&mut unbalances, |u: &Unbalances| u.ratio == ratio, none);
                     let force = force * load.phase.cis(-i64::from(ratio));
-                    for (sum, term) in unbalances[k].planar.iter_mut().zip([force, lever * force]) {
+                    for (sum, term) in sum.planar.iter_mut().zip([force, lever * force]) {
                         *sum += term;
                     }
-                    unbalances[k].roll += load.axis.conj() * force;
+                    sum.roll += load.axis.conj() * force;
                 }
                 Source::Pressure { gear } => {
                     let same = |p: &Pressures| (p.gear_index, p.firing) == (gear, load.phase);
-                    let k = pressures.iter().position(same).unwrap_or_else(|| {
-                        pressures.push(Pressures {
-                            gear_index: gear,
-                            firing: load.phase,
-                            gear: loads.gears[gear].clone(),
-                            proportions: cylinders[gear].proportions(),
-                            // Its phase is half of it.
-                            firing_deg: 2.0 * load.phase.degrees(),
-                            phase: load.phase.cis(-2),
-                            volume: 0.0,
-                        });
-                        pressures.len() - 1
+                    let sum = found_or(&mut pressures, same, || Pressures {
+                        gear_index: gear,
+                        firing: load.phase,
+                        gear: loads.gears[gear].clone(),
+                        proportions: cylinders[gear].proportions(),
+                        // Its phase is half of it.
+                        firing_deg: 2.0 * load.phase.degrees(),
+                        phase: load.phase.cis(-2),
+                        volume: 0.0,
                     });
-                    pressures[k].volume += load.weight;
+                    sum.volume += load.weight;
                 }
             }
         }

@@ -1,12 +1,11 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
 use ndarray::{Array1, Array2};
-use rayon::prelude::*;
 
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::rod::Swing;
-use crate::load::{Alike, Loads};
+use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
@@ -48,7 +47,7 @@ pub fn exact(
     }
     let omega = angular_speed(request.rpm)?;
     let reference = engine.reference(request.reference_z)?;
-    let loads = Loads::new(engine, reference, Alike::Proportions);
+    let loads = Loads::new(engine, reference);
     let kinematics = Kinematics::new(&loads);
     let memory = in_blocks(theta_deg, torques(engine, request.torque), cancel, |angles, rows| {
         vectorised(
@@ -226,6 +225,9 @@ impl Memory {
     }
 }
 
+/// Numbers of [`pool::worth`] that take as long as a crank angle of an engine of a few cylinders.
+const NUMBERS: usize = 24;
+
 /// Run over the crank angles in blocks, in parallel.
 fn in_blocks(
     theta_deg: &[f64],
@@ -236,7 +238,7 @@ fn in_blocks(
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
-    if theta_deg.len() <= 4 * BLOCK {
+    if !pool::worth(NUMBERS * theta_deg.len()) {
         return fill_blocks(theta_deg, torques, cancel, add);
     }
     // Results are allocated there too: an allocator that keeps an arena for each thread then reuses
@@ -284,12 +286,7 @@ fn fill_blocks(
         }
         Ok(())
     };
-    let done = if tasks.len() <= 4 {
-        tasks.into_iter().try_for_each(block)
-    } else {
-        tasks.into_par_iter().try_for_each(block)
-    };
-    done?;
+    pool::each(cancel, tasks, NUMBERS * angles, block)?;
     Ok(memory)
 }
 

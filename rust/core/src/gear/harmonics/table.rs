@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use ndarray::Array2;
-use rayon::prelude::*;
 
 use super::centred::{ALL_DIGITS, Centred, leading, may_be_missing, next_term};
 use super::force::coefficients;
@@ -91,13 +90,12 @@ fn fill<T: Send>(
         return write(0..rows, out);
     }
     cancel.expect(rows.div_ceil(CHUNK));
-    let chunks = out.par_chunks_mut(CHUNK * width).enumerate();
-    pool::run(cancel, || {
-        chunks.try_for_each(|(chunk, out)| {
-            cancel.step()?;
-            write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
-        })
+    let chunks = memory::collected(out.chunks_mut(CHUNK * width).enumerate())?;
+    pool::map(cancel, chunks, |(chunk, out)| {
+        cancel.step()?;
+        write(chunk * CHUNK..rows.min((chunk + 1) * CHUNK), out)
     })
+    .map(drop)
 }
 
 /// How many rod ratios go through a polynomial side by side.

@@ -12,7 +12,7 @@ use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, Signed};
 
 use crate::engine::{Engine, first_equal};
 use crate::gear::slider_crank::Cylinder;
-use crate::load::{Alike, Loads, Source};
+use crate::load::{Loads, Source};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::rational::{Multiples, Ratio, common_measure, decimal};
@@ -62,7 +62,7 @@ impl TypedProportions {
 /// doubles may differ.
 fn loads(engine: &Engine, reference: Option<f64>) -> Result<Loads> {
     engine.check_one_crank("an exact sum")?;
-    let mut loads = Loads::new(engine, engine.reference(reference)?, Alike::Proportions);
+    let mut loads = Loads::new(engine, engine.reference(reference)?);
     // Pressure is no rational multiple of anything.
     loads.list.retain(|load| !matches!(load.source, Source::Pressure { .. }));
     let same = first_equal(loads.cylinders().iter().map(TypedProportions::of));

@@ -17,7 +17,7 @@ use self::rod::{DrivenRod, RodColumns};
 pub use self::sections::{Part, Sections};
 use crate::Complex64;
 use crate::engine::Engine;
-use crate::load::{Alike, Load, Loads, Source};
+use crate::load::{Load, Loads, Source};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check, parts};
 use crate::numbers::error::{Error, Result};
@@ -97,7 +97,7 @@ impl Internal {
         }
         let omega = angular_speed(rpm)?;
         let square = omega * omega;
-        let loads = Loads::new(engine, 0.0, Alike::Dimensions);
+        let loads = Loads::new(engine, 0.0);
         let (pistons, turn) = loads.list.split_at(engine.stations().len());
         let (of_crank, of_shafts) = turn.split_at(engine.crank_unbalances().count());
         let all = |loads: &[Load]| {
@@ -169,7 +169,7 @@ impl Internal {
         let rows = rows.map(|(i, (((crankpin, wrist_pin), (across, rod)), gas))| {
             (i, [crankpin, wrist_pin].map(slice), [across, rod, gas].map(slice))
         });
-        each(rows.collect(), 2 * rods * count, cancel, |(i, mut vectors, mut scalars)| {
+        pool::each(cancel, rows.collect(), 2 * rods * count, |(i, mut vectors, mut scalars)| {
             let mut columns = RodColumns::ZERO;
             for (range, units) in &blocks {
                 cancel.check()?;
@@ -193,7 +193,7 @@ impl Internal {
             Ok(())
         })?;
         let rows = found.main.outer_iter_mut().map(slice).enumerate().collect();
-        each(rows, mains * count, cancel, |(main, row)| {
+        pool::each(cancel, rows, mains * count, |(main, row)| {
             let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
             let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
             let turning: Complex64 = turning.sum();
@@ -238,7 +238,7 @@ impl Internal {
         };
         let (blocks, numbers) = (blocks(theta_deg, cancel)?, vectors.len());
         let rows = vectors.outer_iter_mut().map(slice).enumerate().collect();
-        each(rows, numbers, cancel, |(row, values)| {
+        pool::each(cancel, rows, numbers, |(row, values)| {
             let rod = &self.rods[if bearing == Bearing::Main { 0 } else { row }];
             for (range, units) in &blocks {
                 cancel.check()?;
@@ -313,19 +313,6 @@ fn blocks(theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<(Range<usize>, Units
         blocks.push((range, units));
     }
     Ok(blocks)
-}
-
-/// Do some work for each row, in parallel where so many numbers are worth it.
-fn each<T: Send>(
-    rows: Vec<T>,
-    numbers: usize,
-    cancel: &Cancel,
-    work: impl Fn(T) -> Result<()> + Send + Sync,
-) -> Result<()> {
-    if pool::worth(numbers) {
-        return pool::map(cancel, rows, work).map(drop);
-    }
-    rows.into_iter().try_for_each(work)
 }
 
 /// The numbers of a row.

@@ -3,7 +3,7 @@
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{Alike, Harmonic, Loads, PhasorSum, Scale, Term, Turn, Wanted};
+use crate::load::{Harmonic, Loads, PhasorSum, Scale, Term, Turn, Wanted};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -96,7 +96,7 @@ impl Sweep {
     /// Loads of an engine.
     pub(super) fn loads(&self, engine: usize) -> Loads {
         let reference = self.references[engine];
-        Loads::new(&self.engines[engine], reference, Alike::Dimensions)
+        Loads::new(&self.engines[engine], reference)
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Quantity, Sweep};
 use crate::gear::GearKind;
 use crate::gear::rod::Swing;
 use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
-use crate::load::{Alike, Loads};
+use crate::load::Loads;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
@@ -36,9 +36,9 @@ impl Sweep {
         let loads = match &self.axes.bank_angle {
             Some((angles, hold)) => {
                 let turned = engine.with_bank_angle(Angle::from_degrees(angles[angle])?, *hold)?;
-                Loads::new(&turned, reference, Alike::Dimensions)
+                Loads::new(&turned, reference)
             }
-            None => Loads::new(engine, reference, Alike::Dimensions),
+            None => Loads::new(engine, reference),
         };
         Ok(Placed { kinematics: Kinematics::new(&loads), points: Vec::new() })
     }

@@ -6,8 +6,6 @@ mod amplitudes;
 mod terms;
 mod totals;
 
-use rayon::prelude::*;
-
 use self::terms::Terms;
 pub use self::totals::largest_sums;
 use self::totals::peaks;
@@ -204,11 +202,7 @@ impl Tolerances {
         };
         cancel.expect(tasks.len());
         // An order of a sample takes as long as some sixty numbers of a sweep.
-        if pool::worth(60 * count * orders) {
-            pool::run(cancel, || tasks.into_par_iter().try_for_each(work))?;
-        } else {
-            tasks.into_iter().try_for_each(work)?;
-        }
+        pool::each(cancel, tasks, 60 * count * orders, work)?;
         Ok(sampled)
     }
 

@@ -11,7 +11,7 @@ use super::amplitudes::{Amplitudes, amplitudes};
 use super::{CHUNK, Deviations, Parameter, pins};
 use crate::Complex64;
 use crate::engine::{Engine, Station};
-use crate::load::{Alike, Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
+use crate::load::{Arithmetic, Load, Loads, Phasors, Times, Wanted, Weight, superpose};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
@@ -76,7 +76,7 @@ impl Terms {
         let laden = engine.stations().iter().map(|p| Station { rotating_mass: 1.0, ..*p });
         let laden = Engine::new("", "", laden.collect())?
             .with_counterweights(engine.counterweights().to_vec())?;
-        let mut loads = Loads::new(&laden, reference, Alike::Dimensions);
+        let mut loads = Loads::new(&laden, reference);
         let of_cylinders = |is_piston| {
             let deviating = move |(i, &pin)| Deviating { pin, cylinder: Some(i), is_piston };
             pin_of.iter().enumerate().map(deviating).map(Some)
