@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use super::interpolant::value_and_slope;
+use super::interpolant::jet;
 use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
-use crate::gear::slider_crank::Proportions;
+use crate::gear::slider_crank::{Motion, Proportions};
 use crate::gear::{Gear, GearKind};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
@@ -40,9 +40,9 @@ const CHUNK: usize = 512;
 const LANES: usize = 8;
 /// Orders after which powers are computed afresh: rounding grows with each multiplication.
 const FRESH: usize = 32;
-/// Part of the total within which the quadrature of a squared slope is exact.
-const QUADRATURE: f64 = 1e-13;
-/// Part of the largest torque below which a jump of it is rounding.
+/// Part of the total within which the quadrature of a squared slope or bend is exact.
+const QUADRATURE: f64 = 1e-12;
+/// Part of the largest pressure, or slope of it, below which a jump is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A quadrature rule, and up to where it reaches rounding.
@@ -79,8 +79,9 @@ struct Abscissa {
     weight: f64,
     /// Torque there.
     torque: f64,
-    /// Its slope, per radian.
+    /// Its first and second derivative, per radian.
     slope: f64,
+    bend: f64,
 }
 
 impl Cycle {
@@ -115,8 +116,9 @@ impl Cycle {
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above
     /// each; infinite where the torque jumps.
     ///
-    /// By Cauchy and Schwarz from those of the slope: Σ|cₖ| ≤ √(Σ k⁻² · Σ k²|cₖ|²), and the last sum is
-    /// known from the mean square of the slope less that of the orders below (Parseval).
+    /// By Cauchy and Schwarz from those of a derivative: Σ|cₖ| ≤ √(Σ k⁻²ʲ · Σ k²ʲ|cₖ|²), and the last sum
+    /// is known from the mean square of the j-th derivative less that of the orders below (Parseval). Of
+    /// slope and bend whichever is less, the bend where the slope does not jump.
     pub fn torque_up_to(
         &self,
         proportions: &Proportions,
@@ -125,28 +127,32 @@ impl Cycle {
         cancel: &Cancel,
     ) -> Result<(GasTorque, Vec<f64>)> {
         let orders = (1..=highest.halves()).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
-        let (torque, slope) = self.integrate(proportions, crankcase, &orders, cancel)?;
+        let (torque, squares) = self.integrate(proportions, crankcase, &orders, cancel)?;
         let step = if self.strokes == Strokes::Four { 0.5 } else { 1.0 };
-        let mut left = slope;
+        let mut left = squares;
         let tail = |(order, phasor): (&Order, &Complex64)| {
             let k = order.number();
-            left -= k * k * phasor.norm_sqr();
-            // Σ 1/k² above an order, of terms that are below the integral between their middles.
-            let last = (k / step).floor() * step;
-            (left.max(0.0) + QUADRATURE * slope).sqrt() / (step * (last + 0.5 * step)).sqrt()
+            // Σ k⁻²ʲ above an order is below the integral from the middle to the next.
+            let from = (k / step).floor() * step + 0.5 * step;
+            let bounds = [0, 1].map(|j| {
+                left[j] -= (k * k).powi(j as i32 + 1) * phasor.norm_sqr();
+                let above = from.powi(-2 * j as i32 - 1) / (step * (2 * j + 1) as f64);
+                ((left[j].max(0.0) + QUADRATURE * squares[j]) * above).sqrt()
+            });
+            bounds[0].min(bounds[1])
         };
         let tails = orders.iter().zip(&torque.phasors).map(tail).collect();
         Ok((torque, tails))
     }
 
-    /// Torque, and twice the mean square of its slope: infinite where it jumps.
+    /// Torque, and twice the mean squares of its slope and bend: infinite where it jumps, or its slope.
     fn integrate(
         &self,
         proportions: &Proportions,
         crankcase: f64,
         orders: &[Order],
         cancel: &Cancel,
-    ) -> Result<(GasTorque, f64)> {
+    ) -> Result<(GasTorque, [f64; 2])> {
         let period = period_deg(self.strokes).to_radians();
         let mut sorted: Vec<usize> = (0..orders.len()).collect();
         sorted.sort_unstable_by_key(|&k| orders[k]);
@@ -155,12 +161,15 @@ impl Cycle {
         let halves: Vec<u32> = sorted.iter().map(|&k| orders[k].halves()).collect();
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
-        let (mut mean, mut square) = (0.0, 0.0);
+        let (mut mean, mut squares) = (0.0, [0.0; 2]);
         let mut chunk: Vec<Abscissa> = memory::room(CHUNK + MOST_NODES)?;
         let mut powers = Powers::default();
         let mut finish = |chunk: &mut Vec<Abscissa>| -> Result<()> {
             mean += chunk.iter().map(|node| node.weight * node.torque).sum::<f64>();
-            square += chunk.iter().map(|node| node.weight * node.slope * node.slope).sum::<f64>();
+            for node in &*chunk {
+                squares[0] += node.weight * node.slope * node.slope;
+                squares[1] += node.weight * node.bend * node.bend;
+            }
             powers.add(chunk, &halves, &mut sums, cancel)?;
             chunk.clear();
             cancel.check()
@@ -173,9 +182,11 @@ impl Cycle {
         for (&k, sum) in sorted.iter().zip(&sums) {
             phasors[k] = sum * (2.0 / period);
         }
-        let slope =
-            if self.jumps(proportions, crankcase) { f64::INFINITY } else { 2.0 * square / period };
-        Ok((GasTorque { mean: mean / period, phasors }, slope))
+        let jumps = self.jumps(proportions, crankcase);
+        let squares = [0, 1].map(|j| {
+            if jumps[..=j].contains(&true) { f64::INFINITY } else { 2.0 * squares[j] / period }
+        });
+        Ok((GasTorque { mean: mean / period, phasors }, squares))
     }
 
     /// Append the nodes of a panel, halved until a rule is exact to rounding.
@@ -209,17 +220,21 @@ impl Cycle {
             };
             for &(x, weight) in &NODES[(rule.points + extra) as usize] {
                 let place = centre + width * x;
-                let (pressure, slope) = value_and_slope(coefficients, place);
+                let [pressure, slope, bend] = jet(coefficients, place);
                 let offset = half * place;
                 let unit = at_middle * Complex64::cis(offset);
                 let motion = proportions.motion(unit.im, unit.re);
-                let gauge = pressure - crankcase;
+                let [gauge, slope, bend] =
+                    [pressure - crankcase, slope / half, bend / half.powi(2)];
                 chunk.push(Abscissa {
                     theta_deg: middle + offset.to_degrees(),
                     weight: weight * half * width,
                     // The piston's way down is minus its distance from the crank.
                     torque: -gauge * motion.velocity,
-                    slope: -slope / half * motion.velocity - gauge * motion.acceleration,
+                    slope: -slope * motion.velocity - gauge * motion.acceleration,
+                    bend: -bend * motion.velocity
+                        - 2.0 * slope * motion.acceleration
+                        - gauge * jerk(proportions, &motion, unit),
                 });
             }
             if chunk.len() >= CHUNK {
@@ -229,21 +244,44 @@ impl Cycle {
         Ok(())
     }
 
-    /// Whether torque jumps at an edge: pressure does, and the piston moves.
-    fn jumps(&self, proportions: &Proportions, crankcase: f64) -> bool {
+    /// Whether torque jumps at an edge, where pressure does and the piston moves; and whether its slope
+    /// does, with that of pressure or where the piston stands.
+    fn jumps(&self, proportions: &Proportions, crankcase: f64) -> [bool; 2] {
         let panels = &self.panels;
         let count = panels.edges.len() - 1;
+        // Pressure and its slope per radian.
         let ends = |k: usize| {
-            [-1.0, 1.0].map(|place| value_and_slope(panels.panel(k), place).0 - crankcase)
+            let half = 0.5 * (panels.edges[k + 1] - panels.edges[k]).to_radians();
+            [-1.0, 1.0].map(|place| {
+                let [pressure, slope, _] = jet(panels.panel(k), place);
+                [pressure - crankcase, slope / half]
+            })
         };
-        let largest = (0..count).flat_map(ends).map(f64::abs).fold(0.0, f64::max);
-        (0..count).any(|k| {
-            let jump = ends((k + 1) % count)[0] - ends(k)[1];
+        let mut largest = [0.0_f64; 2];
+        for end in (0..count).flat_map(ends) {
+            largest = [0, 1].map(|j| largest[j].max(end[j].abs()));
+        }
+        let mut jumps = [false; 2];
+        for k in 0..count {
+            let ([after, _], [_, before]) = (ends((k + 1) % count), ends(k));
             let unit = cis_degrees(panels.edges[k + 1]);
-            let velocity = proportions.motion(unit.im, unit.re).velocity;
-            (jump * velocity).abs() > ROUNDING * largest
-        })
+            let motion = proportions.motion(unit.im, unit.re);
+            let [gauge, slope] = [0, 1].map(|j| after[j] - before[j]);
+            jumps[0] |= (gauge * motion.velocity).abs() > ROUNDING * largest[0];
+            let of_slope = slope * motion.velocity + gauge * motion.acceleration;
+            jumps[1] |= of_slope.abs() > ROUNDING * (largest[0] + largest[1]);
+        }
+        jumps
     }
+}
+
+/// Third derivative of the piston's position by the crank angle, over the crank radius: of the rod's
+/// height h = √(l² − u²) with u = sin θ − e, h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
+fn jerk(proportions: &Proportions, motion: &Motion, unit: Complex64) -> f64 {
+    let (sin, cos) = (unit.im, unit.re);
+    let height = motion.position - cos;
+    let [slope, bend] = [motion.velocity + sin, motion.acceleration + cos];
+    sin + (cos * (4.0 * sin - proportions.offset) - 3.0 * slope * bend) / height
 }
 
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.

@@ -148,7 +148,7 @@ impl Panels {
             self.edges.partition_point(|&edge| edge <= within).clamp(1, self.edges.len() - 1) - 1;
         let (from, to) = (self.edges[panel], self.edges[panel + 1]);
         let place = ((angle - from) - (to - angle)) / (to - from);
-        value_and_slope(self.panel(panel), place.clamp(-1.0, 1.0)).0
+        jet(self.panel(panel), place.clamp(-1.0, 1.0))[0]
     }
 }
 
@@ -211,14 +211,24 @@ pub(super) fn coefficient(values: &[f64], n: usize) -> f64 {
     half(n) * 2.0 * sum / degree as f64
 }
 
-/// Sum of a Chebyshev series and its derivative, by Clenshaw's recurrence.
-pub(super) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
-    let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
+/// Sum of a Chebyshev series and its first two derivatives, by Clenshaw's recurrence.
+pub(super) fn jet(coefficients: &[f64], x: f64) -> [f64; 3] {
+    let [mut here, mut before] = [[0.0; 3]; 2];
     for &c in coefficients[1..].iter().rev() {
-        (d1, d2) = (2.0 * (b1 + x * d1) - d2, d1);
-        (b1, b2) = (2.0 * x * b1 - b2 + c, b1);
+        let [b, slope, bend] = here;
+        let next = [
+            2.0 * x * b - before[0] + c,
+            2.0 * (b + x * slope) - before[1],
+            2.0 * (2.0 * slope + x * bend) - before[2],
+        ];
+        (here, before) = (next, here);
     }
-    (x * b1 - b2 + coefficients[0], b1 + x * d1 - d2)
+    let [b, slope, bend] = here;
+    [
+        x * b - before[0] + coefficients[0],
+        b + x * slope - before[1],
+        2.0 * slope + x * bend - before[2],
+    ]
 }
 
 /// Knot of any number, those of the neighbouring periods included.
