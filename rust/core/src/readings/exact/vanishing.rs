@@ -16,7 +16,8 @@
 //! it stand for it, as those of 360/7° do for that.
 //!
 //! Gas is a load of its own, whose harmonics nobody knows here: its torque vanishes where the phase
-//! vectors of the firing do ([`super::star`]).
+//! vectors of the firing do ([`super::star`]). Of an engine with cycles it remains where its value is
+//! beyond any error of its evaluation.
 //!
 //! Which harmonics are known not to be zero:
 //! - a₁ = 1 + ib of any slider-crank;
@@ -44,7 +45,7 @@ use crate::firing::Firing;
 use crate::gear::harmonics;
 use crate::gear::slider_crank::Cylinder;
 use crate::layout::Strokes;
-use crate::load::Load;
+use crate::load::{Load, Loads};
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -54,6 +55,9 @@ use crate::readings::balance::{self, Orders, Request, Vector};
 
 /// Sums of weights in doubles of angles within this part of Σ|weights| may be of one exact angle.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
+
+/// Part of the largest torque of gas beyond which that of an order is no error: it is evaluated to 1e-13.
+const EVALUATED: f64 = 1e-9;
 
 /// What is known of a sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -373,10 +377,11 @@ pub fn vanishing(
     let strokes = firing.map_or(engine.strokes(), Firing::strokes);
     let proof = Proof::new(engine, reference_z, cancel)?;
     let gas = Stars::of_gas(engine, firing, cancel)?;
-    let mut within_rounding = within_rounding(engine, orders, reference_z, cancel)?;
+    let (mut within_rounding, gas_remains) = evaluated(engine, orders, reference_z, cancel)?;
     let mut verdicts = Vec::with_capacity(orders.len());
     let mut errors: Vec<String> = Vec::new();
-    for (&order, within) in orders.iter().zip(&mut within_rounding) {
+    for ((&order, within), gas_remains) in orders.iter().zip(&mut within_rounding).zip(gas_remains)
+    {
         let sums = proof.sums(order);
         let mut of_order = [Verdict::Undecided; 10];
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
@@ -388,8 +393,11 @@ pub fn vanishing(
                 (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
                     |error| (Verdict::Undecided, Some(error)),
                     |star| {
-                        within[k] = star.sum == Complex64::default();
-                        (star.verdict, None)
+                        within[k] = star.sum == Complex64::default() && !gas_remains;
+                        match star.verdict {
+                            Verdict::Undecided if gas_remains => (Verdict::Remains, None),
+                            verdict => (verdict, None),
+                        }
                     },
                 ),
                 // Inertia repeats in every turn.
@@ -414,28 +422,33 @@ pub fn vanishing(
     Ok(Vanishing { orders: orders.to_vec(), verdicts, within_rounding, obstacles })
 }
 
-/// What is zero within rounding, at no speed in particular; gas is.
-fn within_rounding(
+/// What is zero within rounding, at no speed in particular; and at which orders the torque of gas is
+/// beyond any error.
+fn evaluated(
     engine: &Engine,
     orders: &[Order],
     reference_z: Option<f64>,
     cancel: &Cancel,
-) -> Result<Vec<[bool; 10]>> {
+) -> Result<(Vec<[bool; 10]>, Vec<bool>)> {
     let request = Request { rpm: 60.0, reference_z, torque: true };
     let orders = Orders::Given(orders.to_vec());
     let found = balance::balance(engine, &request, &orders, cancel)?;
-    Ok((0..found.orders.len())
-        .map(|k| {
-            let zero = Complex64::default();
-            let of = |vector: Vector| {
-                let [x, y] = found.xy(vector, k);
-                let planar = found.planar(vector, k);
-                [x, y, planar.forward, planar.backward_conj].map(|phasor| phasor == zero)
-            };
-            let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
-            [a, b, c, d, e, f, g, h, found.wrenches[k].torque().roll == zero, true]
-        })
-        .collect())
+    let loads = Loads::new(engine, engine.reference(reference_z)?);
+    let volumes = loads.volumes().into_iter().zip(&loads.gears);
+    let largest: f64 =
+        volumes.filter_map(|(volume, gear)| Some(volume * gear.largest_gas()?)).sum();
+    let zero = |k: usize| {
+        let of = |vector: Vector| {
+            let [x, y] = found.xy(vector, k);
+            let planar = found.planar(vector, k);
+            [x, y, planar.forward, planar.backward_conj].map(|part| part == Complex64::default())
+        };
+        let ([a, b, c, d], [e, f, g, h]) = (of(Vector::Force), of(Vector::Moment));
+        let torque = found.wrenches[k].inertia.roll == Complex64::default();
+        [a, b, c, d, e, f, g, h, torque, true]
+    };
+    let gas = found.wrenches.iter().map(|wrench| wrench.gas.roll.norm() > EVALUATED * largest);
+    Ok(((0..found.orders.len()).map(zero).collect(), gas.collect()))
 }
 
 #[cfg(test)]
