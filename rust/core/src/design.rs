@@ -12,7 +12,7 @@ use crate::engine::Engine;
 use crate::load::{Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
 use crate::readings::amplitude::GearHarmonics;
@@ -400,6 +400,17 @@ impl Merit {
         cancel: &Cancel,
     ) -> Result<Self> {
         let loads = Loads::new(engine, engine.reference(None)?);
+        let count = engine.stations().len();
+        let lists = variables.iter().flat_map(|each| [&each.bores, &each.pins]);
+        if let Some(list) = lists.into_iter().find(|list| list.len() != count) {
+            return Err(Error::Length {
+                argument: "variables".into(),
+                found: list.len(),
+                reference: "the engine".into(),
+                expected: count,
+                item: "cylinder",
+            });
+        }
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];
         let fixed = || [vec![0.0; variables.len()], vec![0.0; variables.len()]];
@@ -439,7 +450,7 @@ impl Merit {
             }
             match objective.reading {
                 Reading::Forward => parts.truncate(1),
-                Reading::Backward => drop(parts.remove(0)),
+                Reading::Backward => parts = parts.split_off(parts.len().min(1)),
                 Reading::Peak | Reading::PeakXy => {}
             }
             Goal::new(*objective, parts)

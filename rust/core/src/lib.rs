@@ -14,7 +14,8 @@
 //!
 //! Conventions: SI units; x to the right, y up and z from the front to the flywheel, seen from the
 //! flywheel, where the crank turns counter-clockwise; a quantity of order n is `Re(P·e^{inθ})`
-//! with `P` its peak phasor.
+//! with `P` its peak phasor. Indices, of cylinders from 0 and of orders in their lists, are those of slices:
+//! one that is out of range panics.
 
 #![forbid(unsafe_code)]
 

@@ -10,7 +10,7 @@ use std::mem;
 use std::ops::Range;
 
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::Result;
+use crate::numbers::error::{Error, Result};
 use crate::numbers::{memory, pool};
 
 /// Half arrangements of one exhaustive comparison; up to ten seconds on one core.
@@ -68,8 +68,17 @@ impl PartKind {
     /// Parts from their deviations (figures, parts) and the effects of a unit of each figure
     /// (figures, places, dimensions).
     pub fn new(deviations: Vec<Vec<f64>>, influences: Vec<Vec<Vec<f64>>>) -> Result<Self> {
-        let (parts, places) = (deviations[0].len(), influences[0].len());
-        let dimensions = influences[0].first().map_or(0, Vec::len);
+        let parts = deviations.first().map_or(0, Vec::len);
+        let (places, dimensions) = shape(&influences);
+        let alike = deviations.iter().all(|of| of.len() == parts)
+            && influences.iter().all(|of| shape(std::slice::from_ref(of)) == (places, dimensions))
+            && influences.iter().flatten().all(|of| of.len() == dimensions);
+        if parts == 0 || places == 0 || deviations.len() != influences.len() || !alike {
+            let found = format!("{} figures of {parts} parts", deviations.len());
+            let hint =
+                "give each figure a deviation of every part, and its influence in every place";
+            return Err(Error::value("parts", found, hint));
+        }
         let mut added = memory::room(places * parts * dimensions)?;
         for place in 0..places {
             for part in 0..parts {
@@ -83,6 +92,12 @@ impl PartKind {
     }
 }
 
+/// Places and dimensions of influences.
+fn shape(influences: &[Vec<Vec<f64>>]) -> (usize, usize) {
+    let places = influences.first().map_or(&[][..], Vec::as_slice);
+    (places.len(), places.first().map_or(0, Vec::len))
+}
+
 fn length(vector: &[f64]) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
@@ -92,16 +107,39 @@ fn add(to: &mut [f64], sign: f64, vector: &[f64]) {
 }
 
 impl Matching {
-    /// So many sets of parts of each kind, of which there are enough.
-    #[must_use]
-    pub fn new(start: Vec<f64>, kinds: Vec<PartKind>, sets: usize) -> Self {
-        let places = kinds[0].influences[0].len();
-        Self { start, kinds, places, sets }
+    /// So many sets of parts of each kind.
+    pub fn new(start: Vec<f64>, kinds: Vec<PartKind>, sets: usize) -> Result<Self> {
+        let places = kinds.first().map_or(0, |kind| shape(&kind.influences).0);
+        let fits = |kind: &PartKind| {
+            let enough = sets.checked_mul(places).is_some_and(|used| used <= kind.parts);
+            shape(&kind.influences) == (places, start.len()) && enough
+        };
+        if sets == 0 || kinds.is_empty() || kinds.len() > KINDS || !kinds.iter().all(fits) {
+            let found = format!("{} kinds for {sets} sets of {places}", kinds.len());
+            let hint = "give one or two kinds, with parts for every place of all sets";
+            return Err(Error::value("parts", found, hint));
+        }
+        Ok(Self { start, kinds, places, sets })
+    }
+
+    /// Whether these are sequences of all parts, one for each kind.
+    fn has(&self, sequences: &[Vec<usize>]) -> bool {
+        let each = sequences.iter().zip(&self.kinds);
+        sequences.len() == self.kinds.len()
+            && each.into_iter().all(|(sequence, kind)| {
+                let mut parts = sequence.clone();
+                parts.sort_unstable();
+                parts.into_iter().eq(0..kind.parts)
+            })
     }
 
     /// The best matching that is found: of all, or by exchanges from the given sequences of parts,
     /// one for each start and kind, with the number of steps as the progress.
     pub fn solve(&self, starts: &[Vec<Vec<usize>>], cancel: &Cancel) -> Result<Match> {
+        if starts.is_empty() || !starts.iter().all(|sequences| self.has(sequences)) {
+            let hint = "give at least one, with every part of each kind once";
+            return Err(Error::value("starts", format!("{} sequences", starts.len()), hint));
+        }
         cancel.expect(starts.len());
         let mut best = (f64::INFINITY, Partition::new());
         let mut compared = 0;
@@ -651,7 +689,7 @@ mod tests {
                     })
                     .collect();
                 let start = some(dimensions).iter().map(|x| x * distance).collect();
-                let problem = Matching::new(start, kinds, sets);
+                let problem = Matching::new(start, kinds, sets).unwrap();
                 let all: Vec<Vec<Vec<usize>>> =
                     parts.iter().map(|&parts| sequences(parts)).collect();
                 let both: Vec<Partition> = match &all[..] {
@@ -682,12 +720,41 @@ mod tests {
         let deviations = vec![(0..40).map(|_| number()).collect()];
         let influences = vec![(0..6).map(|_| vec![number(), number()]).collect()];
         let kind = PartKind::new(deviations, influences).unwrap();
-        let problem = Matching::new(vec![0.0; 2], vec![kind], 6);
+        let problem = Matching::new(vec![0.0; 2], vec![kind], 6).unwrap();
         let start = vec![vec![(0..40).collect::<Vec<usize>>()]];
         let found = problem.solve(&start, &Cancel::new()).unwrap();
         assert!(!found.exact && found.value < 0.1 * problem.value(&start[0]));
         let cancel = Cancel::new();
         cancel.raise();
         assert_eq!(problem.solve(&start, &cancel), Err(crate::Error::Cancelled));
+    }
+
+    #[test]
+    fn lists_of_wrong_lengths_are_errors() {
+        let kind = |parts: usize| PartKind::new(vec![vec![1.0; parts]], vec![vec![vec![1.0]; 2]]);
+        let error = |found: Result<PartKind>| found.unwrap_err().to_string();
+        assert!(error(PartKind::new(vec![], vec![])).starts_with("parts = 0 figures"));
+        assert!(error(kind(0)).starts_with("parts = 1 figures of 0 parts"));
+        let uneven = vec![vec![vec![1.0], vec![1.0, 2.0]]];
+        assert!(error(PartKind::new(vec![vec![1.0]], uneven)).starts_with("parts"));
+        let many = |start: usize, kinds: Vec<PartKind>, sets: usize| {
+            Matching::new(vec![0.0; start], kinds, sets)
+        };
+        let two = || kind(2).unwrap();
+        for (start, kinds, sets) in [
+            (1, vec![], 1),
+            (1, vec![two()], 0),
+            (1, vec![two()], 2),
+            (2, vec![two()], 1),
+            (1, vec![two(), two(), two()], 1),
+        ] {
+            let error = many(start, kinds, sets).unwrap_err().to_string();
+            assert!(error.contains("give one or two kinds"), "{error}");
+        }
+        let one = many(1, vec![two()], 1).unwrap();
+        for starts in [vec![], vec![vec![]], vec![vec![vec![0]]], vec![vec![vec![0, 2]]]] {
+            assert!(one.solve(&starts, &Cancel::new()).is_err());
+        }
+        assert!(one.solve(&[vec![vec![1, 0]]], &Cancel::new()).is_ok());
     }
 }

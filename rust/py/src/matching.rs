@@ -27,7 +27,7 @@ pub fn matched(
         .into_iter()
         .map(|(deviations, influences)| PartKind::new(deviations, influences))
         .collect();
-    let problem = Matching::new(start, kinds.or_raise()?, sets);
+    let problem = Matching::new(start, kinds.or_raise()?, sets).or_raise()?;
     let found = interrupt::watched(py, progress.as_ref(), |cancel| problem.solve(&starts, cancel))?;
     Ok((found.chosen, found.value, found.bound, found.exact))
 }

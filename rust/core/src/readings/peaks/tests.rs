@@ -74,7 +74,8 @@ fn vectors_are_longest_where_samples_are() {
             assert!(dense <= peak + 1e-13 && peak <= dense + 2e-6, "{dense} {peak}");
         }
     }
-    assert_eq!(finder(&orders).of_vector(&parts(0.0).map(|p| p * 0.0), &[]), 0.0);
+    let zero = parts(0.0).map(|p| p * 0.0);
+    assert_eq!(finder(&orders).of_vector(&zero, &zero), 0.0);
 }
 
 #[test]
@@ -241,4 +242,11 @@ fn peaks_about_a_mean_are_those_of_samples() {
             assert!(found >= sampled - 1e-12 && found < sampled + 1e-4, "{found} {sampled}");
         }
     }
+}
+
+#[test]
+fn a_sum_needs_a_phasor_of_each_order() {
+    let one = [Complex64::new(1.0, 0.0)];
+    let error = finder(&[1, 2]).0.along_axis(&one, &Cancel::new()).unwrap_err().to_string();
+    assert!(error.contains("phasors"), "{error}");
 }
