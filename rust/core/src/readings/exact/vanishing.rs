@@ -393,11 +393,17 @@ pub fn vanishing(
                 (ProofQuantity::GasTorque, _) => gas.at(order).map_or_else(
                     |error| (Verdict::Undecided, Some(error)),
                     |star| {
-                        within[k] = star.sum == Complex64::default() && !gas_remains;
-                        match star.verdict {
-                            Verdict::Undecided if gas_remains => (Verdict::Remains, None),
-                            verdict => (verdict, None),
-                        }
+                        let verdict = match star.verdict {
+                            Verdict::Undecided if gas_remains => Verdict::Remains,
+                            verdict => verdict,
+                        };
+                        // The sum of vectors is no torque where cylinders are unlike.
+                        within[k] = match verdict {
+                            Verdict::Vanishes => true,
+                            Verdict::Remains => false,
+                            Verdict::Undecided => star.sum == Complex64::default(),
+                        };
+                        (verdict, None)
                     },
                 ),
                 // Inertia repeats in every turn.
