@@ -95,12 +95,15 @@ impl Gear {
         known: Option<&GasTorque>,
         cancel: &Cancel,
     ) -> Result<(TorqueHarmonics, [f64; 2])> {
-        let Some(Pressure { cycle, crankcase }) = &self.pressure else {
+        let Some((Pressure { cycle, crankcase }, proportions)) = self.driven() else {
             let zero = vec![Complex64::default(); orders.len()];
             return Ok((TorqueHarmonics { roll: zero.clone(), crank: zero }, [0.0; 2]));
         };
         let [on_block, on_crank] = self.senses();
-        let GasTorque { mean, phasors } = cycle.torque(self, *crankcase, orders, known, cancel)?;
+        let GasTorque { mean, phasors } = match known.and_then(|known| known.at(orders)) {
+            Some(found) => found,
+            None => cycle.torque_of(proportions, *crankcase, orders, cancel)?,
+        };
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
         let crank = phasors.iter().map(|phasor| phasor * on_crank).collect();
         Ok((TorqueHarmonics { roll, crank }, [-on_block * mean, on_crank * mean]))
@@ -113,9 +116,7 @@ impl Gear {
         highest: Order,
         cancel: &Cancel,
     ) -> Result<Option<(GasTorque, Vec<f64>)>> {
-        let (Some(Pressure { cycle, crankcase }), GearKind::SliderCrank { proportions, .. }) =
-            (&self.pressure, &self.kind)
-        else {
+        let Some((Pressure { cycle, crankcase }, proportions)) = self.driven() else {
             return Ok(None);
         };
         cycle.torque_up_to(proportions, *crankcase, highest, cancel).map(Some)
@@ -124,17 +125,23 @@ impl Gear {
     /// Largest torque of the pressure over piston area and crank radius, Pa, among those at whole
     /// degrees.
     pub fn largest_gas(&self) -> Option<f64> {
-        let (Some(Pressure { cycle, crankcase }), GearKind::SliderCrank { proportions, .. }) =
-            (&self.pressure, &self.kind)
-        else {
-            return None;
-        };
+        let (Pressure { cycle, crankcase }, proportions) = self.driven()?;
         let torque = |degrees: u32| {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             let pressure = cycle.pressure_deg(f64::from(degrees)) - crankcase;
             (pressure * proportions.motion(sin, cos).velocity).abs()
         };
         Some((0..720).map(torque).fold(0.0, f64::max))
+    }
+
+    /// Pressure, and the proportions of the motion against which it acts.
+    fn driven(&self) -> Option<(&Pressure, &Proportions)> {
+        match &self.kind {
+            GearKind::SliderCrank { proportions, .. } => {
+                Some((self.pressure.as_ref()?, proportions))
+            }
+            GearKind::Given(_) => None,
+        }
     }
 
     /// Whether it is a slider-crank whose piston has no offset.

@@ -7,10 +7,9 @@ use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
 use crate::gear::slider_crank::{Motion, Proportions};
-use crate::gear::{Gear, GearKind};
 use crate::numbers::angle::cis_degrees;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
@@ -27,7 +26,7 @@ pub struct GasTorque {
 
 impl GasTorque {
     /// The phasors of some orders, of one that has all halves up to the highest of them.
-    fn at(&self, orders: &[Order]) -> Option<Self> {
+    pub(crate) fn at(&self, orders: &[Order]) -> Option<Self> {
         let phasor = |order: &Order| self.phasors.get(order.halves() as usize - 1).copied();
         let phasors = orders.iter().map(phasor).collect::<Option<_>>()?;
         Some(Self { mean: self.mean, phasors })
@@ -85,23 +84,6 @@ struct Abscissa {
 }
 
 impl Cycle {
-    /// Torque on the crank of a gear over piston area and crank radius, of the pressure above the
-    /// crankcase's: its mean, and its phasors at orders of the gear's own crank; those of `known`, at
-    /// orders ½, 1, 1½ …, where it reaches so far.
-    pub(crate) fn torque(
-        &self,
-        gear: &Gear,
-        crankcase: f64,
-        orders: &[Order],
-        known: Option<&GasTorque>,
-        cancel: &Cancel,
-    ) -> Result<GasTorque> {
-        if let Some(found) = known.and_then(|known| known.at(orders)) {
-            return Ok(found);
-        }
-        self.torque_of(slider_crank(gear)?, crankcase, orders, cancel)
-    }
-
     /// Torque on a crank over piston area and crank radius, of the pressure above the crankcase's.
     pub fn torque_of(
         &self,
@@ -389,13 +371,4 @@ fn to_singularity(proportions: &Proportions, theta: f64) -> f64 {
     };
     let quarter = std::f64::consts::FRAC_PI_2;
     distance(quarter, proportions.above.high).min(distance(-quarter, proportions.below.high))
-}
-
-fn slider_crank(gear: &Gear) -> Result<&Proportions> {
-    match &gear.kind {
-        GearKind::SliderCrank { proportions, .. } => Ok(proportions),
-        GearKind::Given(_) => Err(Error::NoTorque(
-            "a force spectrum does not determine the piston's motion; leave out `spectrum`",
-        )),
-    }
 }
