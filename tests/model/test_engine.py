@@ -611,8 +611,8 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
 
 
 @pytest.mark.parametrize("name", ["u16", "H-24", "square four"])
-def test_engines_of_two_crankshafts_are_said_not_to_be_modelled(name: str) -> None:
-    with pytest.raises(cp.InputError, match="engines of several crankshafts are not modelled"):
+def test_engines_of_two_crankshafts_are_files(name: str) -> None:
+    with pytest.raises(cp.InputError, match=r"several crankshafts is an engine file with \[\[cran"):
         cp.Engine.preset(name)
 
 

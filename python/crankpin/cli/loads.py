@@ -73,7 +73,13 @@ def add_bearings(commands: Commands) -> None:
         note="Main bearings share the loads between them by the lever rule.",
     )
     shared(inside, "name", "--rpm")
-    shared(inside, "--cycle", "--bore", "--crankcase")
+    shared(
+        inside,
+        "--cycle",
+        help="cylinder pressure over crank angle: a file, or petrol or diesel for an example "
+        "(default: none)",
+    )
+    shared(inside, "--bore", "--crankcase")
     inside.add_argument(
         "--load",
         choices=tuple(LOADS),

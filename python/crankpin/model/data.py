@@ -374,6 +374,8 @@ class EngineData:
             reference_z=plane,
             bank=self._core.bank if bank_deg is None else None,
         )
+        if len(self._core.cranks[0]) > 1:
+            core = core.with_cranks(*self._core.cranks)
         weights = self.counterweights if counterweights is None else counterweights
         core = rotating.with_counterweights(core, weights)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)

@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crankpin_core as core;
-use crankpin_core::engine::{Details, Gas, Hold, Shaft, Station, Unbalance, file};
+use crankpin_core::engine::{Crank, Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error};
 use ndarray::Array1;
@@ -405,6 +405,21 @@ impl Engine {
     #[getter]
     fn mains(&self) -> Vec<f64> {
         self.0.mains().to_vec()
+    }
+
+    /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of
+    /// its own.
+    #[getter]
+    fn cranks(&self) -> (Vec<(f64, f64, i32)>, Vec<usize>) {
+        let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio);
+        let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i));
+        (self.0.cranks().iter().map(crank).collect(), of.collect())
+    }
+
+    fn with_cranks(&self, cranks: Vec<(f64, f64, i32)>, crank_of: Vec<usize>) -> PyResult<Self> {
+        let crank = |(x, y, ratio)| Crank { axis: [x, y], ratio };
+        let cranks = cranks.into_iter().map(crank).collect();
+        self.0.with_cranks(cranks, crank_of).or_raise().map(Self::from)
     }
 
     #[getter]
