@@ -114,6 +114,11 @@ def test_explain_prints_a_sentence_a_line(capsys: CAPTURE) -> None:
     assert beside == f"{v8.replace(reference_z=0.1).explain(6000)}\n"
 
 
+def test_many_omitted_orders_are_not_all_listed(capsys: CAPTURE) -> None:
+    text = printed(capsys, "torque", "i4", "--bore", "86mm")
+    assert re.search(r"omitted: 26, 28, 30, …, \d+\.$", text)
+
+
 @pytest.mark.parametrize("suffix", [".toml", ".json"])
 def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"engine{suffix}"
