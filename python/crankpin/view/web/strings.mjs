@@ -52,7 +52,9 @@ export const STRINGS = {
   torques: { gas: "gas", inertia: "inertia", torque: "whole" },
   pressure: "Pressure in the cylinders, absolute",
   crankSpeed: "Crank speed",
-  speeds: { "crank-speed": "", irregularity: "irregularity", inertia: "with a moment of inertia of" },
+  speeds: {
+    "crank-speed": " ", irregularity: ", irregularity ", inertia: ", with a moment of inertia of ",
+  },
   stalls: "the crank would stop: too little inertia for this speed",
   about: "about z",
   noTorque: "not determined by a spectrum",
