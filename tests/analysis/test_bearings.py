@@ -245,15 +245,23 @@ def test_the_pressure_of_the_crankcase_loads_nothing() -> None:
 def test_khurmi_15_7() -> None:
     """Khurmi, Theory of Machines, example 15.7: slide-bar force 10.97 kN, turning moment 14.491.
 
-    The book's acceleration has two terms; the exact one gives 14.48952 kN·m.
+    The book's acceleration has two terms, cos θ + λ cos 2θ; the exact one gives 10.96414 kN and
+    14.48952 kN·m.
     """
     cylinder = cp.Cylinder(0.3, 1.2, 250.0, bore=0.5)
     theta = np.arange(0.0, 720.0, 60.0)
     single = cp.Engine.inline(cylinder, throws_deg=[0], spacing=1.0, firing_order="1")
     fired = single.with_cycle(cp.Cycle(theta, np.full(12, 0.45e6)), crankcase=0.1e6)
     loads = cp.bearing_loads(fired, 250.0, [60.0])
-    # 4e-5: what the third term of the acceleration changes.
-    np.testing.assert_allclose(loads.side_thrust, 10.96541e3, rtol=2e-4)
+    sin, cos, ratio = np.sqrt(0.75), 0.5, 0.25
+    height = np.sqrt(1.0 / ratio**2 - sin**2)
+    square = 0.3 * (250.0 * np.pi / 30.0) ** 2
+    exact = cos + (cos**2 - sin**2) / height + (sin * cos) ** 2 / height**3
+    printed = {exact: 10.96414e3, cos + ratio * (2.0 * cos**2 - 1.0): 10.96541e3}
+    for acceleration, force in printed.items():
+        along = 0.35e6 * np.pi / 4.0 * 0.5**2 - 250.0 * square * acceleration
+        assert along * sin / height == pytest.approx(force, abs=0.005)  # its last digit
+    np.testing.assert_allclose(loads.side_thrust, printed[exact], rtol=5e-7)
     moment = 0.3 * loads.turned("crankpin")[0, 0, 1]
     np.testing.assert_allclose(moment, 14.48952e3, rtol=5e-7)
 
