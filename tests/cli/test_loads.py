@@ -41,10 +41,10 @@ def fired(name: str, kind: str = "petrol", bore: float | None = None) -> cp.Engi
 def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
     loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
     assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.table.text()}\n"
-    for load, peaks in (("main", loads.peak("main")), ("crankpin", loads.peak("crankpin"))):
+    for load, peaks in (("main", loads.largest("main")), ("crankpin", loads.largest("crankpin"))):
         typed = f"bearings v6-60 --rpm 4000 --load {load} --csv"
         head, *rows = csv.reader(io.StringIO(printed(capsys, typed)))
-        column = head.index("peak N" if load == "main" else "crankpin N")
+        column = head.index("largest N" if load == "main" else "crankpin N")
         assert [float(row[column]) for row in rows] == peaks.tolist()
 
 
