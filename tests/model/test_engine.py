@@ -18,7 +18,6 @@ import numpy as np
 import pytest
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.model import presets as presets_module
-from crankpin.model.computed_cycles import EXAMPLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -631,10 +630,7 @@ def test_presets_that_fire_take_the_example_of_a_cycle() -> None:
     ]
     assert len(fired) > 20
     for engine in fired:
-        cycle = cp.Cycle.example()
-        if engine.strokes == 2:
-            figures = EXAMPLES["petrol"]
-            cycle = cp.Cycle.wiebe(engine.cylinders[0], **figures, strokes=2)  # type: ignore[arg-type]
+        cycle = cp.Cycle.example(strokes=engine.strokes)
         balance = engine.with_cycle(cycle).balance(3000, orders=[0.5])
         assert balance.crank_torque.mean > 0
 

@@ -117,7 +117,8 @@ def _fired(given: Given, name: str) -> tuple[Engine, str]:
     engine, typed = given.engine(name), given.text("--cycle")
     if typed is None:
         return engine, ""
-    cycle = Cycle.example(typed) if typed in EXAMPLES else Cycle.load(typed)
+    example = typed in EXAMPLES
+    cycle = Cycle.example(typed, strokes=engine.strokes) if example else Cycle.load(typed)
     bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [
