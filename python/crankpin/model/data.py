@@ -475,7 +475,8 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise InputError(f"cycle[{k}] = {inputs.shorten(one)}: {hint}")
         cores = [None if one is None else one.core for one in each]
-        return type(self)(self._core.with_cycles(cores, inputs.number("crankcase", crankcase)))
+        (fired,) = self._core.with_cycles([cores], inputs.number("crankcase", crankcase))
+        return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
         """Return the same engine with its two banks at another angle about the same bisector.

@@ -464,27 +464,28 @@ impl Engine {
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
-    /// The engine with a cycle of each cylinder, or none, and a crankcase pressure, firing in its own
-    /// firing order.
+    /// The engine with each of some lists of a cycle of each cylinder, or none, and a crankcase pressure,
+    /// firing in its own firing order.
     fn with_cycles(
         &self,
         py: Python<'_>,
-        cycles: Vec<Option<PyRef<'_, Cycle>>>,
+        lists: Vec<Vec<Option<PyRef<'_, Cycle>>>>,
         crankcase: f64,
-    ) -> PyResult<Self> {
-        let mut known: Vec<Arc<core::Cycle>> = Vec::new();
-        let mut cycle_of = Vec::with_capacity(cycles.len());
-        for cycle in cycles {
-            cycle_of.push(cycle.map(|cycle| {
+    ) -> PyResult<Vec<Self>> {
+        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
+        let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
+            let mut known: Vec<Arc<core::Cycle>> = Vec::new();
+            let mut index = |cycle: PyRef<'_, Cycle>| {
                 known.iter().position(|other| **other == cycle.0).unwrap_or_else(|| {
                     known.push(Arc::new(cycle.0.clone()));
                     known.len() - 1
                 })
-            }));
-        }
-        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
-        let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
-        self.0.with_gas(gas).or_raise().map(Self::from)
+            };
+            let cycle_of = cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
+            let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
+            self.0.with_gas(gas).or_raise().map(Self::from)
+        };
+        lists.into_iter().map(fired).collect()
     }
 
     /// The engine with what another has of pressure in some of its cylinders, by index.

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::interpolant::value_and_slope;
+use super::interpolant::{value_and_slope, values_and_slopes};
 use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
@@ -14,6 +14,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::quadrature::gauss_legendre;
+use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// Torque on a crank over piston area and crank radius, Pa.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,16 +62,15 @@ const MOST_NODES: usize = 16 + 17;
 static NODES: LazyLock<Vec<Vec<(f64, f64)>>> =
     LazyLock::new(|| (0..=MOST_NODES as u32).map(gauss_legendre).collect());
 
-/// A point of the quadrature.
-struct Abscissa {
-    /// Crank angle, radians.
-    theta: f64,
-    /// Weight, radians.
-    weight: f64,
-    /// Torque there.
-    torque: f64,
-    /// Its slope, per radian.
-    slope: f64,
+/// Points of the quadrature that are summed at once.
+#[derive(Default)]
+struct Abscissae {
+    /// Crank angles, degrees.
+    theta_deg: Vec<f64>,
+    /// Weights, radians, times torques there.
+    weighted: Vec<f64>,
+    /// Sum over all points so far of the weight times the square of the torque's slope, per radian.
+    square: f64,
 }
 
 impl Cycle {
@@ -139,26 +139,31 @@ impl Cycle {
         let halves: Vec<u32> = sorted.iter().map(|&k| orders[k].halves()).collect();
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
-        let (mut mean, mut square) = (0.0, 0.0);
-        let mut chunk: Vec<Abscissa> = memory::room(CHUNK + MOST_NODES)?;
+        let (mut mean, mut points) = (0.0, Abscissae::default());
         let mut powers = Powers::default();
-        let mut finish = |chunk: &mut Vec<Abscissa>| -> Result<()> {
-            mean += chunk.iter().map(|node| node.weight * node.torque).sum::<f64>();
-            square += chunk.iter().map(|node| node.weight * node.slope * node.slope).sum::<f64>();
-            powers.add(chunk, &halves, &mut sums, cancel)?;
-            chunk.clear();
+        let mut finish = |points: &mut Abscissae| -> Result<()> {
+            mean += points.weighted.iter().sum::<f64>();
+            vectorised(
+                #[inline(always)]
+                || powers.add(points, &halves, &mut sums, cancel),
+            )?;
+            points.theta_deg.clear();
+            points.weighted.clear();
             cancel.check()
         };
         for panel in 0..self.panels.edges.len() - 1 {
-            self.nodes(panel, proportions, crankcase, highest, &mut chunk, &mut finish)?;
+            self.nodes(panel, proportions, crankcase, highest, &mut points, &mut finish)?;
         }
-        finish(&mut chunk)?;
+        finish(&mut points)?;
         let mut phasors = memory::zeros(orders.len())?;
         for (&k, sum) in sorted.iter().zip(&sums) {
             phasors[k] = sum * (2.0 / period);
         }
-        let slope =
-            if self.jumps(proportions, crankcase) { f64::INFINITY } else { 2.0 * square / period };
+        let slope = if self.jumps(proportions, crankcase) {
+            f64::INFINITY
+        } else {
+            2.0 * points.square / period
+        };
         Ok((GasTorque { mean: mean / period, phasors }, slope))
     }
 
@@ -169,14 +174,14 @@ impl Cycle {
         proportions: &Proportions,
         crankcase: f64,
         highest: f64,
-        chunk: &mut Vec<Abscissa>,
-        finish: &mut impl FnMut(&mut Vec<Abscissa>) -> Result<()>,
+        points: &mut Abscissae,
+        finish: &mut impl FnMut(&mut Abscissae) -> Result<()>,
     ) -> Result<()> {
         let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
         let coefficients = self.panels.panel(panel);
         let half = 0.5 * (to - from).to_radians();
         let middle = 0.5 * (from + to);
-        let (centred, at_middle) = (middle.to_radians(), cis_degrees(middle));
+        let centred = middle.to_radians();
         let extra = self.panels.degree.div_ceil(2) as u32;
         // Parts of the panel, as intervals of [−1, 1].
         let mut parts = vec![(-1.0, 1.0)];
@@ -191,23 +196,34 @@ impl Cycle {
                 parts.extend([(centre, high), (low, centre)]);
                 continue;
             };
-            for &(x, weight) in &NODES[(rule.points + extra) as usize] {
-                let place = centre + width * x;
-                let (pressure, slope) = value_and_slope(coefficients, place);
-                let offset = half * place;
-                let unit = at_middle * Complex64::cis(offset);
-                let motion = proportions.motion(unit.im, unit.re);
-                let gauge = pressure - crankcase;
-                chunk.push(Abscissa {
-                    theta: centred + offset,
-                    weight: weight * half * width,
-                    // The piston's way down is minus its distance from the crank.
-                    torque: -gauge * motion.velocity,
-                    slope: -slope / half * motion.velocity - gauge * motion.acceleration,
-                });
-            }
-            if chunk.len() >= CHUNK {
-                finish(chunk)?;
+            vectorised(
+                #[inline(always)]
+                || {
+                    for rule in NODES[(rule.points + extra) as usize].chunks(LANES) {
+                        let mut places = [0.0; LANES];
+                        for (place, (x, _)) in places.iter_mut().zip(rule) {
+                            *place = centre + width * x;
+                        }
+                        let degrees = places.map(|place| middle + half.to_degrees() * place);
+                        let [mut sin, mut cos] = [[0.0; LANES]; 2];
+                        sin_cos_degrees(&degrees, &mut sin, &mut cos);
+                        let [pressure, slope] = values_and_slopes(coefficients, &places);
+                        for (k, (_, weight)) in rule.iter().enumerate() {
+                            let motion = proportions.motion(sin[k], cos[k]);
+                            let (gauge, weight) = (pressure[k] - crankcase, weight * half * width);
+                            // The piston's way down is minus its distance from the crank.
+                            let torque = -gauge * motion.velocity;
+                            let steep =
+                                -slope[k] / half * motion.velocity - gauge * motion.acceleration;
+                            points.theta_deg.push(degrees[k]);
+                            points.weighted.push(weight * torque);
+                            points.square += weight * steep * steep;
+                        }
+                    }
+                },
+            );
+            if points.weighted.len() >= CHUNK {
+                finish(points)?;
             }
         }
         Ok(())
@@ -233,8 +249,6 @@ impl Cycle {
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.
 #[derive(Default)]
 struct Powers {
-    /// Weight times torque of each node, and zeros up to whole lanes.
-    weighted: Vec<f64>,
     wave: Wave,
     step: Wave,
     /// Halves by which a step turns.
@@ -244,61 +258,63 @@ struct Powers {
 /// Cosines and sines of multiples of the nodes' angles.
 #[derive(Default)]
 struct Wave {
+    angles: Vec<f64>,
     cos: Vec<f64>,
     sin: Vec<f64>,
 }
 
 impl Wave {
-    fn fill(&mut self, nodes: &[Abscissa], halves: u32) {
-        self.cos.clear();
-        self.sin.clear();
-        for node in nodes {
-            let (sin, cos) = (0.5 * f64::from(halves) * node.theta).sin_cos();
-            self.cos.push(cos);
-            self.sin.push(sin);
-        }
-        let whole = nodes.len().next_multiple_of(LANES);
-        self.cos.resize(whole, 1.0);
-        self.sin.resize(whole, 0.0);
+    #[inline(always)]
+    fn fill(&mut self, theta_deg: &[f64], halves: u32) {
+        self.angles.clear();
+        self.angles.extend(theta_deg.iter().map(|theta| 0.5 * f64::from(halves) * theta));
+        self.cos.resize(theta_deg.len(), 0.0);
+        self.sin.resize(theta_deg.len(), 0.0);
+        sin_cos_degrees(&self.angles, &mut self.sin, &mut self.cos);
     }
 
+    #[inline(always)]
     fn lanes(&self) -> impl Iterator<Item = (&[f64; LANES], &[f64; LANES])> {
         self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
     }
 }
 
 impl Powers {
+    #[inline(always)]
     fn add(
         &mut self,
-        nodes: &[Abscissa],
+        points: &mut Abscissae,
         halves: &[u32],
         sums: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
-        self.weighted.clear();
-        self.weighted.extend(nodes.iter().map(|node| node.weight * node.torque));
-        self.weighted.resize(nodes.len().next_multiple_of(LANES), 0.0);
+        // Points of no weight, up to whole lanes.
+        let whole = points.weighted.len().next_multiple_of(LANES);
+        points.weighted.resize(whole, 0.0);
+        points.theta_deg.resize(whole, 0.0);
+        let Abscissae { theta_deg, weighted, .. } = &*points;
         self.gap = 0;
         let mut before = 0;
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
             if gap > 2 || i % FRESH == 0 {
-                self.wave.fill(nodes, order);
+                self.wave.fill(theta_deg, order);
                 cancel.check()?;
             } else {
                 if gap != self.gap {
-                    self.step.fill(nodes, gap);
+                    self.step.fill(theta_deg, gap);
                     self.gap = gap;
                 }
                 self.turn();
             }
-            *sum += self.sum();
+            *sum += self.sum(weighted);
         }
         Ok(())
     }
 
     /// Turn the wave by the step.
+    #[inline(always)]
     fn turn(&mut self) {
         let waves = self.wave.cos.iter_mut().zip(&mut self.wave.sin);
         for ((cos, sin), (&c, &s)) in waves.zip(self.step.cos.iter().zip(&self.step.sin)) {
@@ -307,10 +323,10 @@ impl Powers {
     }
 
     /// Sum of torque times the conjugate wave, by lanes.
-    fn sum(&self) -> Complex64 {
+    #[inline(always)]
+    fn sum(&self, weighted: &[f64]) -> Complex64 {
         let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        for (weighted, (cos, sin)) in
-            self.weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
+        for (weighted, (cos, sin)) in weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
         {
             for k in 0..LANES {
                 re[k] += weighted[k] * cos[k];

@@ -211,14 +211,32 @@ pub(super) fn coefficient(values: &[f64], n: usize) -> f64 {
     half(n) * 2.0 * sum / degree as f64
 }
 
-/// Sum of a Chebyshev series and its derivative, by Clenshaw's recurrence.
+/// Sum of a Chebyshev series and its derivative.
 pub(super) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
-    let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
+    let [[value], [slope]] = values_and_slopes(coefficients, &[x]);
+    (value, slope)
+}
+
+/// Sums of a Chebyshev series at some places side by side, and its derivatives, by Clenshaw's
+/// recurrence.
+#[inline(always)]
+pub(super) fn values_and_slopes<const N: usize>(
+    coefficients: &[f64],
+    x: &[f64; N],
+) -> [[f64; N]; 2] {
+    let [mut b1, mut b2, mut d1, mut d2] = [[0.0; N]; 4];
     for &c in coefficients[1..].iter().rev() {
-        (d1, d2) = (2.0 * (b1 + x * d1) - d2, d1);
-        (b1, b2) = (2.0 * x * b1 - b2 + c, b1);
+        for i in 0..N {
+            (d1[i], d2[i]) = (2.0 * (b1[i] + x[i] * d1[i]) - d2[i], d1[i]);
+            (b1[i], b2[i]) = (2.0 * x[i] * b1[i] - b2[i] + c, b1[i]);
+        }
     }
-    (x * b1 - b2 + coefficients[0], b1 + x * d1 - d2)
+    let [mut values, mut slopes] = [[0.0; N]; 2];
+    for i in 0..N {
+        values[i] = x[i] * b1[i] - b2[i] + coefficients[0];
+        slopes[i] = b1[i] + x[i] * d1[i] - d2[i];
+    }
+    [values, slopes]
 }
 
 /// Knot of any number, those of the neighbouring periods included.
