@@ -51,6 +51,8 @@ export const STRINGS = {
   torque: "Roll torque",
   torques: { gas: "gas", inertia: "inertia", torque: "whole" },
   pressure: "Pressure in the cylinders, absolute",
+  asGiven: "How it shakes, at",
+  more: "more",
   crankSpeed: "Crank speed",
   speeds: {
     "crank-speed": " ", irregularity: ", irregularity ", inertia: ", with a moment of inertia of ",
