@@ -21,6 +21,7 @@ COMMANDS = {
     "search": ["--quick"],
     "orders": ["--quick"],
     "bearings": ["--quick"],
+    "gas_orders": ["--quick"],
     "stability": [],
 }
 """Each a file beside this one that takes ``--out``, with what makes it quick."""

@@ -13,6 +13,7 @@ import latex2mathml.converter
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from crankpin import cli
+from crankpin.model import engine_files
 from crankpin.view import page
 from docutils import nodes
 from sphinx.ext.napoleon import NumpyDocstring
@@ -99,6 +100,36 @@ class Commands(SphinxDirective):
         return section
 
 
+class EngineFile(SphinxDirective):
+    """The entries of engine files, from their schema: a table for each kind of table."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a section for each table of an engine file."""
+        schema = engine_files.schema()
+        parts = {"engine": schema} | {
+            name: part for name, part in schema["$defs"].items() if "properties" in part
+        }
+        return [node for name, part in parts.items() for node in self.section(name, part)]
+
+    def section(self, name: str, part: dict[str, Any]) -> list[nodes.Node]:
+        """Return the section of a table."""
+        rows = []
+        for entry, about in part["properties"].items():
+            least = next(
+                (about[key] for key in ("minimum", "exclusiveMinimum") if key in about), None
+            )
+            sign = (
+                "" if least is None else f"; {'>' if 'exclusiveMinimum' in about else '≥'} {least}"
+            )
+            need = "needed" if entry in part["required"] else f"{about.get('default', '–')}"
+            rows.append(f"| `{entry}` | {need} | {about['description']}{sign} |")
+        table = "\n".join(["| entry | default | meaning |", "|---|---|---|", *rows])
+        section = nodes.section(ids=[f"file-{name}"])
+        section += nodes.title(name, name)
+        section += self.parse_text_to_nodes(table)
+        return [section]
+
+
 def make_gallery(app: Sphinx) -> None:
     """Write a source page for each preset, and one that lists them."""
     GALLERY.mkdir(exist_ok=True)
@@ -160,6 +191,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     NumpyDocstring._consume_inline_attribute = whole_docstring  # type: ignore[method-assign]
     app.add_directive("picture", Picture)
     app.add_directive("commands", Commands)
+    app.add_directive("engine-file", EngineFile)
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
     app.connect("builder-inited", make_gallery)
     app.connect("build-finished", make_turning)

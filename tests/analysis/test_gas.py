@@ -251,7 +251,7 @@ def test_mean_torque_of_the_otto_cycle() -> None:
 
 
 def test_printed_inertia_torques_are_parts_of_fired_engines() -> None:
-    """Of m·r²·ω² at λ = 0.3: I6 order 3, straight 8 order 4."""
+    """Of m·r²·ω² at λ = 0.3: I6 order 3, straight 8 order 4, a 60° V12 order 6."""
     part = cp.Cylinder(0.05, 0.05 / 0.3, 1.0, bore=0.08)
     over = 0.05**2 * (3000 * np.pi / 30.0) ** 2
     for order, harmonic, printed in (
@@ -261,6 +261,14 @@ def test_printed_inertia_torques_are_parts_of_fired_engines() -> None:
         engine = cp.Engine.from_firing_order(part, order, spacing=0.1).with_cycle(cycle())
         b = engine.balance(rpm=3000)
         assert b[harmonic].crank_torque.inertia.peak / over == pytest.approx(printed, abs=6e-7)
+    b = (
+        cp.Engine.preset("v12-60", cylinder=part)
+        .with_cycle(cycle())
+        .balance(rpm=3000, orders=[3, 6])
+    )
+    # Rolls-Royce (1932) says there is none: of order 3 banks 60° apart leave none, of 6 they add.
+    assert b[3].crank_torque.inertia.peak == 0.0
+    assert b[6].crank_torque.inertia.peak / over == pytest.approx(0.00999705, abs=6e-9)
 
 
 def test_engines_with_cycles_are_kept_compared_and_written() -> None:

@@ -114,6 +114,11 @@ def test_explain_prints_a_sentence_a_line(capsys: CAPTURE) -> None:
     assert beside == f"{v8.replace(reference_z=0.1).explain(6000)}\n"
 
 
+def test_many_omitted_orders_are_not_all_listed(capsys: CAPTURE) -> None:
+    text = printed(capsys, "torque", "i4", "--bore", "86mm")
+    assert re.search(r"omitted: 26, 28, 30, …, \d+\.$", text)
+
+
 @pytest.mark.parametrize("suffix", [".toml", ".json"])
 def test_balance_reads_engine_files(capsys: CAPTURE, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"engine{suffix}"
@@ -388,6 +393,25 @@ def test_pictures_are_written_and_closed(
     assert printed(capsys, *argv, "--plot", str(file)) == printed(capsys, *argv)
     assert file.read_bytes().startswith(start)
     assert plt.get_fignums() == before
+
+
+def test_engines_without_levers_are_swept_for_force(capsys: CAPTURE) -> None:
+    argv = ["sweep", "v-twin-90", "--bank-angle", "45,90", "--orders", "1", "--csv"]
+    head, _, values = numbers(printed(capsys, *argv))
+    assert head == ["bank angle °", "|F_x| order 1 N", "|F_y| order 1 N"]
+    assert values.any()
+    assert printed(capsys, *argv, "--quantity", "force") == printed(capsys, *argv)
+    assert "|M_x|" in printed(capsys, "sweep", "v-twin-90", "v6-60", "--orders", "1")
+
+
+def test_half_orders_without_gas_pressure_are_explained(capsys: CAPTURE, tmp_path: Path) -> None:
+    note = "Half orders are those of gas pressure, which this engine lacks: try crankpin torque.\n"
+    assert printed(capsys, "balance", "i4", "--orders", "0.5,1").endswith(note)
+    assert note not in printed(capsys, "balance", "i4", "--orders", "1,2")
+    assert note not in printed(capsys, "balance", "i4", "--orders", "0.5", "--csv")
+    file = tmp_path / "fired.toml"
+    cp.Engine.preset("i4").with_cycle(cp.Cycle.example()).save(file)
+    assert note not in printed(capsys, "balance", str(file), "--orders", "0.5")
 
 
 def test_a_picture_shows_the_quantity_asked_for(capsys: CAPTURE, tmp_path: Path) -> None:

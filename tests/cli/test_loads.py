@@ -35,16 +35,25 @@ def fired(name: str, kind: str = "petrol", bore: float | None = None) -> cp.Engi
     """A preset with an example's pressure; bores as wide as the strokes unless given."""
     engine = cp.Engine.preset(name)
     cylinders = [each.replace(bore=bore or each.stroke) for each in engine.cylinders]
-    return engine.replace(cylinder=cylinders).with_cycle(cp.Cycle.example(kind))
+    return engine.replace(cylinder=cylinders).with_cycle(
+        cp.Cycle.example(kind, strokes=engine.strokes)
+    )
+
+
+def test_two_strokes_take_the_example_of_a_two_stroke(capsys: CAPTURE) -> None:
+    balance = fired("i3-two-stroke").balance(3000)
+    table = balance.crank_torque.table.text().split("\n", 1)[1]
+    assert table in printed(capsys, "torque i3-two-stroke")
+    assert not balance.crank_torque[0.5].gas.peak  # a cycle a turn
 
 
 def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
     loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
     assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.table.text()}\n"
-    for load, peaks in (("main", loads.peak("main")), ("crankpin", loads.peak("crankpin"))):
+    for load, peaks in (("main", loads.largest("main")), ("crankpin", loads.largest("crankpin"))):
         typed = f"bearings v6-60 --rpm 4000 --load {load} --csv"
         head, *rows = csv.reader(io.StringIO(printed(capsys, typed)))
-        column = head.index("peak N" if load == "main" else "crankpin N")
+        column = head.index("largest N" if load == "main" else "crankpin N")
         assert [float(row[column]) for row in rows] == peaks.tolist()
 
 

@@ -50,7 +50,7 @@ def test_gallery_counts_its_pages(tmp_path: Path, capsys: pytest.CaptureFixture[
 @pytest.mark.parametrize(
     ("argv", "message"),
     [
-        ("view v8-crossplane", "the following arguments are required: --out"),
+        ("view v8-crossplane", "the following arguments are required: -o/--out"),
         ("view ijesc-v6 --out x.html", "NAME = ijesc-v6: view takes one engine of"),
         ("view i4 --out x.html --rpm fast", "--rpm = fast: give a number"),
         ("view i4 --out nowhere/x.html", "No such file"),

@@ -18,7 +18,6 @@ import numpy as np
 import pytest
 from crankpin.analysis.sweeps.sweep import engine_titles
 from crankpin.model import presets as presets_module
-from crankpin.model.computed_cycles import EXAMPLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -611,8 +610,8 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
 
 
 @pytest.mark.parametrize("name", ["u16", "H-24", "square four"])
-def test_engines_of_two_crankshafts_are_said_not_to_be_modelled(name: str) -> None:
-    with pytest.raises(cp.InputError, match="engines of several crankshafts are not modelled"):
+def test_engines_of_two_crankshafts_are_files(name: str) -> None:
+    with pytest.raises(cp.InputError, match=r"several crankshafts is an engine file with \[\[cran"):
         cp.Engine.preset(name)
 
 
@@ -631,10 +630,7 @@ def test_presets_that_fire_take_the_example_of_a_cycle() -> None:
     ]
     assert len(fired) > 20
     for engine in fired:
-        cycle = cp.Cycle.example()
-        if engine.strokes == 2:
-            figures = EXAMPLES["petrol"]
-            cycle = cp.Cycle.wiebe(engine.cylinders[0], **figures, strokes=2)  # type: ignore[arg-type]
+        cycle = cp.Cycle.example(strokes=engine.strokes)
         balance = engine.with_cycle(cycle).balance(3000, orders=[0.5])
         assert balance.crank_torque.mean > 0
 

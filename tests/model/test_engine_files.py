@@ -8,6 +8,7 @@ import tomllib
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
+import numpy as np
 import pytest
 from crankpin.model import engine_files
 from jsonschema import Draft202012Validator
@@ -72,6 +73,18 @@ def test_the_schema_accepts_what_is_written(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", cp.presets())
 def test_the_schema_accepts_presets(name: str) -> None:
     assert mistakes(json.loads(cp.Engine.preset(name).to_json())) == []
+
+
+def test_changed_copies_keep_their_crankshafts() -> None:
+    engine = ENGINES["two cranks"]
+    assert "another crankshaft: ratio -1 at (0.2, 0) m" in repr(engine)
+    assert engine.replace() == engine
+    moved = engine.replace(z=[0, 0.1])
+    assert "another crankshaft" in repr(moved)
+    # The second crank turns the other way: the two pull together upright, against each other level.
+    unbalanced = engine.replace(rotating_mass=0.5).balance(600, orders=1).force
+    pull = 0.5 * 0.05 * (20 * np.pi) ** 2
+    np.testing.assert_allclose(unbalanced.peak_xy[0], [0.0, 4.0 * pull], rtol=1e-15, atol=1e-13)
 
 
 TABLES = {  # where an unknown entry is put → the part of the schema that lists the known ones
@@ -157,6 +170,7 @@ def test_the_schema_has_the_entries_that_the_reader_knows(place: str) -> None:
         ("counterweights.0", "angle_deg", None),
         ("counterweights.0", "pin", 0),
         ("shafts.0", "ratio", 0),
+        ("shafts.0", "ratio", 21),
         ("shafts.0", "ratio", 1.5),
         ("shafts.0", "unbalances", None),
         ("cranks.0", "ratio", 0),

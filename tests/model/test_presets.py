@@ -377,6 +377,8 @@ def test_what_a_radial_leaves(count: int) -> None:
 def test_rows_of_a_radial() -> None:
     one, two = cp.Engine.preset("radial-7"), cp.Engine.preset("radial-14", spacing=0.2)
     assert set(one.z) == {0.0}
+    for name in (each for each in EVEN if each.startswith("radial")):
+        assert cp.Engine.preset(name).firing_order == EVEN[name]
     assert set(two.pin_deg) == {90.0, 270.0}
     assert two.z.tolist() == [0.0, 0.2] * 7
     # Of two-strokes one cylinder fires after the other, all round.

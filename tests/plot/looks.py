@@ -1,9 +1,8 @@
-"""Pictures compared with images: on dark, and at a column's width.
+"""Pictures compared with images, on dark at a column's width, and drawn in a grid.
 
-A test is marked by ``@in_every_look`` and returns ``seen(look, plot)``. After a change that is
-meant, and a look at every picture that differs:
+After a change that is meant, and a look at every picture that differs:
 
-    pytest tests/plot --mpl-generate-path=tests/plot/baseline
+    pytest tests/plot/test_looks.py -k test_picture --mpl-generate-path=tests/plot/baseline
 """
 
 from __future__ import annotations
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-LOOKS = ("dark", "column")
-"""Looks of images; on white, in a grid and on plain axes pictures differ by their layout alone."""
 COLUMN = 3.4
 """Inches: a column of a paper."""
 TOLERANCE = 4.0
@@ -40,9 +37,9 @@ def _pinned() -> str:
     return found[1]
 
 
-def in_every_look(test: Test) -> Test:
-    """Run a test for each look, and compare the figure that it returns with the image kept."""
-    compared = pytest.mark.mpl_image_compare(
+def compared(test: Test) -> Test:
+    """Compare the figure that a test returns with the image kept."""
+    image = pytest.mark.mpl_image_compare(
         style="default",
         backend="agg",
         tolerance=TOLERANCE,
@@ -54,30 +51,27 @@ def in_every_look(test: Test) -> Test:
         mpl.__version__ != pinned,
         reason=f"images are of matplotlib {pinned}; this is {mpl.__version__}",
     )
-    return pytest.mark.parametrize("look", LOOKS)(compared(skipped(test)))
+    return image(skipped(test))
 
 
-def seen(look: str, plot: Callable[..., Any]) -> Figure:
-    """Draw a picture in one look.
+def on_dark_column(plot: Callable[..., Any]) -> Figure:
+    """Draw a picture on dark, at a column's width: the room and the colours that it has least."""
+    plt.style.use("dark_background")  # the comparison resets it
+    width, height = mpl.rcParams["figure.figsize"]
+    mpl.rcParams["figure.figsize"] = (COLUMN, height * COLUMN / width)
+    mpl.rcParams["font.size"] = 8
+    made: Figure = np.ravel(plot())[0].get_figure(root=True)
+    return made
 
-    ``plot`` draws on new axes; in a grid it is called with ``ax=`` four times, or, where it makes
-    several panels by itself, with ``figure=`` twice.
-    """
-    if look == "dark":
-        plt.style.use("dark_background")  # the comparison resets it
-    if look == "column":
-        width, height = mpl.rcParams["figure.figsize"]
-        mpl.rcParams["figure.figsize"] = (COLUMN, height * COLUMN / width)
-        mpl.rcParams["font.size"] = 8
+
+def in_a_grid(plot: Callable[..., Any]) -> Figure:
+    """Draw a picture on four axes of a figure, or, if it has several panels, in two parts of it."""
     drawn = plot()
-    made = np.ravel(drawn)[0].get_figure(root=True)
-    if look != "grid":
-        return made
-    plt.close(made)
+    plt.close("all")
     figure = plt.figure(figsize=(7.0, 5.0), layout="constrained")
     if isinstance(drawn, np.ndarray):
         for part in figure.subfigures(1, 2):
-            plot(figure=part)
+            assert {ax.get_figure(root=False) for ax in plot(figure=part).flat} == {part}
     else:
         for ax in figure.subplots(2, 2).ravel():
             plot(ax=ax)

@@ -1,4 +1,4 @@
-"""Is every picture right on white, on dark, at a column's width and in a grid?"""
+"""Is every picture right on dark at a column's width, in a grid, and on plain axes?"""
 
 from __future__ import annotations
 
@@ -11,47 +11,52 @@ import pytest
 from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from plot.looks import in_every_look, seen
+from plot.looks import compared, in_a_grid, on_dark_column
 from plot.pictures import PICTURES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from matplotlib.figure import Figure
     from matplotlib.text import Text
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
-@in_every_look
-def test_picture(look: str, name: str) -> Figure:
-    return legible(seen(look, PICTURES[name]))
+@compared
+def test_picture(name: str) -> Figure:
+    return legible(on_dark_column(PICTURES[name]))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_picture_in_a_grid(name: str) -> None:
-    legible(seen("grid", PICTURES[name]))
+    legible(in_a_grid(PICTURES[name]))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_picture_on_plain_axes(name: str) -> None:
-    """Legends, titles and labels stay inside figures that nobody gave a layout."""
-    plt.rcParams["font.size"] = 9
+    """On axes, or in a figure, that nobody gave a layout: there alone, and inside it."""
     plot = PICTURES[name]
+    plt.rcParams["font.size"] = 9
+    parameters = dict(mpl.rcParams)
     drawn = plot()
+    (made,) = map(plt.figure, plt.get_fignums())
+    assert np.ravel(drawn)[0].get_figure(root=True) is made
     several = isinstance(drawn, np.ndarray)
-    for size in ((6.4, 4.8), (5.0, 3.3)):
-        plt.close("all")
-        figure, ax = plt.figure(figsize=size), None
-        if several:
-            plot(figure=figure)
-        else:
-            ax = figure.subplots()
-            plot(ax=ax)
-        legible(figure)
+    assert several or isinstance(drawn, Axes)
+    plt.close("all")
+    figure = plt.figure(figsize=(5.0, 3.3))
+    if several:
+        assert {ax.get_figure(root=False) for ax in plot(figure=figure).flat} == {figure}
+    else:
+        ax = figure.subplots()
+        assert plot(ax=ax) is ax
+    assert plt.get_fignums() == [figure.number]  # type: ignore[attr-defined]
+    assert dict(mpl.rcParams) == parameters
+    legible(figure)
 
 
 def legible(figure: Figure) -> Figure:
@@ -114,31 +119,3 @@ def _shown(labels: list[Text]) -> Iterator[Text]:
             low, high = sorted(ax.get_xlim())
             if low <= label.get_position()[0] <= high:
                 yield label
-
-
-# --- places -------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PICTURES)
-def test_a_picture_is_drawn_where_it_is_told(name: str) -> None:
-    """On the axes given, or in the figure given, and no other figure is made."""
-    plot = PICTURES[name]
-    parameters = dict(mpl.rcParams)
-    drawn = plot()
-    (made,) = map(plt.figure, plt.get_fignums())
-    assert np.ravel(drawn)[0].get_figure(root=True) is made
-    several = isinstance(drawn, np.ndarray)
-    assert several or isinstance(drawn, Axes)
-    plt.close("all")
-    figure = Figure(figsize=(6.0, 5.0))
-    if several:
-        part = figure.subfigures(1, 2)[1]
-        panels = plot(figure=part)
-        assert {ax.get_figure(root=False) for ax in panels.flat} == {part}
-    else:
-        ax = figure.subplots()
-        assert plot(ax=ax) is ax
-    assert plt.get_fignums() == []
-    figure.canvas.draw()
-    assert dict(mpl.rcParams) == parameters

@@ -52,11 +52,11 @@ def test_front_is_drawn_in_per_cent_of_what_there_is() -> None:
     drawn, start = lines(ax), OPTIONS[0].values
     # Order 1 has no force to begin with, and no per cent of it.
     assert {name for name in drawn if name[0] != "_"} == {
-        "total.force.peak",
-        "total.moment.peak",
+        "total shaking force",
+        "total rocking moment",
         balancing.REACHED,
     }
-    for k, name in enumerate(OPTIONS.by[:2]):
+    for k, name in enumerate(["total shaking force", "total rocking moment"]):
         expected = [100.0 * each.values[k] / start[k] for each in OPTIONS.front]
         np.testing.assert_allclose(drawn[name].get_xdata(), expected, rtol=1e-12)
     names = [text.get_text() for text in ax.get_yticklabels()]
@@ -102,7 +102,7 @@ def test_several_comparisons_share_rows_of_the_same_name() -> None:
     ax = UNTARGETED.plot(OPTIONS.plot())
     rows = [text.get_text() for text in ax.get_yticklabels()]
     assert len(set(rows)) == len(rows)
-    line = lines(ax)["Inline-4, total.force.peak"]
+    line = lines(ax)["Inline-4, total shaking force"]
     at = {rows[row]: value for row, value in zip(line.get_ydata(), line.get_xdata(), strict=True)}
     assert set(at) == {"nothing", "+2", "−2", "−2, +2"}
     assert at["nothing"] == 100.0

@@ -34,6 +34,26 @@ def test_crankpins_are_drawn_in_axes_that_turn(axes: str, along: str) -> None:
     assert line.get_label() == "a pin"
 
 
+def test_polar_diagrams_go_no_further_than_the_loads_and_the_origin() -> None:
+    cylinder = cp.Cylinder(0.043, 0.145, 0.5, bore=0.086)
+    single = cp.Engine.preset("single", cylinder=cylinder).with_cycle(cp.Cycle.example())
+    loads = cp.bearing_loads(single, rpm=1500)
+    ax = loads.plot(load="crankpin", axes="rod")
+    ax.figure.canvas.draw()
+    along = loads.turned("crankpin", "rod")[0, :, 0]
+    low, high = ax.get_xlim()
+    # Gas presses: the rod pushes the pin, ten times as far as it pulls. A fifth of the extent is
+    # left on either side for angles, some per cent more or less for one scale on both axes.
+    assert along.min() < -8 * along.max()
+    assert low == pytest.approx(along.min() - 0.2 * np.ptp(along), abs=0.05 * np.ptp(along))
+    assert high == pytest.approx(along.max() + 0.2 * np.ptp(along), abs=0.05 * np.ptp(along))
+    # Angles stand above and below a level line, and of many at a point the ends.
+    texts = {text.get_text(): text for text in ax.texts if text.get_text()}
+    offsets = [float(text.xyann[1]) for text in texts.values()]  # type: ignore[attr-defined]
+    assert offsets == [11.0, -11.0] * (len(offsets) // 2) + [11.0] * (len(offsets) % 2)
+    assert any(" … " in text for text in texts)
+
+
 def test_curves_are_magnitudes_of_vectors_and_values_of_others() -> None:
     ax = LOADED.plot(kind="curves", load="wrist_pin")
     np.testing.assert_array_equal(heights(ax), LOADED.magnitude("wrist_pin"))

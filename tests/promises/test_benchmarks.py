@@ -18,6 +18,7 @@ pytest.importorskip("matplotlib")
 from typing import TYPE_CHECKING
 
 import bearings
+import gas_orders
 import harmonics
 import orders
 import peaks
@@ -155,6 +156,24 @@ def test_bearings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert {row["method"] for row in rows} == {"NumPy", "crankpin"}
     # rounding of some ten operations, of numbers of the size of the largest
     assert all(float(row["error"]) < 1e-14 for row in rows)
+
+
+def test_gas_orders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gas_orders, "COUNTS", (90, 360))
+    rows = run(gas_orders, tmp_path, monkeypatch, "gas_orders")
+    assert tuple(rows[0]) == gas_orders.HEADER
+    for cycle in gas_orders.CYCLES:
+        found = {row["method"]: row for row in rows if row["cycle"] == cycle.name}
+        methods = {*gas_orders.METHODS, *([gas_orders.ITSELF] if cycle.cycle else [])}
+        assert set(found) == methods
+        errors = {name: float(row["error"]) for name, row in found.items()}
+        # The mean torque, of the size of the largest phasor, goes into all orders at one part in
+        # the number of samples; the closed table is crankpin's too.
+        assert errors["FFT, first sample once more"] > 1e-2
+        # Cubics through points 2° apart; lines beside jumps.
+        assert errors["crankpin"] < (1e-3 if "jumps" in cycle.name else 1e-5)
+        # Quadrature between the jumps: roundings of some thousand terms.
+        assert errors.get(gas_orders.ITSELF, 0.0) < 1e-14
 
 
 def test_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

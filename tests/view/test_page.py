@@ -298,6 +298,7 @@ CLICKED = {
     "reverse": lambda page: page.get_by_role("button", name="reverse").click(),
     "slider": lambda page: page.get_by_label("turn the crank").click(),
     "order": lambda page: page.get_by_role("checkbox").first.click(),
+    "more": lambda page: page.get_by_text("more", exact=True).click(),
 }
 
 
@@ -313,6 +314,39 @@ def test_keys_after_a_click(open_engine: Open, clicked: str) -> None:
     after = page.evaluate("({ ...crankpin.state, still: crankpin.state.still.size })")
     changed = {key for key in before if before[key] != after[key]}
     assert changed == {"playing", "reverse"}
+
+
+# --- sentences ----------------------------------------------------------------------------------
+
+
+def test_sentences_are_those_of_the_engine_as_given(open_engine: Open) -> None:
+    page = open_engine(V8, rpm=4500)
+    explained = list(V8.explain(4500).sentences)
+    listed = page.locator("[data-name=sentence]")
+    assert listed.all_text_contents() == explained
+    assert [each.is_visible() for each in listed.all()] == [k < 3 for k in range(len(explained))]
+    freeze(page)
+    page.get_by_text("more", exact=True).press("Space")
+    assert all(each.is_visible() for each in listed.all())
+    page.clock.run_for(500)
+    assert angle(page) == 0  # the key opened the list, and played nothing
+    # They say at what speed; another engine they do not describe.
+    assert page.get_by_text("How it shakes, at 4500 r/min").is_visible()
+    page.locator("[data-name=rpm]").fill("2000")
+    assert listed.first.is_visible()
+    for field, value, own in (("bank-angle", "60", "90"), ("rod-ratio", "0.25", None)):
+        page.locator(f"[data-name={field}]").fill(value)
+        assert not listed.first.is_visible()
+        if own:
+            page.locator(f"[data-name={field}]").fill(own)
+            assert listed.first.is_visible()
+
+
+def test_a_spectrum_and_a_compact_page_have_no_sentences(open_engine: Open) -> None:
+    for save in ({"spectrum": {1: 0.067}}, {"compact": True}):
+        page = open_engine(V8, save=save)
+        assert page.locator("[data-name=sentence]").count() == 0
+        assert not page.get_by_text("How it shakes").is_visible()
 
 
 # --- settings -----------------------------------------------------------------------------------

@@ -104,7 +104,7 @@ class Explanation(Record):
         for sums in both:
             yield from sums.of_hardware()
         shaking = [(sums, int(k)) for sums in both for k in np.flatnonzero(sums.shakes)]
-        shaking.sort(key=lambda each: -each[0].share(each[1]))
+        shaking.sort(key=lambda each: -round(each[0].share(each[1]), 6))  # of equals, forces first
         weights = self._bob_weights()
         for sums, k in shaking:
             for finding in sums.shaking(k):

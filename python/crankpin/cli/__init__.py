@@ -73,7 +73,8 @@ def _parser() -> Parser:
     parser = Parser(
         prog=PROG,
         description="Shaking forces, rocking moments and torques of piston engines.",
-        epilog=f"example:\n  {PROG} balance v8-crossplane --rpm 6000",
+        epilog=f"NAME is a preset or an engine file; {PROG} new makes a file.\n\n"
+        f"example:\n  {PROG} balance v8-crossplane --rpm 6000",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"crankpin {__version__}")

@@ -17,7 +17,7 @@ from crankpin.model import engine_files, presets
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -102,7 +102,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "help": "with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
         "(default: 1e-9)",
     },
-    "--quantity": {"choices": ("force", "moment", "torque"), "default": "moment"},
+    "--quantity": {
+        "choices": ("force", "moment", "torque"),
+        "help": "quantity of the picture (default: moment, or force if all cylinders are at one z)",
+    },
     "--reference-z": {
         "metavar": "Z",
         "help": "plane about which moments are taken, m (default: the engine's)",
@@ -305,6 +308,11 @@ class Given:
             members = ", ".join(presets.family(name))
             raise InputError(f"NAME = {name}: {command} takes one engine of {members}")
         return next(iter(found.values()))
+
+    def quantity(self, engines: Iterable[Engine]) -> str:
+        """Return ``--quantity``; by default moment, or force if no cylinder has a lever."""
+        typed: str | None = self.text("--quantity")
+        return typed or ("moment" if any(np.ptp(each.z) for each in engines) else "force")
 
     def orders(self) -> Orders:
         """Return the orders of ``--orders``, or "auto"."""

@@ -104,7 +104,9 @@ def add_view(commands: Commands) -> None:
         run=_view,
     )
     shared(page, "name")
-    page.add_argument("--out", metavar="FILE", required=True, help="the page to write (.html)")
+    page.add_argument(
+        "-o", "--out", metavar="FILE", required=True, help="the page to write (.html)"
+    )
     shared(page, "--rpm", help="crank speed at first (default: %(default)s)")
     page.add_argument(
         "--compact",
@@ -136,7 +138,7 @@ def add_gallery(commands: Commands) -> None:
         example="gallery --out engines",
         run=_gallery,
     )
-    pages.add_argument("--out", metavar="DIR", required=True, help="the folder to write to")
+    pages.add_argument("-o", "--out", metavar="DIR", required=True, help="the folder to write to")
     shared(pages, "--rpm", help="crank speed at first (default: %(default)s)")
 
 

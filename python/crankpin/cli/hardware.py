@@ -182,7 +182,7 @@ def add_shafts(commands: Commands) -> None:
         "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
     )
     shared(fits, "--reference-z", "--units")
-    shared(fits, "--quantity", default=None, help="quantity of the picture (default: moment)")
+    shared(fits, "--quantity")
     shared(fits, "--csv", help="print the first table as CSV")
     shared(fits, "--plot")
     shared(
@@ -216,7 +216,7 @@ def _fit(engine: Engine, given: Given) -> str:
         remove=given.text("--remove") or "both",
     )
     save(fit.fitted, file)
-    draw(fit, picture, quantity=given.text("--quantity") or "moment")
+    draw(fit, picture, quantity=given.quantity([engine]))
     return printed(fit.table, csv=given.text("--csv"))
 
 

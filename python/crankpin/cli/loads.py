@@ -73,7 +73,13 @@ def add_bearings(commands: Commands) -> None:
         note="Main bearings share the loads between them by the lever rule.",
     )
     shared(inside, "name", "--rpm")
-    shared(inside, "--cycle", "--bore", "--crankcase")
+    shared(
+        inside,
+        "--cycle",
+        help="cylinder pressure over crank angle: a file, or petrol or diesel for an example "
+        "(default: none)",
+    )
+    shared(inside, "--bore", "--crankcase")
     inside.add_argument(
         "--load",
         choices=tuple(LOADS),
@@ -111,7 +117,8 @@ def _fired(given: Given, name: str) -> tuple[Engine, str]:
     engine, typed = given.engine(name), given.text("--cycle")
     if typed is None:
         return engine, ""
-    cycle = Cycle.example(typed) if typed in EXAMPLES else Cycle.load(typed)
+    example = typed in EXAMPLES
+    cycle = Cycle.example(typed, strokes=engine.strokes) if example else Cycle.load(typed)
     bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [

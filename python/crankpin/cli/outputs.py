@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from crankpin.analysis.sweeps.sweep import Sweep
     from crankpin.model.engine import Engine
 
+MOST_OMITTED = 8
+"""Most omitted orders that are all listed."""
 CONTROLS = {code: "�" for code in (*range(32), *range(127, 160)) if chr(code) not in "\n\t"}
 """Control characters, which a terminal would obey, and what is printed instead."""
 
@@ -28,8 +30,10 @@ def printed(table: Table, *, csv: bool) -> str:
 def left_out(result: Balance | Sweep) -> str:
     """Return what omitted orders can add, in words."""
     bound = result.error_bound
-    listed = ", ".join(map(str, result.omitted))
-    seen = f"; omitted: {listed}" if listed else ""
+    orders = [str(order) for order in result.omitted]
+    if len(orders) > MOST_OMITTED:
+        orders[3:-1] = ["…"]
+    seen = f"; omitted: {', '.join(orders)}" if orders else ""
     roll = f" and {bound['torque']:.2g} N·m to the roll torque" if "torque" in bound else ""
     return (
         f"Omitted orders add at most {bound['force']:.2g} N to the force, "

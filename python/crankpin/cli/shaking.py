@@ -14,7 +14,7 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
-from crankpin.cli.arguments import MOST_ROWS, command, shared
+from crankpin.cli.arguments import MOST_ROWS, PROG, command, shared
 from crankpin.cli.outputs import draw, left_out, printed, save
 
 if TYPE_CHECKING:
@@ -29,6 +29,11 @@ SWEPT = {
 """Swept dimension → its option, unit and head of its column."""
 
 
+HALF_ORDERS = (
+    f"Half orders are those of gas pressure, which this engine lacks: try {PROG} torque.\n"
+)
+
+
 def add_balance(commands: Commands) -> None:
     """Add the command ``balance``."""
     one = command(
@@ -39,8 +44,7 @@ def add_balance(commands: Commands) -> None:
         run=_balance,
     )
     shared(one, "name", "--rpm", "--orders", "--rtol")
-    shared(one, "--quantity", help="quantity of the picture (default: %(default)s)")
-    shared(one, "--reference-z", "--spectrum", "--units", "--csv", "--plot")
+    shared(one, "--quantity", "--reference-z", "--spectrum", "--units", "--csv", "--plot")
 
 
 def _balance(given: Given) -> str:
@@ -49,9 +53,14 @@ def _balance(given: Given) -> str:
     chosen = given.chosen()
     picture = given.picture_file()
     balance = engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
-    draw(balance, picture, quantity=given.text("--quantity"))
+    draw(balance, picture, quantity=given.quantity([engine]))
     text = printed(balance.table, csv=given.text("--csv"))
-    return text if given.text("--csv") or chosen["orders"] != "auto" else text + left_out(balance)
+    if given.text("--csv"):
+        return text
+    if chosen["orders"] == "auto":
+        return text + left_out(balance)
+    halves = any(order % 1 for order in chosen["orders"])
+    return text + (HALF_ORDERS if halves and not engine.fired else "")
 
 
 def add_explain(commands: Commands) -> None:
@@ -97,7 +106,11 @@ def add_sweep(commands: Commands) -> None:
     many.add_argument("--pin-offset", metavar="RANGE", help="m")
     shared(many, "--rpm", metavar="RANGE", help="default: %(default)s")
     shared(many, "--hold", "--orders", "--rtol")
-    shared(many, "--quantity", help="quantity of the table (default: %(default)s)")
+    shared(
+        many,
+        "--quantity",
+        help="quantity of the table (default: moment, or force if all cylinders are at one z)",
+    )
     shared(many, "--reference-z", "--spectrum", "--units", "--csv", "--plot")
 
 
@@ -129,7 +142,7 @@ def _sweep(given: Given) -> str:
         **chosen,
     )
     found, negligible = _tables_of(result, given)
-    draw(result, picture, quantity=given.text("--quantity"))
+    draw(result, picture, quantity=given.quantity(result.engines))
     text = printed(tables.stacked(*found), csv=given.text("--csv"))
     if given.text("--csv") or chosen["orders"] != "auto":
         return text
@@ -143,7 +156,7 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     papers; a program needs a single table, and so does a comparison of engines alone. The note
     names the chosen orders that are left out of tables for reading.
     """
-    quantity = given.text("--quantity")
+    quantity = given.quantity(result.engines)
     symbols = QUANTITIES[quantity].symbols
     peaks = result.read(quantity, "peak_xy" if QUANTITIES[quantity].planar else "peak")
     shown, left = result._shown_orders(quantity)
@@ -175,7 +188,7 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
 
 def _how(result: Sweep, given: Given) -> str:
     """Return what the table shows, and what is fixed, held or given."""
-    quantity = given.text("--quantity")
+    quantity = given.quantity(result.engines)
     parts = [f"peaks of {QUANTITIES[quantity].words}"]
     parts += [labels.value_text(dim, value) for dim, value in result.fixed.items()]
     if result.hold is not None:

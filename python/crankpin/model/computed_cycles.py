@@ -308,7 +308,7 @@ class ComputedCycles:
         )
 
     @classmethod
-    def example(cls, kind: Literal["petrol", "diesel"] = "petrol") -> Self:
+    def example(cls, kind: Literal["petrol", "diesel"] = "petrol", *, strokes: int = 4) -> Self:
         """Return a cycle to begin with: computed by :meth:`wiebe`, not measured.
 
         Parameters
@@ -317,6 +317,8 @@ class ComputedCycles:
             ``"petrol"``: a naturally aspirated four-stroke at full load and 3000 rpm.
             ``"diesel"``: a turbocharged one at 2000 rpm. Bore and stroke are 86 mm, the rod is
             145 mm long; the other figures are in ``crankpin.model.computed_cycles.EXAMPLES``.
+        strokes
+            4, or 2 for a two-stroke of the same figures.
 
         Examples
         --------
@@ -328,7 +330,7 @@ class ComputedCycles:
         figures = EXAMPLES[inputs.one_of("kind", kind, EXAMPLES)]
         cylinder = Cylinder(0.043, 0.145, 0.5, bore=0.086)
         name = f"Example, {kind}: a Wiebe burn, computed"
-        return cls.wiebe(cylinder, **figures, name=name)
+        return cls.wiebe(cylinder, **figures, strokes=strokes, name=name)
 
     @classmethod
     def _computed(

@@ -374,6 +374,8 @@ class EngineData:
             reference_z=plane,
             bank=self._core.bank if bank_deg is None else None,
         )
+        if len(self._core.cranks[0]) > 1:
+            core = core.with_cranks(*self._core.cranks)
         weights = self.counterweights if counterweights is None else counterweights
         core = rotating.with_counterweights(core, weights)
         core = rotating.with_shafts(core, self.shafts if shafts is None else shafts)
@@ -473,7 +475,8 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise InputError(f"cycle[{k}] = {inputs.shorten(one)}: {hint}")
         cores = [None if one is None else one.core for one in each]
-        return type(self)(self._core.with_cycles(cores, inputs.number("crankcase", crankcase)))
+        (fired,) = self._core.with_cycles([cores], inputs.number("crankcase", crankcase))
+        return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
         """Return the same engine with its two banks at another angle about the same bisector.

@@ -247,7 +247,7 @@ def _recipe(name: str, *, typed: bool) -> str:
         if not re.match(pattern, name):
             continue
         if not command:
-            return "engines of several crankshafts are not modelled; "
+            return "an engine of several crankshafts is an engine file with [[cranks]]; "
         base = name.rpartition("-")[0]
         if typed and command.startswith("new vee") and base in aliases():
             return f"build it by crankpin new {base} --bank-angle {number[0]}; "

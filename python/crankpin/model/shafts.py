@@ -161,8 +161,10 @@ def shafts(core: _core.Engine) -> tuple[Shaft, ...]:
 
 
 def lines(core: _core.Engine) -> list[str]:
-    """Return counterweights and shafts in words."""
+    """Return counterweights, shafts and further crankshafts in words."""
     found = []
+    for x, y, ratio in core.cranks[0][1:5]:
+        found.append(f"another crankshaft: ratio {ratio:+d} at ({x:.4g}, {y:.4g}) m")
     if core.counterweights:
         listed = ", ".join(map(_text, core.counterweights[:4]))
         found.append(f"counterweights: {listed}{', …' if len(core.counterweights) > 4 else ''}")

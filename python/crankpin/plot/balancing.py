@@ -157,7 +157,8 @@ def _balancers(
         marker = MARKERS[count_series(ax) % len(MARKERS)]
         marks: dict[str, Any] = {"marker": marker, "markersize": min(6.0, size)} | look
         marks |= {"linestyle": ""}
-        named = f"{label}, {name}" if label else name
+        head = result.objectives[k].head
+        named = f"{label}, {head}" if label else head
         ax.plot(parts[:, k], rows, gid=SERIES, label=named, clip_on=False, zorder=3, **marks)
         if name in limits:
             limit = limits[name] / start[k] * 100.0

@@ -47,7 +47,7 @@ def polar(
     _entitle(result, ax, f"{LOADS[load].words} loads")
     names = _names(load, places, label)
     period = 180.0 * result.engine.strokes if result.gas_force.any() else 360.0
-    trace(ax, result.theta_deg, [vectors[k] for k in places], names, style, period)
+    trace(ax, result.theta_deg, [vectors[k] for k in places], names, style, period, centred=False)
     along, across = ALONG[axes]
     label_x(ax, f"{along}, N")
     label_y(ax, f"{across}, N")

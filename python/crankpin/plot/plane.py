@@ -24,6 +24,10 @@ DOTS, LABELS = 30.0, 90.0
 """Degrees between dots, and between dots with their angle."""
 SAME = 0.08
 """Part of the orbit's radius within which dots share one label."""
+MOST_ANGLES = 3
+"""Most angles at one point that its label lists; of more, the first and the last."""
+LEVEL = 1e-9
+"""Height over width below which a curve is a level line: rounding."""
 ARROWS = (15.0, 135.0, 255.0)
 """Crank angles of the arrows, degrees."""
 
@@ -61,10 +65,13 @@ def trace(
     names: Sequence[str],
     style: Mapping[str, Any],
     period: float = 360.0,
+    *,
+    centred: bool = True,
 ) -> None:
     """Draw the tips of vectors, (n_theta, 2) each, with crank angles and the direction marked.
 
-    What comes after the first period is left out: it would fill the gaps of dashes.
+    What comes after the first period is left out: it would fill the gaps of dashes. ``centred``
+    is :func:`scale_plane`'s.
     """
     alone = not count_series(ax) and len(vectors) == 1
     once = theta <= theta.min(initial=np.inf) + period
@@ -80,10 +87,13 @@ def trace(
                 arrow_at(ax, curve, place, line.get_color())
         dots = _places(theta, DOTS, period)
         ax.plot(curve.real[dots], curve.imag[dots], "o", color=line.get_color(), markersize=3.5)
-    scale_plane(ax, 1.4)  # room for the angles
+    scale_plane(ax, 1.4, centred=centred)  # room for the angles
     if alone:  # of several curves, numbers would not say whose they are
-        for where_to, angles in _labelled(theta, curves[0], period):
-            _annotate(ax, where_to, angles)
+        high, wide = (abs(each).max(initial=0.0) for each in (curves[0].imag, curves[0].real))
+        level = high <= LEVEL * wide
+        for k, (where_to, angles) in enumerate(_labelled(theta, curves[0], period)):
+            # Beside a level line, one above and one below: they would stand on it.
+            _annotate(ax, where_to, angles, (-1) ** k * 1j if level else where_to)
 
 
 def _places(theta: NDArray[np.float64], step: float, period: float) -> NDArray[np.intp]:
@@ -101,13 +111,15 @@ def _labelled(
     rest = list(_places(theta, LABELS, period)) if near else []
     while rest:
         here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
-        yield complex(curve[rest[0]]), ", ".join(in_degrees(float(theta[k])) for k in here)
+        listed = [in_degrees(float(theta[k])) for k in here]
+        ends = f"{listed[0]} … {listed[-1]}"
+        yield complex(curve[rest[0]]), ", ".join(listed) if len(here) <= MOST_ANGLES else ends
         rest = [place for place in rest if place not in here]
 
 
-def _annotate(ax: Axes, point: complex, text: str) -> None:
-    """Write beside a point, on the side away from the centre."""
-    outward = point / abs(point) if point else 1.0 + 0.0j
+def _annotate(ax: Axes, point: complex, text: str, direction: complex) -> None:
+    """Write beside a point, on the side to which a direction leads."""
+    outward = direction / abs(direction) if direction else 1.0 + 0.0j
     ax.annotate(
         text,
         (point.real, point.imag),
@@ -128,15 +140,24 @@ def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:
     label_y(ax, f"{along_y}, {unit}")
 
 
-def scale_plane(ax: Axes, reach: float = 1.15) -> None:
-    """Give both axes one scale about zero, ``reach`` times as long as the curves need."""
-    ends = np.concatenate([np.abs(line.get_xydata()).ravel() for line in ax.lines] or [np.zeros(1)])
-    largest = float(ends.max(initial=0.0))
-    if not any(line.get_gid() == "crankpin axis" for line in ax.lines):
+def scale_plane(ax: Axes, reach: float = 1.15, *, centred: bool = True) -> None:
+    """Give both axes one scale, ``reach`` times as long as the curves and the origin need.
+
+    The origin is in the middle, or, unless ``centred``, wherever the curves leave it: loads of
+    bearings lie on one side of it.
+    """
+    axes = [line for line in ax.lines if line.get_gid() == "crankpin axis"]
+    drawn = [np.asarray(line.get_xydata()) for line in ax.lines if line not in axes]
+    ends = np.concatenate([np.zeros((1, 2)), *drawn])
+    largest = float(np.abs(ends).max())
+    if not axes:
         for along in (ax.axhline, ax.axvline):
             along(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1, gid="crankpin axis")
-    end = reach * largest or 1.0
-    ax.update_datalim([(-end, -end), (end, end)])
+    corners = np.array([[-largest] * 2, [largest] * 2])
+    if not centred:
+        corners = np.array([ends.min(axis=0), ends.max(axis=0)])
+    margin = 0.5 * (reach - 1.0) * float(np.ptp(corners, axis=0).max()) if largest else 1.0
+    ax.update_datalim(corners + np.array([[-margin], [margin]]))
     ax.margins(0.0)
     ax.set_aspect("equal", adjustable="datalim")
     numeric(ax.xaxis)

@@ -17,7 +17,7 @@ from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_x, label_y, set_title
 from crankpin.plot.style import SERIES, foreground, muted, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import objective_words, plain_text
+from crankpin.plot.words import objective_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -131,7 +131,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     shares = result.shares_of(result.by if by is None else (by,))
     names, *parts, interaction = shares.columns
     rows = np.arange(len(shares))
-    ax.set_yticks(rows, [plain_text(name) for name in names.values])
+    ax.set_yticks(rows, [_short(objectives.named(str(name))) for name in names.values])
     _fit_rows(ax, len(rows))
     interact = any(abs(each) > INTERACTION for each in interaction.values)
     set_title(
@@ -156,6 +156,11 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
     label_x(ax, f"%, {labels.value_text('rpm', result.rpm)}")
     add_legend(ax)
     return ax
+
+
+def _short(objective: objectives.Objective) -> str:
+    """Return the name of a row: there is no room for "shaking" and "rocking"."""
+    return objective.head.replace("shaking ", "").replace("rocking ", "")
 
 
 def _fit_rows(ax: Axes, rows: int) -> None:

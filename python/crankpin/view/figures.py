@@ -11,6 +11,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.balance import mean_piston_speed
+from crankpin.analysis.explain import Explanation
 from crankpin.analysis.flywheel import flywheel
 
 if TYPE_CHECKING:
@@ -129,6 +130,7 @@ def figures(
         "gas": _gas(engine),
         "flywheel": None if pairs is not None else _inertia(engine, float(rpm), inertia),
         "compact": inputs.flag("compact", compact),
+        "sentences": [] if compact or pairs else Explanation(engine, float(rpm) or None).sentences,
         "spectrum": None if pairs is None else [[n, _pair(a)] for n, a in pairs],
     }
 

@@ -42,8 +42,12 @@ def save_html(
     file = inputs.file_path(path, (".html", ".htm"), "a page ends in .html")
     known = figures(engine, rpm, inertia=inertia, spectrum=spectrum, compact=compact)
     view = "Compact" if compact else "Full"
-    entries = (f"{view.lower()}.mjs", "page.mjs")
-    text = document(engine.name or "Engine", entries, f"page({view}, {as_json(known)});")
+    text = document(
+        engine.name or "Engine",
+        (f"{view.lower()}.mjs", "page.mjs"),
+        f"page({view}, {as_json(known)});",
+        styles=["compact"] if compact else [],
+    )
     file.write_text(text, encoding="utf-8")
 
 
@@ -68,14 +72,15 @@ def save_gallery(folder: str | Path, *, rpm: float = 3000.0) -> list[Path]:
         listed.append(
             {
                 "href": file.name,
-                "figures": figures(engine, speed, spectrum=None),
+                "figures": figures(engine, speed, spectrum=None, compact=True),
                 "description": presets.presets().descriptions[name],
             }
         )
         files.append(file)
     index = place / "index.html"
     call = f"gallery({as_json(listed)});"
-    index.write_text(document("Engines", ("gallery.mjs",), call, GALLERY_HEAD), encoding="utf-8")
+    text = document("Engines", ("gallery.mjs",), call, styles=["gallery"], body=GALLERY_HEAD)
+    index.write_text(text, encoding="utf-8")
     return [index, *files]
 
 
@@ -84,16 +89,21 @@ def speed_of(preset: str, rpm: float) -> float:
     return EBOOK_RPM if preset.endswith(presets.OWN_PARTS) else rpm
 
 
-def document(title: str, entries: Iterable[str], call: str, body: str = "") -> str:
+def document(
+    title: str, entries: Iterable[str], call: str, *, styles: Iterable[str] = (), body: str = ""
+) -> str:
     """Return a page that loads nothing: modules and what they import, and a call of one."""
     return Template(_read("page.html")).substitute(
-        title=html.escape(title), style=style(), script=f"{module(*entries)}\n{call}", body=body
+        title=html.escape(title),
+        style=style(*styles),
+        script=f"{module(*entries)}\n{call}",
+        body=body,
     )
 
 
-def style() -> str:
-    """Return the style sheet; it styles elements within class ``crankpin`` alone."""
-    return _read("view.css")
+def style(*names: str) -> str:
+    """Return the style sheet, with these besides; elements within class ``crankpin`` alone."""
+    return "".join(_read(f"{name}.css") for name in ("view", *names))
 
 
 def module(*entries: str) -> str:

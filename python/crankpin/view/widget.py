@@ -29,7 +29,7 @@ class EngineWidget(anywidget.AnyWidget):
     """
 
     _esm = page.module("widget.mjs")
-    _css = page.style()
+    _css = page.style("compact")
 
     figures = traitlets.Dict(read_only=True).tag(sync=True)
     """The engine as it was given, for the page."""

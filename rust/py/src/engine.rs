@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
-use crankpin_core::engine::{Details, Gas, Hold, Shaft, Station, Unbalance, file};
+use crankpin_core::engine::{Crank, Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
 use crankpin_core::{Complex64, Error};
 use ndarray::Array1;
@@ -436,6 +436,21 @@ impl Engine {
         places.map(|place| (place.z, numbers(&place.cylinders))).collect()
     }
 
+    /// Axis and speed ratio of each crankshaft, the main one first, and of each cylinder the index of
+    /// its own.
+    #[getter]
+    fn cranks(&self) -> (Vec<(f64, f64, i32)>, Vec<usize>) {
+        let crank = |&Crank { axis: [x, y], ratio }: &Crank| (x, y, ratio);
+        let of = (0..self.0.stations().len()).map(|i| self.0.crank_of(i));
+        (self.0.cranks().iter().map(crank).collect(), of.collect())
+    }
+
+    fn with_cranks(&self, cranks: Vec<(f64, f64, i32)>, crank_of: Vec<usize>) -> PyResult<Self> {
+        let crank = |(x, y, ratio)| Crank { axis: [x, y], ratio };
+        let cranks = cranks.into_iter().map(crank).collect();
+        self.0.with_cranks(cranks, crank_of).or_raise().map(Self::from)
+    }
+
     #[getter]
     fn details(&self) -> Vec<Kept> {
         self.0
@@ -478,27 +493,28 @@ impl Engine {
         (0..count).map(|i| self.0.bank_of(i)).map(|k| if right == 1 { 1 - k } else { k }).collect()
     }
 
-    /// The engine with a cycle of each cylinder, or none, and a crankcase pressure, firing in its own
-    /// firing order.
+    /// The engine with each of some lists of a cycle of each cylinder, or none, and a crankcase pressure,
+    /// firing in its own firing order.
     fn with_cycles(
         &self,
         py: Python<'_>,
-        cycles: Vec<Option<PyRef<'_, Cycle>>>,
+        lists: Vec<Vec<Option<PyRef<'_, Cycle>>>>,
         crankcase: f64,
-    ) -> PyResult<Self> {
-        let mut known: Vec<Arc<core::Cycle>> = Vec::new();
-        let mut cycle_of = Vec::with_capacity(cycles.len());
-        for cycle in cycles {
-            cycle_of.push(cycle.map(|cycle| {
+    ) -> PyResult<Vec<Self>> {
+        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
+        let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
+            let mut known: Vec<Arc<core::Cycle>> = Vec::new();
+            let mut index = |cycle: PyRef<'_, Cycle>| {
                 known.iter().position(|other| **other == cycle.0).unwrap_or_else(|| {
                     known.push(Arc::new(cycle.0.clone()));
                     known.len() - 1
                 })
-            }));
-        }
-        let firing = interrupt::run(py, |cancel| core::Firing::own(&self.0, cancel))?;
-        let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
-        self.0.with_gas(gas).or_raise().map(Self::from)
+            };
+            let cycle_of = cycles.into_iter().map(|cycle| cycle.map(&mut index)).collect();
+            let gas = Gas { cycles: known, cycle_of, crankcase, later: firing.in_second_turn() };
+            self.0.with_gas(gas).or_raise().map(Self::from)
+        };
+        lists.into_iter().map(fired).collect()
     }
 
     /// The engine with what another has of pressure in some of its cylinders, by index.

@@ -63,9 +63,11 @@ class GasMap(Record):
             for k, j in shape
         ]
         return [
-            engine.core.with_cycles(self._of_each(cycles, engine), self.crankcase)
+            core
             for engine in engines
-            for cycles in of_cylinders
+            for core in engine.core.with_cycles(
+                [self._of_each(cycles, engine) for cycles in of_cylinders], self.crankcase
+            )
         ]
 
     def places(self, load: NDArray[np.float64] | None) -> tuple[Any, Any, Any]:

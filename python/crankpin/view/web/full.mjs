@@ -4,6 +4,7 @@ import { scale, unit } from "./complex.mjs";
 import { choice } from "./controls.mjs";
 import { html, numbered, show } from "./dom.mjs";
 import { Ends } from "./ends.mjs";
+import { ownSettings } from "./engine.mjs";
 import { roundBelow, scaleFor, short } from "./format.mjs";
 import { frames } from "./frames.mjs";
 import { pressureAt } from "./gas.mjs";
@@ -11,6 +12,7 @@ import { legend, panel, region, section } from "./panels.mjs";
 import { Phasors } from "./phasors.mjs";
 import { displacement, largestDisplacement, rocking } from "./rocking.mjs";
 import { Scene } from "./scene.mjs";
+import { Sentences } from "./sentences.mjs";
 import { STRINGS } from "./strings.mjs";
 import { STROKES } from "./strokes.mjs";
 import { Timeline } from "./timeline.mjs";
@@ -43,7 +45,9 @@ export class Full extends View {
     this.timelineBox = html("div", { class: "timeline-box" }, this.timeline.element);
     this.stretched = numbered(html, "span", "stretch");
     this.stretchedLine = html("p", { class: "hint" }, `${STRINGS.stretched} `, this.stretched);
-    this.element = region(title, "", this.header.element, this.transport.element, this.settings.element,
+    this.sentences = new Sentences(figures);
+    this.element = region(title, "",
+      this.header.element, this.sentences.element, this.transport.element, this.settings.element,
       html("div", { class: "views" },
         panel(STRINGS.crossSection, this.readouts.angle, this.scenes[0].element),
         panel(this.frames[0], this.scenes[1].element),
@@ -98,6 +102,7 @@ export class Full extends View {
     show(this.stretched, stretch, short(stretch, 1));
     this.stretchedLine.hidden = stretch === 1;
     this.settings.layout(this.shown);
+    this.sentences.layout(this.state, ownSettings(this.figures));
     this.phasors.layout(this.shown, whole);
     this.force.layout(this.curve.force, this.peaks.force, whole.force);
     this.moment.layout(this.curve.moment, this.peaks.moment, whole.moment);

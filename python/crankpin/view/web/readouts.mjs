@@ -15,7 +15,7 @@ export class Readouts {
     this.speed = Object.fromEntries(["crank-speed", "irregularity", "inertia"].map((name) =>
       [name, numbered(svg, "tspan", name)]));
     this.speedLine = svg("tspan", { class: "detail" }, ...Object.entries(this.speed)
-      .flatMap(([name, element]) => [` ${STRINGS.speeds[name]} `, element]));
+      .map(([name, element]) => svg("tspan", {}, STRINGS.speeds[name], element)));
     this.vectors = Object.fromEntries(VECTORS.map((quantity) =>
       [quantity, AXES.map((axis) => output(`${quantity}-${axis}`))]));
     this.longest = Object.fromEntries([...VECTORS, "torque", "orbit"].map((quantity) =>
@@ -71,7 +71,7 @@ export class Readouts {
     this.scales.speed = betweenScale(low, high, STRINGS.rpm);
     const { speed: elements } = this;
     const share = (high - low) / mean;
-    show(elements.irregularity, share, `${Number((100 * share).toPrecision(3))} %,`);
+    show(elements.irregularity, share, `${Number((100 * share).toPrecision(3))} %`);
     show(elements.inertia, inertia, `${Number(inertia.toPrecision(3))} kg·m²`);
   }
 
@@ -81,7 +81,7 @@ export class Readouts {
       vectors[quantity].forEach((value, k) =>
         this.write(this.vectors[quantity][k], quantity, value));
     }
-    if (speed) show(this.speed["crank-speed"], speed, `${this.scales.speed.text(speed)} ${STRINGS.rpm},`);
+    if (speed) show(this.speed["crank-speed"], speed, `${this.scales.speed.text(speed)} ${STRINGS.rpm}`);
     if (torque === null) show(this.torque, "", STRINGS.noTorque);
     else this.write(this.torque, "torque", torque);
   }

@@ -51,8 +51,12 @@ export const STRINGS = {
   torque: "Roll torque",
   torques: { gas: "gas", inertia: "inertia", torque: "whole" },
   pressure: "Pressure in the cylinders, absolute",
+  asGiven: "How it shakes, at",
+  more: "more",
   crankSpeed: "Crank speed",
-  speeds: { "crank-speed": "", irregularity: "irregularity", inertia: "with a moment of inertia of" },
+  speeds: {
+    "crank-speed": " ", irregularity: ", irregularity ", inertia: ", with a moment of inertia of ",
+  },
   stalls: "the crank would stop: too little inertia for this speed",
   about: "about z",
   noTorque: "not determined by a spectrum",

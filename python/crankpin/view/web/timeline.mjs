@@ -39,6 +39,7 @@ export class Timeline {
   place(width, cycle, count) {
     Object.assign(this, { width, cycle });
     const narrow = width < NARROW;
+    this.element.classList.toggle("narrow", narrow);
     this.left = narrow ? 48 : 64;
     this.right = width - (narrow ? 80 : 84);
     const top = (k) => 20 + k * (HEIGHT + GAP);

@@ -48,7 +48,7 @@ export class View {
     this.keysOn.addEventListener("keydown", this.onKey);
     this.element.addEventListener("click", (event) => {
       // After the mouse pressed a button, keys are the view's again.
-      if (!event.detail || !event.target.closest?.("button, input[type=checkbox]")) return;
+      if (!event.detail || !event.target.closest?.("button, input[type=checkbox], summary")) return;
       this.element.focus({ preventScroll: true });
     });
     this.configure();
@@ -151,10 +151,10 @@ export class View {
 }
 
 /** Keys that a control uses itself, by its type; a field and a choice use all. */
-const OWN_KEYS = { button: [" "], checkbox: [" "], range: ["ArrowLeft", "ArrowRight", "Home"] };
+const OWN_KEYS = { button: [" "], checkbox: [" "], summary: [" "], range: ["ArrowLeft", "ArrowRight", "Home"] };
 
 /** True if a key is the business of the control it is pressed in. */
 function keeps({ target, key }) {
-  const control = target.closest?.("button, input, select, textarea");
-  return Boolean(control) && (OWN_KEYS[control.type]?.includes(key) ?? true);
+  const control = target.closest?.("button, input, select, summary, textarea");
+  return Boolean(control) && (OWN_KEYS[control.type ?? control.localName]?.includes(key) ?? true);
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::interpolant::jet;
+use super::interpolant::{jet, jets};
 use super::{Cycle, period_deg};
 use crate::Complex64;
 use crate::engine::layout::Strokes;
@@ -70,17 +70,16 @@ const MOST_NODES: usize = 16 + 17;
 static NODES: LazyLock<Vec<Vec<(f64, f64)>>> =
     LazyLock::new(|| (0..=MOST_NODES as u32).map(gauss_legendre).collect());
 
-/// A point of the quadrature.
-struct Abscissa {
-    /// Crank angle.
-    theta_deg: f64,
-    /// Weight, radians.
-    weight: f64,
-    /// Torque there.
-    torque: f64,
-    /// Its first and second derivative, per radian.
-    slope: f64,
-    bend: f64,
+/// Points of the quadrature that are summed at once.
+#[derive(Default)]
+struct Abscissae {
+    /// Crank angles, degrees.
+    theta_deg: Vec<f64>,
+    /// Weights, radians, times torques there.
+    weighted: Vec<f64>,
+    /// Sums over all points so far of the weight times the squares of the torque's slope and bend, per
+    /// radian.
+    squares: [f64; 2],
 }
 
 impl Cycle {
@@ -143,30 +142,33 @@ impl Cycle {
         let halves: Vec<u32> = sorted.iter().map(|&k| orders[k].halves()).collect();
         let highest = halves.last().map_or(0.0, |&halves| 0.5 * f64::from(halves));
         let mut sums: Vec<Complex64> = memory::zeros(sorted.len())?;
-        let (mut mean, mut squares) = (0.0, [0.0; 2]);
-        let mut chunk: Vec<Abscissa> = memory::room(CHUNK + MOST_NODES)?;
+        let (mut mean, mut points) = (0.0, Abscissae::default());
         let mut powers = Powers::default();
-        let mut finish = |chunk: &mut Vec<Abscissa>| -> Result<()> {
-            mean += chunk.iter().map(|node| node.weight * node.torque).sum::<f64>();
-            for node in &*chunk {
-                squares[0] += node.weight * node.slope * node.slope;
-                squares[1] += node.weight * node.bend * node.bend;
-            }
-            powers.add(chunk, &halves, &mut sums, cancel)?;
-            chunk.clear();
+        let mut finish = |points: &mut Abscissae| -> Result<()> {
+            mean += points.weighted.iter().sum::<f64>();
+            vectorised(
+                #[inline(always)]
+                || powers.add(points, &halves, &mut sums, cancel),
+            )?;
+            points.theta_deg.clear();
+            points.weighted.clear();
             cancel.check()
         };
         for panel in 0..self.panels.edges.len() - 1 {
-            self.nodes(panel, proportions, crankcase, highest, &mut chunk, &mut finish)?;
+            self.nodes(panel, proportions, crankcase, highest, &mut points, &mut finish)?;
         }
-        finish(&mut chunk)?;
+        finish(&mut points)?;
         let mut phasors = memory::zeros(orders.len())?;
         for (&k, sum) in sorted.iter().zip(&sums) {
             phasors[k] = sum * (2.0 / period);
         }
         let jumps = self.jumps(proportions, crankcase);
         let squares = [0, 1].map(|j| {
-            if jumps[..=j].contains(&true) { f64::INFINITY } else { 2.0 * squares[j] / period }
+            if jumps[..=j].contains(&true) {
+                f64::INFINITY
+            } else {
+                2.0 * points.squares[j] / period
+            }
         });
         Ok((GasTorque { mean: mean / period, phasors }, squares))
     }
@@ -178,14 +180,14 @@ impl Cycle {
         proportions: &Proportions,
         crankcase: f64,
         highest: f64,
-        chunk: &mut Vec<Abscissa>,
-        finish: &mut impl FnMut(&mut Vec<Abscissa>) -> Result<()>,
+        points: &mut Abscissae,
+        finish: &mut impl FnMut(&mut Abscissae) -> Result<()>,
     ) -> Result<()> {
         let (from, to) = (self.panels.edges[panel], self.panels.edges[panel + 1]);
         let coefficients = self.panels.panel(panel);
         let half = 0.5 * (to - from).to_radians();
         let middle = 0.5 * (from + to);
-        let (centred, at_middle) = (middle.to_radians(), cis_degrees(middle));
+        let centred = middle.to_radians();
         let extra = self.panels.degree.div_ceil(2) as u32;
         // Parts of the panel, as intervals of [−1, 1].
         let mut parts = vec![(-1.0, 1.0)];
@@ -200,27 +202,41 @@ impl Cycle {
                 parts.extend([(centre, high), (low, centre)]);
                 continue;
             };
-            for &(x, weight) in &NODES[(rule.points + extra) as usize] {
-                let place = centre + width * x;
-                let [pressure, slope, bend] = jet(coefficients, place);
-                let offset = half * place;
-                let unit = at_middle * Complex64::cis(offset);
-                let motion = proportions.motion(unit.im, unit.re);
-                let [gauge, slope, bend] =
-                    [pressure - crankcase, slope / half, bend / half.powi(2)];
-                chunk.push(Abscissa {
-                    theta_deg: middle + offset.to_degrees(),
-                    weight: weight * half * width,
-                    // The piston's way down is minus its distance from the crank.
-                    torque: -gauge * motion.velocity,
-                    slope: -slope * motion.velocity - gauge * motion.acceleration,
-                    bend: -bend * motion.velocity
-                        - 2.0 * slope * motion.acceleration
-                        - gauge * jerk(proportions, &motion, unit),
-                });
-            }
-            if chunk.len() >= CHUNK {
-                finish(chunk)?;
+            vectorised(
+                #[inline(always)]
+                || {
+                    for rule in NODES[(rule.points + extra) as usize].chunks(LANES) {
+                        let mut places = [0.0; LANES];
+                        for (place, (x, _)) in places.iter_mut().zip(rule) {
+                            *place = centre + width * x;
+                        }
+                        let degrees = places.map(|place| middle + half.to_degrees() * place);
+                        let [mut sin, mut cos] = [[0.0; LANES]; 2];
+                        sin_cos_degrees(&degrees, &mut sin, &mut cos);
+                        let [pressure, slope, bend] = jets(coefficients, &places);
+                        for (k, (_, weight)) in rule.iter().enumerate() {
+                            let motion = proportions.motion(sin[k], cos[k]);
+                            let (gauge, weight) = (pressure[k] - crankcase, weight * half * width);
+                            // The piston's way down is minus its distance from the crank.
+                            let torque = -gauge * motion.velocity;
+                            let (slope, bend) = (slope[k] / half, bend[k] / half.powi(2));
+                            let of_torque = [
+                                slope * motion.velocity + gauge * motion.acceleration,
+                                bend * motion.velocity
+                                    + 2.0 * slope * motion.acceleration
+                                    + gauge * jerk(proportions, &motion, sin[k], cos[k]),
+                            ];
+                            points.theta_deg.push(degrees[k]);
+                            points.weighted.push(weight * torque);
+                            for (square, derivative) in points.squares.iter_mut().zip(of_torque) {
+                                *square += weight * derivative * derivative;
+                            }
+                        }
+                    }
+                },
+            );
+            if points.weighted.len() >= CHUNK {
+                finish(points)?;
             }
         }
         Ok(())
@@ -259,8 +275,8 @@ impl Cycle {
 
 /// Third derivative of the piston's position by the crank angle, over the crank radius: of the rod's
 /// height h = √(l² − u²) with u = sin θ − e, h·h‴ = 3 sin θ cos θ + u cos θ − 3h′h″.
-fn jerk(proportions: &Proportions, motion: &Motion, unit: Complex64) -> f64 {
-    let (sin, cos) = (unit.im, unit.re);
+#[inline(always)]
+fn jerk(proportions: &Proportions, motion: &Motion, sin: f64, cos: f64) -> f64 {
     let height = motion.position - cos;
     let [slope, bend] = [motion.velocity + sin, motion.acceleration + cos];
     sin + (cos * (4.0 * sin - proportions.offset) - 3.0 * slope * bend) / height
@@ -269,10 +285,6 @@ fn jerk(proportions: &Proportions, motion: &Motion, unit: Complex64) -> f64 {
 /// Sums over nodes of torque times `e^{−ikθ}` for ascending orders, by powers of `e^{iθ/2}`.
 #[derive(Default)]
 struct Powers {
-    /// Crank angle of each node, and zeros up to whole lanes.
-    degrees: Vec<f64>,
-    /// Weight times torque of each node, and zeros up to whole lanes.
-    weighted: Vec<f64>,
     wave: Wave,
     step: Wave,
     /// Halves by which a step turns.
@@ -282,75 +294,76 @@ struct Powers {
 /// Cosines and sines of multiples of the nodes' angles.
 #[derive(Default)]
 struct Wave {
+    angles: Vec<f64>,
     cos: Vec<f64>,
     sin: Vec<f64>,
 }
 
 impl Wave {
-    fn fill(&mut self, degrees: &[f64], halves: u32) {
-        let order = 0.5 * f64::from(halves);
-        let multiples: Vec<f64> = degrees.iter().map(|degrees| order * degrees).collect();
-        self.cos.resize(degrees.len(), 0.0);
-        self.sin.resize(degrees.len(), 0.0);
-        vectorised(
-            #[inline(always)]
-            || sin_cos_degrees(&multiples, &mut self.sin, &mut self.cos),
-        );
+    #[inline(always)]
+    fn fill(&mut self, theta_deg: &[f64], halves: u32) {
+        self.angles.clear();
+        self.angles.extend(theta_deg.iter().map(|theta| 0.5 * f64::from(halves) * theta));
+        self.cos.resize(theta_deg.len(), 0.0);
+        self.sin.resize(theta_deg.len(), 0.0);
+        sin_cos_degrees(&self.angles, &mut self.sin, &mut self.cos);
+    }
+
+    #[inline(always)]
+    fn lanes(&self) -> impl Iterator<Item = (&[f64; LANES], &[f64; LANES])> {
+        self.cos.as_chunks().0.iter().zip(self.sin.as_chunks().0)
     }
 }
 
 impl Powers {
+    #[inline(always)]
     fn add(
         &mut self,
-        nodes: &[Abscissa],
+        points: &mut Abscissae,
         halves: &[u32],
         sums: &mut [Complex64],
         cancel: &Cancel,
     ) -> Result<()> {
-        self.weighted.clear();
-        self.weighted.extend(nodes.iter().map(|node| node.weight * node.torque));
-        self.degrees.clear();
-        self.degrees.extend(nodes.iter().map(|node| node.theta_deg));
-        for values in [&mut self.weighted, &mut self.degrees] {
-            values.resize(nodes.len().next_multiple_of(LANES), 0.0);
-        }
+        // Points of no weight, up to whole lanes.
+        let whole = points.weighted.len().next_multiple_of(LANES);
+        points.weighted.resize(whole, 0.0);
+        points.theta_deg.resize(whole, 0.0);
+        let Abscissae { theta_deg, weighted, .. } = &*points;
         self.gap = 0;
         let mut before = 0;
         for (i, (&order, sum)) in halves.iter().zip(sums).enumerate() {
             let gap = order - before;
             before = order;
-            let fresh = gap > 2 || i % FRESH == 0;
-            if fresh {
-                self.wave.fill(&self.degrees, order);
+            if gap > 2 || i % FRESH == 0 {
+                self.wave.fill(theta_deg, order);
                 cancel.check()?;
-            } else if gap != self.gap {
-                self.step.fill(&self.degrees, gap);
-                self.gap = gap;
+            } else {
+                if gap != self.gap {
+                    self.step.fill(theta_deg, gap);
+                    self.gap = gap;
+                }
+                self.turn();
             }
-            *sum += vectorised(
-                #[inline(always)]
-                || self.sum(!fresh),
-            );
+            *sum += self.sum(weighted);
         }
         Ok(())
     }
 
-    /// Sum of torque times the conjugate wave, by lanes; the wave turned by the step before if wanted.
+    /// Turn the wave by the step.
     #[inline(always)]
-    fn sum(&mut self, turned: bool) -> Complex64 {
+    fn turn(&mut self) {
+        let waves = self.wave.cos.iter_mut().zip(&mut self.wave.sin);
+        for ((cos, sin), (&c, &s)) in waves.zip(self.step.cos.iter().zip(&self.step.sin)) {
+            (*cos, *sin) = (*cos * c - *sin * s, *cos * s + *sin * c);
+        }
+    }
+
+    /// Sum of torque times the conjugate wave, by lanes.
+    #[inline(always)]
+    fn sum(&self, weighted: &[f64]) -> Complex64 {
         let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        let Self { weighted, wave: Wave { cos, sin }, step, .. } = self;
-        let waves = cos.as_chunks_mut::<LANES>().0.iter_mut().zip(sin.as_chunks_mut::<LANES>().0);
-        let [steps_cos, steps_sin] =
-            [&step.cos, &step.sin].map(|of| if turned { of.as_chunks::<LANES>().0 } else { &[] });
-        let mut steps = steps_cos.iter().zip(steps_sin);
-        for (weighted, (cos, sin)) in weighted.as_chunks::<LANES>().0.iter().zip(waves) {
-            if let Some((c, s)) = steps.next() {
-                for k in 0..LANES {
-                    (cos[k], sin[k]) =
-                        (cos[k] * c[k] - sin[k] * s[k], cos[k] * s[k] + sin[k] * c[k]);
-                }
-            }
+        for (weighted, (cos, sin)) in weighted.as_chunks::<LANES>().0.iter().zip(self.wave.lanes())
+        {
             for k in 0..LANES {
                 re[k] += weighted[k] * cos[k];
                 im[k] -= weighted[k] * sin[k];

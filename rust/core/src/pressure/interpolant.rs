@@ -211,24 +211,37 @@ pub(super) fn coefficient(values: &[f64], n: usize) -> f64 {
     half(n) * 2.0 * sum / degree as f64
 }
 
-/// Sum of a Chebyshev series and its first two derivatives, by Clenshaw's recurrence.
+/// Sum of a Chebyshev series and its first two derivatives.
 pub(super) fn jet(coefficients: &[f64], x: f64) -> [f64; 3] {
-    let [mut here, mut before] = [[0.0; 3]; 2];
+    jets(coefficients, &[x]).map(|[value]| value)
+}
+
+/// Sums of a Chebyshev series at some places side by side, and their first two derivatives, by
+/// Clenshaw's recurrence.
+#[inline(always)]
+pub(super) fn jets<const N: usize>(coefficients: &[f64], x: &[f64; N]) -> [[f64; N]; 3] {
+    let [mut here, mut before] = [[[0.0; N]; 3]; 2];
     for &c in coefficients[1..].iter().rev() {
-        let [b, slope, bend] = here;
-        let next = [
-            2.0 * x * b - before[0] + c,
-            2.0 * (b + x * slope) - before[1],
-            2.0 * (2.0 * slope + x * bend) - before[2],
-        ];
-        (here, before) = (next, here);
+        for i in 0..N {
+            let [b, slope, bend] = here.map(|row| row[i]);
+            let next = [
+                2.0 * x[i] * b - before[0][i] + c,
+                2.0 * (b + x[i] * slope) - before[1][i],
+                2.0 * (2.0 * slope + x[i] * bend) - before[2][i],
+            ];
+            for ((here, before), next) in here.iter_mut().zip(&mut before).zip(next) {
+                (here[i], before[i]) = (next, here[i]);
+            }
+        }
     }
-    let [b, slope, bend] = here;
-    [
-        x * b - before[0] + coefficients[0],
-        b + x * slope - before[1],
-        2.0 * slope + x * bend - before[2],
-    ]
+    let mut sums = here;
+    for i in 0..N {
+        let [b, slope, bend] = here.map(|row| row[i]);
+        sums[0][i] = x[i] * b - before[0][i] + coefficients[0];
+        sums[1][i] = b + x[i] * slope - before[1][i];
+        sums[2][i] = 2.0 * slope + x[i] * bend - before[2][i];
+    }
+    sums
 }
 
 /// Knot of any number, those of the neighbouring periods included.

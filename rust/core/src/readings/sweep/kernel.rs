@@ -21,6 +21,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
+use crate::readings::balance::TorquePart;
 
 /// Numbers of waves and of coefficients held at a time.
 const SLAB: usize = 1 << 19;
@@ -69,8 +70,10 @@ impl Job<'_> {
             let layouts = sweep.layouts(&sweep.engines[k], &loads, &[self.quantity])?;
             Ok((loads, layouts.into_iter().next().unwrap_or_default()))
         };
-        let layouts: Vec<(Loads, Layout)> =
-            self.each(sweep.engines_of(self.quantity).collect(), large, layout)?;
+        // Harmonics of a cycle take as long as waking another thread.
+        let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
+        let many = large || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
+        let layouts: Vec<(Loads, Layout)> = self.each(engines, many, layout)?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
@@ -79,7 +82,7 @@ impl Job<'_> {
                     let points = point_slab.clone();
                     Coefficients::new(sweep, self.quantity, (loads, layout), points, self.cancel)
                 };
-                let coefficients = self.each(layouts.iter().collect(), large, coefficients)?;
+                let coefficients = self.each(layouts.iter().collect(), many, coefficients)?;
                 let mut tasks = Vec::new();
                 for (out, coefficients) in
                     out.chunks_mut(angles * points * width).zip(&coefficients)
