@@ -47,6 +47,7 @@ __all__ = [
     "offset_table",
     "pair_heights",
     "peaks_of_sums",
+    "places_on_axis",
     "rod_parts",
     "roll_torque",
     "shared",
@@ -193,6 +194,7 @@ class Engine:
     def bearings(self) -> list[float]: ...
     def throws(self) -> list[list[tuple[list[int], float, float]]]: ...
     def throw_places(self) -> list[tuple[float, list[int]]]: ...
+    @property
     def cranks(self) -> tuple[list[tuple[float, float, int]], list[int]]: ...
     def with_cranks(
         self, cranks: Sequence[tuple[float, float, int]], crank_of: Sequence[int]

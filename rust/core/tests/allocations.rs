@@ -12,7 +12,7 @@ const BOUNDED: &[(&str, &str)] = &[
     ("numbers/rational.rs", "figures of one engine's loads"),
     ("numbers/ring", "periods that `checked_period` takes"),
     ("engine/", "1000 cylinders"),
-    ("load.rs", "1000 cylinders"),
+    ("load", "1000 cylinders"),
     ("firing/", "1000 cylinders"),
     ("pressure/", "100 000 points of a cycle"),
     ("balancing/", "planes and shafts of one engine"),

@@ -24,12 +24,10 @@ impl Loads {
     /// their harmonics; a spectrum is one gear for all, with masses and radius in it.
     pub fn new(engine: &Engine, reference: f64) -> Self {
         let (cylinders, spectrum) = (engine.gears(), engine.spectrum());
+        let sizes = |c: &Cylinder| (c.crank_radius(), c.rod_length(), c.pin_offset());
         let alike_to = match spectrum {
             Some(_) => vec![0; cylinders.len()],
-            None => {
-                let sizes = |c: &Cylinder| (c.crank_radius(), c.rod_length(), c.pin_offset());
-                first_equal(cylinders.iter().map(sizes))
-            }
+            None => first_equal(cylinders.iter().map(sizes)),
         };
         let crank = |i: usize| &engine.cranks()[engine.crank_of(i)];
         // A spectrum does not determine a motion, against which pressure would act.

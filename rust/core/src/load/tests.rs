@@ -226,7 +226,7 @@ fn banks_turn_their_loads() {
     assert_eq!((by.right, by.angle()), (0, angle(70.0)));
     for (hold, to) in [Hold::Pins, Hold::Firing].into_iter().zip([100.0, 35.5]) {
         let turned = engine.with_bank_angle(angle(to), hold).unwrap();
-        let [before, after] = [&engine, &turned].map(|engine| loads(engine));
+        let [before, after] = [&engine, &turned].map(loads);
         // The left bank turns ahead by this, the right one back.
         let turn_of = |bank: Option<usize>| match bank {
             None => 0.0,

@@ -123,7 +123,7 @@ impl Stars {
                 let sum = RootSum::new(&roots.collect::<Vec<_>>(), 1)?;
                 Ok(usize::from(!sum.vanishes()?))
             };
-            let apart = remains(|mirrored| i128::from(mirrored))? + remains(|m| i128::from(!m))?;
+            let apart = remains(i128::from)? + remains(|m| i128::from(!m))?;
             left += match apart {
                 2 => remains(|_| 1)? + remains(|mirrored| 1 - 2 * i128::from(mirrored))?,
                 _ => apart,
