@@ -29,6 +29,8 @@ impl Hash for Cycle {
     }
 }
 
+type PlacesOnAxis<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
+
 /// Places of values among the speeds or loads of a map: the lower neighbour of each, and the weight of the
 /// upper one.
 #[pyfunction]
@@ -37,7 +39,7 @@ pub fn places_on_axis<'py>(
     name: &str,
     axis: PyReadonlyArray1<'_, f64>,
     values: PyReadonlyArray1<'_, f64>,
-) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<PlacesOnAxis<'py>> {
     let (axis, values) = (axis.as_slice()?, values.as_slice()?);
     let places = interrupt::run(py, |cancel| between(name, axis, values, cancel))?;
     let lower = places.iter().map(|place| place.lower as i64).collect();
