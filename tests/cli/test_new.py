@@ -179,7 +179,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
         ("new v8 --cylinders 8", "--cylinders is not of v8, which takes --bank-angle, --throws, "),
         ("new vr6 --throws 0", "--throws is not of vr6, which takes --spacing, --firing-order"),
-        ("new v6 --stroke 80mm", "a cylinder of one's own needs --rod"),
+        ("new v6 --stroke 80mm", "a cylinder of your own needs --rod"),
         ("new v6 --stroke 80mm --rod 150mm", "a rod needs --rod-mass, or both --small-end and "),
         ("new v6 --stroke 80mm --rod 150mm --rod-mass 1 --small-end 1", "a rod needs --rod-mass"),
         ("new v6 --stroke 80mm --rod 150mm --rod-mass 500g", "needs --piston, or --reciprocating"),

@@ -122,7 +122,7 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "columns": (0,)}, "give two"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "gauge": "yes"}, "gauge = 'yes': give True or False"),
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "tdc_deg": np.nan}, "tdc_deg = nan: give a finite"),
-        ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "degree: 'x' is no whole number"),
+        ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "degree: 'x' is not a whole number"),
         ("# strokes: 9\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 9: give 4"),
     ],
 )

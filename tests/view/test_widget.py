@@ -229,7 +229,7 @@ def test_speed_of_a_fired_engine_is_the_core_s(shown: Any) -> None:  # noqa: ANN
     widget.rpm = 20
     assert widget.core["curve"]["speed"] is None
     assert V8.view().core["curve"]["speed"] is None
-    with pytest.raises(cp.InputError, match="has no torque that drives it"):
+    with pytest.raises(cp.InputError, match="has no driving torque"):
         V8.view(inertia=0.2)
 
 

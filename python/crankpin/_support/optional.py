@@ -54,5 +54,5 @@ def _imported(name: str, extra: str | None = None) -> Any:  # noqa: ANN401 - a m
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        remedy = f'pip install "crankpin[{extra or name}]"'
-        raise ImportError(f"{name} is not installed: {remedy}") from error
+        hint = f'pip install "crankpin[{extra or name}]"'
+        raise ImportError(f"{name} is not installed: {hint}") from error

@@ -189,7 +189,7 @@ class ByOrder(Keyed, Quantities):
     def _proved_zero(self, quantity: str, order: Order) -> bool:
         """Return whether a quantity of one order is proved to vanish."""
         name = inputs.one_of("quantity", quantity, QUANTITIES)
-        raise AbsentError(f"{name}: proofs are those of a balance, not of a sweep")
+        raise AbsentError(f"{name}: only a balance has proofs; read them at a point of the sweep")
 
     # --- tables -----------------------------------------------------------------------------------
 

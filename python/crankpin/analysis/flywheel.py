@@ -317,10 +317,12 @@ def _of_gas(engine: Engine, rpm: float, period_deg: object) -> _Diagram:
     if cycles is None:
         name = inputs.shorten(labels.name_of(engine))
         hint = "give it gas pressure with engine.with_cycle(…)"
-        raise InputError(f"drive = {name}: has no torque that drives it; {hint}")
+        raise InputError(f"drive = {name}: has no driving torque; {hint}")
     if period_deg is not None:
         given = inputs.shorten(period_deg)
-        raise InputError(f"period_deg = {given}: is that of the engine's cycle; leave it out")
+        raise InputError(
+            f"period_deg = {given}: the period is that of the engine's cycle; leave it out"
+        )
     # Where pressure jumps or bends, at the firing of each cylinder.
     pairs = [
         start + angle

@@ -193,7 +193,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     def phasor(self) -> NDArray[np.complex128]:
         """Peak phasors of a torque, N·m: (…, n_orders)."""
         if self.kind.planar:
-            raise AbsentError(f"{self.name} has no single phasor an order: use xy, x or y")
+            raise AbsentError(f"{self.name} has two phasors per order: use xy, x or y")
         return self._read("phasors")  # type: ignore[no-any-return]
 
     @property
@@ -210,7 +210,9 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
     def mean(self) -> Any:  # noqa: ANN401 - a number of a balance
         """Mean of a torque over the cycle, N·m: (…); zero without gas pressure."""
         if self.kind.planar or self.order not in (None, ALL):
-            raise AbsentError("mean is that of a torque, all orders together: as in b.torque.mean")
+            raise AbsentError(
+                "mean is defined for a torque, all orders together, as in b.torque.mean"
+            )
         values = self.result.read(self.name, "mean")
         return values if values.ndim else float(values)
 
@@ -238,9 +240,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         :meth:`Engine.vanishing_orders`; ``"zero within rounding"``: below its ``zero_bound``.
         """
         if self.order is None or self.order == ALL:
-            raise AbsentError(
-                'status is that of one order: give an order, as in "moment[2].status"'
-            )
+            raise AbsentError('status is defined for one order: give it, as in "moment[2].status"')
         if np.any(self._read("phasors")):
             return "summed" if self.order in self.result.orders else "omitted"
         proved = self.result._proved_zero(self.name, self.order)
@@ -268,7 +268,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
 
     def _planar(self, what: str) -> Any:  # noqa: ANN401 - as above
         if not self.kind.planar:
-            raise AbsentError(f"{what} is that of a vector; {self.name} is about z alone")
+            raise AbsentError(f"{what} is defined for a vector; {self.name} is about z alone")
         return self._read(what)
 
     def __getitem__(self, order: Order | Literal["all"]) -> Self:

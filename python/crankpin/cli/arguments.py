@@ -99,7 +99,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "help": "such as 1,2,4 or 0.5,1,1.5, or auto for all that matter (default: %(default)s)",
     },
     "--rtol": {
-        "help": "with --orders auto: what the omitted orders may add up to, relative to m·r·ω² "
+        "help": "with --orders auto: largest sum of the omitted orders, relative to m·r·ω² "
         "(default: 1e-9)",
     },
     "--quantity": {

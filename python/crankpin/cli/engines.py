@@ -52,7 +52,9 @@ def add_firing(commands: Commands) -> None:
         "engine's own, if it is known)",
     )
     fires.add_argument("--all", action="store_true", help="list all orders that the crank allows")
-    fires.add_argument("--strokes", choices=("4", "2"), help="default: the engine's own, or 4")
+    fires.add_argument(
+        "--strokes", choices=("4", "2"), help="strokes of a cycle (default: the engine's own, or 4)"
+    )
     shared(fires, "--csv")
     shared(fires, "--plot", help="write the chart of strokes (.pdf, .png, .svg)")
 

@@ -31,7 +31,7 @@ def add_counterweights(commands: Commands) -> None:
     fits = command(
         commands,
         "counterweights",
-        "weights that remove the most of what turns with the crankshaft at order 1",
+        "counterweights that remove the most of the forward part of order 1",
         example="counterweights v8-crossplane --planes webs --plot weights.png",
         run=_counterweights,
         note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
@@ -60,7 +60,7 @@ def add_counterweights(commands: Commands) -> None:
         "--minimise",
         choices=("squares", "largest"),
         default="squares",
-        help="of weights that do the same (default: %(default)s)",
+        help="what to minimise among weights that do the same (default: %(default)s)",
     )
     fits.add_argument("--bound", help="largest mass·radius of a plane, kg·m")
     fits.add_argument(
@@ -107,7 +107,7 @@ def add_bob_weight(commands: Commands) -> None:
     weighs = command(
         commands,
         "bob-weight",
-        "bob weight of each crankpin in grams, and what balance factors leave",
+        "bob weight of each crankpin in grams, and residuals by balance factor",
         example="bob-weight v8-crossplane --rotating 550g --reciprocating 620g --oil 4g",
         run=_bob_weight,
         note="Masses are those of one cylinder, by default the engine's.",
@@ -148,7 +148,7 @@ def add_shafts(commands: Commands) -> None:
     fits = command(
         commands,
         "shafts",
-        "balance shafts fitted to an engine, or all hardware against residual",
+        "balance shafts fitted to an engine, or sets of hardware compared",
         example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
         run=_shafts,
         note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
@@ -178,7 +178,7 @@ def add_shafts(commands: Commands) -> None:
     fits.add_argument(
         "--target",
         metavar="OBJECTIVE=VALUE,…",
-        help="largest value allowed, in N or N·m, or in %% of what there is: "
+        help="largest value allowed, in N or N·m, or in %% of the engine's own: "
         "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
     )
     shared(fits, "--reference-z", "--units")
@@ -249,7 +249,7 @@ def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:
 
 
 def _targets(given: Given) -> tuple[dict[str, float] | None, bool]:
-    """Return objective → value, and whether values are parts of what there is."""
+    """Return objective → value, and whether values are parts of the engine's own."""
     text = given.text("--target")
     if text is None:
         return None, False

@@ -32,7 +32,12 @@ def add_torque(commands: Commands) -> None:
         "The engine needs a firing order.",
     )
     shared(fired, "name", "--rpm", "--orders", "--rtol")
-    fired.add_argument("--on", choices=tuple(ON), default="crank", help="default: %(default)s")
+    fired.add_argument(
+        "--on",
+        choices=tuple(ON),
+        default="crank",
+        help="torque that is printed (default: %(default)s)",
+    )
     shared(fired, "--cycle", default="petrol")
     shared(fired, "--bore", "--crankcase")
     fired.add_argument(
@@ -94,7 +99,10 @@ def add_bearings(commands: Commands) -> None:
         help="default: %(default)s",
     )
     inside.add_argument(
-        "--axes", choices=AXES, default="engine", help="of a polar picture (default: %(default)s)"
+        "--axes",
+        choices=AXES,
+        default="engine",
+        help="axes of a polar picture (default: %(default)s)",
     )
     shared(inside, "--units", "--csv", "--plot")
 

@@ -37,7 +37,9 @@ def add_design(commands: Commands) -> None:
     shared(designs, "name")
     designs.add_argument("--cylinders", metavar="N", help="number of cylinders (default: NAME's)")
     designs.add_argument(
-        "--layout", choices=("inline", "vee", "flat", "boxer"), help="default: inline or vee"
+        "--layout",
+        choices=("inline", "vee", "flat", "boxer"),
+        help="layout of the engine (default: inline or vee)",
     )
     shared(designs, "--by")
     designs.add_argument(
@@ -153,7 +155,7 @@ def add_tolerances(commands: Commands) -> None:
     one = command(
         commands,
         "tolerances",
-        "what deviating masses, crankpins, places and rods leave of an engine's balance",
+        "residuals caused by deviating masses, crankpins, places and rods",
         example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
         run=_tolerances,
         note="Spreads are standard deviations, or half widths with --distribution uniform.",
@@ -167,7 +169,10 @@ def add_tolerances(commands: Commands) -> None:
             help=f"{what}, {'degrees' if unit == '°' else unit}",
         )  # fmt: skip
     one.add_argument(
-        "--distribution", choices=tuple(SPREADS), default="normal", help="default: %(default)s"
+        "--distribution",
+        choices=tuple(SPREADS),
+        default="normal",
+        help="distribution of the deviations (default: %(default)s)",
     )
     one.add_argument("--samples", default="10000", help="number of samples (default: %(default)s)")
     shared(one, "--seed", "--rpm")

@@ -184,7 +184,7 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
         if given.text(flag) is None:
             continue
         if flag not in flags:
-            raise InputError(f"{flag} is not of {kind}, which takes {', '.join(flags)}")
+            raise InputError(f"{flag} does not apply to {kind}, which takes {', '.join(flags)}")
         changes[name] = _read(given, flag, how)
     needed = [
         flag
@@ -240,17 +240,19 @@ def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | Non
         return None, rotating
     whole = [flag for flag in ("--stroke", "--rod") if lengths[flag] is None]
     if whole:
-        raise InputError(f"a cylinder of one's own needs {' and '.join(whole)}")
+        raise InputError(f"a cylinder of your own needs {' and '.join(whole)}")
     stroke, length = lengths["--stroke"] or 0.0, lengths["--rod"] or 0.0
     common: dict[str, Any] = {"bore": lengths["--bore"]}
     common["pin_offset"] = lengths["--pin-offset"] or 0.0
     if (moving := masses.pop("--reciprocating")) is not None:
         if other := [flag for flag, mass in masses.items() if mass is not None]:
-            raise InputError(f"{other[0]} does not go with --reciprocating, which has it all")
+            raise InputError(
+                f"{other[0]} cannot be combined with --reciprocating, which includes it"
+            )
         return Cylinder(stroke / 2.0, length, moving, **common), rotating
     rod = _rod(length, lengths["--rod-centre"], masses, notes)
     if masses["--piston"] is None:
-        raise InputError("a cylinder of one's own needs --piston, or --reciprocating")
+        raise InputError("a cylinder of your own needs --piston, or --reciprocating")
     cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston"], **common)
     return cylinder, rod.rotating_mass if rotating is None else rotating
 

@@ -101,10 +101,10 @@ def add_sweep(commands: Commands) -> None:
         help="presets, engine files (.toml, .json), or families of presets: ijesc-v6 stands for "
         "all whose names begin with ijesc-v6-",
     )
-    many.add_argument("--bank-angle", metavar="RANGE", help="degrees")
+    many.add_argument("--bank-angle", metavar="RANGE", help="bank angles, degrees")
     many.add_argument("--rod-ratio", metavar="RANGE", help="crank radius / rod length")
-    many.add_argument("--pin-offset", metavar="RANGE", help="m")
-    shared(many, "--rpm", metavar="RANGE", help="default: %(default)s")
+    many.add_argument("--pin-offset", metavar="RANGE", help="pin offsets, m")
+    shared(many, "--rpm", metavar="RANGE", help="crank speeds (default: %(default)s)")
     shared(many, "--hold", "--orders", "--rtol")
     shared(
         many,
@@ -205,7 +205,7 @@ def add_rank(commands: Commands) -> None:
     ranks = command(
         commands,
         "rank",
-        "engines by an objective, the smallest first, each at its best bank angles",
+        "engines ranked by an objective, best first, each at its best bank angles",
         example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
         run=_rank,
         note="Of several objectives the later ones break ties. They are total.moment.peak and\n"

@@ -119,7 +119,7 @@ def save(cycle: Cycle, path: str | Path) -> None:
 def _fact(facts: dict[str, str], name: str) -> int | None:
     value = facts.get(name)
     if value is not None and not value.isdecimal():
-        raise InputError(f"path: {name}: {inputs.shorten(value)} is no whole number")
+        raise InputError(f"path: {name}: {inputs.shorten(value)} is not a whole number")
     return None if value is None else int(value[:9])
 
 
@@ -213,5 +213,7 @@ def _is_gauge(given: bool | None, head: str) -> bool:
         return inputs.flag("gauge", given)
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
         hint = "give True for pressure above the atmosphere's, False for absolute pressure"
-        raise InputError(f"gauge = None: the file does not say which it is; {hint}")
+        raise InputError(
+            f"gauge = None: the file does not state whether pressure is gauge or absolute; {hint}"
+        )
     return bool(_GAUGE.search(head))

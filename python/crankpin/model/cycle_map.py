@@ -75,7 +75,7 @@ class CycleMap(Tabled):
             )
         for each in (cycle for row in rows for cycle in row):
             if not isinstance(each, Cycle):
-                raise InputError(f"cycles: {inputs.shorten(each)} is no cycle; {hint}")
+                raise InputError(f"cycles: {inputs.shorten(each)} is not a Cycle; {hint}")
             if each.strokes != rows[0][0].strokes:
                 raise InputError("cycles have 2 and 4 strokes: give cycles of one period")
         object.__setattr__(self, "cycles", rows)

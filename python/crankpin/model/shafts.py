@@ -119,8 +119,8 @@ class Shaft:
         object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances))
         for k, each in enumerate(self.unbalances):
             if each.pin is not None:
-                remedy = "leave it out: only the crankshaft has crankpins"
-                raise InputError(f"unbalances[{k}].pin = {each.pin}: {remedy}")
+                hint = "leave it out: only the crankshaft has crankpins"
+                raise InputError(f"unbalances[{k}].pin = {each.pin}: {hint}")
 
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:

@@ -77,7 +77,7 @@ def parts(
             f"{DISTINCT} beside {along}"
         )
     if ax is not None and len(chosen) * len(names) > 1:
-        raise InputError("ax: here is a panel for each order and engine; give figure")
+        raise InputError("ax: there is a panel for each order and engine; give figure")
     made, panels = _panels(ax, figure, len(chosen), len(names))
     for (row, column), panel in np.ndenumerate(panels):
         if not made.single:

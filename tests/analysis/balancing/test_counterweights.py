@@ -737,7 +737,7 @@ def test_results_are_frozen_and_copied() -> None:
         ({"factor": {}}, "factor = {}: give a number"),
         ({"factor": {"torque": 1}}, 'factor = \'torque\': give "force" or "moment"'),
         ({"bound": -1}, "bound = -1.0: give a mass·radius"),
-        ({"bound": {"x": 1}}, r"bound\['x'\]: is no plane; they are \['front', 'rear'\]"),
+        ({"bound": {"x": 1}}, r"bound\['x'\]: is not a plane; choose from: \['front', 'rear'\]"),
         ({"angles_deg": []}, "angles_deg has 0 angles: give 1 to 360"),
         ({"angles_deg": {"front": [1]}}, 'angles_deg has none for "rear"'),
         ({"angles_deg": ["x"]}, r"angles_deg\[0\] = x: give degrees"),

@@ -188,14 +188,14 @@ def _shaft_requests(
 
 
 def _ratios(given: object) -> list[int]:
-    remedy = "give whole numbers other than 0, such as -1 or [2, -2]"
-    listed = inputs.items("ratios", given, remedy) if isinstance(given, Iterable) else [given]
+    hint = "give whole numbers other than 0, such as -1 or [2, -2]"
+    listed = inputs.items("ratios", given, hint) if isinstance(given, Iterable) else [given]
     found = [inputs.whole("ratios", each) for each in listed]
     if not 1 <= len(found) <= MOST_SHAFTS:
         raise InputError(f"ratios has {len(found)} shafts: give 1 to {MOST_SHAFTS}")
     for each in found:
         if each == 0 or abs(each) > inputs.HIGHEST_ORDER:
-            raise InputError(f"ratios = {inputs.shorten(given)}: {remedy}")
+            raise InputError(f"ratios = {inputs.shorten(given)}: {hint}")
     return found
 
 
@@ -206,8 +206,8 @@ def _removals(given: object, ratios: list[int]) -> list[Remove]:
     for ratio, each in zip(ratios, listed, strict=True):
         word = cast("Remove", inputs.one_of("remove", each, REMOVE))
         if found.setdefault(ratio, word) != word:
-            remedy = "shafts of one ratio share their task; give them the same"
-            raise InputError(f"remove = {inputs.shorten(given)}: {remedy}")
+            hint = "shafts of one ratio share their task; give them the same"
+            raise InputError(f"remove = {inputs.shorten(given)}: {hint}")
     return [found[ratio] for ratio in ratios]
 
 
@@ -226,8 +226,8 @@ def _coordinates(name: str, given: object, count: int) -> list[float | None]:
 def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | None]:
     if given is None:
         return [None] * count
-    remedy = "give places along the crank, m, such as [0.0, 0.3], or a list of these"
-    listed = inputs.items(name, given, remedy)
+    hint = "give places along the crank, m, such as [0.0, 0.3], or a list of these"
+    listed = inputs.items(name, given, hint)
     if any(each is None or isinstance(each, Iterable) for each in listed):
         each_has = _each(name, listed, count)
     else:
@@ -238,7 +238,7 @@ def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | No
             found.append(None)
             continue
         numbers = [
-            inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, remedy)
+            inputs.finite(f"{name}[{k}]", z) for z in inputs.items(f"{name}[{k}]", each, hint)
         ]
         places = tuple(sorted(numbers))
         if not places or len(set(places)) < len(places):

@@ -212,8 +212,8 @@ def balancer_sets(
     removals = {ratio: _removals(turning(engine, ratio)) for ratio in ratios}
     count = math.prod(1 + len(each) for each in removals.values())
     if count > MOST_SETS:
-        remedy = f"give fewer orders, for {MOST_SETS} at most"
-        raise InputError(f"shaft_orders make {count} sets of shafts: {remedy}")
+        hint = f"give fewer orders, for {MOST_SETS} at most"
+        raise InputError(f"shaft_orders make {count} sets of shafts: {hint}")
     choices: list[list[Part | None]] = [[None] for _ in removals]
     for parts, (ratio, listed) in zip(choices, removals.items(), strict=True):
         for what in listed:
@@ -273,8 +273,8 @@ def _objectives(
         return objectives, {}
     if not isinstance(target, Mapping):
         if one_unit and len({each.unit for each in objectives}) > 1:
-            remedy = "by has objectives of several units; give objective → value, or relative=True"
-            raise InputError(f"target = {inputs.shorten(target)}: {remedy}")
+            hint = "by has objectives of several units; give objective → value, or relative=True"
+            raise InputError(f"target = {inputs.shorten(target)}: {hint}")
         return objectives, dict.fromkeys(names, _limit("target", target))
     limits = {name: _limit(f"target[{name!r}]", value) for name, value in target.items()}
     more = [name for name in limits if name not in names]
@@ -290,19 +290,21 @@ def _limit(name: str, value: object) -> float:
 
 def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
     """Return ratio → x and y."""
-    remedy = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
+    hint = "give a mapping ratio → (x, y), such as {-1: (0.1, 0.05)}"
     if places is None:
         return {}
     if not isinstance(places, Mapping):
-        raise InputError(f"places = {inputs.shorten(places)}: {remedy}")
+        raise InputError(f"places = {inputs.shorten(places)}: {hint}")
     found = {}
     for ratio, place in places.items():
         name = f"places[{inputs.shorten(ratio)}]"
-        x_and_y = inputs.items(name, place, remedy)
+        x_and_y = inputs.items(name, place, hint)
         if len(x_and_y) != 2:
-            raise InputError(f"{name} = {inputs.shorten(place)}: {remedy}")
+            raise InputError(f"{name} = {inputs.shorten(place)}: {hint}")
         x, y = (inputs.optional_number(name, each) for each in x_and_y)
         if ratio not in ratios:
-            raise InputError(f"{name}: shafts are compared of ratio {', '.join(map(str, ratios))}")
+            raise InputError(
+                f"{name}: ratios of the shafts compared are {', '.join(map(str, ratios))}"
+            )
         found[ratio] = (x, y)
     return found

@@ -121,7 +121,9 @@ class BalancerOptions(ByObjectives, Listed[BalancerOption], Tabled):
     def _least(self) -> BalancerOption:
         if self.least is None:
             what = "no set reaches the target" if self.targets else "no target was given"
-            raise AbsentError(f"fitted is undefined: {what}; take one of options, as options[0]")
+            raise AbsentError(
+                f"fitted is undefined: {what}; choose one of options, such as options[0]"
+            )
         return self.least
 
     # --- tables and pictures --------------------------------------------------------------------

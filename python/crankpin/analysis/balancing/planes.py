@@ -85,7 +85,9 @@ def _by_name(what: str, names: Sequence[str], given: object) -> Mapping[str, Any
     for name in given:
         if name not in names:
             listed = inputs.shorten(list(names))
-            raise InputError(f"{what}[{inputs.shorten(name)}]: is no plane; they are {listed}")
+            raise InputError(
+                f"{what}[{inputs.shorten(name)}]: is not a plane; choose from: {listed}"
+            )
     return given
 
 

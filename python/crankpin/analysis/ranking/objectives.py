@@ -239,9 +239,9 @@ def listed(by: object) -> list[Objective]:
         by = [name.strip() for name in by.split(",")]
     elif callable(by):
         by = [by]
-    remedy = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
+    hint = f"give a name ({', '.join(COMMON)}), a function of a Balance, or a list of these"
     found: list[Objective] = []
-    for each in inputs.items("by", by, remedy):
+    for each in inputs.items("by", by, hint):
         if isinstance(each, str):
             found.append(named(each))
         elif callable(each):
@@ -249,9 +249,9 @@ def listed(by: object) -> list[Objective]:
             words = f"{label}, a function given"
             found.append(Objective(label, label, words, "", of_balance=each))
         else:
-            raise InputError(f"by = {inputs.shorten(each)}: {remedy}")
+            raise InputError(f"by = {inputs.shorten(each)}: {hint}")
     if not found:
-        raise InputError(f"by = {inputs.shorten(by)}: {remedy}")
+        raise InputError(f"by = {inputs.shorten(by)}: {hint}")
     twice = {each.label for each in found if [one.label for one in found].count(each.label) > 1}
     if twice:
         raise InputError(f"by = {inputs.shorten(by)}: {min(twice)} is given twice; give it once")

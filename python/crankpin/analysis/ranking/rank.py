@@ -183,8 +183,8 @@ def _engines(
     if not arrangements:
         for name, value in (("cylinder", cylinder), ("spacing", spacing)):
             if value is not None:
-                remedy = "is for arrangements; engines have their own, leave it out"
-                raise InputError(f"{name} = {inputs.shorten(value)}: {remedy}")
+                hint = "is for arrangements; engines have their own, leave it out"
+                raise InputError(f"{name} = {inputs.shorten(value)}: {hint}")
         return cast("Engines", [given] if isinstance(given, Engine) else given)
     for one in listed:
         if not isinstance(one, Arrangement):

@@ -134,8 +134,8 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         """Return the ``count`` best engines, best first."""
         wanted = inputs.number("count", count)
         if not 0 <= wanted <= len(self) or wanted != int(wanted):
-            remedy = f"give a whole number, 0 to {len(self)}"
-            raise InputError(f"count = {inputs.shorten(count)}: {remedy}")
+            hint = f"give a whole number, 0 to {len(self)}"
+            raise InputError(f"count = {inputs.shorten(count)}: {hint}")
         return self.choices[: int(wanted)]
 
     # --- tables and pictures --------------------------------------------------------------------

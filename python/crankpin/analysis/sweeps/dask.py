@@ -91,12 +91,12 @@ def _normalized(
     chunks: object, lengths: Mapping[str, int], sizes: Mapping[str, int]
 ) -> tuple[tuple[int, ...], ...]:
     """Return the lengths of the chunks of every dimension; those that are not swept stay whole."""
-    remedy = 'give a number, "auto", or a mapping of ' + ", ".join(lengths) + " to these"
+    hint = 'give a number, "auto", or a mapping of ' + ", ".join(lengths) + " to these"
     wanted: dict[str, Any] = dict.fromkeys(sizes, -1)
     if isinstance(chunks, Mapping):
         for name in chunks:
             if name not in lengths:
-                raise InputError(f"chunks = {inputs.shorten(chunks)}: {remedy}")
+                raise InputError(f"chunks = {inputs.shorten(chunks)}: {hint}")
         wanted |= chunks
     else:
         wanted |= dict.fromkeys(lengths, chunks)
@@ -114,5 +114,5 @@ def _normalized(
         ):
             raise ValueError("a chunk has at least one point")
     except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
-        raise InputError(f"chunks = {inputs.shorten(chunks)}: {remedy} ({error})") from None
+        raise InputError(f"chunks = {inputs.shorten(chunks)}: {hint} ({error})") from None
     return found

@@ -153,7 +153,9 @@ def sweep(
     held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     if cycle is None and load is not None:
-        raise InputError(f"load = {inputs.shorten(load)}: is that of a map; give cycle=CycleMap(…)")
+        raise InputError(
+            f"load = {inputs.shorten(load)}: applies to a cycle map; give cycle=CycleMap(…)"
+        )
     maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
     whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
@@ -476,8 +478,8 @@ class Sweep(ByOrder, Tabled):
         """
         theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
         if inputs.flag("exact", exact) and self.request.pairs is not None:
-            remedy = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
-            raise InputError(f"exact = True: {remedy}")
+            hint = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
+            raise InputError(f"exact = True: {hint}")
         return SweepWaveform(self, theta, bool(exact))
 
     # --- tables and pictures --------------------------------------------------------------------
