@@ -111,7 +111,7 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
     ("text", "options", "message"),
     [
         ("angle,p\n0,1e5\n", {}, "pressure_unit = None: the file does not name one"),
-        ("angle,p Pa\n0,1e5\n", {}, "gauge = None: the file does not say"),
+        ("angle,p Pa\n0,1e5\n", {}, "gauge = None: the file does not state"),
         ("angle,p\n0,1e5\n", {"pressure_unit": "atm"}, "pressure_unit = 'atm': give \"Pa\""),
         ("angle,p\n0,1e5\n", ABSOLUTE, "theta_deg = 1 points"),
         ("", ABSOLUTE, "no line of two numbers"),

@@ -73,7 +73,7 @@ impl Sweep {
         let mut means: Vec<f64> = memory::zeros(self.rows_of(quantity))?;
         self.mean_rows(quantity, &mut means, rows.cancel)?;
         if width == 0 {
-            out.fill(0.0);
+            out.fill(0.0); // a buffer that was given, or never written to
             return rows.add(&means, out);
         }
         let mut phasors: Vec<Complex64> = memory::zeros(self.rows_of(quantity) * width)?;
