@@ -29,7 +29,7 @@ RPM = 3000.0
 PRESET = """\
 # {engine.name}
 
-{description}.
+{description}
 
 ```{{picture}}
 import crankpin as cp
@@ -140,20 +140,29 @@ def make_gallery(app: Sphinx) -> None:
         text = PRESET.format(
             name=name,
             engine=engine,
-            description=presets.descriptions[name],
+            description=_sentence(presets.descriptions[name]),
             rpm=rpm,
             balance=engine.balance(rpm=rpm),
             sentences="\n".join(f"* {each}" for each in engine.explain().sentences),
         )
         _write(GALLERY / f"{name}.md", text)
-        rows.append(f"* [{engine.name}]({name}.md) (`{name}`): {presets.descriptions[name]}")
+        rows.append(
+            f"* [{engine.name}]({name}.md) (`{name}`): {_sentence(presets.descriptions[name])}"
+        )
     listed = "\n".join(rows)
     names = "\n".join(presets)
     _write(
         GALLERY / "index.md",
-        f"# Gallery\n\nEvery preset: `cp.Engine.preset(name)`.\n\n{listed}\n\n"
+        "# Gallery\n\nEvery preset, `cp.Engine.preset(name)`: drawn, explained and turning.\n\n"
+        "```{raw} html\n<p><a href='turning/index.html'>All of them, turning</a></p>\n```\n\n"
+        f"{listed}\n\n"
         f"```{{toctree}}\n:hidden:\n\n{names}\n```\n",
     )
+
+
+def _sentence(text: str) -> str:
+    """Return a description as a sentence."""
+    return f"{text[0].upper()}{text[1:].rstrip('.')}."
 
 
 def _write(file: Path, text: str) -> None:
@@ -180,6 +189,14 @@ def formula_block(translator: HTML5Translator, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def hide_constructor(
+    app: Sphinx, what: str, name: str, of: object, options: object, signature: str, returned: str
+) -> tuple[str, str] | None:
+    """Return no signature for classes that builders and functions make."""
+    made = name == "crankpin.Engine" or name.startswith("crankpin.types.")
+    return ("", "") if what == "class" and made else None
+
+
 def whole_docstring(docstring: NumpyDocstring) -> tuple[str, list[str]]:
     """Return the docstring of a property: to napoleon what precedes a colon would be its type."""
     return "", docstring._consume_to_end()
@@ -193,6 +210,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("commands", Commands)
     app.add_directive("engine-file", EngineFile)
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
+    app.connect("autodoc-process-signature", hide_constructor)
     app.connect("builder-inited", make_gallery)
     app.connect("build-finished", make_turning)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
