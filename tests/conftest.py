@@ -6,6 +6,7 @@ from pathlib import Path
 
 import crankpin as cp
 from chromium import browser, open_engine, open_file  # noqa: F401 - fixtures
+from extras import pytest_make_collect_report, pytest_runtest_makereport  # noqa: F401 - hooks
 from rederivation import ijesc
 
 DATA = Path(__file__).parent / "data"

@@ -87,7 +87,10 @@ CALLS: dict[str, Callable[[], object]] = {
     "peaks of sums by bank angle": lambda: over_bank_angles().total.moment.peak_xy,
     "peaks of sums by rod ratio": lambda: over_rod_ratios().total.force.peak,
     "orders of a sweep": lambda: repr(
-        (s := cp.sweep(V8, rpm=1000, rod_ratio=RATIOS[:9000], orders="auto")).orders, s.error_bound
+        [
+            (s := cp.sweep(V8, rpm=1000, rod_ratio=RATIOS[:9000], orders="auto")).orders,
+            s.error_bound,
+        ]
     ),
     "harmonics": lambda: cp.slider_crank_harmonics(RATIOS, range(1, 9)),
     "harmonics with an offset": lambda: cp.slider_crank_harmonics(RATIOS, range(1, 9), OFFSETS),

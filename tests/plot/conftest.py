@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from matplotlib import pyplot as plt
-from matplotlib.figure import Figure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,6 +13,7 @@ if TYPE_CHECKING:
 @pytest.fixture(autouse=True)
 def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """No display, no figures from elsewhere, and a failure for whoever shows one."""
+    plt = pytest.importorskip("matplotlib.pyplot")
 
     def show(*_: object, **__: object) -> None:
         pytest.fail("a plot was shown")
@@ -22,6 +21,6 @@ def _clean_pyplot(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     plt.switch_backend("agg")
     plt.close("all")
     monkeypatch.setattr(plt, "show", show)
-    monkeypatch.setattr(Figure, "show", show)
+    monkeypatch.setattr(plt.Figure, "show", show)
     yield
     plt.close("all")
