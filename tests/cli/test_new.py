@@ -177,13 +177,22 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
     [
         ("new v6-75", '"v6-75": no such preset; .* build it by crankpin new v6 --bank-angle 75; '),
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
-        ("new v8 --cylinders 8", "--cylinders does not apply to v8, which takes --bank-angle, --throws, "),
-        ("new vr6 --throws 0", "--throws does not apply to vr6, which takes --spacing, --firing-order"),
+        (
+            "new v8 --cylinders 8",
+            "--cylinders does not apply to v8, which takes --bank-angle, --throws, ",
+        ),
+        (
+            "new vr6 --throws 0",
+            "--throws does not apply to vr6, which takes --spacing, --firing-order",
+        ),
         ("new v6 --stroke 80mm", "a cylinder of your own needs --rod"),
         ("new v6 --stroke 80mm --rod 150mm", "a rod needs --rod-mass, or both --small-end and "),
         ("new v6 --stroke 80mm --rod 150mm --rod-mass 1 --small-end 1", "a rod needs --rod-mass"),
         ("new v6 --stroke 80mm --rod 150mm --rod-mass 500g", "needs --piston, or --reciprocating"),
-        ("new v6 --stroke 80mm --rod 150mm --reciprocating 1 --piston 1", "--piston cannot be combined"),
+        (
+            "new v6 --stroke 80mm --rod 150mm --reciprocating 1 --piston 1",
+            "--piston cannot be combined",
+        ),
         ("new v6 --stroke 80lb --rod 150mm --reciprocating 1", "--stroke = 80lb: give a number"),
         ("new v6 --stroke 300mm --rod 150mm --reciprocating 1", "rod_length = 0.15"),
         ("new v6 --bank-angle 60/x", "--bank-angle = 60/x: give degrees"),

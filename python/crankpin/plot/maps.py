@@ -55,7 +55,10 @@ def heat_map(
     orders: object = None,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
-    """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes."""
+    """Draw peaks over two numeric dimensions, rows for orders or engines and columns for axes.
+
+    Orders have a scale of colours each, engines one that they share.
+    """
     name = swept_quantity(sweep, quantity)
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
@@ -64,9 +67,12 @@ def heat_map(
     grids = [np.moveaxis(row.peaks, dims.index(up), 0) for row in rows.rows]
     coords = [np.asarray(sweep.coords[dim], dtype=np.float64) for dim in (along, up)]
     made = make_panels(ax, figure, len(grids), len(rows.columns), sharex=True, sharey=True)
+    largest = [float(grid.max(initial=0.0)) for grid in grids]
+    if "engine" in sweep.coords:
+        largest = [max(largest)] * len(grids)
     vanishes = [
-        _heat(panels, coords, grid, name, style)
-        for grid, panels in zip(grids, made.axes, strict=True)
+        _heat(panels, coords, grid, name, most, style)
+        for grid, panels, most in zip(grids, made.axes, largest, strict=True)
     ]
     _label_all(made, along, up, rows)
     notes = [note, "white dots: exactly zero" if any(vanishes) else ""]
@@ -84,7 +90,7 @@ def order_map(
     x: str | None = None,
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
-    """Draw peaks over speed, or another swept number, and order, in a logarithmic scale."""
+    """Draw peaks over speed, or another swept number, and order, in one logarithmic scale."""
     name = swept_quantity(sweep, quantity)
     dims = [dim for dim in sweep.coords if dim != "engine"]
     along = along_x(sweep, x or ("rpm" if "rpm" in dims else None), dims or ["engine"])
@@ -98,8 +104,11 @@ def order_map(
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
+    norm = _logarithmic(np.stack([row.peaks for row in rows.rows]))
     for row, panels in zip(rows.rows, made.axes, strict=True):
-        _cells(panels, values, orders, row.peaks, name, style)
+        mesh = _cells(panels, values, orders, row.peaks, {"norm": norm} | style)
+    if any(row.peaks.any() for row in rows.rows):
+        _colour_bar(made.axes.ravel(), mesh, name, plain=False)
     _label_all(made, along, "order", rows)
     made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
     return made.drawn
@@ -150,16 +159,16 @@ def _heat(
     coords: Sequence[NDArray[np.float64]],
     peaks: NDArray[np.float64],
     quantity: str,
+    largest: float,
     style: dict[str, Any],
 ) -> bool:
-    """Draw a row of panels with one scale of colours, white dots where a quantity vanishes.
+    """Draw a row of panels in colours up to the largest value, white dots at zeros.
 
     Return True if there are such dots.
     """
     dotted = False
     x, y = coords
     columns, lines = np.argsort(x, kind="stable"), np.argsort(y, kind="stable")
-    largest = float(peaks.max(initial=0.0))
     options = {"shading": "nearest", "norm": Normalize(0.0, largest or 1.0), "rasterized": True}
     for k, panel in enumerate(panels):
         of_panel = peaks[..., k]
@@ -170,11 +179,19 @@ def _heat(
             dotted = True
             # The scale of colours is dark at zero, whatever the background.
             panel.plot(x[across], y[up], "o", markersize=1.5, color="white", gid="crankpin zeros")
-        if not largest:
+        if not peaks.any():
             note_zero(panel, color="white")
     if largest:  # a scale of nothing would mislead
         _colour_bar(panels, mesh, quantity)
     return dotted
+
+
+def _logarithmic(peaks: NDArray[np.float64]) -> LogNorm:
+    """Return a scale of colours from the smallest peak that is not negligible to the largest."""
+    nonzero = peaks[peaks > 0.0]
+    largest = float(nonzero.max(initial=0.0)) or 1.0
+    smallest = max(RANGE * largest, float(nonzero.min(initial=largest)))
+    return LogNorm(min(smallest, 0.1 * largest), largest)
 
 
 def _cells(
@@ -182,23 +199,18 @@ def _cells(
     x: NDArray[np.float64],
     orders: Sequence[Order],
     peaks: NDArray[np.float64],
-    quantity: str,
-    style: dict[str, Any],
-) -> None:
+    options: dict[str, Any],
+) -> Any:  # noqa: ANN401 - what pcolormesh returns
     """Draw a row of cells for each order; those of an order that is zero stay empty."""
     in_order = np.argsort(x, kind="stable")
     step = 1.0 if all(isinstance(order, int) for order in orders) else 0.5
     rows = np.arange(step, max(orders) + step, step)
-    nonzero = peaks[peaks > 0.0]
-    largest = float(nonzero.max(initial=1.0))
-    smallest = max(RANGE * largest, float(nonzero.min(initial=largest)))
-    norm = LogNorm(min(smallest, 0.1 * largest), largest)
     for k, panel in enumerate(panels):
         cells = np.full((len(rows), len(x)), np.nan)
         for place, order in enumerate(orders):
             row = round(order / step) - 1
             cells[row] = peaks[in_order, place, k]
-            if not cells[row].any():
+            if peaks.any() and not cells[row].any():
                 middle = float(np.mean([x.min(), x.max()]))
                 panel.text(
                     middle,
@@ -210,13 +222,12 @@ def _cells(
                     color=foreground(panel),
                 )
         cells[cells == 0.0] = np.nan
-        options = {"shading": "nearest", "norm": norm, "rasterized": True} | style
-        mesh = panel.pcolormesh(x[in_order], rows, cells, **options)
+        drawn = {"shading": "nearest", "rasterized": True} | options
+        mesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
-        if not nonzero.size:
+        if not peaks.any():
             note_zero(panel)
-    if nonzero.size:
-        _colour_bar(panels, mesh, quantity, plain=False)
+    return mesh
 
 
 def _colour_bar(
