@@ -21,7 +21,18 @@ PAGES = sorted(
     if "gallery" not in path.parts  # made by the build
 )
 BLOCK = re.compile(r"^```(.*)\n((?:.*\n)*?)```$", re.MULTILINE)
-SHOWN = {"", "csv", "json", "text", "toml", "{commands}", "{eval-rst}", "{raw} html", "{toctree}"}
+SHOWN = {
+    "",
+    "csv",
+    "json",
+    "text",
+    "toml",
+    "{commands}",
+    "{engine-file}",
+    "{eval-rst}",
+    "{raw} html",
+    "{toctree}",
+}
 """Blocks that are not code of ours to run."""
 OTHERS = ("#", "cargo ", "git ", "jupyter ", "pip ", "pytest", "python benchmarks/", "sphinx-")
 """Beginnings of lines of shell that no page can run here."""

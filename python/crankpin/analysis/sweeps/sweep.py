@@ -145,7 +145,7 @@ def sweep(
         "rpm": rpm,
         "load": load,
     }
-    swept = {name: values for name, values in given.items() if values is not None}
+    swept = {name: values for name, values in given.items() if values is not None or name == "rpm"}
     axes: dict[str, NDArray[np.float64] | float] = {}
     for name, values in swept.items():
         array = inputs.array(name, values)
@@ -195,7 +195,7 @@ class Sweep(ByOrder, Tabled):
     """Quantity that a change of bank angle does not change: "pins", "firing" or None."""
     request: Request
     """The options of the sweep, checked."""
-    gas: GasMap | None = None
+    gas_map: GasMap | None = None
     """Cycles over speed and load, and the pressure below the pistons; None without ``cycle``."""
     progress: Progress = field(default=False, compare=False, repr=False)
     """The progress bar, as given."""
@@ -210,13 +210,13 @@ class Sweep(ByOrder, Tabled):
         dims = self.dims
         cores = [engine_core(engine) for engine in self.engines]
         core = _core.Sweep(
-            cores if self.gas is None else self.gas.fired(self.engines),
+            cores if self.gas_map is None else self.gas_map.fired(self.engines),
             axes.get("bank_angle_deg"),
             self.hold,
             axes.get("rod_ratio"),
             axes.get("pin_offset"),
             axes["rpm"],
-            None if self.gas is None else self.gas.places(axes.get("load")),
+            None if self.gas_map is None else self.gas_map.places(axes.get("load")),
             request.orders,
             request.rtol,
             request.reference_z,
@@ -237,7 +237,7 @@ class Sweep(ByOrder, Tabled):
     @property
     def fired(self) -> bool:
         """True if gas pressure is counted, of any engine."""
-        return self.gas is not None or any(engine.fired for engine in self.engines)
+        return self.gas_map is not None or any(engine.fired for engine in self.engines)
 
     @property
     def core(self) -> _core.Sweep:
@@ -423,7 +423,7 @@ class Sweep(ByOrder, Tabled):
             values = at[inputs.one_of("dimension", name, list(at))]
             at[name] = [values[_place(name, value, values)]]
         for name, values in at.items():
-            if len(values) > 1 and (name != "rpm" or self.gas is not None):
+            if len(values) > 1 and (name != "rpm" or self.gas_map is not None):
                 raise InputError(f"{name} is swept: give the value at which the engine is wanted")
         place = list(self.coords["engine"]).index(at["engine"][0]) if "engine" in at else 0
         engine = self.engines[place]
@@ -437,8 +437,8 @@ class Sweep(ByOrder, Tabled):
             changes.append(cylinder.replace(**changed))
         if tuple(changes) != engine.cylinders:
             engine = engine.replace(cylinder=changes)
-        if self.gas is not None:
-            engine = self.gas.at(engine, float(at["rpm"][0]), float(at["load"][0]))
+        if self.gas_map is not None:
+            engine = self.gas_map.at(engine, float(at["rpm"][0]), float(at["load"][0]))
         if "bank_angle_deg" in at and self.hold is not None:
             # Last: banks that move take along the angles at which their cylinders fire.
             engine = engine.with_bank_angle(float(at["bank_angle_deg"][0]), hold=self.hold)
