@@ -145,7 +145,9 @@ def sweep(
         "rpm": rpm,
         "load": load,
     }
-    swept = {name: values for name, values in given.items() if values is not None or name == "rpm"}
+    swept: dict[str, Any] = {
+        name: values for name, values in given.items() if values is not None or name == "rpm"
+    }
     axes: dict[str, NDArray[np.float64] | float] = {}
     for name, values in swept.items():
         array = inputs.array(name, values)
