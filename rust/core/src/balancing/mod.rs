@@ -107,8 +107,9 @@ fn half_length(engine: &Engine) -> f64 {
     if last > first { (last - first) / 2.0 } else { engine.largest_crank_radius() }
 }
 
-/// Part of the largest of several values below which another is rounding.
-const NEGLIGIBLE: f64 = 1e-14;
+/// Part of the largest of several values below which another is rounding: some hundred units in the last
+/// place, as sums of the terms of an engine leave them.
+const NEGLIGIBLE: f64 = 1e-13;
 
 /// Zero for values that are rounding beside the largest of them.
 fn without_rounding(values: &mut [Complex64]) {

@@ -86,7 +86,7 @@ pub(super) struct Operating<'a, T> {
 
 /// A row at a speed and a load.
 #[derive(Clone, Copy)]
-struct Place {
+struct GridPoint {
     row: usize,
     speed: usize,
     load: usize,
@@ -187,7 +187,7 @@ impl<T: Number> Operating<'_, T> {
 
     /// Writes one row at a speed and a load.
     #[inline(always)]
-    fn row(&self, place: Place, out: &mut [T]) {
+    fn row(&self, place: GridPoint, out: &mut [T]) {
         let (sweep, width) = (self.sweep, self.width);
         if self.inertia.is_empty() {
             out.fill(T::default());
@@ -219,7 +219,7 @@ impl<T: Number> Operating<'_, T> {
         width: usize,
         cost: usize,
         cancel: &Cancel,
-        work: impl Fn(Place, &mut [T], &mut [O]) -> Result<()> + Sync,
+        work: impl Fn(GridPoint, &mut [T], &mut [O]) -> Result<()> + Sync,
     ) -> Result<()> {
         let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
         let rows = (STRETCH / (self.width.max(width) * cost).max(1)).clamp(1, PIECE);
@@ -229,8 +229,11 @@ impl<T: Number> Operating<'_, T> {
         let piece = |(k, out): (usize, &mut [O])| {
             let mut room: Vec<T> = memory::zeros(self.width)?;
             let at = k * rows;
-            let mut place =
-                Place { row: at / loads / speeds, speed: at / loads % speeds, load: at % loads };
+            let mut place = GridPoint {
+                row: at / loads / speeds,
+                speed: at / loads % speeds,
+                load: at % loads,
+            };
             vectorised(
                 #[inline(always)]
                 || {
