@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "ATMOSPHERE",
+    "MOST_CYLINDERS",
     "LONGEST_AXIS",
     "LONGEST_FILE",
     "SCHEMA",
@@ -60,6 +61,7 @@ __all__ = [
 
 __version__: str
 ATMOSPHERE: float
+MOST_CYLINDERS: int
 LONGEST_AXIS: int
 LONGEST_FILE: int
 SCHEMA: int

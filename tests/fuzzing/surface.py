@@ -135,7 +135,6 @@ SUBJECTS: dict[str, Any] = {
     "firing": V6.firing("1-2-5-6-3-4"),
     "firing, two-stroke": two_stroke(),
     "star diagram": cp.star_diagram(V6, firing_order="1-2-5-6-3-4"),
-    "throws": cp.throws("1-3-4-2", bank_angle_deg=60),
     "sweep": cp.sweep([V6, V6], rpm=[1e3, 2e3], bank_angle_deg=[60, 90], hold="pins"),
     "ranking": ranked(by=["total.force.peak_xy", lambda b: b.rpm], refine=True),
     "ranking, as they are": cp.rank(

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
+from crankpin._core import MOST_CYLINDERS, InputError
 from crankpin._support import inputs
 from crankpin.model import checks
 from crankpin.model import shafts as rotating
@@ -346,7 +346,11 @@ class Builders(EngineData):
             raise InputError(f"rows = {banks}: give 1 or 2; Engine.from_lists takes any layout")
         if count % banks or count < 3 * banks:
             hint = "give three or more to each row; two opposed cylinders are Engine.flat"
-            raise InputError(f"cylinders = {count}: {hint}")
+            raise InputError(f"cylinders = {inputs.shorten(count)}: {hint}")
+        if count > MOST_CYLINDERS:
+            raise InputError(
+                f"cylinders = {inputs.shorten(count)}: an engine has 1 to {MOST_CYLINDERS}"
+            )
         if spacing is None and banks == 2:
             raise InputError("spacing = None: give the distance between the two rows, m")
         distance = inputs.number("spacing", 0.0 if spacing is None else spacing)

@@ -36,6 +36,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     reserve::allocate();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("ATMOSPHERE", crankpin_core::pressure::ATMOSPHERE)?;
+    module.add("MOST_CYLINDERS", crankpin_core::limits::MOST_CYLINDERS)?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
     module.add("LONGEST_FILE", crankpin_core::engine::file::LONGEST_TEXT)?;
     module.add("SCHEMA", crankpin_core::engine::file::SCHEMA)?;
