@@ -31,7 +31,7 @@ class Finding(NamedTuple):
     """A fact about an engine, before it is put into words."""
 
     kind: str
-    """``"hardware"``, ``"shakes"``, ``"hint"``, ``"bob weights"``, ``"cancels"``, ``"rest"``,
+    """``"hardware"``, ``"shakes"``, ``"remedy"``, ``"bob weights"``, ``"cancels"``, ``"rest"``,
     ``"inertia torque"``, ``"gas torque"``, ``"gas orders"``, ``"firing"`` or ``"articulated"``."""
     quantity: str = ""
     """``"force"``, ``"moment"``, or empty."""
@@ -102,7 +102,7 @@ class Sums:
             ratios = [order] * bool(forward and order > 1) + [-order] * bool(backward)
             weights = "counterweights" if forward and order == 1 else ""
             kept = (backward, *map(float, ratios))
-            yield Finding("hint", self.name, (order,), kept, weights)
+            yield Finding("remedy", self.name, (order,), kept, weights)
 
     def _together(self, k: int) -> bool:
         """Return whether all pistons pull at once, each along its own bore."""

@@ -259,7 +259,7 @@ def _articulated(finding: Finding, whole: Explanation) -> str:
 WORDS: dict[str, Callable[[Finding, Explanation], str]] = {
     "hardware": _hardware,
     "shakes": _shakes,
-    "hint": _remedy,
+    "remedy": _remedy,
     "bob weights": _bob_weights,
     "cancels": _cancels,
     "rest": _rest,
