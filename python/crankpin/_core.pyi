@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 __all__ = [
     "ATMOSPHERE",
-    "MOST_CYLINDERS",
     "LONGEST_AXIS",
     "LONGEST_FILE",
+    "MOST_CYLINDERS",
     "SCHEMA",
     "Balance",
     "BankAngles",
