@@ -406,9 +406,7 @@ def loads() -> None:
         rows.append(
             [name, milliseconds(times[name]), f"{times[name] / ours:.3g} ×", f"{error:.1e}"]
         )
-    title = (
-        "Torque of a V8: 40 speeds × 25 loads, a map of 20 cycles, orders ½ to 12"
-    )
+    title = "Torque of a V8: 40 speeds × 25 loads, a map of 20 cycles, orders ½ to 12"
     print_table(title, ["method", "time", "of ours", "difference / largest"], rows)
 
 

@@ -310,7 +310,9 @@ def test_negligible_orders_are_left_out_and_named() -> None:
 def test_phasors_survive_csv(result: Any) -> None:
     table = result.to_pandas()
     text = io.StringIO(table.to_csv(index=False))
-    again = pd.read_csv(text, float_precision="round_trip")  # pandas 2 rounds the last digit
+    # The default of pandas 2 rounds the last digit; pandas 3 does not, and warns of the option.
+    exact: Any = {"float_precision": "round_trip"} if pd.__version__ < "3" else {}
+    again = pd.read_csv(text, **exact)
     for column in ("real", "imag", "peak"):
         np.testing.assert_array_equal(again[column], table[column])
     x = table[(table.quantity == "moment") & (table.component == "x")]
