@@ -2,9 +2,9 @@
 
 ``python benchmarks/stability.py`` prints the map and writes it to ``benchmarks/out`` (``--out``
 another folder): ``stability.csv``, ``stability.png``, and ``stability.md``, the tables of
-``docs/explanations/stability.md``, each with what ran it. Methods with a knob are shown at the best of its
-settings. ``tests/promises/test_stability.py`` asserts that crankpin meets every bound and that the
-other methods miss it.
+``docs/explanations/stability.md``, each with what ran it. Methods with a knob are shown at the best
+of its settings. ``tests/promises/test_stability.py`` asserts that crankpin meets every bound and
+that the other methods miss it.
 """
 
 from __future__ import annotations
