@@ -220,28 +220,24 @@ pub(super) fn jet(coefficients: &[f64], x: f64) -> [f64; 3] {
 /// Clenshaw's recurrence.
 #[inline(always)]
 pub(super) fn jets<const N: usize>(coefficients: &[f64], x: &[f64; N]) -> [[f64; N]; 3] {
-    let [mut here, mut before] = [[[0.0; N]; 3]; 2];
+    let [mut b, mut slope, mut bend] = [[0.0; N]; 3];
+    let [mut b_before, mut slope_before, mut bend_before] = [[0.0; N]; 3];
     for &c in coefficients[1..].iter().rev() {
         for i in 0..N {
-            let [b, slope, bend] = here.map(|row| row[i]);
-            let next = [
-                2.0 * x[i] * b - before[0][i] + c,
-                2.0 * (b + x[i] * slope) - before[1][i],
-                2.0 * (2.0 * slope + x[i] * bend) - before[2][i],
-            ];
-            for ((here, before), next) in here.iter_mut().zip(&mut before).zip(next) {
-                (here[i], before[i]) = (next, here[i]);
-            }
+            let next_bend = 2.0 * (2.0 * slope[i] + x[i] * bend[i]) - bend_before[i];
+            let next_slope = 2.0 * (b[i] + x[i] * slope[i]) - slope_before[i];
+            let next = 2.0 * x[i] * b[i] - b_before[i] + c;
+            (bend_before[i], bend[i]) = (bend[i], next_bend);
+            (slope_before[i], slope[i]) = (slope[i], next_slope);
+            (b_before[i], b[i]) = (b[i], next);
         }
     }
-    let mut sums = here;
     for i in 0..N {
-        let [b, slope, bend] = here.map(|row| row[i]);
-        sums[0][i] = x[i] * b - before[0][i] + coefficients[0];
-        sums[1][i] = b + x[i] * slope - before[1][i];
-        sums[2][i] = 2.0 * slope + x[i] * bend - before[2][i];
+        bend[i] = 2.0 * slope[i] + x[i] * bend[i] - bend_before[i];
+        slope[i] = b[i] + x[i] * slope[i] - slope_before[i];
+        b[i] = x[i] * b[i] - b_before[i] + coefficients[0];
     }
-    sums
+    [b, slope, bend]
 }
 
 /// Knot of any number, those of the neighbouring periods included.
