@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
 import os
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -67,7 +69,9 @@ class Picture(SphinxDirective):
         file = GALLERY / "drawn" / f"{hashlib.sha256(code.encode()).hexdigest()[:16]}.png"
         file.parent.mkdir(parents=True, exist_ok=True)
         lines = compile(code, self.env.docname, "exec")
-        exec(lines, names)  # noqa: S102 - of the page
+        # What the lines save is not the repository's.
+        with TemporaryDirectory() as folder, contextlib.chdir(folder):
+            exec(lines, names)  # noqa: S102 - of the page
         plt.gcf().savefig(file, dpi=100, bbox_inches="tight")
         plt.close("all")
         shown = nodes.literal_block(code, code, language="python")

@@ -9,6 +9,7 @@
 use crate::numbers::cancel::Cancel;
 use crate::numbers::decimal::{WITHIN_ULP, meant};
 use crate::numbers::error::Result;
+use std::iter::zip;
 
 /// Largest denominator: millimetres of an engine of ten metres.
 const MOST_PARTS: f64 = 10_000.0;
@@ -112,32 +113,48 @@ impl Multiples {
     /// Of figures that are decimals, or right within [`WITHIN_ULP`] of their own last place.
     ///
     /// Where some are no decimals, all are first tried as multiples of each other: a double is
-    /// sometimes a decimal by chance.
+    /// sometimes a decimal by chance, and what is a multiple of it then is one of 1 with it.
     pub fn new(figures: &[f64], cancel: &Cancel) -> Result<Self> {
+        use num_traits::{CheckedDiv, CheckedMul};
         let decimals: Vec<Option<Ratio>> = figures.iter().map(|&x| decimal(x)).collect();
         if let Some(of) = decimals.iter().map(|ratio| ratio.map(|r| (0, r))).collect() {
             return Ok(Self { units: vec![1.0], of });
         }
-        let together = Self::among(Vec::new(), figures, &vec![None; figures.len()], cancel)?;
+        let together = Self::of_each_other(figures, cancel)?;
         if together.units.len() <= 1 {
             return Ok(together);
         }
-        Self::among(vec![1.0], figures, &decimals, cancel)
+        // Each unit as a decimal, by one of its multiples or itself.
+        let mut values: Vec<Option<Ratio>> =
+            together.units.iter().map(|&unit| recognise(unit, tolerance(unit))).collect();
+        for (&(unit, times), known) in together.of.iter().zip(&decimals) {
+            if let Some(known) = known.filter(|_| times != Ratio::ZERO) {
+                values[unit] = known.checked_div(&times).or(values[unit]);
+            }
+        }
+        let mut units = vec![1.0];
+        let mut places = vec![None; together.units.len()];
+        let figure = |(&(unit, times), known): (&(usize, Ratio), &Option<Ratio>)| {
+            if let Some(of_one) = (*known).or(values[unit].and_then(|value| value.checked_mul(&times)))
+            {
+                return (0, of_one);
+            }
+            let place = *places[unit].get_or_insert_with(|| {
+                units.push(together.units[unit]);
+                units.len() - 1
+            });
+            (place, times)
+        };
+        let of = zip(&together.of, &decimals).map(figure).collect();
+        Ok(Self { units, of })
     }
 
-    /// Each figure that is not known as a multiple of the first unit.
-    fn among(
-        mut units: Vec<f64>,
-        figures: &[f64],
-        known: &[Option<Ratio>],
-        cancel: &Cancel,
-    ) -> Result<Self> {
-        let mut of: Vec<(usize, Ratio)> =
-            known.iter().map(|ratio| (0, ratio.unwrap_or(Ratio::ZERO))).collect();
-        let error = |figure: f64| WITHIN_ULP * f64::EPSILON * figure.abs();
+    /// Figures as multiples of one another, decimals or not.
+    fn of_each_other(figures: &[f64], cancel: &Cancel) -> Result<Self> {
+        let mut units: Vec<f64> = Vec::new();
+        let mut of = vec![(0, Ratio::ZERO); figures.len()];
         // From the largest down, so that ratios and their errors are small.
-        let mut falling: Vec<usize> =
-            (0..figures.len()).filter(|&i| known[i].is_none() && figures[i] != 0.0).collect();
+        let mut falling: Vec<usize> = (0..figures.len()).filter(|&i| figures[i] != 0.0).collect();
         falling.sort_by(|&a, &b| figures[b].abs().total_cmp(&figures[a].abs()));
         for i in falling {
             cancel.check()?;
@@ -147,7 +164,7 @@ impl Multiples {
                 if ratio.abs() == 1.0 {
                     return Some((k, Ratio::from_integer(ratio as i128)));
                 }
-                recognise(ratio, 2.0 * error(ratio)).map(|r| (k, r))
+                recognise(ratio, tolerance(ratio)).map(|r| (k, r))
             });
             of[i] = multiple.unwrap_or_else(|| {
                 units.push(figure);
@@ -156,6 +173,11 @@ impl Multiples {
         }
         Ok(Self { units, of })
     }
+}
+
+/// How well a quotient of two figures is known.
+fn tolerance(ratio: f64) -> f64 {
+    2.0 * WITHIN_ULP * f64::EPSILON * ratio.abs()
 }
 
 /// The decimal that a figure stands for.
@@ -246,6 +268,10 @@ mod tests {
         let thirds = multiples(&[unit, unit / 3.0, unit / 7.0]);
         assert_eq!(thirds.units, [unit]);
         assert_eq!(thirds.of[1], (0, ratio(1, 3)));
+        // So does its half, beside what is no multiple of either.
+        let halves = multiples(&[unit * root, 7.0 * unit, 3.5 * unit, 1.75 * unit]);
+        assert_eq!(halves.units, [1.0, unit * root]);
+        assert_eq!(halves.of[2].1 / halves.of[3].1, ratio(2, 1));
     }
 
     #[test]
