@@ -255,6 +255,24 @@ def test_steps_of_a_degree_miss_less_than_a_thousandth_of_a_peak(fuel: str, rpm:
         assert np.all((missed >= 0.0) & (missed < 1e-3))
 
 
+def test_gas_bends_the_crankcase_between_heads_and_main_bearings() -> None:
+    """Gas pushes heads up and, through the crank, bearings down: past all nothing is left."""
+    still = FIRED.with_cycle(None)
+    fired, unfired = (cp.bearing_loads(engine, RPM, THETA) for engine in (FIRED, still))
+    size = np.abs(fired.main).max() * len(FIRED.mains)
+    by_gas = fired.shear() - unfired.shear()
+    np.testing.assert_allclose(by_gas[-1], 0.0, rtol=0, atol=1e-14 * size)
+    # At each place the sum of what pushes in front of it: head, wall, and main bearings.
+    z_mains, z_bores = np.array(FIRED.mains), np.array(FIRED.z)
+    bore = np.exp(1j * np.deg2rad(FIRED.bank_deg))[:, None]
+    on_bores = bore * (fired.gas_force - 1j * (fired.side_thrust - unfired.side_thrust))
+    on_mains = as_complex(fired.main) - as_complex(unfired.main)
+    for place, found in zip(fired.z, as_complex(by_gas), strict=True):
+        expected = on_mains[z_mains <= place].sum(axis=0) + on_bores[z_bores <= place].sum(axis=0)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14 * size)
+    assert np.abs(by_gas).max() > 1e3
+
+
 def test_khurmi_15_7() -> None:
     """Khurmi, Theory of Machines, example 15.7: slide-bar force 10.97 kN, turning moment 14.491.
 
