@@ -135,7 +135,8 @@ impl Multiples {
         let mut units = vec![1.0];
         let mut places = vec![None; together.units.len()];
         let figure = |(&(unit, times), known): (&(usize, Ratio), &Option<Ratio>)| {
-            if let Some(of_one) = (*known).or(values[unit].and_then(|value| value.checked_mul(&times)))
+            if let Some(of_one) =
+                (*known).or(values[unit].and_then(|value| value.checked_mul(&times)))
             {
                 return (0, of_one);
             }
