@@ -27,7 +27,7 @@ from crankpin.plot.layout import (
 from crankpin.plot.phasors import phasors
 from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
 from crankpin.plot.rows import largest
-from crankpin.plot.style import SERIES, background, count_series, series
+from crankpin.plot.style import SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import drawn_quantity, number, series_names, series_of, with_unit
 
@@ -106,22 +106,9 @@ def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) 
     (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **of_series)
     zeros = orders[peaks == 0.0]
     known = ZERO in ax.get_legend_handles_labels()[1]
-    (hollow,) = ax.plot(
-        zeros,
-        np.zeros_like(zeros),
-        linestyle="",
-        marker="o",
-        markersize=5.0,
-        markeredgecolor=line.get_color(),
-        markerfacecolor=background(ax),
-        transform=ax.get_xaxis_transform(),
-        clip_on=False,
-        zorder=3,
-        gid=ZEROS,
-        label=ZERO if zeros.size and not known else "",
-    )
-    # The layout would make room for a line without points at the figure's corner.
-    hollow.set_in_layout(bool(zeros.size))
+    look = {"markersize": 5.0, "transform": ax.get_xaxis_transform(), "gid": ZEROS}
+    name = ZERO if zeros.size and not known else ""
+    hollow(ax, zeros, np.zeros_like(zeros), line.get_color(), label=name, **look)
 
 
 def _of(ax: Axes, gid: str) -> list[Line2D]:
@@ -130,7 +117,7 @@ def _of(ax: Axes, gid: str) -> list[Line2D]:
 
 def _beside_each_other(ax: Axes) -> None:
     """Shift the stems of all series on the axes, so that those of an order stand about it."""
-    drawn, hollow = _of(ax, SERIES), _of(ax, ZEROS)
+    drawn, circles = _of(ax, SERIES), _of(ax, ZEROS)
     figure: Any = ax.get_figure(root=False)
     to_inches = figure.dpi_scale_trans
     # Half orders stand closer than whole ones: the stems of one must not reach those of the next.
@@ -140,7 +127,7 @@ def _beside_each_other(ax: Axes) -> None:
     gap = np.diff(orders, prepend=0.0).min() / orders[-1]
     width = 72.0 * ax.get_window_extent().width / figure.dpi
     beside = min(BESIDE, 0.9 * gap * width / len(drawn))
-    for k, (line, zeros) in enumerate(zip(drawn, hollow, strict=True)):
+    for k, (line, zeros) in enumerate(zip(drawn, circles, strict=True)):
         points = beside * (k - 0.5 * (len(drawn) - 1))
         shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
         line.set_transform(ax.transData + shift)

@@ -24,7 +24,7 @@ from crankpin.plot.style import (
     muted,
     ring,
     series,
-    write,
+    write_at_mark,
 )
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, number, plain_text, rounded
@@ -251,7 +251,7 @@ def _bob_weight(
         x = np.array([factor for factor, _ in lines])
         ring(ax, x, np.zeros_like(x), foreground(ax), "D", "straight line, with its direction")
         for factor, direction_deg in lines:
-            write(ax, factor, 0.0, in_degrees(round(direction_deg, 1)))
+            write_at_mark(ax, factor, 0.0, in_degrees(round(direction_deg, 1)))
     label_x(ax, "balance factor")
     label_y(ax, f"half axes, {QUANTITIES[name].unit_over_square}")
     add_legend(ax)

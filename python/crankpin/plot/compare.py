@@ -22,7 +22,7 @@ from crankpin.plot.layout import (
     points_of,
     set_panel_title,
 )
-from crankpin.plot.style import background, series
+from crankpin.plot.style import background, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, number, rounded, with_unit
 
@@ -124,16 +124,8 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     apart = float(np.diff(orders).min(initial=last)) / last
     upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
     for order, k, text in zip(orders.tolist(), shown, texts, strict=True):
-        ax.annotate(
-            text,
-            (order, float(pairs[:, k].max())),
-            (0.0, 3.0),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            fontsize="x-small",
-            rotation=90.0 if upright else 0.0,
-        )
+        look = {"va": "bottom", "fontsize": "x-small", "rotation": 90.0 if upright else 0.0}
+        write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
     ax.set_xlim(0.0, last)
     ax.set_ylim(0.0, (1.4 if upright else 1.25) * top or 1.0)
     numeric(ax.xaxis, whole=True)

@@ -38,6 +38,7 @@ from crankpin.plot.shapes import (
     text_corner,
     wedge,
 )
+from crankpin.plot.style import write
 from crankpin.plot.words import plain_text
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     # The layout may make the axes smaller yet.
     scale = 0.8 * 72.0 * inches_of(ax) / (2.0 * limit)
     for at, cylinders in _numbers(ax, pins, scale * reach).items():
-        outside(ax, reach * at, listed(cylinders), fontsize="small")
+        outside(ax, reach * at, listed(cylinders))
     ax.set_aspect("equal")
     ax.set_xlim(-limit, limit)
     ax.set_ylim(-limit, limit)
@@ -228,15 +229,7 @@ def _number(
     if points_of(ax, text, FontProperties(size="small")) > room:
         text = text.replace(", ", "\n")
     up = 1.0 if y > -1e-9 * clear else -1.0
-    ax.annotate(
-        text,
-        (z, y + up * clear),
-        (0.0, 3.0 * up),
-        textcoords="offset points",
-        ha="center",
-        va="bottom" if up > 0.0 else "top",
-        fontsize="small",
-    )
+    write(ax, text, complex(z, y + up * clear), 3.0j * up, va="bottom" if up > 0.0 else "top")
 
 
 def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) -> None:
@@ -266,14 +259,8 @@ def _shafts(
     add(ax, rods, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=2)
     add(ax, plates, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.8, zorder=4)
     for y, texts in names.items():
-        ax.annotate(
-            plain_text(", ".join(texts)),
-            (ends[1], y),
-            (4.0, 0.0),
-            textcoords="offset points",
-            va="center",
-            fontsize="x-small",
-        )
+        name = plain_text(", ".join(texts))
+        write(ax, name, complex(ends[1], y), 4.0 + 0j, ha="left", fontsize="x-small")
         ax.update_datalim([(ends[0], y - crank_radius(engine)), (ends[1], y)])
 
 

@@ -40,7 +40,7 @@ from crankpin.plot.style import (
     ring,
     scale,
     series,
-    write,
+    write_at_mark,
 )
 from crankpin.plot.ticks import RoundLocator, degrees, from_zero, numeric, span
 from crankpin.plot.words import in_degrees, number, plain_text
@@ -323,7 +323,7 @@ def mark(
             ring(ax, zeros, np.zeros_like(zeros), curve.style["color"], "o", ZERO)
             found |= dict.fromkeys(zeros.tolist(), "")
     for place in sorted(found)[:MOST_MARKS]:
-        write(ax, place, 0.0, at(along, place))
+        write_at_mark(ax, place, 0.0, at(along, place))
     if not least or not peaks.size or peaks.min() == 0.0:
         return
     best = np.argwhere(peaks == peaks.min())
@@ -331,7 +331,7 @@ def mark(
         place = float(x[best[0][0]])
         value = float(peaks.min())
         ring(ax, np.array([place]), np.array([value]), foreground(ax), "D", LEAST)
-        write(ax, place, value, at(along, place))
+        write_at_mark(ax, place, value, at(along, place))
 
 
 def entry_of(panels: NDArray[Any], text: str) -> Line2D | None:

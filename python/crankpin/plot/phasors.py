@@ -33,7 +33,7 @@ from crankpin.plot.layout import (
     set_title,
 )
 from crankpin.plot.shapes import listed, outside
-from crankpin.plot.style import colours, foreground, muted
+from crankpin.plot.style import colours, foreground, muted, write
 from crankpin.plot.words import drawn_quantity, number, rounded
 
 if TYPE_CHECKING:
@@ -169,15 +169,7 @@ def _name(ax: Axes, names: Sequence[tuple[str, complex, complex]]) -> None:
         else:
             written.append(([text], place, aside))
     for texts, place, aside in written:
-        ax.annotate(
-            ", ".join(texts),
-            (place.real, place.imag),
-            (aside.real, aside.imag),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize="small",
-        )
+        write(ax, ", ".join(texts), place, aside)
 
 
 def arrow(ax: Axes, start: complex, end: complex, shift: complex, **style: Any) -> None:  # noqa: ANN401
@@ -291,7 +283,7 @@ def _star(
         farthest = max(tips, key=abs)
         arrow(ax, 0j, farthest, 0j, **looks)
         ax.plot(np.real(tips), np.imag(tips), ".", color=looks["color"], gid="tip")
-        outside(ax, farthest, listed(numbers), fontsize="small")
+        outside(ax, farthest, listed(numbers))
     size = float(np.abs(vectors).sum())
     handles = [Line2D([], [], color=looks["color"], linewidth=1.5, label="cylinders")]
     if total:

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import label_x, label_y, note_zero
-from crankpin.plot.style import SERIES, count_series, foreground, muted, series
+from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees
 
@@ -120,16 +120,9 @@ def _labelled(
 def _annotate(ax: Axes, point: complex, text: str, direction: complex) -> None:
     """Write beside a point, on the side to which a direction leads."""
     outward = direction / abs(direction) if direction else 1.0 + 0.0j
-    ax.annotate(
-        text,
-        (point.real, point.imag),
-        (11.0 * outward.real, 11.0 * outward.imag),
-        textcoords="offset points",
-        fontsize="small",
-        color=foreground(ax),
-        ha="center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right",
-        va="center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top",
-    )
+    ha = "center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right"
+    va = "center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top"
+    write(ax, text, point, 11.0 * outward, ha=ha, va=va, color=foreground(ax))
 
 
 def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:

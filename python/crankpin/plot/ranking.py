@@ -17,7 +17,7 @@ from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import engine_looks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
-from crankpin.plot.style import DISTINCT, SERIES, foreground, ring, series, write
+from crankpin.plot.style import DISTINCT, SERIES, foreground, ring, series, write_at_mark
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import (
     in_degrees,
@@ -109,7 +109,11 @@ def _curves(
         ring(ax, best, np.full(best.shape, choice.value), look["color"], "o", BEST)
         if choice.place == 1:
             for angle in best[:3]:
-                write(ax, float(angle), choice.value, in_degrees(float(numbers([angle])[0])))
+                write_at_mark(ax, float(angle), choice.value, _angle(angle))
+
+
+def _angle(value: float) -> str:
+    return in_degrees(float(numbers([value])[0]))
 
 
 def _with_best(
@@ -207,7 +211,7 @@ def _over_bank_angle(
     for k, design in enumerate(best):
         place = np.array([own[k]]), np.array([design.value])
         ring(ax, *place, looks[firsts[k]]["color"], "o", DESIGN)
-    write(ax, own[0], best[0].value, in_degrees(float(numbers([own[0]])[0])))
+    write_at_mark(ax, own[0], best[0].value, _angle(own[0]))
 
 
 # --- searches -----------------------------------------------------------------------------------
@@ -276,7 +280,7 @@ def _listed(
     ring(ax, values[first], rows[first], foreground(ax), "o", "_")
     for row, value in zip(rows, values, strict=True):
         if np.isfinite(value):
-            write(ax, float(value), float(row), rounded(value, 4), beside=True)
+            write_at_mark(ax, float(value), float(row), rounded(value, 4), beside=True)
     ax.set_yticks(rows, [plain_text(name) for name in names])
     ax.set_ylim(len(best) - 0.5, -0.5)
     numeric(ax.xaxis)

@@ -30,6 +30,7 @@ from crankpin.plot.shapes import (
     radius_of_amounts,
     wedge,
 )
+from crankpin.plot.style import write
 from crankpin.plot.words import number, plain_text
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def _walls(engine: Engine, ax: Axes, at: Geometry, bores: NDArray[np.float64], i
         ax.plot(corners.real, corners.imag, color=ink.line, linewidth=1.2, linestyle="-", zorder=2)
         axis = at.foot[k] + np.array([0.0, heads[k]]) * at.along[k]
         ax.plot(axis.real, axis.imag, color=ink.faint, linewidth=0.6, linestyle="-.", zorder=1)
-        outside(ax, axis[1], listed([each + 1 for each in cylinders]), fontsize="small")
+        outside(ax, axis[1], listed([each + 1 for each in cylinders]))
         reached.append(corners)
     # Numbers need room beyond the heads.
     ax.update_datalim(points(1.06 * np.concatenate(reached)))
@@ -149,15 +150,9 @@ def _shafts(engine: Engine, ax: Axes, theta_deg: float, ink: Inks) -> None:
     add(ax, sectors, facecolor=ink.shaft, edgecolor=ink.line, linewidth=0.6, zorder=5)
     add(ax, discs, facecolor=ink.paper, edgecolor=ink.line, linewidth=0.8, zorder=5.1)
     for place, texts in names.items():
-        below = -0.9j * crank_radius(engine)
-        ax.text(
-            place.real,
-            (place + below).imag,
-            plain_text("\n".join(texts)),
-            ha="center",
-            va="top",
-            fontsize="x-small",
-        )
+        below = place - 0.9j * crank_radius(engine)
+        look: dict[str, Any] = {"ha": "center", "va": "top", "fontsize": "x-small"}
+        ax.text(below.real, below.imag, plain_text("\n".join(texts)), **look)
         reach = disc(place, 1.1 * crank_radius(engine))
         ax.update_datalim(points(reach))
 
@@ -176,12 +171,5 @@ def _scale_bar(engine: Engine, ax: Axes, ink: Inks) -> None:
     low -= 0.16 * (high - low)  # below the numbers of hanging cylinders
     ax.set_ylim(low, high)
     ax.plot([left, left + length], [low, low], color=ink.line, linewidth=1.5, linestyle="-")
-    ax.annotate(
-        f"{number(length)} m",
-        (left + 0.5 * length, low),
-        (0.0, -3.0),
-        textcoords="offset points",
-        ha="center",
-        va="top",
-        fontsize="x-small",
-    )
+    middle = complex(left + 0.5 * length, low)
+    write(ax, f"{number(length)} m", middle, -3.0j, va="top", fontsize="x-small")

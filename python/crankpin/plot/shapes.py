@@ -18,7 +18,7 @@ from crankpin.analysis.geometry import (
     weights_on_shafts,
 )
 from crankpin.model.crankpins import crankpins
-from crankpin.plot.style import background, colours, foreground, muted
+from crankpin.plot.style import background, colours, foreground, muted, write
 from crankpin.plot.words import rounded
 
 if TYPE_CHECKING:
@@ -204,19 +204,13 @@ def listed(numbers: Sequence[int]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def outside(ax: Axes, place: complex, text: str, **style: Any) -> None:  # noqa: ANN401
+def outside(ax: Axes, place: complex, text: str) -> None:
     """Write beyond a point, as seen from the origin."""
     towards = place / abs(place)
     left, bottom = text_corner(towards)
-    ax.annotate(
-        text,
-        (place.real, place.imag),
-        (6.0 * towards.real, 6.0 * towards.imag),
-        textcoords="offset points",
-        ha={0.0: "left", -0.5: "center", -1.0: "right"}[left],
-        va={0.0: "bottom", -0.5: "center", -1.0: "top"}[bottom],
-        **style,
-    )
+    ha = {0.0: "left", -0.5: "center", -1.0: "right"}[left]
+    va = {0.0: "bottom", -0.5: "center", -1.0: "top"}[bottom]
+    write(ax, text, place, 6.0 * towards, ha=ha, va=va)
 
 
 def text_corner(towards: complex) -> tuple[float, float]:
@@ -230,11 +224,5 @@ def text_corner(towards: complex) -> tuple[float, float]:
 def arrow_round(ax: Axes, radius: float, at_deg: float, ink: Inks) -> None:
     """Draw the head of an arrow that goes round the crank's axis counter-clockwise."""
     tip, tail = (radius * complex(direction(at_deg + turn)) for turn in (2.0, -2.0))
-    ax.annotate(
-        "",
-        (tip.real, tip.imag),
-        (tail.real, tail.imag),
-        arrowprops={
-            "arrowstyle": "-|>", "color": ink.faint, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0,
-        },
-    )  # fmt: skip
+    look = {"arrowstyle": "-|>", "color": ink.faint, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", (tip.real, tip.imag), (tail.real, tail.imag), arrowprops=look)

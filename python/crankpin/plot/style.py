@@ -155,39 +155,41 @@ def ring(
 ) -> None:
     """Draw hollow marks; the first with a label on the axes is its entry in the legend."""
     known = label in ax.get_legend_handles_labels()[1]
-    ax.plot(
-        x,
-        y,
-        linestyle="",
-        marker=marker,
-        markersize=8.0,
-        markeredgecolor=colour,
-        markeredgewidth=1.2,
-        markerfacecolor="none",
-        clip_on=False,
-        zorder=4,
-        gid=MARK,
-        label="_" if known else label,
-    )
+    look = {"marker": marker, "markersize": 8.0, "markeredgewidth": 1.2, "zorder": 4, "gid": MARK}
+    hollow(ax, x, y, colour, **look, markerfacecolor="none", label="_" if known else label)
 
 
-def write(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
+def hollow(
+    ax: Axes,
+    x: NDArray[Any],
+    y: NDArray[Any],
+    colour: Any,  # noqa: ANN401 - a colour
+    **style: Any,  # noqa: ANN401 - of lines
+) -> Line2D:
+    """Draw circles with the colour of the background in them, such as those of zeros."""
+    look: dict[str, Any] = {"linestyle": "", "marker": "o", "clip_on": False, "zorder": 3}
+    look |= {"markeredgecolor": colour, "markerfacecolor": background(ax)}
+    (line,) = ax.plot(x, y, **(look | style))
+    # The layout would make room for a line without points at the figure's corner.
+    line.set_in_layout(bool(len(x)))
+    return line
+
+
+def write(ax: Axes, text: str, place: complex, aside: complex, **style: Any) -> None:  # noqa: ANN401
+    """Write aside of a point x + iy by a distance in points, centred there but for the style."""
+    look = {"ha": "center", "va": "center", "fontsize": "small", "textcoords": "offset points"}
+    ax.annotate(text, (place.real, place.imag), (aside.real, aside.imag), **(look | style))
+
+
+def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = False) -> None:
     """Write above a mark, or beside it on the right."""
     low, high = ax.get_xlim()
     part = (x - low) / (high - low)
     within = "left" if part < 0.06 else "right" if part > 0.94 else "center"
-    written = ax.annotate(
-        text,
-        (x, y),
-        (8.0, 0.0) if beside else (0.0, 7.0),
-        textcoords="offset points",
-        ha="left" if beside else within,
-        va="center" if beside else "bottom",
-        fontsize="small",
-        color=foreground(ax),
-        zorder=5,
-    )
-    written.set_path_effects([withStroke(linewidth=2.5, foreground=background(ax))])
+    look: dict[str, Any] = {"ha": "left"} if beside else {"ha": within, "va": "bottom"}
+    look["path_effects"] = [withStroke(linewidth=2.5, foreground=background(ax))]
+    aside = 8.0 + 0j if beside else 7.0j
+    write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
 
 
 def entry(ax: Axes, label: str) -> Line2D | None:

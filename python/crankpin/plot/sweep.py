@@ -20,7 +20,7 @@ from crankpin.plot.layout import (
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, swept_quantity, words_of
-from crankpin.plot.style import DISTINCT, background, colours, foreground, muted
+from crankpin.plot.style import DISTINCT, background, colours, foreground, hollow, muted, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import plain_text
 
@@ -114,22 +114,11 @@ def _panel(
     rows, height = np.arange(len(names)), 0.8 / len(orders)
     for k, (order, colour) in enumerate(zip(orders, colours(ax, len(orders)), strict=True)):
         up, values = rows + (k - 0.5 * (len(orders) - 1)) * height, peaks[:, k]
+        zeros = up[values == 0.0]
         look = {"color": colour, "hatch": HATCHES[k % len(HATCHES)], "edgecolor": background(ax)}
         look |= {"linewidth": 0.0, "label": f"order {order}"} | style
         ax.barh(up, values, 0.92 * height, **look)
-        (hollow,) = ax.plot(
-            np.zeros(int((values == 0.0).sum())),
-            up[values == 0.0],
-            linestyle="",
-            marker="o",
-            markersize=3.5,
-            markeredgecolor=colour,
-            markerfacecolor=background(ax),
-            clip_on=False,
-            zorder=3,
-        )
-        # The layout would make room for a line without points at the figure's corner.
-        hollow.set_in_layout(bool((values == 0.0).any()))
+        hollow(ax, np.zeros_like(zeros), zeros, colour, markersize=3.5)
     numeric(ax.xaxis)
     ax.set_xlim(0.0, 1.08 * float(peaks.max(initial=0.0)) or 1.0)
     label_x(ax, f"peak, {QUANTITIES[quantity].unit}")
@@ -141,17 +130,9 @@ def _panel(
 def _class(ax: Axes, classes: Sequence[str]) -> None:
     """Write the class of each engine beside its row."""
     for row, text in enumerate(classes):
-        ax.annotate(
-            text,
-            (1.0, row),
-            (5.0, 0.0),
-            xycoords=("axes fraction", "data"),
-            textcoords="offset points",
-            va="center",
-            fontsize="small",
-            color=foreground(ax) if text == CLASSES[False, False] else muted(ax),
-            annotation_clip=False,
-        )
+        colour = foreground(ax) if text == CLASSES[False, False] else muted(ax)
+        at: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "annotation_clip": False}
+        write(ax, text, complex(1.0, row), 5.0 + 0j, ha="left", color=colour, **at)
 
 
 # --- sweep ---------------------------------------------------------------------------------------
