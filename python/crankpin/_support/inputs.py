@@ -77,8 +77,6 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
             raise TypeError("masked arrays are not supported; use .filled()")
         if type(values) is int or type(values) is float:
             return np.array(float(values))
-        if isinstance(values, (list, tuple)) and _BOOLEANS & {*map(type, values)}:
-            raise TypeError("a truth value is not a number")
         found = _from_list(values)
         if found.dtype.kind not in "fiu":
             if found.dtype.kind != "O":
@@ -118,9 +116,14 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def _from_list(values: ArrayLike) -> NDArray[Any]:
     if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE:
-        return np.asarray(values)
-    pieces = [np.asarray(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
-    return np.concatenate(pieces)
+        return _piece(values)
+    return np.concatenate([_piece(values[k : k + PIECE]) for k in range(0, len(values), PIECE)])
+
+
+def _piece(values: ArrayLike) -> NDArray[Any]:
+    if isinstance(values, (list, tuple)) and _BOOLEANS & {*map(type, values)}:
+        raise TypeError("a truth value is not a number")
+    return np.asarray(values)
 
 
 def copied(values: NDArray[Any]) -> NDArray[np.float64]:

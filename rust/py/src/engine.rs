@@ -505,8 +505,9 @@ impl Engine {
         let fired = |cycles: Vec<Option<PyRef<'_, Cycle>>>| {
             let mut known: Vec<Arc<core::Cycle>> = Vec::new();
             let mut index = |cycle: PyRef<'_, Cycle>| {
-                known.iter().position(|other| **other == cycle.0).unwrap_or_else(|| {
-                    known.push(Arc::new(cycle.0.clone()));
+                let is_it = |other: &Arc<_>| Arc::ptr_eq(other, &cycle.0) || *other == cycle.0;
+                known.iter().position(is_it).unwrap_or_else(|| {
+                    known.push(Arc::clone(&cycle.0));
                     known.len() - 1
                 })
             };
@@ -540,7 +541,7 @@ impl Engine {
     #[getter]
     fn cycles(&self) -> Option<Vec<Option<Cycle>>> {
         let gas = self.0.gas()?;
-        let cycle = |index: &Option<usize>| index.map(|k| Cycle((*gas.cycles[k]).clone()));
+        let cycle = |index: &Option<usize>| index.map(|k| Cycle(Arc::clone(&gas.cycles[k])));
         Some(gas.cycle_of.iter().map(cycle).collect())
     }
 

@@ -1,6 +1,7 @@
 //! Cylinder pressure over a cycle.
 
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 use crankpin_core as core;
 use crankpin_core::layout::Strokes;
@@ -19,7 +20,13 @@ use crate::interrupt;
 /// Points of a cycle, checked, and what interpolates between them.
 #[pyclass(frozen, eq, hash, module = "crankpin._core")]
 #[derive(Clone, PartialEq)]
-pub struct Cycle(pub core::Cycle);
+pub struct Cycle(pub Arc<core::Cycle>);
+
+impl From<core::Cycle> for Cycle {
+    fn from(cycle: core::Cycle) -> Self {
+        Self(Arc::new(cycle))
+    }
+}
 
 impl Hash for Cycle {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -67,7 +74,7 @@ impl Cycle {
         let few = |values: &[f64]| values[..values.len().min(longest)].to_vec();
         let given =
             Given { name, strokes, theta_deg: few(theta_deg), pressure: few(pressure), degree };
-        core::Cycle::new(given).or_raise().map(Self)
+        core::Cycle::new(given).or_raise().map(Self::from)
     }
 
     /// Crank angles, pressures, strokes, name and degree.
@@ -103,7 +110,7 @@ impl Cycle {
             intake_pressure: entry(figures, "intake_pressure")?,
             exhaust_pressure: entry(figures, "exhaust_pressure")?,
         };
-        ideal.cycle(&chamber, name).or_raise().map(Self)
+        ideal.cycle(&chamber, name).or_raise().map(Self::from)
     }
 
     /// One zone with a Wiebe burn: `heat` in J, or None for that of fuel at `excess_air`; a wall
@@ -145,15 +152,15 @@ impl Cycle {
             exhaust_opens_deg: entry(figures, "exhaust_opens_deg")?,
             wall,
         };
-        interrupt::run(py, |cancel| wiebe.cycle(&chamber, name, cancel)).map(Self)
+        interrupt::run(py, |cancel| wiebe.cycle(&chamber, name, cancel)).map(Self::from)
     }
 
     /// Weighted sum of cycles.
     #[staticmethod]
     fn blend(cycles: Vec<(f64, Bound<'_, Self>)>, name: String) -> PyResult<Self> {
         let parts: Vec<_> =
-            cycles.iter().map(|(weight, cycle)| (*weight, &cycle.get().0)).collect();
-        core::Cycle::blend(&parts, name).or_raise().map(Self)
+            cycles.iter().map(|(weight, cycle)| (*weight, &*cycle.get().0)).collect();
+        core::Cycle::blend(&parts, name).or_raise().map(Self::from)
     }
 
     fn __len__(&self) -> usize {
@@ -167,7 +174,7 @@ impl Cycle {
 
     /// Every other point.
     fn thinned(&self, from_second: bool) -> Option<Self> {
-        self.0.thinned(from_second).map(Self)
+        self.0.thinned(from_second).map(Self::from)
     }
 
     /// Absolute pressure at crank angles, degrees.

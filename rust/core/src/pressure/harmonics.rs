@@ -91,7 +91,7 @@ impl Cycle {
         orders: &[Order],
         cancel: &Cancel,
     ) -> Result<GasTorque> {
-        self.integrate(proportions, crankcase, orders, cancel).map(|(torque, _)| torque)
+        self.integrate::<false>(proportions, crankcase, orders, cancel).map(|(torque, _)| torque)
     }
 
     /// Torque at orders ½, 1, 1½ … up to one, and bounds of the sum of the magnitudes of all phasors above
@@ -108,7 +108,7 @@ impl Cycle {
         cancel: &Cancel,
     ) -> Result<(GasTorque, Vec<f64>)> {
         let orders = (1..=highest.halves()).map(Order::from_halves).collect::<Result<Vec<_>>>()?;
-        let (torque, squares) = self.integrate(proportions, crankcase, &orders, cancel)?;
+        let (torque, squares) = self.integrate::<true>(proportions, crankcase, &orders, cancel)?;
         let step = if self.strokes == Strokes::Four { 0.5 } else { 1.0 };
         let mut left = squares;
         let tail = |(order, phasor): (&Order, &Complex64)| {
@@ -126,8 +126,9 @@ impl Cycle {
         Ok((torque, tails))
     }
 
-    /// Torque, and twice the mean squares of its slope and bend: infinite where it jumps, or its slope.
-    fn integrate(
+    /// Torque, and if wanted twice the mean squares of its slope and bend: infinite where it jumps, or its
+    /// slope.
+    fn integrate<const SQUARES: bool>(
         &self,
         proportions: &Proportions,
         crankcase: f64,
@@ -155,14 +156,15 @@ impl Cycle {
             cancel.check()
         };
         for panel in 0..self.panels.edges.len() - 1 {
-            self.nodes(panel, proportions, crankcase, highest, &mut points, &mut finish)?;
+            let points = &mut points;
+            self.nodes::<SQUARES>(panel, proportions, crankcase, highest, points, &mut finish)?;
         }
         finish(&mut points)?;
         let mut phasors = memory::zeros(orders.len())?;
         for (&k, sum) in sorted.iter().zip(&sums) {
             phasors[k] = sum * (2.0 / period);
         }
-        let jumps = self.jumps(proportions, crankcase);
+        let jumps = if SQUARES { self.jumps(proportions, crankcase) } else { [false; 2] };
         let squares = [0, 1].map(|j| {
             if jumps[..=j].contains(&true) {
                 f64::INFINITY
@@ -174,7 +176,7 @@ impl Cycle {
     }
 
     /// Append the nodes of a panel, halved until a rule is exact to rounding.
-    fn nodes(
+    fn nodes<const SQUARES: bool>(
         &self,
         panel: usize,
         proportions: &Proportions,
@@ -219,6 +221,11 @@ impl Cycle {
                             let (gauge, weight) = (pressure[k] - crankcase, weight * half * width);
                             // The piston's way down is minus its distance from the crank.
                             let torque = -gauge * motion.velocity;
+                            points.theta_deg.push(degrees[k]);
+                            points.weighted.push(weight * torque);
+                            if !SQUARES {
+                                continue;
+                            }
                             let (slope, bend) = (slope[k] / half, bend[k] / half.powi(2));
                             let of_torque = [
                                 slope * motion.velocity + gauge * motion.acceleration,
@@ -226,8 +233,6 @@ impl Cycle {
                                     + 2.0 * slope * motion.acceleration
                                     + gauge * jerk(proportions, &motion, sin[k], cos[k]),
                             ];
-                            points.theta_deg.push(degrees[k]);
-                            points.weighted.push(weight * torque);
                             for (square, derivative) in points.squares.iter_mut().zip(of_torque) {
                                 *square += weight * derivative * derivative;
                             }

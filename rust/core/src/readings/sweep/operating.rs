@@ -179,10 +179,17 @@ impl Sweep {
 impl<T: Number> Operating<'_, T> {
     /// Writes every row at every speed and load.
     pub fn write(&self, out: &mut [T], cancel: &Cancel) -> Result<()> {
-        self.each(out, self.width, 1, cancel, |place, _, out| {
-            self.row(place, out);
-            Ok(())
-        })
+        self.each(
+            out,
+            self.width,
+            1,
+            cancel,
+            #[inline(always)]
+            |place, _, out| {
+                self.row(place, out);
+                Ok(())
+            },
+        )
     }
 
     /// Writes one row at a speed and a load.
