@@ -656,7 +656,7 @@ def test_refusals() -> None:
         ([[1], [9]], r"groups\[1\] = 9: name cylinders"),
         ([[0]], r"groups\[0\] = 0: give lists of cylinder numbers"),
         ([[]], r"groups\[0\] = \[\]: name at least one"),
-        ([["a"]], r"groups\[0\] = \['a'\]: give lists"),
+        ([["a"]], r"groups\[0\] = 'a': give a whole number"),
         ([1], r"groups\[0\] = 1: give lists"),
         (3, "groups = 3: give lists"),
     ]

@@ -10,6 +10,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
@@ -831,10 +832,6 @@ def test_firing_of_the_engine_s_own_order(capsys: CAPTURE) -> None:
 
 
 def test_crankpin_is_a_command() -> None:
-    (entry,) = (
-        line
-        for line in (Path(__file__).parents[2] / "pyproject.toml").read_text().splitlines()
-        if line.startswith("crankpin = ")
-    )
-    module, _, function = entry.split('"')[1].partition(":")
+    text = (Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8")
+    module, _, function = tomllib.loads(text)["project"]["scripts"]["crankpin"].partition(":")
     assert callable(getattr(importlib.import_module(module), function))

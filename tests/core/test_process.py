@@ -73,7 +73,7 @@ NO_THREADS = {"RUST_MIN_STACK": str(2**60)}
 
 @linux
 def test_calls_compute_in_the_calling_thread_where_no_thread_can_be_started() -> None:
-    program = Path(long_calls.__file__).read_text()
+    program = Path(long_calls.__file__).read_text(encoding="utf-8")
     assert python(program, NO_THREADS) == python(program)
 
 

@@ -6,53 +6,38 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import pandas as pd
+    import xarray as xr
+
+EXTRAS = {
+    "anywidget": "view",
+    "dask.array": "dask",
+    "matplotlib": "plot",
+    "scipy.optimize": "optimize",
+    "sympy": "exact",
+    "tqdm.auto": "progress",
+}
+"""Library → the extra that installs it, where that has another name."""
 
 
-def pandas() -> Any:  # noqa: ANN401 - a module
-    """Return pandas, or raise an ImportError that names the extra to install."""
-    return _imported("pandas")
-
-
-def data_frame(data: object, **options: object) -> pd.DataFrame:
-    """Return a table of pandas, or raise an ImportError that names the extra to install."""
-    table: pd.DataFrame = pandas().DataFrame(data, **options)
-    return table
-
-
-def xarray() -> Any:  # noqa: ANN401 - a module
-    """Return xarray, or raise an ImportError that names the extra to install."""
-    return _imported("xarray")
-
-
-def dask() -> Any:  # noqa: ANN401 - a module
-    """Return dask.array, or raise an ImportError that names the extra to install."""
-    return _imported("dask.array", "dask")
-
-
-def sympy() -> Any:  # noqa: ANN401 - a module
-    """Return SymPy, or raise an ImportError that names the extra to install."""
-    return _imported("sympy", "exact")
-
-
-def matplotlib() -> Any:  # noqa: ANN401 - a module
-    """Return matplotlib, or raise an ImportError that names the extra to install."""
-    return _imported("matplotlib", "plot")
-
-
-def anywidget() -> Any:  # noqa: ANN401 - a module
-    """Return anywidget, or raise an ImportError that names the extra to install."""
-    return _imported("anywidget", "view")
-
-
-def scipy_optimize() -> Any:  # noqa: ANN401 - a module
-    """Return ``scipy.optimize``, or raise an ImportError that names the extra to install."""
-    return _imported("scipy.optimize", "optimize")
-
-
-def _imported(name: str, extra: str | None = None) -> Any:  # noqa: ANN401 - a module
+def library(name: str) -> Any:  # noqa: ANN401 - a module
+    """Return a library, or raise an ImportError that names the extra to install."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        hint = f'pip install "crankpin[{extra or name}]"'
+        hint = f'pip install "crankpin[{EXTRAS.get(name, name)}]"'
         raise ImportError(f"{name} is not installed: {hint}") from error
+
+
+def data_frame(data: object, **options: object) -> pd.DataFrame:
+    """Return a table of pandas."""
+    return library("pandas").DataFrame(data, **options)  # type: ignore[no-any-return]
+
+
+def dataset(
+    arrays: Mapping[str, object], coords: Mapping[str, object], attributes: Mapping[str, object]
+) -> xr.Dataset:
+    """Return arrays of xarray with their coordinates and attributes."""
+    return library("xarray").Dataset(arrays, coords, attributes)  # type: ignore[no-any-return]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, TypeAlias
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, optional
 
 Progress: TypeAlias = bool | Callable[[int, int], object]
 """True for a tqdm bar, or a function of (steps done, steps in all) that is called now and then."""
@@ -25,7 +24,7 @@ def shown(
 
 @contextmanager
 def _bar(description: str) -> Iterator[Callable[[int, int], object]]:
-    tqdm = importlib.import_module("tqdm.auto")
+    tqdm = optional.library("tqdm.auto")
     with tqdm.tqdm(desc=description, leave=False) as bar:
 
         def show(done: int, total: int) -> None:
@@ -38,12 +37,7 @@ def _bar(description: str) -> Iterator[Callable[[int, int], object]]:
 def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may give
     """Return the argument if progress can be reported to it."""
     if progress is True:
-        try:
-            importlib.import_module("tqdm")
-        except ImportError as error:
-            raise ImportError(
-                'tqdm is not installed: pip install "crankpin[progress]", or give a function'
-            ) from error
+        optional.library("tqdm.auto")
         return True
     if progress is False or callable(progress):
         return progress  # type: ignore[no-any-return] # callables return what they like

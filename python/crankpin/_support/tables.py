@@ -176,14 +176,11 @@ class Table(Record):
 
     def to_xarray(self) -> xr.Dataset:
         """Return a Dataset over the rows, units as attributes (needs xarray)."""
-        found: xr.Dataset = optional.xarray().Dataset(
-            {
-                head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
-                for head, each in self._distinct(units=False)
-            },
-            attrs={"title": self.title},
-        )
-        return found
+        arrays = {
+            head: ("row", np.array(each.values), {"units": each.unit} if each.unit else {})
+            for head, each in self._distinct(units=False)
+        }
+        return optional.dataset(arrays, {}, {"title": self.title})
 
     def _distinct(self, *, units: bool = True) -> Iterable[tuple[str, Column]]:
         """Yield the columns with heads that are distinct."""

@@ -321,9 +321,7 @@ class BearingLoads(Tabled):
             **labels.coordinates({"theta_deg": self.theta_deg}),
             "axis": ("axis", ["x", "y"]),
         }
-        attributes = {"engine": self.engine.name, "rpm": self.rpm}
-        found: xr.Dataset = optional.xarray().Dataset(arrays, coords, attributes)
-        return found
+        return optional.dataset(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
 
     def plot(self, ax: Any = None, *, kind: str = "polar", **options: Any) -> Any:  # noqa: ANN401
         """Draw loads; return the axes.

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import operator
 from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Record
@@ -35,7 +33,8 @@ def closed_form(
     """Return a closed form; :meth:`Engine.closed_form` documents the arguments."""
     word = inputs.one_of("quantity", quantity, ["force", "moment"])
     plane = inputs.optional_number("reference_z", reference_z)
-    return ClosedForm(engine, _one_order(order), word, plane)
+    (single,) = inputs.explicit_orders([inputs.whole("order", order)], "order")
+    return ClosedForm(engine, single, word, plane)
 
 
 class ClosedForm(Record):
@@ -83,7 +82,7 @@ class ClosedForm(Record):
     _phasors: dict[str, tuple[list[int], list[int], list[int]]] = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         moment = self.quantity == "moment"
         unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
             engine_core(self.engine), self.order, moment, self.plane
@@ -133,7 +132,7 @@ class ClosedForm(Record):
     @cached_property
     def peak(self) -> Expression:
         """Length of the longest vector: forward and backward parts aligned."""
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         return sp.expand(self._size("forward") + self._size("backward")) * self._unit
 
     @cached_property
@@ -204,7 +203,7 @@ class ClosedForm(Record):
 
     def _cosines(self, coefficients: list[int], denominator: int) -> Expression:
         """Return Σ cₖ 2cos(2πk/N), in radicals where SymPy knows them."""
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         if self._zero:
             return sp.Integer(0)
         terms = [
@@ -223,17 +222,17 @@ class ClosedForm(Record):
 
     def _phasor(self, axis: str) -> Expression:
         real, imaginary = self._parts_of(axis)
-        return (real + optional.sympy().I * imaginary) * self._unit
+        return (real + optional.library("sympy").I * imaginary) * self._unit
 
     def _size(self, axis: str) -> Expression:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         square = self._cosines(self._phasors[axis][2], self._denominator**2)
         if square.has(sp.cos):
             return sp.sqrt(square)
         return sp.sqrtdenest(sp.sqrt(square))
 
     def _phase(self, axis: str) -> Expression:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         real, imaginary = self._parts_of(axis)
         if real == 0 or imaginary == 0:
             return sp.atan2(imaginary, real) if real != imaginary else sp.Integer(0)
@@ -246,7 +245,7 @@ class ClosedForm(Record):
         return sp.atan(ratio) + (sp.pi if imaginary.evalf() > 0 else -sp.pi)
 
     def _terms(self, axis: str) -> tuple[Expression, ...]:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         if self._zero:
             return ()
         # The moment of a force about x comes from its part along y, and is negative.
@@ -271,13 +270,13 @@ class ClosedForm(Record):
 
     def _wave(self, turns: Fraction) -> Expression:
         """Return cos(nθ + phase) unevaluated: SymPy would turn some into sines."""
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         lag = -turns % 1
         phase = 2 * sp.pi * sp.Rational(lag.numerator, lag.denominator)
         return sp.cos(self.order * self.theta - phase, evaluate=False)
 
     def _sum(self, axis: str) -> Expression:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         real, imaginary = self._parts_of(axis)
         angle = self.order * self.theta
         return (real * sp.cos(angle) - imaginary * sp.sin(angle)) * self._unit
@@ -305,7 +304,7 @@ class ClosedForm(Record):
         return "\n".join(lines)
 
     def _repr_latex_(self) -> str:
-        sp = optional.sympy()
+        sp = optional.library("sympy")
         letter = "F" if self.quantity == "force" else "M"
         rows = []
         for axis in ("x", "y"):
@@ -332,12 +331,3 @@ def _rows(name: str, terms: list[str]) -> list[str]:
     text = [term if k == 0 or term.startswith("-") else f"+{term}" for k, term in enumerate(terms)]
     lines = ["".join(text[k : k + PER_ROW]) for k in range(0, len(text), PER_ROW)]
     return [f"{name} &= {lines[0]}", *(rf"&\quad {line}" for line in lines[1:])]
-
-
-def _one_order(order: object) -> int:
-    """Return a single order."""
-    try:
-        return inputs.explicit_orders([operator.index(order)], "order")[0]  # type: ignore[arg-type]
-    except TypeError:
-        hint = "give one whole multiple of crank speed, such as 1"
-        raise InputError(f"order = {inputs.shorten(order)}: {hint}") from None

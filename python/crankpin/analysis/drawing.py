@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - matplotlib's axes
     """Draw a result; matplotlib is imported here."""
-    optional.matplotlib()
+    optional.library("matplotlib")
     from crankpin import plot  # noqa: PLC0415 - matplotlib is imported when used
 
     return plot.draw(result, ax, **options)
@@ -21,7 +21,7 @@ def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401
 def inline_svg(engine: Engine) -> str | None:
     """Return a small picture of an engine as an SVG element; None without matplotlib."""
     try:
-        optional.matplotlib()
+        optional.library("matplotlib")
     except ImportError:
         return None
     from crankpin import plot  # noqa: PLC0415 - as above

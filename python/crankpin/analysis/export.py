@@ -81,8 +81,7 @@ def to_xarray(
     if inputs.flag("split_complex", split_complex):
         arrays = {name: _split(variable) for name, variable in arrays.items()}
         coords["part"] = ("part", ["re", "im"])
-    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, {**result._attributes, **bounds})
-    return found
+    return optional.dataset(arrays, coords, {**result._attributes, **bounds})
 
 
 def _split(variable: tuple[tuple[str, ...], Any, dict[str, str]]) -> Any:  # noqa: ANN401
@@ -139,7 +138,7 @@ def _tidy(
     coords: Mapping[str, Any], columns: Sequence[tuple[str, str, Mapping[str, Any]]]
 ) -> pd.DataFrame:
     """Return figures of each quantity and component, below each other."""
-    pandas = optional.pandas()
+    pandas = optional.library("pandas")
     points = {name: list(values) for name, values in coords.items()}
     index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
     parts = [
@@ -165,5 +164,4 @@ def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Data
         for name in quantities
     }
     coords = _labelled(result.coords, quantities)
-    found: xr.Dataset = optional.xarray().Dataset(arrays, coords, result._attributes)
-    return found
+    return optional.dataset(arrays, coords, result._attributes)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
@@ -250,7 +249,7 @@ class Firing(Record):
             "interval_deg": self.intervals_deg,
             "gap_in_bank_deg": self._gap_in_bank(),
         }
-        index = optional.pandas().Index(self.order, name="cylinder")
+        index = optional.library("pandas").Index(self.order, name="cylinder")
         return optional.data_frame(columns, index=index)
 
     def plot(
@@ -420,10 +419,7 @@ def _groups(groups: Groups | None) -> list[list[int]] | None:
     listed = []
     for k, group in enumerate(inputs.items("groups", groups, hint)):
         name = f"groups[{k}]"
-        try:
-            numbers = [operator.index(number) for number in inputs.items(name, group, hint)]
-        except TypeError:
-            raise InputError(f"{name} = {inputs.shorten(group)}: {hint}") from None
+        numbers = [inputs.whole(name, number) for number in inputs.items(name, group, hint)]
         for number in numbers:
             if not 1 <= number < 2**32:
                 raise InputError(f"{name} = {inputs.shorten(number)}: {hint}")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Spectrum
     from crankpin.model.engine import Engine
 
-optional.anywidget()  # says what to install, as the imports would not
+optional.library("anywidget")  # says what to install, as the imports would not
 
 import anywidget  # noqa: E402
 import traitlets  # noqa: E402

@@ -5,13 +5,13 @@ from __future__ import annotations
 import dataclasses
 import heapq
 import math
-import operator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.record import Record
@@ -156,20 +156,16 @@ def search_arrangements(
     >>> round(search.at(49.54)[0].counterweight, 4)
     1.5363
     """
-    try:
-        count = operator.index(cylinders)
-    except TypeError:
-        hint = "give a whole number, such as 14"
-        raise _core.InputError(f"cylinders = {inputs.shorten(cylinders)}: {hint}") from None
+    count = inputs.whole("cylinders", cylinders)
     if not 0 <= count < 2**32:
-        raise _core.InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
+        raise InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
     phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
     rule = inputs.flag("alternating", alternating)
     shared = inputs.flag("shared_pins", shared_pins)
     held = inputs.text("hold", hold, 'give "firing" or "pins"')
     watched = progress_bar.checked(progress)
     if shared and (held != "pins" or rule):
-        raise _core.InputError(
+        raise InputError(
             'shared_pins = True: give hold="pins", and leave out alternating; with top dead '
             "centres held pins are split at all but one bank angle"
         )
@@ -216,7 +212,7 @@ class ArrangementSearch(Record):
         core: object = self.core
         if not isinstance(core, _core.Search):
             hint = "use crankpin.search_arrangements"
-            raise _core.InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
+            raise InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
 
     @property
     def candidates(self) -> int:
@@ -308,13 +304,9 @@ class ArrangementSearch(Record):
         9.13
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
-        hint = "give a whole number, 0 or more"
-        try:
-            wanted = operator.index(count)
-        except TypeError:
-            raise _core.InputError(f"count = {inputs.shorten(count)}: {hint}") from None
+        wanted = inputs.whole("count", count)
         if wanted < 0:
-            raise _core.InputError(f"count = {inputs.shorten(count)}: {hint}")
+            raise InputError(f"count = {wanted}: give a whole number, 0 or more")
         return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
@@ -332,7 +324,7 @@ class ArrangementSearch(Record):
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
-        pandas = optional.pandas()
+        pandas = optional.library("pandas")
         rows = list(self._from(*_window(within)))
         columns = {
             "first_deg": [row.first_deg for row in rows],
@@ -355,11 +347,7 @@ class ArrangementSearch(Record):
         yield from (self[k] for k in range(first, stop))
 
     def _index(self, index: int) -> int:
-        try:
-            position = operator.index(index)
-        except TypeError:
-            given = inputs.shorten(index)
-            raise _core.InputError(f"index = {given}: give a whole number") from None
+        position = inputs.whole("index", index)
         if not -len(self) <= position < len(self):
             # IndexError is what ends iteration over a sequence.
             given = inputs.shorten(position)
@@ -407,7 +395,7 @@ def _window(within: object) -> tuple[float, float]:
     hint = "give two bank angles, such as (45, 90)"
     ends = inputs.items("within", within, hint)
     if len(ends) != 2:
-        raise _core.InputError(f"within = {inputs.shorten(within)}: {hint}")
+        raise InputError(f"within = {inputs.shorten(within)}: {hint}")
     low, high = (_bank_angle("within", end) for end in ends)
     return low, high
 
@@ -415,7 +403,7 @@ def _window(within: object) -> tuple[float, float]:
 def _bank_angle(name: str, value: object) -> float:
     angle = inputs.number(name, value)
     if math.isnan(angle):
-        raise _core.InputError(f"{name} = nan: give a bank angle in degrees")
+        raise InputError(f"{name} = nan: give a bank angle in degrees")
     return angle
 
 

@@ -228,7 +228,7 @@ def _settled(family: Family, merit: Merit, start: Real, objectives: int) -> tupl
 
 def _local(family: Family, merit: Merit, start: Real, objectives: int) -> Real:
     """Return the values of the variables, radians, at a local optimum of the first objectives."""
-    optimize = optional.scipy_optimize()
+    optimize = optional.library("scipy.optimize")
     limits = zip(family.variables, *(np.radians(each) for each in _limits(family)), strict=True)
     bounds = [(None, None) if each.periodic else (low, high) for each, low, high in limits]
 

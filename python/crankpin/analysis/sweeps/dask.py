@@ -23,7 +23,7 @@ Chunks: TypeAlias = "int | str | Mapping[str, int | str | tuple[int, ...]]"
 
 def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Dataset:
     """Return the sweep's arrays as an xarray Dataset of dask arrays."""
-    dask = optional.dask()
+    dask = optional.library("dask.array")
     lengths = {name: len(values) for name, values in whole.coords.items()}
     if not lengths:
         raise InputError("to_dask: nothing is swept; use to_xarray")
@@ -78,7 +78,7 @@ def _block(
 
 def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array
     """Return the values of a dimension in chunks; of "engine" the engines."""
-    dask = optional.dask()
+    dask = optional.library("dask.array")
     if name != "engine":
         return dask.from_array(whole.coords[name], chunks=(chunks,))
     engines = np.empty(len(whole.engines), dtype=object)
@@ -103,7 +103,7 @@ def _normalized(
     try:
         if any(isinstance(length, (bool, np.bool_)) for length in wanted.values()):
             raise TypeError("True and False are not numbers of points")
-        found: tuple[tuple[int, ...], ...] = optional.dask().core.normalize_chunks(
+        found: tuple[tuple[int, ...], ...] = optional.library("dask.array").core.normalize_chunks(
             tuple(wanted.values()), shape=tuple(sizes.values()), dtype=np.complex128
         )
         if any(
