@@ -89,8 +89,9 @@ def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) ->
         # 0.6 kg · 36.25/145 = 0.15 kg; a handful of roundings.
         assert engine.cylinders[0].reciprocating_mass == pytest.approx(0.55, rel=1e-15)
         assert engine.rotating_mass[0] == pytest.approx(0.45, rel=1e-15)
-    weighed = made(capsys, f"{parts} --rod-mass 600g --rotating 500g")
+    weighed = made(capsys, f"{parts} --rod-mass 600g --rotating 500g --pin-offset 1mm")
     assert weighed.rotating_mass.tolist() == [0.5]
+    assert weighed.cylinders[0].pin_offset == 0.001
 
 
 def test_json_and_names(capsys: CAPTURE) -> None:
@@ -135,6 +136,14 @@ def test_a_builder_is_a_kind(capsys: CAPTURE, kind: str) -> None:
     assert made(capsys, f"{kind} {typed} {PARTS}") == expected
 
 
+def test_angles_may_have_their_sign(capsys: CAPTURE) -> None:
+    plain, signed = (
+        cp.Engine.from_toml(printed(capsys, f"new vee --bank-angle {angle} --throws {throws}"))
+        for angle, throws in (("90", "0,180"), ("90°", "0°,180°"))
+    )
+    assert signed.replace(source="") == plain.replace(source="")
+
+
 def test_spacing_is_in_proportion_to_the_bore(capsys: CAPTURE) -> None:
     # 100 mm at 86 mm, to three digits.
     assert made(capsys, f"i4 {PARTS}").z.tolist() == pytest.approx([0, 0.116, 0.232, 0.348])
@@ -148,9 +157,11 @@ def test_spacing_is_in_proportion_to_the_bore(capsys: CAPTURE) -> None:
         ("v6 --bank-angle 90", -30.0, True),  # as even as the preset
         ("v6 --bank-angle 360/7", -68.571428571, True),
         ("v6 --bank-angle 90 --pin-split 0", 0.0, False),
+        ("v-twin-52 --bank-angle 60", -68.0, False),  # 52 + 76 = 128 as far from even
         ("v8 --bank-angle 60", 0.0, False),  # on shared pins
         ("v8 --bank-angle 60 --pin-split even", -30.0, True),
         ("v-twin --bank-angle 45 --pin-split even", 45.0, True),
+        ("vee --bank-angle 45 --throws 0,120,240 --strokes 2 --pin-split even", -15.0, None),
         ("vee --bank-angle 90 --throws 0,72,288,144,216 --pin-split even", 18.0, None),
     ],
 )
@@ -170,6 +181,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
     assert 'No firing order is known: "crankpin firing" lists those of the crank.' in said
     assert cp.Engine.load("i4.toml").firing_order == ""
     assert cp.Engine.load("i4.toml").name == ""  # not "Inline-4" of the usual crank
+    assert made(capsys, "i2-180 --strokes 2").name == ""
 
 
 @pytest.mark.parametrize(

@@ -665,7 +665,30 @@ def test_refusals() -> None:
         cp.Engine.preset("i4", spacing="wide")  # type: ignore[arg-type]
 
 
+def test_names_close_to_several_presets_are_no_slip_of_one() -> None:
+    with pytest.raises(cp.InputError, match=r'"v8-60" or "v6-60" or .* build it by Engine\.vee'):
+        cp.Engine.preset("v9-60")
+
+
+@pytest.mark.parametrize(
+    ("usual", "name"), [("straight-6", "i6"), ("Inline-four", "i4"), ("V8-60", "v8-60")]
+)
+def test_usual_names(usual: str, name: str) -> None:
+    assert presets_module.named(usual) == name
+
+
+def test_they_are_a_mapping_that_lacks_what_it_does_not_know() -> None:
+    known: Any = cp.presets()
+    assert known.get("v9-60") is None  # by a KeyError
+    assert ["i4"] not in known  # which has no hash
+    assert known["i4"] == cp.Engine.preset("i4")
+    rows = {row[0]: row for row in known.table().cells()}
+    assert [row[3] for row in (rows["i4"], rows["flat-4"])] == ["1-3-4-2", "–"]
+    assert [row[2] for row in (rows["i4"], rows["v6-60"])] == ["–", "60"]
+
+
 def test_families() -> None:
+    assert "v6-60-ebook" not in presets_module.family("v6")
     assert presets_module.family("ijesc-v6") == [f"ijesc-v6-{order}" for order in LAGS]
     assert presets_module.family("v14") == ["v14-9.13", "v14-49.54", "v14-63.03", "v14-170.87"]
     assert presets_module.family("v6-60") == ["v6-60"]  # not v6-60-ebook: a preset is itself

@@ -73,7 +73,7 @@ class Presets(Mapping[str, Engine]):
         rows = []
         for name, engine in self.items():
             text = labels.cut(_data()["engines"][name][column], longest)
-            order = labels.cut(engine.firing_order or "–", max(longest, 25))
+            order = engine.firing_order or "–"
             rows.append((name, len(engine), _bank_angle(engine), order, text))
         return tables.Table.from_rows("Presets", header, rows, np.empty((len(rows), 0)))
 
@@ -129,7 +129,7 @@ class Layout(NamedTuple):
     arguments: dict[str, Any]
     cylinder: Cylinder
     """Moving parts of the preset, a nominal half litre if its source has none."""
-    spacing: float = 0.1
+    spacing: float
     """Distance between neighbouring throws, m."""
 
     def build(self, cylinder: Cylinder, spacing: float, **changes: Any) -> Engine:  # noqa: ANN401
