@@ -12,7 +12,8 @@ use crate::engine::Engine;
 use crate::load::{Arithmetic, Load, Loads, PhasorSum, Phasors, Times, Wanted, Weight};
 use crate::load::{Term, superpose};
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
+use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::numbers::pool;
 use crate::readings::amplitude::GearHarmonics;
@@ -402,14 +403,8 @@ impl Merit {
         let loads = Loads::new(engine, engine.reference(None)?);
         let count = engine.stations().len();
         let lists = variables.iter().flat_map(|each| [&each.bores, &each.pins]);
-        if let Some(list) = lists.into_iter().find(|list| list.len() != count) {
-            return Err(Error::Length {
-                argument: "variables".into(),
-                found: list.len(),
-                reference: "the engine".into(),
-                expected: count,
-                item: "cylinder",
-            });
+        for list in lists {
+            limits::same_length("variables", list.len(), "the engine", count, "cylinder")?;
         }
         let turns = |of: &dyn Fn(&Variable) -> f64| variables.iter().map(of).collect::<Vec<f64>>();
         let of_cylinder = |i: usize| [turns(&|each| each.bores[i]), turns(&|each| each.pins[i])];

@@ -2,12 +2,11 @@
 
 use crankpin_core as core;
 use crankpin_core::design::{Objective, ObjectiveQuantity, Reading, Variable};
-use crankpin_core::{Error, Order};
-use ndarray::Array;
+use crankpin_core::{Order, memory};
 use numpy::{PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen, python_error};
+use crate::convert::{OrRaise, frozen};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -93,12 +92,9 @@ impl Merit {
         let found = interrupt::run(py, |cancel| self.0.evaluated(&points, cancel))?;
         let (count, goals) = (found.len(), self.0.scales().len());
         let (values, slopes): (Vec<f64>, Vec<Vec<f64>>) = found.into_iter().flatten().unzip();
-        let wrong = |error: ndarray::ShapeError| {
-            python_error(Error::value("points", count.to_string(), error.to_string()))
-        };
-        let values = Array::from_shape_vec((count, goals), values).map_err(wrong)?;
-        let slopes =
-            Array::from_shape_vec((count, goals, variables), slopes.concat()).map_err(wrong)?;
+        let values = memory::array("points", (count, goals), values).or_raise()?;
+        let slopes = memory::array("points", (count, goals, variables), slopes.concat());
+        let slopes = slopes.or_raise()?;
         Ok((frozen(py, values), frozen(py, slopes)))
     }
 

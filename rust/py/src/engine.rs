@@ -7,7 +7,7 @@ use crankpin_core as core;
 use crankpin_core::engine::crankpins::Crankpin;
 use crankpin_core::engine::{Crank, Details, Gas, Hold, Shaft, Station, Unbalance, file};
 use crankpin_core::layout::{FiringOrder, FiringRule, Inline, Numbering, Side, Strokes, Vee};
-use crankpin_core::{Complex64, Error};
+use crankpin_core::{Complex64, Error, limits};
 use ndarray::Array1;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -97,16 +97,7 @@ pub fn firing_rule(
 }
 
 fn same_length(argument: &str, found: usize, expected: usize) -> PyResult<()> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(python_error(Error::Length {
-        argument: argument.into(),
-        found,
-        reference: "bank_deg".into(),
-        expected,
-        item: "cylinder",
-    }))
+    limits::same_length(argument, found, "bank_deg", expected, "cylinder").or_raise()
 }
 
 impl Engine {

@@ -1,10 +1,7 @@
 //! One cylinder: motion and harmonics.
 
 use crankpin_core::harmonics::{self, table, torque};
-use crankpin_core::{
-    Complex64, Cylinder, Error, Order, angle, crank_angles, limits, memory, order, rod,
-};
-use ndarray::Array2;
+use crankpin_core::{Complex64, Cylinder, Order, angle, crank_angles, limits, memory, order, rod};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -71,8 +68,7 @@ pub fn motion<'py>(
             row[1] = motion.velocity * radius;
             row[2] = motion.acceleration * radius;
         }
-        Array2::from_shape_vec((thetas.len(), 3), rows)
-            .map_err(|error| Error::value("theta_deg", thetas.len(), error.to_string()))
+        memory::array("theta_deg", (thetas.len(), 3), rows)
     })?;
     Ok(PyArray2::from_owned_array(py, rows))
 }

@@ -2,12 +2,12 @@
 
 use crankpin_core as core;
 use crankpin_core::tolerances::{Deviations, Distribution, FIGURES, largest_sums};
-use crankpin_core::{Complex64, Error, Order, Request};
-use ndarray::{Array, Array3, IntoDimension};
+use crankpin_core::{Complex64, Order, Request, memory};
+use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber, frozen, python_error};
+use crate::convert::{self, OrRaise, OrderNumber, frozen};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
@@ -27,13 +27,6 @@ type Samples<'py> = (
     Bound<'py, PyArray3<Complex64>>,
     Bound<'py, PyArray2<f64>>,
 );
-
-fn shaped<T, S: IntoDimension>(shape: S, values: Vec<T>) -> PyResult<Array<T, S::Dim>> {
-    let shape = shape.into_dimension();
-    let text = format!("{shape:?}");
-    Array::from_shape_vec(shape, values)
-        .map_err(|error| python_error(Error::value("samples", text, error.to_string())))
-}
 
 #[pymethods]
 impl Tolerances {
@@ -86,15 +79,20 @@ impl Tolerances {
             self.plan.sample(count, &slices, cancel)
         })?;
         let planar = |pairs: Vec<[Complex64; 4]>| -> PyResult<Array3<Complex64>> {
-            shaped((count, self.orders, 4), pairs.into_flattened())
+            memory::array("samples", (count, self.orders, 4), pairs.into_flattened()).or_raise()
         };
         let with_torque = if self.torque { count } else { 0 };
-        let torque = shaped((with_torque, self.orders, 2), found.torque.into_flattened())?;
+        let torque =
+            memory::array("samples", (with_torque, self.orders, 2), found.torque.into_flattened())
+                .or_raise()?;
         Ok((
             frozen(py, planar(found.force)?),
             frozen(py, planar(found.moment)?),
             frozen(py, torque),
-            frozen(py, shaped((count, 4), found.peaks.into_flattened())?),
+            frozen(
+                py,
+                memory::array("samples", (count, 4), found.peaks.into_flattened()).or_raise()?,
+            ),
         ))
     }
 }

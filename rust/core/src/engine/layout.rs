@@ -1,7 +1,7 @@
 //! Engines from the few figures by which people know them: throws, bank angle, firing order.
 
 pub use super::firing_order::FiringOrder;
-use super::{Engine, Station, bank_angle_in_range};
+use super::{Engine, Station, bank_angle_in_range, check_each_cylinder};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::error::{Error, Result};
@@ -211,15 +211,7 @@ impl FiringOrder {
             // One bank has the same crank by either rule.
             FiringRule::Ijesc => return self.times(&FiringRule::Even(Strokes::Four)),
         };
-        if intervals.len() != count {
-            return Err(Error::Length {
-                argument: "intervals_deg".into(),
-                found: intervals.len(),
-                reference: "firing_order".into(),
-                expected: count,
-                item: "cylinder",
-            });
-        }
+        limits::same_length("intervals_deg", intervals.len(), "firing_order", count, "cylinder")?;
         let mut times = vec![Angle::ZERO];
         for (k, &interval) in intervals.iter().enumerate() {
             if interval.degrees() <= 0.0 {
@@ -327,14 +319,10 @@ fn per_cylinder(masses: &[f64], cylinders: usize) -> Result<Vec<f64>> {
     match masses {
         [] => Ok(vec![0.0; cylinders]),
         [mass] => Ok(vec![*mass; cylinders]),
-        _ if masses.len() == cylinders => Ok(masses.to_vec()),
-        _ => Err(Error::Length {
-            argument: "rotating_mass".into(),
-            found: masses.len(),
-            reference: "the engine".into(),
-            expected: cylinders,
-            item: "cylinder",
-        }),
+        _ => {
+            check_each_cylinder("rotating_mass", masses.len(), cylinders)?;
+            Ok(masses.to_vec())
+        }
     }
 }
 

@@ -434,11 +434,7 @@ impl Engine {
 
 /// Rejects a list that has not one entry for each cylinder.
 fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<()> {
-    if found == expected {
-        return Ok(());
-    }
-    let (argument, reference) = (argument.to_owned(), "the engine".to_owned());
-    Err(Error::Length { argument, found, reference, expected, item: "cylinder" })
+    limits::same_length(argument, found, "the engine", expected, "cylinder")
 }
 
 /// A text of moderate length.

@@ -75,6 +75,21 @@ pub fn tolerance(rtol: f64) -> Result<f64> {
     Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"))
 }
 
+/// A list of as many entries as another, one for each `item`.
+pub fn same_length(
+    argument: &str,
+    found: usize,
+    reference: &str,
+    expected: usize,
+    item: &'static str,
+) -> Result<()> {
+    if found == expected {
+        return Ok(());
+    }
+    let (argument, reference) = (argument.to_owned(), reference.to_owned());
+    Err(Error::Length { argument, found, reference, expected, item })
+}
+
 /// A result of this many elements of `size` bytes fits.
 pub fn result_size(
     argument: &str,

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use bytemuck::Zeroable;
+use ndarray::{Array, IntoDimension};
 
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
@@ -68,6 +69,18 @@ pub fn collected<T>(values: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>> 
     let mut found = room(values.len())?;
     found.extend(values);
     Ok(found)
+}
+
+/// Values in memory as an array of this shape, rows first.
+pub fn array<T, S: IntoDimension>(
+    argument: &str,
+    shape: S,
+    values: Vec<T>,
+) -> Result<Array<T, S::Dim>> {
+    let shape = shape.into_dimension();
+    let text = format!("{shape:?}");
+    Array::from_shape_vec(shape, values)
+        .map_err(|error| Error::value(argument, text, error.to_string()))
 }
 
 /// A copy of values of any number, gigabytes of which take seconds.

@@ -78,15 +78,7 @@ impl Cycle {
     pub fn new(given: Given) -> Result<Self> {
         let strokes = Strokes::from_number(given.strokes)?;
         let (angles, values) = (&given.theta_deg, &given.pressure);
-        if angles.len() != values.len() {
-            return Err(Error::Length {
-                argument: "pressure".to_owned(),
-                found: values.len(),
-                reference: "theta_deg".to_owned(),
-                expected: angles.len(),
-                item: "crank angle",
-            });
-        }
+        limits::same_length("pressure", values.len(), "theta_deg", angles.len(), "crank angle")?;
         let fewest = if given.degree.is_some() { 2 } else { FEWEST_POINTS };
         if !(fewest..=MOST_POINTS).contains(&angles.len()) {
             let hint = format!("give from {fewest} to {MOST_POINTS} points");

@@ -255,15 +255,13 @@ impl WorkCurve {
     fn new(drive: &Drive, omega: f64, cancel: &Cancel) -> Result<Self> {
         let edges = &drive.grid.edges_deg;
         for (argument, values) in [("torque", drive.torque), ("load", drive.load)] {
-            if values.len() != drive.grid.nodes_deg.len() {
-                return Err(Error::Length {
-                    argument: argument.to_owned(),
-                    found: values.len(),
-                    reference: "nodes_deg".to_owned(),
-                    expected: drive.grid.nodes_deg.len(),
-                    item: "crank angle",
-                });
-            }
+            limits::same_length(
+                argument,
+                values.len(),
+                "nodes_deg",
+                drive.grid.nodes_deg.len(),
+                "crank angle",
+            )?;
             for &value in values {
                 limits::finite(argument, value)?;
             }

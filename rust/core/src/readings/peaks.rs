@@ -10,7 +10,8 @@ use std::mem;
 
 use crate::Complex64;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
+use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::numbers::rational::divisor;
@@ -91,14 +92,8 @@ impl PeakFinder {
     }
 
     fn longest<const N: usize>(&self, rows: [&[Complex64]; N], cancel: &Cancel) -> Result<f64> {
-        if let Some(row) = rows.iter().find(|row| row.len() != self.waves.len()) {
-            return Err(Error::Length {
-                argument: "phasors".into(),
-                found: row.len(),
-                reference: "the sum".into(),
-                expected: self.waves.len(),
-                item: "order",
-            });
+        for row in rows {
+            limits::same_length("phasors", row.len(), "the sum", self.waves.len(), "order")?;
         }
         let parts = rows.iter().copied().flatten().map(|p| p.re.abs().max(p.im.abs()));
         let largest = parts.fold(0.0, f64::max);

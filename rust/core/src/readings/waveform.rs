@@ -206,11 +206,7 @@ struct Memory {
 
 impl Memory {
     fn waveform(self, balance: Option<Balance>) -> Result<Waveform> {
-        let pairs = |values: Vec<f64>| {
-            let shape = (values.len() / 2, 2);
-            Array2::from_shape_vec(shape, values)
-                .map_err(|error| Error::value("theta_deg", format!("{shape:?}"), error.to_string()))
-        };
+        let pairs = |values: Vec<f64>| memory::array("theta_deg", (values.len() / 2, 2), values);
         let [force, moment] = self.pairs;
         let mut torques = self.torques.into_iter().map(Array1::from);
         let (torque, crank_torque) = (torques.next(), torques.next());

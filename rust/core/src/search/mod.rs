@@ -39,6 +39,7 @@ use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
+use crate::numbers::limits;
 use crate::numbers::pool;
 
 /// All arrangements of one bank, grouped by |Z|.
@@ -224,15 +225,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
         return Err(Error::value("cylinders", cylinders, "a vee has an even number of cylinders"));
     }
     let Some(phases) = phases else { return Bank::even_firing(cylinders / 2, alternating) };
-    if phases.len() != cylinders / 2 {
-        return Err(Error::Length {
-            argument: "phases_deg".into(),
-            found: phases.len(),
-            reference: "a bank".into(),
-            expected: cylinders / 2,
-            item: "throw",
-        });
-    }
+    limits::same_length("phases_deg", phases.len(), "a bank", cylinders / 2, "throw")?;
     if alternating {
         let hint =
             "the alternation rule is that of the even-firing crank: leave out one of the two";

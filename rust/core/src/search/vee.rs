@@ -3,7 +3,7 @@
 use crate::engine::{Engine, Hold, Station};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::angle::Angle;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::limits;
 
 /// The vee of two banks, the right one first, by the phases of their throws; cylinders are numbered
@@ -18,15 +18,7 @@ pub fn vee(
     limits::finite("spacing", spacing)?;
     limits::finite("bank_angle_deg", bank_angle)?;
     let throws = banks[0].len();
-    if banks[1].len() != throws {
-        return Err(Error::Length {
-            argument: "second_deg".into(),
-            found: banks[1].len(),
-            reference: "first_deg".into(),
-            expected: throws,
-            item: "throw",
-        });
-    }
+    limits::same_length("second_deg", banks[1].len(), "first_deg", throws, "throw")?;
     let half = Angle::from_degrees(bank_angle)?.half();
     let upright = Angle::QUARTER_TURN;
     let stations = (0..2 * throws).map(|i| {

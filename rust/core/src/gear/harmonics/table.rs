@@ -11,7 +11,7 @@ use super::roots::{NEGLIGIBLE_LOG, Root};
 use crate::Complex64;
 use crate::gear::slider_crank::Proportions;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
@@ -26,9 +26,7 @@ pub fn centred_table(rod_ratios: &[f64], orders: &[u32], cancel: &Cancel) -> Res
     check_size::<f64>(rod_ratios.len(), orders)?;
     let mut values = memory::zeros(rod_ratios.len() * orders.len())?;
     write_centred(rod_ratios, orders, None, &mut values, cancel)?;
-    let shape = (rod_ratios.len(), orders.len());
-    Array2::from_shape_vec(shape, values)
-        .map_err(|error| Error::value("rod_ratio", format!("{shape:?}"), error.to_string()))
+    memory::array("rod_ratio", (rod_ratios.len(), orders.len()), values)
 }
 
 /// [`centred_table`] into memory that is there, row by row; with `rtol` each is within that of itself,

@@ -15,7 +15,8 @@ use crate::engine::{Engine, Station, first_equal};
 use crate::firing::Firing;
 use crate::numbers::angle::Angle;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
+use crate::numbers::limits;
 use crate::numbers::order::Order;
 use crate::numbers::rational::{Multiples, Ratio};
 use crate::numbers::ring::RootSum;
@@ -56,15 +57,7 @@ impl Stars {
         groups: Vec<(usize, bool)>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        if weights.len() != fire.len() {
-            return Err(Error::Length {
-                argument: "mode_shape".into(),
-                found: weights.len(),
-                reference: "the engine".into(),
-                expected: fire.len(),
-                item: "cylinder",
-            });
-        }
+        limits::same_length("mode_shape", weights.len(), "the engine", fire.len(), "cylinder")?;
         let halves = parts_of_turn(fire.iter().map(|angle| angle.half()), true, cancel)?;
         let multiples = Multiples::new(&weights, cancel)?;
         Ok(Self { fire, halves, weights, multiples, groups })

@@ -328,15 +328,9 @@ fn check_angles(theta_deg: &[f64], numbers: usize, cancel: &Cancel) -> Result<()
 }
 
 fn vectors(rows: usize, count: usize) -> Result<Array3<f64>> {
-    let values = memory::zeros(2 * rows * count)?;
-    Array3::from_shape_vec((rows, count, 2), values).map_err(|error| shape_error(&error))
+    memory::array("theta_deg", (rows, count, 2), memory::zeros(2 * rows * count)?)
 }
 
 fn scalars(rows: usize, count: usize) -> Result<Array2<f64>> {
-    let values = memory::zeros(rows * count)?;
-    Array2::from_shape_vec((rows, count), values).map_err(|error| shape_error(&error))
-}
-
-fn shape_error(error: &ndarray::ShapeError) -> Error {
-    Error::value("theta_deg", "its length", error.to_string())
+    memory::array("theta_deg", (rows, count), memory::zeros(rows * count)?)
 }

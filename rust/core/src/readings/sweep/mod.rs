@@ -386,8 +386,7 @@ impl Sweep {
         let shape = self.result_shape(quantity, figure);
         let mut values: Vec<T> = memory::zeros(shape.iter().product())?;
         write(&mut values)?;
-        Array::from_shape_vec(IxDyn(&shape), values)
-            .map_err(|error| Error::value("sweep", format!("{shape:?}"), error.to_string()))
+        memory::array("sweep", &shape[..], values)
     }
 
     /// Numbers of a row, after a check of a buffer for all rows; zero where the buffer then is zero.

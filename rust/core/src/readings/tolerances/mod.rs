@@ -171,14 +171,9 @@ impl Tolerances {
         self.check_size(count)?;
         for (figure, values) in Parameter::ALL.into_iter().zip(deviations) {
             let expected = count * self.terms.count(figure);
-            if !values.is_empty() && values.len() != expected {
-                return Err(Error::Length {
-                    argument: figure.name().into(),
-                    found: values.len(),
-                    reference: "the samples".into(),
-                    expected,
-                    item: "deviation",
-                });
+            if !values.is_empty() {
+                let found = values.len();
+                limits::same_length(figure.name(), found, "the samples", expected, "deviation")?;
             }
         }
         let mut sampled = Sampled {
@@ -274,15 +269,7 @@ fn at([re, im]: &[[f64; CHUNK]; 2], sample: usize) -> Complex64 {
 /// One pin of each cylinder, counted from 0 without gaps.
 fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
     let count = engine.stations().len();
-    if pin_of.len() != count {
-        return Err(Error::Length {
-            argument: "pins".into(),
-            found: pin_of.len(),
-            reference: "the engine".into(),
-            expected: count,
-            item: "cylinder",
-        });
-    }
+    limits::same_length("pins", pin_of.len(), "the engine", count, "cylinder")?;
     let pins = pins(pin_of);
     if pins > count || (0..pins).any(|pin| !pin_of.contains(&pin)) {
         let hint = "count the pins from 0, each with a cylinder";
@@ -308,14 +295,8 @@ fn check_spreads(
     } else {
         (engine.stations().len(), "cylinder")
     };
-    if !spreads.is_empty() && spreads.len() != expected {
-        return Err(Error::Length {
-            argument: figure.name().into(),
-            found: spreads.len(),
-            reference: "the engine".into(),
-            expected,
-            item,
-        });
+    if !spreads.is_empty() {
+        limits::same_length(figure.name(), spreads.len(), "the engine", expected, item)?;
     }
     spreads.iter().try_for_each(|&spread| limits::not_negative(figure.name(), spread).map(drop))
 }
