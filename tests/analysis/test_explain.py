@@ -435,8 +435,8 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
     (
         I4,
         None,
-        ("Order 2 leaves a shaking force of 1.21 times one piston's first-order force, up and "
-        "down: all four pistons pull together.\n"
+        ("Order 2 leaves a shaking force of 1.21 times one piston's first-order force F, up "
+        "and down: all four pistons pull together.\n"
         "Two balance shafts at twice crank speed, one with the crank and one against it, would "
         "remove the shaking force of order 2."),
     ),
@@ -447,8 +447,7 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         "(1 and 2, 3 and 4).\n"
         "The rocking moments of orders 1, 2 and 4 are exactly zero: front and rear mirror each "
         "other (1 and 4, 2 and 3).\n"
-        "All other orders together make at most a shaking force of 0.075 % of one piston's "
-        "first-order force."),
+        "All other orders together make at most a shaking force of 0.075 % of F."),
     ),
     (
         SINGLE,
@@ -506,7 +505,8 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         "Order 1 leaves a shaking force of 3.82 kN, up and down: both pistons pull together.",
     ),
     (cp.Engine.preset("i3"), None, ("Order 1 leaves a rocking moment of one piston's first-order "
-     "force at a lever of 173 mm, in pitch.")),
+     "force F at a lever of 173 mm, in pitch.\nCounterweights could bring the rocking moment of "
+     "order 1 down to F at a lever of 86.6 mm; ")),
     (
         cp.Engine.preset("w12"),
         6000,

@@ -643,7 +643,7 @@ def test_refusals() -> None:
     for ask in (i4.firing, i4.firings):
         with pytest.raises(cp.InputError, match="1-3-2: name each of the engine's 4 cylinders"):
             ask("1-3-2")
-        with pytest.raises(cp.InputError, match="1-3-3-2: name every cylinder from 1 to"):
+        with pytest.raises(cp.InputError, match="1-3-3-2: 3 is there twice; name every"):
             ask("1-3-3-2")
         with pytest.raises(cp.InputError, match="1;3: give cylinder numbers joined by '-'"):
             ask("1;3")

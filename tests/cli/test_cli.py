@@ -552,8 +552,8 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("sweep v6-60 --bank-angle 0:180:0.1 --rpm 1:1000:1", "1801000 points to sweep"),
         ("sweep v6-60 --bank-angle 10:170:-10", "the step does not lead from 10 to 170"),
         ("sweep v6-60 --bank-angle 10:170", "give START:STOP:STEP"),
-        ("sweep v6-60 --bank-angle 10:190:10", "bank_angle"),
-        ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "rod_ratio"),
+        ("sweep v6-60 --bank-angle 10:190:10", "--bank-angle = 190.0"),
+        ("sweep v6-60 --rod-ratio 0.5:1.5:0.5", "--rod-ratio = 1.0: give"),
         ("sweep v6-60 --hold nothing", "--hold"),
         ("sweep v6-60 --orders 1 --rtol 1e-3", "--rtol needs --orders auto"),
         ("balance i4 --rpm sNaN", "--rpm = sNaN: give a finite number"),
@@ -577,12 +577,20 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("balance i4 --reference-z 3 --units g,inch", "--units = g,inch: give a unit or two of kg"),
         ("sweep v6-60 --bank-angle 10-170", "such as 10:170:10"),
         ("sweep v-twin-90 --bank-angle 45", "nothing to sweep: all options have one value; give"),
-        ("bob-weight harley", 'NAME = "harley": no such preset; "crankpin presets" lists all'),
+        ("bob-weight harley", 'NAME = "harley": no such preset; crankpin new makes engines'),
         ("tolerances v6-60", "no part deviates: give a spread, --reciprocating-mass, "),
         ("rank v6-60 --plot picture.bmp", "a picture's name ends in"),
         ("sweep", "NAME"),
         ("presets v6-60", "unrecognized arguments: v6-60"),
-        ("shake", "invalid choice: 'shake'"),
+        ("shake", "COMMAND = shake: no such command; see crankpin --help"),
+        ("blance i4", 'COMMAND = blance: no such command; did you mean "balance"?'),
+        ("balance i4 --rpn 3000", 'unrecognized arguments: --rpn 3000; did you mean "--rpm"?'),
+        ("new v6 --bankangle=90", '--bankangle=90; did you mean "--bank-angle"?'),
+        ("balance i4 --much", "unrecognized arguments: --much; see crankpin balance --help"),
+        ("sweep v6-60 --hold crank", "--hold = crank: give pins or firing; see crankpin sweep"),
+        ("balance my-v6.toml", "my-v6.toml: No such file"),
+        ("balance v6_90", 'NAME = "v6_90": no such preset; did you mean "v6-90"? "crankpin'),
+        ("new vtwin", 'KIND = vtwin: no such layout; did you mean "v-twin"?'),
         ("", "COMMAND"),
     ],
 )
@@ -601,6 +609,35 @@ def test_warnings_are_one_line(capsys: CAPTURE) -> None:
     assert out.startswith(cp.Engine.preset("i4-ebook").name)
     (line,) = err.splitlines()
     assert line.startswith("crankpin: warning: mean piston speed")
+
+
+PLAIN = " plain numbers are metres and kilograms; type units, such as 86mm or 480g"
+
+
+@pytest.mark.filterwarnings("default")
+@pytest.mark.parametrize(
+    ("argv", "said"),
+    [
+        (
+            "bob-weight v8-crossplane --reciprocating 620 --rotating 550",
+            "--reciprocating = 620 kg at a crank radius of 0.043 m: was it given in grams?" + PLAIN,
+        ),
+        (
+            "new i4 --bore 86mm --stroke 86mm --rod 145mm --piston 400 --rod-mass 500g",
+            "reciprocating_mass = 400.167 kg at a crank radius of 0.043 m: was it given in grams?"
+            + PLAIN,
+        ),
+        (
+            "new v-twin --bank-angle 0.785",
+            "--bank-angle = '0.785': was it given in radians? Angles are degrees here: 44.9772°",
+        ),
+    ],
+)
+def test_wrong_units_are_warned_of_once_in_words_of_the_shell(
+    capsys: CAPTURE, argv: str, said: str
+) -> None:
+    assert main(argv.split()) == 0
+    assert capsys.readouterr().err == f"crankpin: warning: {said}\n"
 
 
 def test_other_errors_are_ours_and_stay_visible(monkeypatch: pytest.MonkeyPatch) -> None:

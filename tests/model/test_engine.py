@@ -358,6 +358,22 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         r"throws_deg = \[0\.0, 2\.0944, 4\.18879\]: was it given in radians.* 120°, 240°",
     ),
     "bank angle in radians": (lambda: vee(bank_angle_deg=math.pi / 3), "bank_angle_deg = 1.0472?"),
+    "in three decimals": (
+        lambda: vee(bank_angle_deg=0.785),
+        "^bank_angle_deg = 0.785: .* 44.9772°",
+    ),
+    "crank angles in radians": (
+        lambda: I4.waveform(3000, theta_deg=np.linspace(0, 4 * math.pi, 721)),
+        "^theta_deg ends at 12.5664: was it given in radians",
+    ),
+    "and without their end": (
+        lambda: cp.sweep(I4, rpm=3000).waveform(np.radians(np.arange(360))),
+        "^theta_deg ends at 6.26573: was it given in radians",
+    ),
+    "of bearings": (
+        lambda: cp.bearing_loads(I4, 3000, theta_deg=[0, math.pi, 2 * math.pi]),
+        "^theta_deg ends at 6.28319",
+    ),
     "sevenths of a turn cut off": (
         lambda: I4.replace(tdc_deg=[0, 51.428571, 180, 180]),
         r"^tdc_deg = .*: 51\.428571 is 4\.3e-7° from 360/7; if that is meant, give it as text",
@@ -600,9 +616,12 @@ def test_unknown_presets_suggest_near_names_and_what_builds_them(
         cp.Engine.preset(name)
     hint = f"did you mean {meant}? " if meant else ""
     built = f"build it by {call}; " if call else ""
+    alone = not (meant or call)
+    built = "Engine.inline, vee and the like make engines of your own; " if alone else built
     expected = f'name = "{name}": no such preset; {hint}{built}crankpin.presets() lists all'
     assert str(caught.value) == expected
     built = f"build it by {command}; " if command else ""
+    built = "crankpin new makes engines of your own; " if alone else built
     assert presets_module.suggestion(name, typed=True) == (
         f'"{name}": no such preset; {hint}{built}"crankpin presets" lists all; engine files end in '
         ".toml or .json"

@@ -101,6 +101,18 @@ def test_map_of_orders_is_logarithmic_over_a_numeric_order() -> None:
     assert type(norm).__name__ == "LogNorm"
 
 
+def test_colours_of_orders_begin_at_a_ten_thousandth_of_the_largest() -> None:
+    s = cp.sweep(V6, rpm=[1000, 3000], orders=[1, 2, 4, 8])
+    largest = s.moment.peak_xy.max()
+    assert s.moment.peak_xy[s.moment.peak_xy > 0.0].min() < 1e-4 * largest  # of order 8
+    mesh = s.plot(kind="orders")[-1, -1].collections[0]
+    assert mesh.norm.vmin == 1e-4 * largest
+    assert mesh.colorbar.extend == "min"
+    assert mesh.cmap(mesh.norm(1e-5 * largest))[3] < 0.5  # pale, on any background
+    first = cp.sweep(V6, rpm=[1000, 3000], orders=[1]).plot(kind="orders")[-1, -1]
+    assert first.collections[0].colorbar.extend == "neither"
+
+
 @pytest.mark.parametrize("more", [{"kind": "orders"}, {"kind": "map", "rod_ratio": [0.2, 0.3]}])
 def test_engines_on_a_map_share_a_scale_of_colours(more: dict[str, Any]) -> None:
     kind = more.pop("kind")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import array as array_module
+import difflib
 import itertools
 import math
 import operator
@@ -53,6 +54,12 @@ HIGHEST_ORDER = 10_000
 """Highest order that the core sums."""
 
 _BOOLEANS = {bool, np.bool_}
+
+ROUNDED_RADIANS = 1e-3
+"""Difference, radians, up to which the end of crank angles is a turn in radians: 6.2832, 12.566."""
+
+MANY_WORDS = 4
+"""Number of words from which on the one that was meant is suggested."""
 
 MOST_ITEMS = 10_000
 """Items in a list that is taken one by one, such as orders; an endless one is rejected."""
@@ -199,6 +206,17 @@ def per_item(name: str, values: ArrayLike, count: int) -> list[float]:
     return listed if np.ndim(values) else listed * count
 
 
+def crank_angles(theta_deg: ArrayLike | None) -> NDArray[np.float64]:
+    """Return crank angles in degrees, by default two turns; warn of one turn or two in radians."""
+    theta = vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+    if theta.size > 2 and theta[0] == 0.0:
+        last, step = theta[-1], theta[-1] - theta[-2]  # the end of a range may be left out
+        ends = np.abs(np.subtract.outer([last, last + step], [math.tau, 2.0 * math.tau]))
+        if ends.min() < ROUNDED_RADIANS:
+            warn(f"theta_deg ends at {last:g}: was it given in radians? Angles are degrees here")
+    return theta
+
+
 def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() takes
     """Return ω in rad/s."""
     return _core.angular_speed(number("rpm", rpm))
@@ -265,9 +283,19 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     """Return one of a few words."""
     listed = list(choices)
     if not isinstance(value, str) or value not in listed:
-        hint = " or ".join(f'"{choice}"' for choice in listed)
-        raise InputError(f"{name} = {shorten(value)}: give {hint}")
+        *before, last = (f'"{choice}"' for choice in listed)
+        hint = f"{', '.join(before)} or {last}" if before else last
+        raise InputError(f"{name} = {shorten(value)}: give {hint}{nearest(value, listed)}")
     return value
+
+
+def nearest(value: object, words: Iterable[str]) -> str:
+    """Return ``; did you mean "moment"?`` for a slip in one of many words, else nothing."""
+    listed = list(words)
+    if not isinstance(value, str) or len(listed) < MANY_WORDS:
+        return ""
+    found = difflib.get_close_matches(value[:80], listed, 1)
+    return f'; did you mean "{found[0]}"?' if found else ""
 
 
 # --- lists --------------------------------------------------------------------------------------

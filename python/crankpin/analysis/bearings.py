@@ -73,8 +73,7 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
     >>> (loads.largest("main") / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
-    theta = np.arange(721.0) if theta_deg is None else theta_deg
-    found = BearingLoads(engine, rpm, theta)  # type: ignore[arg-type] # checked there
+    found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg))
     inputs.warn_of_units(mean_piston_speed(engine, found.rpm))
     return found
 

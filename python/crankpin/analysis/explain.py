@@ -14,10 +14,10 @@ from crankpin._support.record import Record
 from crankpin.analysis.balance import UNIT_RPM, Balance, mean_piston_speed
 from crankpin.analysis.findings import MATTERS, Finding, Sums
 from crankpin.analysis.request import Request, engine_core
-from crankpin.analysis.sentences import sentence
+from crankpin.analysis.sentences import abbreviated, sentence, unit_force
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from crankpin.model.engine import Engine
 
@@ -70,7 +70,7 @@ class Explanation(Record):
     @property
     def sentences(self) -> tuple[str, ...]:
         """Sentences, what matters most first."""
-        return tuple(sentence(each, self) for each in self.findings)
+        return tuple(self._said(self.findings))
 
     def __str__(self) -> str:
         return "\n".join(self.sentences)
@@ -85,8 +85,12 @@ class Explanation(Record):
     def html(self, most: int | None = None) -> str:
         """Return all sentences, or the first that are about force and moment, as a list in HTML."""
         found = self._found() if most is None else filter(_of_planes, self._found())
-        items = (html.escape(sentence(each, self)) for each in itertools.islice(found, most))
+        items = (html.escape(each) for each in self._said(itertools.islice(found, most)))
         return f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>"
+
+    def _said(self, findings: Iterable[Finding]) -> list[str]:
+        """Return the sentences of findings; the force that they are relative to is named once."""
+        return abbreviated((sentence(each, self) for each in findings), unit_force(self), "F")
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:

@@ -63,14 +63,28 @@ def size(value: float, quantity: str, whole: Explanation, *, up: bool = False) -
         return figure(value, QUANTITIES[quantity].unit, up=up)
     if not whole.unit:
         return f"{figure(value, QUANTITIES[quantity].unit_over_square, up=up)} times ω²"
-    part = "piston" if any(each.reciprocating_mass for each in whole.engine.cylinders) else "throw"
-    force, share = f"one {part}'s first-order force", value / whole.unit
+    force, share = unit_force(whole), value / whole.unit
     if quantity == "moment":
         return f"{force} at a lever of {figure(1e3 * share, 'mm', up=up)}"
     if abs(share - 1.0) <= SAME:
         return force
     text = figure(100.0 * share, "% of", up=up) if share < 1.0 else figure(share, "times", up=up)
     return f"{text} {force}"
+
+
+def unit_force(whole: Explanation) -> str:
+    """Return what forces are relative to where no speed is given."""
+    part = "piston" if any(each.reciprocating_mass for each in whole.engine.cylinders) else "throw"
+    return f"one {part}'s first-order force"
+
+
+def abbreviated(sentences: Iterable[str], phrase: str, symbol: str) -> list[str]:
+    """Return sentences with a symbol for a phrase that comes again, behind it where it is first."""
+    text = "\n".join(sentences)
+    before, _, after = text.partition(phrase)
+    if phrase in after:
+        text = f"{before}{phrase} {symbol}{after.replace(phrase, symbol)}"
+    return text.splitlines()
 
 
 def words(finding: Finding) -> str:

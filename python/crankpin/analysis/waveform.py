@@ -39,7 +39,7 @@ def waveform(
     torque: bool = True,
 ) -> Waveform:
     """Return the waveform of an engine; :meth:`Engine.waveform` documents the arguments."""
-    theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+    theta = inputs.crank_angles(theta_deg)
     if orders is None and rtol is not None:
         raise InputError(
             f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; exact kinematics has no tolerance'

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
 from crankpin.cli import engines, hardware, loads, making, new, outputs, shaking
-from crankpin.cli.arguments import PROG, Given, Parser
+from crankpin.cli.arguments import PROG, Given, Parser, in_options
+from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
 COMMANDS = (
     engines.add_presets,
@@ -38,14 +39,16 @@ COMMANDS = (
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code."""
     try:
-        with warnings.catch_warnings():
-            warnings.showwarning = outputs.warn
-            outputs.write(_text(argv))
+        outputs.write(_text(argv))
     except BrokenPipeError:
         # The reader of the pipe has closed it.
         outputs.abandon(sys.stdout)
         return 128 + 13  # as a shell reports SIGPIPE
-    except (InputError, OSError, ImportError) as error:
+    except OSError as error:
+        reason = error.strerror if error.filename else None
+        outputs.say(f"error: {error.filename}: {reason}" if reason else f"error: {error}")
+        return 2
+    except (InputError, ImportError) as error:
         outputs.say(f"error: {error}")
         return 2
     except KeyboardInterrupt:
@@ -65,8 +68,27 @@ def _text(argv: Sequence[str] | None) -> str:
         if sys.stdout is not None:
             outputs.write("")  # flushes the help while a broken pipe can still be answered
         raise
-    text: str = arguments.run(Given(arguments, typed))
+    given = {name for name, value in vars(arguments).items() if value is not None}
+    with warnings.catch_warnings():
+        warnings.showwarning = _Warnings(given)
+        try:
+            text: str = arguments.run(Given(arguments, typed))
+        except InputError as error:
+            raise InputError(in_options(str(error), given)) from None
     return text
+
+
+class _Warnings:
+    """What shows warnings, in place of ``warnings.showwarning``: of wrong units the first."""
+
+    def __init__(self, options: Iterable[str]) -> None:
+        self._options, self._of_units = options, False
+
+    def __call__(self, message: Warning | str, *_: object, **__: object) -> None:
+        of_units = checks.UNITS in str(message)
+        if not (of_units and self._of_units):
+            outputs.say(f"warning: {in_options(str(message), self._options)}")
+        self._of_units |= of_units
 
 
 def _parser() -> Parser:

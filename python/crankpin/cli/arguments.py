@@ -13,7 +13,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.model import engine_files, presets
+from crankpin.model import checks, engine_files, presets
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -72,6 +72,27 @@ NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*)?", re
 
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are an InputError in one line."""
+
+    def parse_known_args(  # type: ignore[override] # of two overloads
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Reject, as the command that it is, words that it does not take."""
+        found, others = super().parse_known_args(args, namespace)
+        if others:
+            meant = inputs.nearest(others[0].partition("=")[0], self._option_string_actions)
+            hint = meant or f"; see {self.prog} --help"
+            raise InputError(f"unrecognized arguments: {labels.cut(' '.join(others))}{hint}")
+        return found, []
+
+    def _check_value(self, action: argparse.Action, value: object) -> None:
+        """Reject a word that is none of the choices, as the library does."""
+        if action.choices is not None and value not in action.choices:
+            name = "/".join(action.option_strings) or str(action.metavar)
+            words = list(map(str, action.choices))
+            hint = "no such command" if action.nargs == argparse.PARSER else None
+            hint = hint or f"give {' or '.join(words)}"
+            meant = inputs.nearest(value, words) or f"; see {self.prog} --help"
+            raise InputError(f"{name} = {labels.cut(str(value))}: {hint}{meant}")
 
     def error(self, message: str) -> NoReturn:  # noqa: D102 - of the base class
         raise InputError(f"{message}; see {self.prog} --help")
@@ -171,6 +192,19 @@ def shared(parser: Parser, *names: str, **changes: object) -> None:
 
 
 # --- values -------------------------------------------------------------------------------------
+
+
+def in_options(message: str, options: Iterable[str]) -> str:
+    """Return a message of the library with arguments named, and units asked for, as in a shell."""
+    known = {*options} - {"name", "names"}
+
+    def option(found: re.Match[str]) -> str:
+        named = next((each for each in (found[0], found[1]) if each in known), None)
+        return f"--{named.replace('_', '-')}" if named else found[0]
+
+    asked = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"
+    message = message.replace(checks.UNITS, asked)
+    return re.sub(r"(?:(?<=^)|(?<=; ))(\w+?)(?:_deg|_mass)?(?=(?: =| is| has|\[))", option, message)
 
 
 class Given:

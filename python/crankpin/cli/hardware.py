@@ -95,7 +95,8 @@ def _planes(given: Given) -> Planes:
     parts = [part.rpartition("=") for part in text.split(",")]
     named = [name for name, equals, _ in parts if equals]
     if not named:
-        return given.listed("--planes", text, "m")
+        what = "ends, webs, or places in m, such as 0,0.4"
+        return [float(given.decimal("--planes", each, "m", what)) for each in text.split(",")]
     if len(set(named)) < len(parts):
         hint = "give ends, webs, places, or a name of its own for each place"
         raise InputError(f"--planes = {labels.cut(text)}: {hint}")

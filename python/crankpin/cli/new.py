@@ -9,9 +9,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from crankpin._core import InputError
-from crankpin._support import inputs
+from crankpin._support import inputs, labels
 from crankpin.cli.arguments import PROG, command, shared
-from crankpin.model import engine_files, presets
+from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
 from crankpin.model.engine import Engine
@@ -168,6 +168,8 @@ def _layout(kind: str) -> presets.Layout:
         return presets.layout()._replace(builder=BUILDERS[kind], arguments={})
     name = presets.named(kind)
     if name not in presets.Presets():
+        if meant := inputs.nearest(kind.lower(), [*presets.aliases(), *BUILDERS]):
+            raise InputError(f"KIND = {labels.cut(kind)}: no such layout{meant}")
         raise InputError(f"KIND = {presets.suggestion(kind, typed=True)}")
     return presets.layout(name)
 
@@ -209,8 +211,10 @@ def _read(given: Given, flag: str, how: str) -> Any:  # noqa: ANN401 - as the bu
         return given.whole(flag)
     if how == "text" or (how == "split" and text == "even"):
         return text
-    listed = [inputs.angle(flag, each.strip().rstrip("°")) for each in text.split(",")]
-    return listed if how == "angles" else inputs.angle(flag, text.strip().rstrip("°"))
+    typed = [each.strip().removesuffix("deg").rstrip("°") for each in text.split(",")]
+    listed = [inputs.angle(flag, each) for each in typed]
+    checks.radians(flag, text, [float(each) for each in typed if "." in each and "/" not in each])
+    return listed if how == "angles" else listed[0]
 
 
 def _split(base: presets.Layout, changes: dict[str, Any]) -> dict[str, str]:

@@ -94,8 +94,3 @@ def say(message: str) -> None:
         sys.stderr.flush()
     except OSError:
         abandon(sys.stderr)
-
-
-def warn(message: Warning | str, *_: object, **__: object) -> None:
-    """Write a warning to standard error, in place of ``warnings.showwarning``."""
-    say(f"warning: {message}")

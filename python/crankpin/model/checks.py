@@ -58,6 +58,7 @@ diesel 3e7."""
 LEAST_ABSOLUTE = 1e4
 """Least pressure, Pa, below which gauge pressure is likely: an engine that idles has 2e4 Pa."""
 
+UNITS = "Lengths are metres here, masses kilograms"
 MILLIMETRES = ": was it given in millimetres?"
 GRAMS_MILLIMETRES = ": was it given in g·mm or g·m?"
 
@@ -84,9 +85,9 @@ PARTS_OF_A_TURN = range(1, 25)
 """Denominators of the parts of a turn for which radians are recognised: angles of 2 to 24 throws
 and firing intervals."""
 
-ROUNDED_RADIANS = 0.01
+ROUNDED_RADIANS = 0.03
 """Difference, degrees, from a part of a turn up to which radians are recognised: those typed to
-four decimals are within 0.003°."""
+three decimals are within 0.029°."""
 
 
 def cylinder(radius: float, rod_length: float) -> None:
@@ -194,7 +195,7 @@ def _far(core: _core.Engine, name: str, at: float, middle: float | None = None) 
 
 def _report(found: list[str]) -> None:
     if found:
-        warn(f"{'; '.join(found)} Lengths are metres here, masses kilograms")
+        warn(f"{'; '.join(found)} {UNITS}")
 
 
 def angles(**given: object) -> None:
@@ -205,13 +206,18 @@ def angles(**given: object) -> None:
         hints = filter(None, (_near_miss(value) for value in listed))
         if hint := next(hints, None):
             warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")
-        floats = [float(value) for value in listed if isinstance(value, float) and value]
-        if floats and all(map(_radians, floats)):
-            degrees = ", ".join(f"{math.degrees(value):.6g}°" for value in floats[:4])
-            warn(
-                f"{name} = {inputs.shorten(values)}: was it given in radians? Angles are degrees "
-                f"here: {degrees}"
-            )
+        radians(name, values, [float(value) for value in listed if isinstance(value, float)])
+
+
+def radians(name: str, given: object, values: Sequence[float]) -> None:
+    """Warn of angles that are parts of a turn in radians; ``given`` is shown in their place."""
+    angles = [value for value in values if value]
+    if angles and all(map(_radians, angles)):
+        degrees = ", ".join(f"{math.degrees(value):.6g}°" for value in angles[:4])
+        warn(
+            f"{name} = {inputs.shorten(given)}: was it given in radians? Angles are degrees here: "
+            f"{degrees}"
+        )
 
 
 def _near_miss(value: object) -> str | None:

@@ -183,21 +183,26 @@ class Cylinder:
             if not 0.0 < self.bore <= LARGEST_LENGTH:
                 raise _core.InputError(f"bore = {self.bore!r}: give metres above zero")
             checks.bore(self.bore, self.stroke)
-        if self.rod is not None and not self._of_its_rod:
-            hint = "make cylinders of a rod by Cylinder.from_rod, or leave it out"
-            raise _core.InputError(
-                f"rod = {inputs.shorten(self.rod)}: contradicts the cylinder's figures; {hint}"
-            )
+        if self.rod is not None:
+            self._check_rod(self.rod)
 
-    @property
-    def _of_its_rod(self) -> bool:
-        """True if length, masses and inertia are those of piston and rod."""
-        if not isinstance(self.rod, Rod) or self.piston_mass is None:
-            return False
-        derived = self.rod.length, self.rod.inertia_excess
-        return derived == (self.rod_length, self.rod_inertia_excess) and (
-            self.reciprocating_mass == self.piston_mass + self.rod.reciprocating_mass
-        )
+    def _check_rod(self, rod: Rod) -> None:
+        """Reject a rod, with its piston, that does not make the length, mass and inertia given."""
+        if not isinstance(rod, Rod):
+            raise _core.InputError(f"rod = {inputs.shorten(rod)}: give a crankpin.Rod")
+        if self.piston_mass is None:
+            raise _core.InputError("piston_mass = None: give it with the rod, or leave out the rod")
+        made = {
+            "rod_length": rod.length,
+            "reciprocating_mass": self.piston_mass + rod.reciprocating_mass,
+            "rod_inertia_excess": rod.inertia_excess,
+        }
+        for name, figure in made.items():
+            if (given := getattr(self, name)) != figure:
+                hint = "change them together, as Cylinder.from_rod does, or leave out the rod"
+                raise _core.InputError(
+                    f"{name} = {given!r}: rod and piston_mass make it {figure!r}; {hint}"
+                )
 
     @classmethod
     def _of(cls, parts: _Parts, details: _Details) -> Cylinder:

@@ -205,7 +205,7 @@ def suggestion(name: str, *, typed: bool = False) -> str:
     typed
         True for words of the command line, False for those of Python.
     """
-    plain = name[:80].lower()
+    plain = re.sub(r"[\s_]+", "-", name[:80].strip().lower())
     plain = plain if family(plain) != [plain] else named(plain)
     titles = {engine.name.lower(): each for each, engine in Presets().items()}
     words = {each: each for each in Presets()} | titles | dict(aliases())
@@ -217,6 +217,9 @@ def suggestion(name: str, *, typed: bool = False) -> str:
         near = [each for each in family(plain.rpartition("-")[0]) if each in Presets()]
         near = near or [words[each] for each in difflib.get_close_matches(plain, words, 3, 0.7)]
         built = _recipe(plain, typed=typed)
+    if not (near or built):
+        more = "crankpin new makes" if typed else "Engine.inline, vee and the like make"
+        built = f"{more} engines of your own; "
     quoted = " or ".join(f'"{each}"' for each in dict.fromkeys(near))
     question = f"did you mean {quoted}? " if near else ""
     listing = (

@@ -41,8 +41,10 @@ MOST_ENGINES = 4
 """Engines with a row of their own."""
 MOST_ZEROS = 60
 """Maximum number of points at which a quantity vanishes that are marked."""
-RANGE = 1e-6
+RANGE = 1e-4
 """Part of the largest peak at which the colours of orders begin."""
+BELOW = (0.5, 0.5, 0.5, 0.2)
+"""Colour of smaller ones, on light and dark backgrounds."""
 
 
 def heat_map(
@@ -104,11 +106,14 @@ def order_map(
     height = 0.7 if len(rows.rows) == 1 else 0.45
     shared: dict[str, Any] = {"sharex": True, "sharey": True, "row_height": height}
     made = make_panels(ax, figure, len(rows.rows), len(rows.columns), **shared)
-    norm = _logarithmic(np.stack([row.peaks for row in rows.rows]))
+    peaks = np.stack([row.peaks for row in rows.rows])
+    norm = _logarithmic(peaks)
     for row, panels in zip(rows.rows, made.axes, strict=True):
         mesh = _cells(panels, values, orders, row.peaks, {"norm": norm} | style)
-    if any(row.peaks.any() for row in rows.rows):
-        _colour_bar(made.axes.ravel(), mesh, name, plain=False)
+    if peaks.any():
+        below = ((peaks > 0.0) & (peaks < (norm.vmin or 0.0))).any()
+        extend = "min" if below else "neither"
+        _colour_bar(made.axes.ravel(), mesh, name, plain=False, extend=extend)
     _label_all(made, along, "order", rows)
     made.set_title(words.title, words.subtitle(name), rows.columns[0] if made.single else note)
     return made.drawn
@@ -224,6 +229,7 @@ def _cells(
         cells[cells == 0.0] = np.nan
         drawn = {"shading": "nearest", "rasterized": True} | options
         mesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)
+        mesh.set_cmap(mesh.get_cmap().with_extremes(under=BELOW))
         panel.set_ylim(0.5 * step, rows[-1] + 0.5 * step)
         if not peaks.any():
             note_zero(panel)
@@ -236,9 +242,10 @@ def _colour_bar(
     quantity: str,
     *,
     plain: bool = True,
+    extend: str = "neither",
 ) -> None:
-    first = panels[0]
-    bar = first.get_figure(root=False).colorbar(mesh, ax=list(panels), aspect=25, pad=0.02)  # type: ignore[union-attr]
+    figure = panels[0].get_figure(root=False)
+    bar = figure.colorbar(mesh, ax=list(panels), aspect=25, pad=0.02, extend=extend)  # type: ignore[union-attr]
     bar.set_label(f"peak, {QUANTITIES[quantity].unit}")
     bar.outline.set_visible(False)
     if plain:

@@ -478,7 +478,7 @@ class Sweep(ByOrder, Tabled):
         >>> s.waveform(range(360)).torque.shape
         (2, 2, 360)
         """
-        theta = inputs.vector("theta_deg", np.arange(721.0) if theta_deg is None else theta_deg)
+        theta = inputs.crank_angles(theta_deg)
         if inputs.flag("exact", exact) and self.request.pairs is not None:
             hint = "exact kinematics needs the slider-crank; leave out the spectrum, or exact"
             raise InputError(f"exact = True: {hint}")

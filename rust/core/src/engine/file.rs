@@ -197,7 +197,7 @@ fn unbalances(weights: &[WeightEntry], list: &str) -> Result<Vec<Unbalance>> {
 
 /// Degrees as a number, or as a fraction in a string where no double is exact.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected degrees, a number or a text such as \"360/7\"")]
 enum Degrees {
     Number(f64),
     Text(String),
@@ -428,11 +428,17 @@ pub fn from_toml(text: &str) -> Result<Engine> {
     toml::from_str::<EngineFile>(text)
         .map_err(|error| {
             let end = error.span().map_or(0, |span| span.start.min(text.len()));
-            let line = text.get(..end).map_or(0, |before| before.matches('\n').count()) + 1;
+            let index = text.get(..end).map_or(0, |before| before.matches('\n').count());
             // The parser's own display quotes the whole line, however long.
+            let entry = text.lines().nth(index).and_then(|line| line.split_once('='));
+            let (key, value) = entry.map_or(("", ""), |(key, value)| (key.trim(), value.trim()));
+            let key = if key.is_empty() { String::new() } else { format!(", {}", shorten(key)) };
+            let hint =
+                if has_decimal_comma(value) { "; a decimal has a point, not a comma" } else { "" };
+            let reason = plain(error.message());
             Error::File {
                 format: "TOML",
-                reason: format!("line {line}: {}", shorten(error.message())),
+                reason: format!("line {}{key}: {reason}{hint}", index + 1),
             }
         })?
         .engine()
@@ -445,6 +451,29 @@ pub fn from_json(text: &str) -> Result<Engine> {
     let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
     check_tables(&value, "the file")?;
     serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+}
+
+/// A message of serde's with JSON's words for types, and not too long.
+fn plain(message: &str) -> String {
+    const WORDS: [(&str, &str); 7] = [
+        ("expected f64", "expected a number"),
+        ("expected i32", "expected a whole number"),
+        ("expected u32", "expected a whole number"),
+        ("expected usize", "expected a whole number"),
+        ("a sequence", "a list"),
+        ("type: sequence", "type: list"),
+        ("type: map", "type: table"),
+    ];
+    let all = |text: String, (from, to): &(&str, &str)| text.replace(from, to);
+    shorten(&WORDS.iter().fold(message.to_owned(), all))
+}
+
+/// Whether a value is a number with a comma, such as 0,1485.
+fn has_decimal_comma(value: &str) -> bool {
+    value.split_once(',').is_some_and(|(whole, rest)| {
+        let digits = |part: &str| part.bytes().next().is_some_and(|byte| byte.is_ascii_digit());
+        whole.trim_start_matches('-').parse::<u64>().is_ok() && digits(rest)
+    })
 }
 
 /// Without a byte order mark, which some editors put before a text.
@@ -488,7 +517,7 @@ fn check_tables(value: &serde_json::Value, place: &str) -> Result<()> {
 }
 
 fn unreadable(format: &'static str, error: &dyn std::error::Error) -> Error {
-    Error::File { format, reason: shorten(error.to_string().trim_end()) }
+    Error::File { format, reason: plain(error.to_string().trim_end()) }
 }
 
 #[cfg(test)]
@@ -656,7 +685,15 @@ mod tests {
     #[test]
     fn an_error_tells_the_line() {
         let error = from_toml("schema = 1\nname = \"a\"\nplacements = 3\n").unwrap_err();
-        assert!(error.to_string().contains("line 3"), "{error}");
+        let said = "line 3, placements: invalid type: integer `3`, expected a list";
+        assert!(error.to_string().contains(said), "{error}");
+        let error = from_toml("schema = 1\nreference_z = 0,5\n").unwrap_err().to_string();
+        assert!(error.contains("line 2, reference_z: "), "{error}");
+        assert!(error.ends_with("; a decimal has a point, not a comma"), "{error}");
+        for (value, comma) in [("0,5", true), ("-12,5e3", true), ("[0, 5]", false), ("0, 5", false)]
+        {
+            assert_eq!(has_decimal_comma(value), comma, "{value}");
+        }
     }
 
     #[test]

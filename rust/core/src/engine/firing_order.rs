@@ -16,11 +16,20 @@ impl FiringOrder {
         let mut sorted = groups.concat();
         sorted.sort_unstable();
         let count = sorted.len();
-        let listed = count > 0 && sorted.into_iter().eq(1..=count);
+        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]);
+        let missing = (1..=count).find(|number| sorted.binary_search(number).is_err());
+        let fault = twice
+            .map(|pair| (pair[0], "there twice"))
+            .or_else(|| missing.map(|number| (number, "missing")));
+        let listed = count > 0 && fault.is_none();
         let order = Self(groups);
         if !listed || count > limits::MOST_CYLINDERS {
-            let hint =
+            let named =
                 "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
+            let hint = match fault {
+                Some((number, fault)) => format!("{number} is {fault}; {named}"),
+                None => named.to_owned(),
+            };
             return Err(Error::value("firing_order", order, hint));
         }
         Ok(order)
