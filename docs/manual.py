@@ -48,12 +48,13 @@ Without gas pressure, at {rpm:g} rpm (`engine.balance(rpm={rpm:g})`):
 ```
 
 ```{{raw}} html
-<iframe class="turning" src="turning/{name}.html" loading="lazy"
+<iframe class="turning" src="turning/compact/{name}.html" loading="lazy"
 title="{engine.name}, turning"></iframe>
-<p><a href="turning/{name}.html">On a page of its own</a></p>
+<p><a href="turning/{name}.html">The whole page</a></p>
 ```
 
-`engine.save_html("{name}.html")` writes this page, `engine.view()` shows it in a notebook.
+`engine.save_html("{name}.html")` writes the whole page, `engine.view()` shows it in a notebook;
+`compact=True` makes the small one.
 """
 
 
@@ -178,7 +179,13 @@ def _write(file: Path, text: str) -> None:
 def make_turning(app: Sphinx, failed: Exception | None) -> None:
     """Write the pages in which the presets turn."""
     if failed is None and app.builder.format == "html":
-        page.save_gallery(Path(app.outdir) / "gallery" / "turning", rpm=RPM)
+        folder = Path(app.outdir) / "gallery" / "turning"
+        page.save_gallery(folder, rpm=RPM)
+        (folder / "compact").mkdir(exist_ok=True)
+        for name, engine in cp.presets().items():
+            engine.save_html(
+                folder / "compact" / f"{name}.html", rpm=page.speed_of(name, RPM), compact=True
+            )
 
 
 def formula(translator: HTML5Translator, node: nodes.math) -> None:
