@@ -202,8 +202,11 @@ def _pressure_unit(given: str | None, head: str) -> str:
         return inputs.one_of("pressure_unit", given, PRESSURE_UNITS)
     found = {match[1].lower() for match in _PRESSURE.finditer(head)}
     if len(found) != 1:
-        listed = " or ".join(f'"{unit}"' for unit in PRESSURE_UNITS)
-        raise InputError(f"pressure_unit = None: the file does not name one; give {listed}")
+        listed = ", ".join(PRESSURE_UNITS)
+        raise InputError(
+            "pressure_unit = None: the file does not name one; head its column p [bar] or the like, "
+            f"or give one of {listed}"
+        )
     (unit,) = found
     return next(each for each in PRESSURE_UNITS if each.lower() == unit)
 
@@ -212,8 +215,8 @@ def _is_gauge(given: bool | None, head: str) -> bool:
     if given is not None:
         return inputs.flag("gauge", given)
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
-        hint = "give True for pressure above the atmosphere's, False for absolute pressure"
         raise InputError(
-            f"gauge = None: the file does not state whether pressure is gauge or absolute; {hint}"
+            "gauge = None: the file does not state whether pressure is gauge or absolute; write one "
+            "of these words into its header, or give True for gauge, False for absolute pressure"
         )
     return bool(_GAUGE.search(head))
