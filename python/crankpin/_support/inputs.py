@@ -156,7 +156,7 @@ def output(name: str, values: NDArray[np.float64], shape: tuple[int, ...]) -> ND
     """Return an array that results of this shape can be written to."""
     hint = f"give a writeable, aligned, C-contiguous array of float64, of shape {shape}"
     if not isinstance(values, np.ndarray):
-        raise InputError(f"{name} = {shorten(values)}: {hint}")
+        raise rejected(name, values, hint)
     if values.dtype != np.float64 or values.shape != shape or not values.flags.carray:
         kind = "" if values.flags.carray else ", not writeable, aligned and contiguous"
         raise InputError(f"{name} has shape {values.shape} of {values.dtype}{kind}: {hint}")
@@ -228,11 +228,11 @@ def angular_speed(rpm: Any) -> float:  # noqa: ANN401 - anything that float() ta
 def text(name: str, value: object, hint: str = "give text") -> str:
     """Return a string that can be written as UTF-8."""
     if not isinstance(value, str):
-        raise InputError(f"{name} = {shorten(value)}: {hint}")
+        raise rejected(name, value, hint)
     try:
         value.encode()
     except UnicodeEncodeError as error:
-        raise InputError(f"{name} = {shorten(value)}: {hint} ({reason(error)})") from None
+        raise rejected(name, value, f"{hint} ({reason(error)})") from None
     return value
 
 
@@ -241,9 +241,9 @@ def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "pa
     try:
         file = Path(path)  # type: ignore[arg-type]
     except TypeError:
-        raise InputError(f"{name} = {shorten(path)}: give a path; {hint}") from None
+        raise rejected(name, path, f"give a path; {hint}") from None
     if file.suffix.lower() not in endings or "\0" in str(file):
-        raise InputError(f"{name} = {shorten(str(path))}: {hint}")
+        raise rejected(name, str(path), hint)
     return file
 
 
@@ -252,7 +252,7 @@ def whole(name: str, value: object) -> int:
     try:
         return _index(value)
     except TypeError:
-        raise InputError(f"{name} = {shorten(value)}: give a whole number") from None
+        raise rejected(name, value, "give a whole number") from None
 
 
 def _index(value: Any) -> int:  # noqa: ANN401 - anything that operator.index() takes
@@ -268,14 +268,13 @@ def strokes(value: object) -> int:
             return number
     except TypeError:
         pass
-    hint = "give 4 for a four-stroke or 2 for a two-stroke"
-    raise InputError(f"strokes = {shorten(value)}: {hint}")
+    raise rejected("strokes", value, "give 4 for a four-stroke or 2 for a two-stroke")
 
 
 def flag(name: str, value: object) -> bool:
     """Return True or False."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} = {shorten(value)}: give True or False")
+        raise rejected(name, value, "give True or False")
     return bool(value)
 
 
@@ -285,7 +284,7 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     if not isinstance(value, str) or value not in listed:
         *before, last = (f'"{choice}"' for choice in listed)
         hint = f"{', '.join(before)} or {last}" if before else last
-        raise InputError(f"{name} = {shorten(value)}: give {hint}{nearest(value, listed)}")
+        raise rejected(name, value, f"give {hint}{nearest(value, listed)}")
     return value
 
 
@@ -305,11 +304,11 @@ def items(name: str, values: object, hint: str) -> list[Any]:
     """Return the items of an iterable as a list, up to a limit."""
     # Lists and tuples come first: to find that they are iterable takes microseconds.
     if isinstance(values, (str, bytes)) or not isinstance(values, (list, tuple, Iterable)):
-        raise InputError(f"{name} = {shorten(values)}: {hint}")
+        raise rejected(name, values, hint)
     try:
         listed = list(itertools.islice(values, MOST_ITEMS + 1))
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} = {shorten(values)}: {hint} ({reason(error)})") from None
+        raise rejected(name, values, f"{hint} ({reason(error)})") from None
     if len(listed) > MOST_ITEMS:
         raise InputError(f"{name} has more than {MOST_ITEMS} entries: {hint}")
     return listed
@@ -374,17 +373,17 @@ def _orders(
     if isinstance(values, str):
         if values == "auto":
             return None
-        raise InputError(f'{name} = {shorten(values)}: {hint}, or "auto"')
+        raise rejected(name, values, f'{hint}, or "auto"')
     listed = items(name, values if isinstance(values, (list, tuple, Iterable)) else [values], hint)
     try:
         result = [one(each) for each in listed]
     except (TypeError, ValueError, OverflowError):
         if any(isinstance(each, float) and each % 1.0 for each in listed) and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
-        raise InputError(f"{name} = {shorten(values)}: {hint}") from None
+        raise rejected(name, values, hint) from None
     for each in result:
         if not 0 < each <= HIGHEST_ORDER:
-            raise InputError(f"{name} = {shorten(each)}: {hint}, up to {HIGHEST_ORDER}")
+            raise rejected(name, each, f"{hint}, up to {HIGHEST_ORDER}")
     return result
 
 
@@ -410,7 +409,7 @@ def tolerance(rtol: object, orders: list[int] | None, default: float) -> float:
         return default
     if orders is not None:
         hint = 'leave it out, or give orders="auto"'
-        raise InputError(f"rtol = {shorten(rtol)}: rtol is for the choice of orders; {hint}")
+        raise rejected("rtol", rtol, f"rtol is for the choice of orders; {hint}")
     return number("rtol", rtol)
 
 
@@ -420,7 +419,7 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
         return None
     hint = "give a mapping order → kg·m, such as {1: 9.0, 2: 3.7}"
     if not isinstance(values, Mapping):
-        raise InputError(f"spectrum = {shorten(values)}: {hint}")
+        raise rejected("spectrum", values, hint)
     listed = explicit_orders(values, "spectrum")
     try:
         for amplitude in values.values():
@@ -428,7 +427,7 @@ def spectrum(values: object) -> list[tuple[int, complex]] | None:
                 raise TypeError("text or a truth value is not a number")
         return [(n, complex(values[key])) for n, key in zip(listed, values, strict=True)]
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"spectrum = {shorten(values)}: {hint} ({reason(error)})") from None
+        raise rejected("spectrum", values, f"{hint} ({reason(error)})") from None
 
 
 # --- messages -----------------------------------------------------------------------------------
@@ -455,6 +454,11 @@ def shorten(value: object) -> str:
     except Exception:
         short = f"<{type(value).__name__}>"
     return short if len(short) <= 80 else short[:79] + "…"
+
+
+def rejected(name: str, value: object, hint: str) -> InputError:
+    """Return the error of an argument: its name, its value and a hint."""
+    return InputError(f"{name} = {shorten(value)}: {hint}")
 
 
 def reason(error: Exception) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, TypeAlias
 
-from crankpin._core import InputError
 from crankpin._support import inputs, optional
 
 Progress: TypeAlias = bool | Callable[[int, int], object]
@@ -42,4 +41,4 @@ def checked(progress: Any) -> Progress:  # noqa: ANN401 - anything a caller may 
     if progress is False or callable(progress):
         return progress  # type: ignore[no-any-return] # callables return what they like
     hint = "give True for a tqdm bar, or a function of (steps done, steps in all)"
-    raise InputError(f"progress = {inputs.shorten(progress)}: {hint}")
+    raise inputs.rejected("progress", progress, hint)

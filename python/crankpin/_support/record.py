@@ -119,7 +119,7 @@ class Listed(Generic[Item]):
         listed = self._listed()
         sound = isinstance(listed, tuple) and all(isinstance(each, self._item) for each in listed)
         if self._maker and not (sound and listed):
-            raise InputError(f"{self._items} = {inputs.shorten(listed)}: use {self._maker}")
+            raise inputs.rejected(self._items, listed, f"use {self._maker}")
         super().__post_init__()  # type: ignore[misc] # of the record that this is mixed into
 
     def _listed(self) -> tuple[Item, ...]:

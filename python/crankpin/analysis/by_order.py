@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import AbsentError, read_only
@@ -127,7 +126,7 @@ class ByOrder(Keyed, Quantities):
         """
         self.request.check(quantity)
         if not isinstance(what, str):
-            raise InputError(f"what = {inputs.shorten(what)}: give the name of an array")
+            raise inputs.rejected("what", what, "give the name of an array")
         found: NDArray[Any] | None = self._kept.get((quantity, what))
         if found is None:
             inputs.one_of("what", what, export.arrays(quantity))
@@ -183,7 +182,7 @@ class ByOrder(Keyed, Quantities):
         """Return the same result at the orders given."""
         wanted = inputs.half_orders(orders)
         if wanted is None:
-            raise InputError(f"orders = {inputs.shorten(orders)}: give orders, such as (1, 2)")
+            raise inputs.rejected("orders", orders, "give orders, such as (1, 2)")
         return self._with_request(self.request.at_orders(tuple(wanted)))
 
     def _proved_zero(self, quantity: str, order: Order) -> bool:

@@ -422,6 +422,6 @@ def _groups(groups: Groups | None) -> list[list[int]] | None:
         numbers = [inputs.whole(name, number) for number in inputs.items(name, group, hint)]
         for number in numbers:
             if not 1 <= number < 2**32:
-                raise InputError(f"{name} = {inputs.shorten(number)}: {hint}")
+                raise inputs.rejected(name, number, hint)
         listed.append(numbers)
     return listed

@@ -354,7 +354,7 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
     hint = "give a function of degrees, or (angles in degrees, torques in N·m)"
     pair = inputs.items(name, given, hint)
     if len(pair) != 2:
-        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
+        raise inputs.rejected(name, given, hint)
     theta, torque = (inputs.vector(name, each) for each in pair)
     if len(theta) != len(torque) or len(theta) < 2:
         raise InputError(f"{name} has {len(theta)} angles and {len(torque)} torques: {hint}")
@@ -362,7 +362,7 @@ def _diagram(name: str, given: object, period_deg: object) -> _Diagram:
         raise InputError(f"{name} has {len(theta)} angles: give at most {MOST_KNOTS}")
     span = float(theta[-1] - theta[0])
     if not (np.diff(theta) >= 0.0).all() or not 0.0 < span < np.inf:
-        raise InputError(f"{name} = {inputs.shorten(given)}: give ascending angles")
+        raise inputs.rejected(name, given, "give ascending angles")
     period = span if period is None else period
     if span > period * (1.0 + EQUAL):
         raise InputError(f"period_deg = {period}: the angles span {span:.10g}°; give no less")

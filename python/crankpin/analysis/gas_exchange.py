@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 
 if TYPE_CHECKING:
@@ -102,6 +101,5 @@ def angles(timing: Timing | None, kind: type[ValveTiming | PortTiming]) -> list[
         other = "four-stroke a crankpin.ValveTiming"
         if kind is ValveTiming:
             other = "two-stroke a crankpin.PortTiming"
-        hint = f"give a crankpin.{kind.__name__}, of a {other}"
-        raise InputError(f"timing = {inputs.shorten(timing)}: {hint}")
+        raise inputs.rejected("timing", timing, f"give a crankpin.{kind.__name__}, of a {other}")
     return found.texts

@@ -38,7 +38,7 @@ def order_key(order: object) -> Order | Literal["all"]:
     hint = 'the key is an order, a multiple of crank speed such as 2 or 0.5, or "all"'
     if isinstance(order, (slice, tuple)) or order is ... or order is None:
         hint += "; arrays of all orders are in xy, forward, backward and peak"
-    raise InputError(f"order = {inputs.shorten(order)}: {hint}")
+    raise inputs.rejected("order", order, hint)
 
 
 def one_order(order: object) -> Order:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
 from crankpin._support.record import AbsentError, Record
@@ -48,9 +47,7 @@ class Request(Record):
         """Return a request, or raise an InputError that names the argument at fault."""
         wanted = inputs.half_orders(orders)
         if wanted is not None and rtol is not None:
-            raise InputError(
-                f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; leave out rtol or orders'
-            )
+            raise inputs.rejected("rtol", rtol, 'needs orders="auto"; leave out rtol or orders')
         pairs = inputs.spectrum(spectrum)
         return cls(
             None if wanted is None else tuple(wanted),
@@ -67,7 +64,7 @@ class Request(Record):
             return self.replace(reference_z=inputs.finite("point", point), aside=(0.0, 0.0))
         listed = [inputs.finite("point", each) for each in inputs.items("point", point, hint)]
         if len(listed) != 3:
-            raise InputError(f"point = {inputs.shorten(point)}: {hint}")
+            raise inputs.rejected("point", point, hint)
         x, y, z = listed
         return self.replace(reference_z=z, aside=(x, y))
 
@@ -115,7 +112,7 @@ class Request(Record):
 def check_request(request: object, maker: str) -> Request:
     """Return a request, or raise an InputError that names the function that makes such results."""
     if not isinstance(request, Request):
-        raise InputError(f"request = {inputs.shorten(request)}: use {maker}")
+        raise inputs.rejected("request", request, f"use {maker}")
     return request
 
 
@@ -123,7 +120,7 @@ def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
     core = getattr(engine, "core", None)
     if not isinstance(core, _core.Engine):
-        raise InputError(f"{name} = {inputs.shorten(engine)}: give a crankpin.Engine")
+        raise inputs.rejected(name, engine, "give a crankpin.Engine")
     return core
 
 

@@ -114,7 +114,7 @@ class StarDiagram(Keyed, Tabled):
         """Return the index of an order, or raise an InputError."""
         if order not in self.orders:
             known = labels.orders_text(self.orders)
-            raise InputError(f"order = {inputs.shorten(order)}: the diagram has {known}")
+            raise inputs.rejected("order", order, f"the diagram has {known}")
         return self.orders.index(order)
 
     @property
@@ -218,9 +218,9 @@ def star_diagram(
             hint = "the cycle of a two-stroke repeats in every turn; give whole orders"
             raise InputError(f"orders = {order}: {hint}")
     if len(set(listed)) < len(listed) or not listed:
-        raise InputError(f"orders = {inputs.shorten(listed)}: give each order once, one at least")
+        raise inputs.rejected("orders", listed, "give each order once, one at least")
     shape = np.ones(len(engine)) if mode_shape is None else inputs.vector("mode_shape", mode_shape)
     if shape.size != len(engine) or not np.isfinite(shape).all():
         hint = f"give a finite amplitude for each of the {len(engine)} cylinders"
-        raise InputError(f"mode_shape = {inputs.shorten(mode_shape)}: {hint}")
+        raise inputs.rejected("mode_shape", mode_shape, hint)
     return StarDiagram(firing, tuple(listed), tuple(shape.tolist()))

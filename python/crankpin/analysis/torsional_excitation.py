@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
@@ -128,7 +127,7 @@ def torsional_excitation(
     array([99.2, 99.2, 99.2, 99.2])
     """
     if not isinstance(engine, Engine):
-        raise InputError(f"engine = {inputs.shorten(engine)}: give a crankpin.Engine")
+        raise inputs.rejected("engine", engine, "give a crankpin.Engine")
     speed = inputs.angular_speed(rpm)
     cycles = engine.cycles
     listed = orders
@@ -155,7 +154,7 @@ def torsional_excitation(
     largest = float(np.abs(torque).sum(axis=0).max(initial=0.0))
     if (np.abs(torque.sum(axis=0) - total) > ROUNDING * largest).any():
         hint = "its torque is no sum over cylinders of one crank; give an engine of one crank"
-        raise InputError(f"engine = {inputs.shorten(labels.name_of(engine))}: {hint}")
+        raise inputs.rejected("engine", labels.name_of(engine), hint)
     return TorsionalExcitation(
         engine,
         inputs.number("rpm", rpm),

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional
 from crankpin._support.record import AbsentError, Record, Tabled, read_only
 from crankpin._support.tables import Table
@@ -131,7 +130,7 @@ class Verdicts(Record):
         """
         if order not in self.orders:
             known = labels.orders_text(self.orders)
-            raise InputError(f"order = {inputs.shorten(order)}: decided were {known}")
+            raise inputs.rejected("order", order, f"decided were {known}")
         return self.words[self.orders.index(order)]
 
     def __iter__(self) -> Iterator[Order]:

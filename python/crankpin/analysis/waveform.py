@@ -41,8 +41,8 @@ def waveform(
     """Return the waveform of an engine; :meth:`Engine.waveform` documents the arguments."""
     theta = inputs.crank_angles(theta_deg)
     if orders is None and rtol is not None:
-        raise InputError(
-            f'rtol = {inputs.shorten(rtol)}: needs orders="auto"; exact kinematics has no tolerance'
+        raise inputs.rejected(
+            "rtol", rtol, 'needs orders="auto"; exact kinematics has no tolerance'
         )
     if orders is None and spectrum is not None:
         raise InputError(

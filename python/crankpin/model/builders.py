@@ -346,11 +346,9 @@ class Builders(EngineData):
             raise InputError(f"rows = {banks}: give 1 or 2; Engine.from_lists takes any layout")
         if count % banks or count < 3 * banks:
             hint = "give three or more to each row; two opposed cylinders are Engine.flat"
-            raise InputError(f"cylinders = {inputs.shorten(count)}: {hint}")
+            raise inputs.rejected("cylinders", count, hint)
         if count > MOST_CYLINDERS:
-            raise InputError(
-                f"cylinders = {inputs.shorten(count)}: an engine has 1 to {MOST_CYLINDERS}"
-            )
+            raise inputs.rejected("cylinders", count, f"an engine has 1 to {MOST_CYLINDERS}")
         if spacing is None and banks == 2:
             raise InputError("spacing = None: give the distance between the two rows, m")
         distance = inputs.number("spacing", 0.0 if spacing is None else spacing)

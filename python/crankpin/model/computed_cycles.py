@@ -282,7 +282,7 @@ class ComputedCycles:
             raise InputError(f"{given}: give one of them")
         if (rpm is None) != (wall_temperature is None):
             given = f"wall_temperature = {inputs.shorten(wall_temperature)}"
-            raise InputError(f"{given}, rpm = {inputs.shorten(rpm)}: heat loss needs both")
+            raise inputs.rejected(f"{given}, rpm", rpm, "heat loss needs both")
         two = inputs.strokes(strokes) == 2
         closes, opens = (-115.0, 105.0) if two else (-140.0, 130.0)
         figures = {
@@ -354,7 +354,7 @@ class ComputedCycles:
 def area(cylinder: Cylinder) -> float:
     """Return the area of a cylinder's piston, m²; an error that names the hint without a bore."""
     if not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+        raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     if cylinder.bore is None:
         hint = "gas pressure needs it; give bore=…, m, or cylinder.replace(bore=…)"
         raise InputError(f"bore = None: {hint}")

@@ -71,9 +71,7 @@ def load(
     with file.open("rb") as opened:
         found = opened.read(_core.LONGEST_FILE + 1)
     if len(found) > _core.LONGEST_FILE:
-        raise InputError(
-            f"path = {inputs.shorten(str(path))}: more than {_core.LONGEST_FILE} bytes"
-        )
+        raise inputs.rejected("path", str(path), f"more than {_core.LONGEST_FILE} bytes")
     try:
         text = found.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -83,7 +81,7 @@ def load(
         _place(split.header, column) for column in inputs.items("columns", columns, "give two")
     ]
     if len(place) != 2:
-        raise InputError(f"columns = {inputs.shorten(columns)}: give two, of angle and pressure")
+        raise inputs.rejected("columns", columns, "give two, of angle and pressure")
     angles, pressures = (_numbers(split.rows, k) for k in place)
     # Names with blanks of columns separated by blanks cannot be distinguished.
     apart = len(split.header) == len(split.rows[0])

@@ -61,7 +61,7 @@ class CycleMap(Tabled):
         for name in ("rpm", "load"):
             axis = inputs.vector(name, getattr(self, name)).copy()
             if not axis.size or not np.isfinite(axis).all() or (np.diff(axis) <= 0.0).any():
-                raise InputError(f"{name} = {inputs.shorten(axis)}: give ascending numbers")
+                raise inputs.rejected(name, axis, "give ascending numbers")
             object.__setattr__(self, name, read_only(axis))
         hint = "give a list for each speed, of a crankpin.Cycle for each load"
         rows = tuple(
@@ -70,9 +70,7 @@ class CycleMap(Tabled):
         )
         if len(rows) != len(self.rpm) or {*map(len, rows)} != {len(self.load)}:
             shape = f"{len(self.rpm)} speeds and {len(self.load)} loads"
-            raise InputError(
-                f"cycles = {inputs.shorten([len(row) for row in rows])}: for {shape} {hint}"
-            )
+            raise inputs.rejected("cycles", [len(row) for row in rows], f"for {shape} {hint}")
         for each in (cycle for row in rows for cycle in row):
             if not isinstance(each, Cycle):
                 raise InputError(f"cycles: {inputs.shorten(each)} is not a Cycle; {hint}")

@@ -157,7 +157,7 @@ class Cylinder:
         (0.6, -0.0005)
         """
         if not isinstance(rod, Rod):
-            raise _core.InputError(f"rod = {inputs.shorten(rod)}: give a Rod")
+            raise inputs.rejected("rod", rod, "give a Rod")
         mass = inputs.number("piston_mass", piston_mass)
         if not mass >= 0.0:
             raise _core.InputError(f"piston_mass = {mass!r}: give a number that is zero or more")
@@ -189,7 +189,7 @@ class Cylinder:
     def _check_rod(self, rod: Rod) -> None:
         """Reject a rod, with its piston, that does not make the length, mass and inertia given."""
         if not isinstance(rod, Rod):
-            raise _core.InputError(f"rod = {inputs.shorten(rod)}: give a crankpin.Rod")
+            raise inputs.rejected("rod", rod, "give a crankpin.Rod")
         if self.piston_mass is None:
             raise _core.InputError("piston_mass = None: give it with the rod, or leave out the rod")
         made = {
@@ -268,7 +268,7 @@ class Cylinder:
             whole = {"rod": self.rod, "piston_mass": self.piston_mass} | kept | changes
             if whole["piston_mass"] is None:
                 hint = "give piston_mass too: it is not known what the rod's part was"
-                raise _core.InputError(f"rod = {inputs.shorten(whole['rod'])}: {hint}")
+                raise inputs.rejected("rod", whole["rod"], hint)
             return Cylinder.from_rod(**whole)
         try:
             return dataclasses.replace(self, **changes)

@@ -473,7 +473,7 @@ class EngineData:
         each: list[Any] = [cycle] * len(self) if same else inputs.items("cycle", cycle, hint)
         for k, one in enumerate(each):
             if not (one is None or isinstance(one, Cycle)):
-                raise InputError(f"cycle[{k}] = {inputs.shorten(one)}: {hint}")
+                raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one.core for one in each]
         (fired,) = self._core.with_cycles([cores], inputs.number("crankcase", crankcase))
         return type(self)(fired)
@@ -636,7 +636,7 @@ def core_of_lists(
 def parts(cylinder: object) -> tuple[float, float, float, float, float]:
     """Return the figures of a cylinder, as the core takes them."""
     if not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+        raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     return cylinder._parts
 
 

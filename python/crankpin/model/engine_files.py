@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from crankpin import _core
-from crankpin._core import InputError
 from crankpin._support import inputs
 
 ENDINGS = (".toml", ".json")
@@ -37,8 +36,7 @@ def read(file: Path) -> str:
     try:
         return found.decode("utf-8")
     except UnicodeDecodeError as error:
-        hint = f"{error}; an engine file is UTF-8"
-        raise InputError(f"path = {inputs.shorten(str(file))}: {hint}") from None
+        raise inputs.rejected("path", str(file), f"{error}; an engine file is UTF-8") from None
 
 
 @functools.cache

@@ -110,11 +110,11 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     offset in metres, and the given pin offset is added to it.
     """
     if not isinstance(name, str):
-        raise InputError(f"name = {inputs.shorten(name)}: give the name of a preset, as a string")
+        raise inputs.rejected("name", name, "give the name of a preset, as a string")
     if name not in Presets():
         raise UnknownPresetError(_unknown(name))
     if cylinder is not None and not isinstance(cylinder, Cylinder):
-        raise InputError(f"cylinder = {inputs.shorten(cylinder)}: give a crankpin.Cylinder")
+        raise inputs.rejected("cylinder", cylinder, "give a crankpin.Cylinder")
     found = layout(name)
     distance = found.spacing if spacing is None else inputs.number("spacing", spacing)
     if not math.isfinite(distance):

@@ -141,7 +141,7 @@ def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     listed = inputs.items("shafts", given, "give a list of crankpin.Shaft")
     for k, each in enumerate(listed):
         if not isinstance(each, Shaft):
-            raise InputError(f"shafts[{k}] = {inputs.shorten(each)}: give a crankpin.Shaft")
+            raise inputs.rejected(f"shafts[{k}]", each, "give a crankpin.Shaft")
     made = core.with_shafts(
         [
             (each.name, each.ratio, each.x, each.y, [_weight(u) for u in each.unbalances])
@@ -179,7 +179,7 @@ def _listed(name: str, given: Any) -> tuple[Unbalance, ...]:  # noqa: ANN401 - c
     listed = inputs.items(name, given, "give a list of crankpin.Unbalance")
     for k, each in enumerate(listed):
         if not isinstance(each, Unbalance):
-            raise InputError(f"{name}[{k}] = {inputs.shorten(each)}: give a crankpin.Unbalance")
+            raise inputs.rejected(f"{name}[{k}]", each, "give a crankpin.Unbalance")
     return tuple(listed)
 
 

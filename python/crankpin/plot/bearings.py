@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
@@ -131,7 +130,7 @@ def _places(numbers: Iterable[int] | None, count: int) -> list[int]:
     hint = f"give whole numbers from 1 to {count}"
     listed = [inputs.whole("numbers", each) for each in inputs.items("numbers", numbers, hint)]
     if not listed or not all(1 <= each <= count for each in listed):
-        raise InputError(f"numbers = {inputs.shorten(listed)}: {hint}")
+        raise inputs.rejected("numbers", listed, hint)
     return [each - 1 for each in listed]
 
 

@@ -8,7 +8,6 @@ from typing import Any
 
 from matplotlib import pyplot as plt
 
-from crankpin._core import InputError
 from crankpin._support import inputs
 
 
@@ -29,10 +28,10 @@ def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401
             raise
         name = unknown[1]
         hint = "this picture has no such option, and what it draws no such property"
-        raise InputError(f"{name} = {inputs.shorten(options.get(name))}: {hint}") from None
+        raise inputs.rejected(name, options.get(name), hint) from None
 
 
 @functools.singledispatch
 def picture(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
     """Draw a result; the functions that do are registered by its class."""
-    raise InputError(f"result = {inputs.shorten(result)}: there is no picture of this kind")
+    raise inputs.rejected("result", result, "there is no picture of this kind")

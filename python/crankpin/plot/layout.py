@@ -76,7 +76,7 @@ class Panels(NamedTuple):
 def axes_or_new(ax: Axes | None) -> Axes:
     """Return the axes given, or those of a new pyplot figure."""
     if ax is not None and not isinstance(ax, Axes):
-        raise InputError(f"ax = {inputs.shorten(ax)}: give matplotlib axes")
+        raise inputs.rejected("ax", ax, "give matplotlib axes")
     return plt.subplots(layout=Layout())[1] if ax is None else ax
 
 

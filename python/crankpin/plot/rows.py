@@ -95,9 +95,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     if orders is not None:
         chosen = given_orders(orders)
         if single and len(chosen) > 1:
-            raise InputError(
-                f"orders = {inputs.shorten(orders)}: a single panel shows one order; give figure"
-            )
+            raise inputs.rejected("orders", orders, "a single panel shows one order; give figure")
         return Rows([one(order) for order in chosen], columns, "")
     if len(sweep.orders) == 1:
         return Rows([one(sweep.orders[0])], columns, "")

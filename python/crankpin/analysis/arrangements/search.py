@@ -158,7 +158,7 @@ def search_arrangements(
     """
     count = inputs.whole("cylinders", cylinders)
     if not 0 <= count < 2**32:
-        raise InputError(f"cylinders = {inputs.shorten(count)}: give 4 to 30")
+        raise inputs.rejected("cylinders", count, "give 4 to 30")
     phases = None if phases_deg is None else inputs.angles("phases_deg", phases_deg)
     rule = inputs.flag("alternating", alternating)
     shared = inputs.flag("shared_pins", shared_pins)
@@ -395,7 +395,7 @@ def _window(within: object) -> tuple[float, float]:
     hint = "give two bank angles, such as (45, 90)"
     ends = inputs.items("within", within, hint)
     if len(ends) != 2:
-        raise InputError(f"within = {inputs.shorten(within)}: {hint}")
+        raise inputs.rejected("within", within, hint)
     low, high = (_bank_angle("within", end) for end in ends)
     return low, high
 

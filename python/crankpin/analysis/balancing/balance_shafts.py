@@ -195,7 +195,7 @@ def _ratios(given: object) -> list[int]:
         raise InputError(f"ratios has {len(found)} shafts: give 1 to {MOST_SHAFTS}")
     for each in found:
         if each == 0 or abs(each) > inputs.HIGHEST_ORDER:
-            raise InputError(f"ratios = {inputs.shorten(given)}: {hint}")
+            raise inputs.rejected("ratios", given, hint)
     return found
 
 
@@ -207,7 +207,7 @@ def _removals(given: object, ratios: list[int]) -> list[Remove]:
         word = cast("Remove", inputs.one_of("remove", each, REMOVE))
         if found.setdefault(ratio, word) != word:
             hint = "shafts of one ratio share their task; give them the same"
-            raise InputError(f"remove = {inputs.shorten(given)}: {hint}")
+            raise inputs.rejected("remove", given, hint)
     return [found[ratio] for ratio in ratios]
 
 
@@ -242,7 +242,7 @@ def _places(name: str, given: object, count: int) -> list[tuple[float, ...] | No
         ]
         places = tuple(sorted(numbers))
         if not places or len(set(places)) < len(places):
-            raise InputError(f"{name}[{k}] = {inputs.shorten(each)}: give different places")
+            raise inputs.rejected(f"{name}[{k}]", each, "give different places")
         found.append(places)
     return found
 

@@ -274,7 +274,7 @@ def _objectives(
     if not isinstance(target, Mapping):
         if one_unit and len({each.unit for each in objectives}) > 1:
             hint = "by has objectives of several units; give objective → value, or relative=True"
-            raise InputError(f"target = {inputs.shorten(target)}: {hint}")
+            raise inputs.rejected("target", target, hint)
         return objectives, dict.fromkeys(names, _limit("target", target))
     limits = {name: _limit(f"target[{name!r}]", value) for name, value in target.items()}
     more = [name for name in limits if name not in names]
@@ -294,13 +294,13 @@ def _axes(places: object, ratios: Sequence[int]) -> Mapping[int, Axis]:
     if places is None:
         return {}
     if not isinstance(places, Mapping):
-        raise InputError(f"places = {inputs.shorten(places)}: {hint}")
+        raise inputs.rejected("places", places, hint)
     found = {}
     for ratio, place in places.items():
         name = f"places[{inputs.shorten(ratio)}]"
         x_and_y = inputs.items(name, place, hint)
         if len(x_and_y) != 2:
-            raise InputError(f"{name} = {inputs.shorten(place)}: {hint}")
+            raise inputs.rejected(name, place, hint)
         x, y = (inputs.optional_number(name, each) for each in x_and_y)
         if ratio not in ratios:
             raise InputError(

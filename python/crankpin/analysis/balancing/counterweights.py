@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled
@@ -160,7 +159,7 @@ class Counterweights(Tabled):
 
     def __post_init__(self) -> None:
         if not isinstance(self.fit, Fit):
-            raise InputError(f"fit = {inputs.shorten(self.fit)}: use crankpin.counterweights")
+            raise inputs.rejected("fit", self.fit, "use crankpin.counterweights")
 
     @property
     def hardware(self) -> tuple[Unbalance, ...]:

@@ -98,7 +98,7 @@ def check_factor(name: str, factor: ArrayLike) -> None:
     listed = np.asarray(factor)
     if not ((listed >= 0.0) & (listed <= LARGEST_FACTOR)).all():
         hint = f"give a share of the reciprocating mass, 0 to {LARGEST_FACTOR:g}, such as 0.5"
-        raise InputError(f"{name} = {inputs.shorten(factor)}: {hint}")
+        raise inputs.rejected(name, factor, hint)
 
 
 def with_bob_weights(engine: Engine, factor: float) -> Engine:

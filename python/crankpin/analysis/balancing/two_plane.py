@@ -80,10 +80,8 @@ def two_plane_correction(
         raise InputError(f"amount_g_mm = {shown}: give zero or more; angle_deg turns it round")
     one, other = pairs["correction_z"]
     if one == other:
-        raise InputError(
-            f"correction_z = {inputs.shorten(correction_z)}: give two different places; in one "
-            "plane no couple can be corrected"
-        )
+        hint = "give two different places; in one plane no couple can be corrected"
+        raise inputs.rejected("correction_z", correction_z, hint)
     return TwoPlaneCorrection(*pairs.values())
 
 
@@ -92,7 +90,7 @@ def _pair(name: str, values: ArrayLike) -> tuple[float, float]:
     if len(listed) != 2:
         raise InputError(f"{name} has {len(listed)} figures: give two, one for each plane")
     if not (np.abs(listed) <= 1e30).all():
-        raise InputError(f"{name} = {inputs.shorten(values)}: give finite numbers")
+        raise inputs.rejected(name, values, "give finite numbers")
     return float(listed[0]), float(listed[1])
 
 

@@ -182,10 +182,8 @@ def _intervals(
         raise InputError(f"intervals_deg = {given}: leave it out, or even_firing")
     listed = [exact(each) for each in inputs.angles("intervals_deg", intervals_deg)]
     if len(listed) != number or sum(listed) != cycle or min(listed) < 0:
-        raise InputError(
-            f"intervals_deg = {inputs.shorten(intervals_deg)}: give {number} intervals, none "
-            f"negative, that add up to {cycle}"
-        )
+        hint = f"give {number} intervals, none negative, that add up to {cycle}"
+        raise inputs.rejected("intervals_deg", intervals_deg, hint)
     return tuple(listed)
 
 
@@ -198,9 +196,7 @@ def _bank_angles(kind: str, given: Range | None) -> tuple[Exact, Exact]:
     if kind != "vee":
         if given is not None:
             what = "has no banks" if kind == "inline" else "has its banks at 180"
-            raise InputError(
-                f'bank_angle_deg = {inputs.shorten(given)}: layout="{kind}" {what}; leave it out'
-            )
+            raise inputs.rejected("bank_angle_deg", given, f'layout="{kind}" {what}; leave it out')
         return (0, 0) if kind == "inline" else (HALF, HALF)
     if given is None:
         raise InputError("bank_angle_deg = None: give an angle, or two to choose between: (60, 90)")
@@ -229,10 +225,10 @@ def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact
     ends = given if np.ndim(given) else (given, given)
     hint = f"give an angle, or the lowest and the highest, {low} to {high}"
     if len(ends) != 2:
-        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
+        raise inputs.rejected(name, given, hint)
     first, last = (exact(inputs.angle(name, end)) for end in ends)
     if not low <= first <= last <= high:
-        raise InputError(f"{name} = {inputs.shorten(given)}: {hint}")
+        raise inputs.rejected(name, given, hint)
     return first, last
 
 
@@ -242,10 +238,10 @@ def _throws(count: int, given: Any) -> tuple[tuple[Exact, ...], ...]:  # noqa: A
         return tuple(_spread(count, turns * TURN) for turns in ((1,) if count % 2 else (1, 2)))
     hint = f'give {count} angles to be put in order, or "free"'
     if isinstance(given, str):
-        raise InputError(f"throws_deg = {inputs.shorten(given)}: {hint}")
+        raise inputs.rejected("throws_deg", given, hint)
     listed = [exact(each) % TURN for each in inputs.angles("throws_deg", given)]
     if len(listed) != count:
-        raise InputError(f"throws_deg = {inputs.shorten(given)}: {hint}")
+        raise inputs.rejected("throws_deg", given, hint)
     return (tuple(listed),)
 
 
@@ -254,5 +250,5 @@ def _shafts(given: Iterable[int]) -> tuple[int, ...]:
     listed = inputs.items("shafts", given, hint)
     ratios = [inputs.whole("shafts", each) for each in listed]
     if {0, 1} & set(ratios) or len(set(ratios)) < len(ratios):
-        raise InputError(f"shafts = {inputs.shorten(listed)}: {hint}")
+        raise inputs.rejected("shafts", listed, hint)
     return tuple(ratios)

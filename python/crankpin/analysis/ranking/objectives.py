@@ -123,7 +123,7 @@ def tie_tolerance(tie_rtol: object) -> float:
     """Return the relative difference up to which objectives are equal."""
     tolerance = inputs.number("tie_rtol", tie_rtol)
     if not 0.0 <= tolerance < 1.0:
-        raise InputError(f"tie_rtol = {inputs.shorten(tie_rtol)}: give 0 or more, less than 1")
+        raise inputs.rejected("tie_rtol", tie_rtol, "give 0 or more, less than 1")
     return tolerance
 
 
@@ -249,12 +249,12 @@ def listed(by: object) -> list[Objective]:
             words = f"{label}, a function given"
             found.append(Objective(label, label, words, "", of_balance=each))
         else:
-            raise InputError(f"by = {inputs.shorten(each)}: {hint}")
+            raise inputs.rejected("by", each, hint)
     if not found:
-        raise InputError(f"by = {inputs.shorten(by)}: {hint}")
+        raise inputs.rejected("by", by, hint)
     twice = {each.label for each in found if [one.label for one in found].count(each.label) > 1}
     if twice:
-        raise InputError(f"by = {inputs.shorten(by)}: {min(twice)} is given twice; give it once")
+        raise inputs.rejected("by", by, f"{min(twice)} is given twice; give it once")
     return found
 
 

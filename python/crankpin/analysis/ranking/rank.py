@@ -184,13 +184,11 @@ def _engines(
         for name, value in (("cylinder", cylinder), ("spacing", spacing)):
             if value is not None:
                 hint = "is for arrangements; engines have their own, leave it out"
-                raise InputError(f"{name} = {inputs.shorten(value)}: {hint}")
+                raise inputs.rejected(name, value, hint)
         return cast("Engines", [given] if isinstance(given, Engine) else given)
     for one in listed:
         if not isinstance(one, Arrangement):
-            raise InputError(
-                f"engines = {inputs.shorten(one)}: give arrangements alone, or engines alone"
-            )
+            raise inputs.rejected("engines", one, "give arrangements alone, or engines alone")
     for name, value in (("cylinder", cylinder), ("spacing", spacing)):
         if value is None:
             raise InputError(f"{name} = None: arrangements need one, as Arrangement.engine does")

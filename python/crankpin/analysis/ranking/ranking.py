@@ -134,8 +134,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         """Return the ``count`` best engines, best first."""
         wanted = inputs.number("count", count)
         if not 0 <= wanted <= len(self) or wanted != int(wanted):
-            hint = f"give a whole number, 0 to {len(self)}"
-            raise InputError(f"count = {inputs.shorten(count)}: {hint}")
+            raise inputs.rejected("count", count, f"give a whole number, 0 to {len(self)}")
         return self.choices[: int(wanted)]
 
     # --- tables and pictures --------------------------------------------------------------------

@@ -96,7 +96,7 @@ def _normalized(
     if isinstance(chunks, Mapping):
         for name in chunks:
             if name not in lengths:
-                raise InputError(f"chunks = {inputs.shorten(chunks)}: {hint}")
+                raise inputs.rejected("chunks", chunks, hint)
         wanted |= chunks
     else:
         wanted |= dict.fromkeys(lengths, chunks)
@@ -114,5 +114,5 @@ def _normalized(
         ):
             raise ValueError("a chunk has at least one point")
     except (TypeError, ValueError, ArithmeticError, NotImplementedError) as error:
-        raise InputError(f"chunks = {inputs.shorten(chunks)}: {hint} ({error})") from None
+        raise inputs.rejected("chunks", chunks, f"{hint} ({error})") from None
     return found

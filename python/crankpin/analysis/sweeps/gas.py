@@ -38,10 +38,10 @@ class GasMap(Record):
         maps: list[Any] = [cycle] if alone else inputs.items("cycle", cycle, hint)
         for k, each in enumerate(maps):
             if not (each is None or isinstance(each, CycleMap)):
-                raise InputError(f"cycle[{k}] = {inputs.shorten(each)}: {hint}")
+                raise inputs.rejected(f"cycle[{k}]", each, hint)
         given = [each for each in maps if each is not None]
         if not given:
-            raise InputError(f"cycle = {inputs.shorten(cycle)}: has no map; leave it out")
+            raise inputs.rejected("cycle", cycle, "has no map; leave it out")
         for axis in ("rpm", "load"):
             if any(not np.array_equal(getattr(m, axis), getattr(given[0], axis)) for m in given):
                 raise InputError(f"cycle: maps differ in {axis}; give maps of the same {axis}")

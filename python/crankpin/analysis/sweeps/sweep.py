@@ -155,9 +155,7 @@ def sweep(
     held: Any = None if hold is None else inputs.text("hold", hold, 'give "pins" or "firing"')
     request = Request.checked(orders=orders, rtol=rtol, spectrum=spectrum, torque=torque)
     if cycle is None and load is not None:
-        raise InputError(
-            f"load = {inputs.shorten(load)}: applies to a cycle map; give cycle=CycleMap(…)"
-        )
+        raise inputs.rejected("load", load, "applies to a cycle map; give cycle=CycleMap(…)")
     maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
     whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
@@ -643,7 +641,7 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
         engines = inputs.items("engines", engines, "give crankpin.Engine objects")
     for engine in engines:
         if not isinstance(engine, Engine):
-            raise InputError(f"engines = {inputs.shorten(engine)}: give crankpin.Engine objects")
+            raise inputs.rejected("engines", engine, "give crankpin.Engine objects")
     if names is None:
         names = [""] * len(engines)
     return list(engines), tuple(names)

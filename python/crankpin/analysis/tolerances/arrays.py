@@ -145,7 +145,7 @@ def _pins(engine: Engine, given: Iterable[Iterable[int]]) -> tuple[tuple[int, ..
         for pin in inputs.items("pins", given, hint)
     )
     if sorted(number for pin in pins for number in pin) != [*range(1, len(engine) + 1)]:
-        raise InputError(f"pins = {inputs.shorten(pins)}: name each cylinder once; {hint}")
+        raise inputs.rejected("pins", pins, f"name each cylinder once; {hint}")
     directions = engine.pin_deg
     for pin in pins:
         angles = np.array([directions[number - 1] for number in pin])

@@ -262,7 +262,7 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
     if len(found) > MOST_PARTS:
         raise InputError(f"{name} has {len(found)} entries: give {MOST_PARTS} at most")
     if not (np.isfinite(found).all() and (found > 0.0).all()):
-        raise InputError(f"{name} = {inputs.shorten(values)}: give masses above zero, kg")
+        raise inputs.rejected(name, values, "give masses above zero, kg")
     # Records make their arrays read-only: the caller's stay as they are.
     return found.reshape(-1, columns).copy()
 

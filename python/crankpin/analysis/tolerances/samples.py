@@ -221,7 +221,7 @@ class Tolerances(ByOrder, Tabled):
         """
         parts = inputs.array("q", q)
         if not ((parts >= 0.0) & (parts <= 1.0)).all():
-            raise InputError(f"q = {inputs.shorten(q)}: give numbers from 0 to 1")
+            raise inputs.rejected("q", q, "give numbers from 0 to 1")
         return np.quantile(self.values(by), parts) if parts.size else parts
 
     @cached_property

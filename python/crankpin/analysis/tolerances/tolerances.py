@@ -138,7 +138,7 @@ def tolerances(
         raise InputError(f"no part deviates: give a spread, {', '.join(given)}")
     count, start = inputs.whole("samples", samples), _seed(seed)
     if not 1 <= count <= MOST_SAMPLES:
-        raise InputError(f"samples = {inputs.shorten(samples)}: give 1 to {MOST_SAMPLES}")
+        raise inputs.rejected("samples", samples, f"give 1 to {MOST_SAMPLES}")
     request = Request.checked(
         orders=inputs.orders(orders) or "auto", rtol=rtol, spectrum=None, torque=torque,
         default_rtol=1e-4,
@@ -162,7 +162,7 @@ def _seed(seed: object) -> int:
         return int(seed.integers(MOST_SEEDS, dtype=np.uint64))
     found = inputs.whole("seed", seed)
     if not 0 <= found < MOST_SEEDS:
-        raise InputError(f"seed = {inputs.shorten(seed)}: give a whole number, 0 to 2**64 - 1")
+        raise inputs.rejected("seed", seed, "give a whole number, 0 to 2**64 - 1")
     return found
 
 
