@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin.analysis.design.design import design
-from crankpin.analysis.tolerances.arrays import FIGURES, SPREADS
+from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
 from crankpin.analysis.tolerances.tolerances import tolerances
 from crankpin.cli.arguments import command, shared
 from crankpin.cli.outputs import draw, printed, save

@@ -15,7 +15,7 @@ from crankpin._support.record import Record, Tabled
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.request import engine_core
-from crankpin.analysis.tolerances.arrays import deviating
+from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
 
 if TYPE_CHECKING:

@@ -7,15 +7,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support import progress as progress_bar
+from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin._support.record import Tabled
 from crankpin._support.tables import Table
+from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking import objectives
-from crankpin.analysis.request import check_request
-from crankpin.analysis.tolerances.arrays import FIGURES, Distribution, deviating
+from crankpin.analysis.request import check_request, engine_core
+from crankpin.analysis.tolerances.spreads import (
+    FIGURES,
+    OF_PINS,
+    Distribution,
+    deviating,
+    deviations,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,10 +33,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
-    from crankpin.analysis.balance import Balance
+    from crankpin._support.progress import Progress
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.request import Request
-    from crankpin.analysis.tolerances.arrays import ToleranceArrays
+    from crankpin.analysis.tolerances.spreads import Spreads
     from crankpin.model.engine import Engine
 
 QUANTILES = (0.05, 0.5, 0.95)
@@ -88,30 +98,42 @@ class Tolerances(ByOrder, Tabled):
     True
     """
 
-    source: ToleranceArrays
-    """Arrays of the samples."""
+    engine: Engine
+    """The nominal engine."""
+    rpm: float
+    """Crank speed, rpm."""
+    figures: Spreads
+    """What deviates, checked."""
+    samples: int
+    """Number of samples."""
+    seed: int
+    """Seed of the random numbers."""
+    request: Request
+    """The options of the samples, checked."""
+    bounds: tuple[float, float, float]
+    """Bounds on what omitted orders add to force, moment and torque of the nominal engine."""
     by: tuple[str, ...]
     """Names of what tables and pictures show."""
 
     @property
-    def request(self) -> Request:  # type: ignore[override] # read-only here
-        """The options of the samples, checked."""
-        return self.source.request
-
-    @property
     def orders(self) -> tuple[Order, ...]:
         """Multiples of crank speed."""
-        return self.source.orders
+        return self.request.orders or ()
+
+    @property
+    def omitted(self) -> tuple[int, ...]:
+        """Orders of the nominal engine that were left out: empty, those of samples are chosen."""
+        return ()
 
     @property
     def error_bound(self) -> Mapping[str, float]:
         """Quantity → upper bound on what omitted orders add to the nominal engine, N or N·m."""
-        return self.source.error_bound
+        return self.request.bounds(self.bounds)
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions of arrays before the orders: ``sample``."""
-        return self.source.dims
+        return ("sample",)
 
     @property
     def coords(self) -> Mapping[str, Any]:
@@ -123,12 +145,8 @@ class Tolerances(ByOrder, Tabled):
         """Attributes of a dataset: engine, speed, seed and spreads."""
         return {
             "engine": self.engine.name, "rpm": self.rpm, "seed": self.seed,
-            "spreads": self.source.spreads.text,
+            "spreads": self.figures.text,
         }  # fmt: skip
-
-    def read(self, quantity: str, what: str) -> NDArray[Any]:
-        """Return one of the arrays of a quantity, read-only."""
-        return self.source.read(quantity, what)
 
     def _with_request(self, request: Request) -> Tolerances:
         """Raise an InputError: samples have the orders and the plane that were given."""
@@ -137,50 +155,84 @@ class Tolerances(ByOrder, Tabled):
         raise InputError(f"orders = {orders}: is not among those of the samples ({known})")
 
     @property
-    def engine(self) -> Engine:
-        """The nominal engine."""
-        return self.source.engine
-
-    @property
-    def rpm(self) -> float:
-        """Crank speed, rpm."""
-        return self.source.rpm
-
-    @property
-    def samples(self) -> int:
-        """Number of samples."""
-        return self.source.samples
-
-    @property
-    def seed(self) -> int:
-        """Seed of the random numbers."""
-        return self.source.seed
-
-    @property
     def spreads(self) -> Mapping[str, tuple[float, ...]]:
         """Figure → its spread in each cylinder or crankpin, of those that were given."""
-        values = self.source.spreads.values
+        values = self.figures.values
         return {name: each for name, each in zip(FIGURES, values, strict=True) if each}
 
     @property
     def distribution(self) -> Distribution:
         """``"normal"`` or ``"uniform"``."""
-        return self.source.spreads.distribution
+        return self.figures.distribution
 
     @property
     def pins(self) -> tuple[tuple[int, ...], ...]:
         """Numbers of the cylinders on each crankpin."""
-        return self.source.spreads.pins
+        return self.figures.pins
 
-    @property
+    @cached_property
     def nominal(self) -> Balance:
         """Balance of the nominal engine, of the same orders."""
-        return self.source.nominal
+        return Balance(self.engine, self.rpm, self.request)
 
-    @property
-    def omitted(self) -> tuple[int, ...]:
-        """Orders of the nominal engine that were left out: empty, those of samples are chosen."""
-        return ()
+    # --- arrays ---------------------------------------------------------------------------------
+
+    @cached_property
+    def core(self) -> _core.Tolerances:
+        """Compiled counterpart."""
+        return _core.Tolerances(
+            engine_core(self.engine),
+            self.rpm,
+            list(self.orders),
+            self.request.reference_z,
+            self.request.torque,
+            self.figures.values,
+            self.figures.distribution,
+            self.figures.pin_of,
+            self.samples,
+        )
+
+    @cached_property
+    def _deviations(self) -> dict[str, NDArray[np.float64]]:
+        """Figure → its deviations: (n_samples, n_items); empty where it does not spread."""
+        return deviations(self.figures, self.samples, self.seed)
+
+    def evaluate(self, progress: Progress = False) -> None:
+        """Evaluate the samples now."""
+        core = self.core  # which checks the size of the result, before anything is drawn
+        drawn = list(self._deviations.values())
+        with progress_bar.shown(progress, "tolerances") as report:
+            force, moment, torques, peaks = core.sample(self.samples, drawn, report)
+        vars(self)["_drawn"] = {"force": force, "moment": moment}, torques, peaks
+
+    @cached_property
+    def _drawn(
+        self,
+    ) -> tuple[dict[str, NDArray[np.complex128]], NDArray[np.complex128], NDArray[np.float64]]:
+        """Force and moment, both torques, and peaks of all orders together."""
+        self.evaluate()
+        return vars(self)["_drawn"]  # type: ignore[no-any-return]
+
+    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
+        planar = quantity in PLANE_VECTORS
+        vectors, torques, peaks = self._drawn
+        if what in ("forward", "backward"):
+            return vectors[quantity][..., 2 + int(what == "backward")]
+        if what == "zero_bound":
+            bound = self.nominal.read(quantity, what)
+            return np.broadcast_to(bound, (self.samples, *bound.shape))
+        if what == "total_peak":
+            return peaks[:, tuple(QUANTITIES).index(quantity)]
+        phasors = (
+            vectors[quantity][..., :2] if planar else torques[..., int(quantity == "crank_torque")]
+        )
+        if what == "total_peak_xy":
+            orders = list(self.orders)
+            along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
+            return np.stack([_core.peaks_of_sums(orders, each, []) for each in along], axis=-1)
+        if what == "peak" and planar:
+            return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
+        return phasors if what == "phasors" else np.asarray(np.abs(phasors))
 
     # --- statistics -----------------------------------------------------------------------------
 
@@ -255,10 +307,10 @@ class Tolerances(ByOrder, Tabled):
         >>> abs(shares["interaction"].values[0]) < 5  # %
         True
         """
-        named = names_of(by, self.source.request)
-        figures = self.source.spreads.given
+        named = names_of(by, self.request)
+        figures = self.figures.given
         total = np.array([self.std(name) ** 2 for name in named])
-        parts = [Tolerances(self.source.only(figure), named) for figure in figures]
+        parts = [self.replace(figures=self.figures.only(figure), by=named) for figure in figures]
         variances = np.array([[part.std(name) ** 2 for part in parts] for name in named])
         varies = total > 0.0
         rows = 100.0 * variances / np.where(varies, total, 1.0)[:, None]
@@ -286,8 +338,9 @@ class Tolerances(ByOrder, Tabled):
         -------
         (n_samples, n_cylinders) or (n_samples, n_pins), kg, m or degrees
         """
-        figure = inputs.one_of("name", name, FIGURES)
-        return self.source.spread_out(figure)
+        drawn = self._deviations[inputs.one_of("name", name, FIGURES)]
+        items = len(self.pins) if name in OF_PINS else len(self.engine)
+        return drawn if drawn.size else np.broadcast_to(0.0, (self.samples, items))
 
     def engine_of(self, sample: int) -> Engine:
         """Return the engine of a sample; moments of its own are about its own middle.
@@ -302,8 +355,8 @@ class Tolerances(ByOrder, Tabled):
         k = inputs.whole("sample", sample)
         if not 0 <= k < self.samples:
             raise InputError(f"sample = {k}: give a number from 0 to {self.samples - 1}")
-        pin_of = self.source.spreads.pin_of
-        by_name = {name: self.source.spread_out(name)[k] for name in FIGURES}
+        pin_of = self.figures.pin_of
+        by_name = {name: self.draws(name)[k] for name in FIGURES}
         radius, turn = by_name["crank_radius"][pin_of], by_name["pin_deg"][pin_of]
         cylinders = [
             cylinder.replace(
@@ -362,12 +415,12 @@ class Tolerances(ByOrder, Tabled):
             for by in self.by
         ]
         engine = labels.name_of(self.engine)
-        title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.source.spreads.text}"
+        title = f"{engine} at {self.rpm:g} rpm: {self.samples} samples, {self.figures.text}"
         return Table.from_rows(title, header, names, np.array(rows).reshape(-1, len(header) - 2))
 
     def _objective(self, by: str | None) -> Objective:
         name = self.by[0] if by is None else inputs.text("by", by)
-        return _checked(name, self.source.request)
+        return _checked(name, self.request)
 
 
 def _read(objective: Objective, result: Any) -> NDArray[np.float64]:  # noqa: ANN401 - see below

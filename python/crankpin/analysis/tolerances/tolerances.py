@@ -12,8 +12,8 @@ from crankpin._support import progress as progress_bar
 from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import balance, mean_piston_speed
 from crankpin.analysis.request import Request, engine_core
-from crankpin.analysis.tolerances.arrays import Distribution, Spreads, ToleranceArrays
 from crankpin.analysis.tolerances.samples import Tolerances, names_of
+from crankpin.analysis.tolerances.spreads import Distribution, Spreads
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -148,10 +148,10 @@ def tolerances(
     request = request.at_orders(kept)
     shown = names_of(by, request)
     report = progress_bar.checked(progress)
-    arrays = ToleranceArrays(engine, speed, spreads, count, start, request, bound)
-    arrays.draw(report)
+    found = Tolerances(engine, speed, spreads, count, start, request, bound, shown)
+    found.evaluate(report)
     inputs.warn_of_units(mean_piston_speed(engine, speed))
-    return Tolerances(arrays, shown)
+    return found
 
 
 def _seed(seed: object) -> int:

@@ -1,22 +1,15 @@
-"""Spreads of an engine's figures, checked; deviations drawn by NumPy, evaluated by the core."""
+"""Spreads of an engine's figures, checked, and deviations drawn by NumPy."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support import progress as progress_bar
-from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Record
-from crankpin.analysis.balance import Balance
-from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import crankpins
 from crankpin.model.shafts import Unbalance
@@ -26,9 +19,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from crankpin._support.inputs import Order
-    from crankpin._support.progress import Progress
-    from crankpin.analysis.request import Request
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Engine
 
@@ -184,102 +174,3 @@ def deviations(spreads: Spreads, samples: int, seed: int) -> dict[str, NDArray[n
         values.setflags(write=False)
         found[name] = values
     return found
-
-
-class ToleranceArrays(ByOrder, Record):
-    """Arrays of samples: dimension ``sample``, then orders."""
-
-    engine: Engine
-    rpm: float
-    spreads: Spreads
-    samples: int
-    seed: int
-    request: Request
-    bounds: tuple[float, float, float]
-    """Bounds on what omitted orders add to force, moment and torque of the nominal engine."""
-
-    @cached_property
-    def core(self) -> _core.Tolerances:
-        """Compiled counterpart."""
-        return _core.Tolerances(
-            engine_core(self.engine),
-            self.rpm,
-            list(self.orders),
-            self.request.reference_z,
-            self.request.torque,
-            self.spreads.values,
-            self.spreads.distribution,
-            self.spreads.pin_of,
-            self.samples,
-        )
-
-    @cached_property
-    def deviations(self) -> dict[str, NDArray[np.float64]]:
-        """Figure → its deviations: (n_samples, n_items); empty where it does not spread."""
-        return deviations(self.spreads, self.samples, self.seed)
-
-    def draw(self, progress: Progress) -> None:
-        """Evaluate the samples now."""
-        core, drawn = self.core, list(self.deviations.values())
-        with progress_bar.shown(progress, "tolerances") as report:
-            force, moment, torques, peaks = core.sample(self.samples, drawn, report)
-        vars(self)["_drawn"] = {"force": force, "moment": moment}, torques, peaks
-
-    @cached_property
-    def _drawn(
-        self,
-    ) -> tuple[dict[str, NDArray[np.complex128]], NDArray[np.complex128], NDArray[np.float64]]:
-        """Force and moment, both torques, and peaks of all orders together."""
-        self.draw(progress=False)
-        return vars(self)["_drawn"]  # type: ignore[no-any-return]
-
-    @property
-    def orders(self) -> tuple[Order, ...]:
-        """Multiples of crank speed."""
-        return self.request.orders or ()
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Dimension of the samples."""
-        return ("sample",)
-
-    @property
-    def error_bound(self) -> Mapping[str, float]:
-        """Quantity → upper bound on what omitted orders add to the nominal engine."""
-        return self.request.bounds(self.bounds)
-
-    @cached_property
-    def nominal(self) -> Balance:
-        """Balance of the engine without deviations, of the same orders."""
-        return Balance(self.engine, self.rpm, self.request)
-
-    def spread_out(self, figure: str) -> NDArray[np.float64]:
-        """Return the deviations of a figure, zero where it does not spread."""
-        drawn = self.deviations[figure]
-        items = len(self.spreads.pins) if figure in OF_PINS else len(self.engine)
-        return drawn if drawn.size else np.broadcast_to(0.0, (self.samples, items))
-
-    def only(self, name: str) -> ToleranceArrays:
-        """Return the same samples with one figure alone deviating."""
-        return self.replace(spreads=self.spreads.only(name))
-
-    def _compute(self, quantity: str, what: str) -> NDArray[Any]:
-        planar = quantity in PLANE_VECTORS
-        vectors, torques, peaks = self._drawn
-        if what in ("forward", "backward"):
-            return vectors[quantity][..., 2 + int(what == "backward")]
-        if what == "zero_bound":
-            bound = self.nominal.read(quantity, what)
-            return np.broadcast_to(bound, (self.samples, *bound.shape))
-        if what == "total_peak":
-            return peaks[:, tuple(QUANTITIES).index(quantity)]
-        phasors = (
-            vectors[quantity][..., :2] if planar else torques[..., int(quantity == "crank_torque")]
-        )
-        if what == "total_peak_xy":
-            orders = list(self.orders)
-            along = [np.ascontiguousarray(phasors[..., axis]) for axis in (0, 1)]
-            return np.stack([_core.peaks_of_sums(orders, each, []) for each in along], axis=-1)
-        if what == "peak" and planar:
-            return np.asarray(np.abs(vectors[quantity][..., 2:]).sum(axis=-1))
-        return phasors if what == "phasors" else np.asarray(np.abs(phasors))
