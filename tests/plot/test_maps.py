@@ -10,7 +10,7 @@ import pytest
 from conftest import I4, V6
 from matplotlib import pyplot as plt
 
-from plot.pictures import over_two
+from plot.pictures import FIRED, over_two
 from plot.reading import figure_of, title_of
 
 if TYPE_CHECKING:
@@ -111,6 +111,28 @@ def test_colours_of_orders_begin_at_a_ten_thousandth_of_the_largest() -> None:
     assert mesh.cmap(mesh.norm(1e-5 * largest))[3] < 0.5  # pale, on any background
     first = cp.sweep(V6, rpm=[1000, 3000], orders=[1]).plot(kind="orders")[-1, -1]
     assert first.collections[0].colorbar.extend == "neither"
+
+
+def test_map_of_half_orders_has_a_row_for_each() -> None:
+    s = cp.sweep(FIRED, rpm=[1000, 2000], orders=[0.5, 1, 1.5, 3])
+    ax = s.plot(plt.subplots()[1], kind="orders", quantity="crank_torque")
+    expected = np.full((6, 2), np.nan)
+    expected[[0, 1, 2, 5]] = s.crank_torque.peak.T  # ½, 1, 1½ and 3 of ½ to 3
+    expected[expected == 0.0] = np.nan  # which are written
+    np.testing.assert_array_equal(np.ma.filled(cells(ax), np.nan), expected)
+    assert ax.get_ylim() == (0.25, 3.25)
+    zero = [order for order in s.orders if not s[order].crank_torque.peak.any()]
+    assert zero == [0.5, 1]
+    assert [text.get_position()[1] for text in ax.texts] == zero
+
+
+def test_engines_beyond_the_rows_are_counted() -> None:
+    s = cp.sweep([I4] * 6, rpm=[1000, 2000], orders=[2])
+    panels = s.plot(kind="orders", quantity="force")
+    assert len(panels) == 4
+    assert "2 more engines not shown" in figure_of(panels).get_suptitle()
+    norm = panels[0, 1].collections[0].norm
+    assert norm.vmin == 0.1 * norm.vmax  # a decade at least, of peaks a quarter apart
 
 
 @pytest.mark.parametrize("more", [{"kind": "orders"}, {"kind": "map", "rod_ratio": [0.2, 0.3]}])

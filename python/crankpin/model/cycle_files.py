@@ -202,8 +202,8 @@ def _pressure_unit(given: str | None, head: str) -> str:
     if len(found) != 1:
         listed = ", ".join(PRESSURE_UNITS)
         raise InputError(
-            "pressure_unit = None: the file does not name one; head its column p [bar] or the like, "
-            f"or give one of {listed}"
+            "pressure_unit = None: the file does not name one; head its column p [bar] or the "
+            f"like, or give one of {listed}"
         )
     (unit,) = found
     return next(each for each in PRESSURE_UNITS if each.lower() == unit)
@@ -214,7 +214,7 @@ def _is_gauge(given: bool | None, head: str) -> bool:
         return inputs.flag("gauge", given)
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
         raise InputError(
-            "gauge = None: the file does not state whether pressure is gauge or absolute; write one "
-            "of these words into its header, or give True for gauge, False for absolute pressure"
+            "gauge = None: the file does not state whether pressure is gauge or absolute; write "
+            "one of these words into its header, or give True for gauge, False for absolute pressure"
         )
     return bool(_GAUGE.search(head))
