@@ -139,8 +139,8 @@ OPTIONS: dict[str, dict[str, Any]] = {
     "--cycle": {
         "metavar": "FILE",
         "help": "cylinder pressure over crank angle: a text file of two columns under a header "
-        "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example (default: "
-        "%(default)s)",
+        "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example "
+        "(default: %(default)s)",
     },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {

@@ -215,6 +215,7 @@ def _is_gauge(given: bool | None, head: str) -> bool:
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
         raise InputError(
             "gauge = None: the file does not state whether pressure is gauge or absolute; write "
-            "one of these words into its header, or give True for gauge, False for absolute pressure"
+            "one of these words into its header, or give True for gauge, False for absolute "
+            "pressure"
         )
     return bool(_GAUGE.search(head))
