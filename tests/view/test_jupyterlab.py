@@ -133,6 +133,11 @@ def test_widget_and_kernel_move_each_other(browser: Browser, notebook: str) -> N
     # To Python.
     page.get_by_label("crank angle").fill("77.5")
     page.locator("[data-name=rod-ratio]").fill("0.25")
+    # A click on the picture gives the keys to the widget.
+    page.locator(".crankpin figcaption").first.click()
+    page.keyboard.press("ArrowRight")
+    page.locator("[data-name=crank-angle][data-value='78.5']").wait_for()
+    page.keyboard.press("ArrowLeft")
     # Keys are the widget's alone: "r" would make the cell raw, two of "d" would delete it.
     page.get_by_label("turn the crank").focus()
     for key in ("r", "d", "d"):

@@ -47,8 +47,8 @@ export class View {
     this.onKey = (event) => this.key(event);
     this.keysOn.addEventListener("keydown", this.onKey);
     this.element.addEventListener("click", (event) => {
-      // After the mouse pressed a button, keys are the view's again.
-      if (!event.detail || !event.target.closest?.("button, input[type=checkbox], summary")) return;
+      // After a click keys are the view's, but for controls that use them themselves.
+      if (!event.detail || event.target.closest?.("input:not([type=checkbox]), select, a")) return;
       this.element.focus({ preventScroll: true });
     });
     this.configure();
