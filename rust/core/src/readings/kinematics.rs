@@ -243,3 +243,28 @@ impl Units {
         }
     }
 }
+
+/// Positions of a crank at a block of crank angles, a column for each of their numbers.
+pub(crate) struct Cranks([AngleColumn; 5]);
+
+impl Cranks {
+    /// Of a crank that is `phase` ahead.
+    #[inline(always)]
+    pub fn new(units: &Units, phase: Complex64) -> Self {
+        let mut columns = [const { AngleColumn::ZERO }; 5];
+        for i in 0..BLOCK {
+            let CrankPosition { sin, cos, squared, to_above, to_below } = units.crank(phase, i);
+            for (column, x) in columns.iter_mut().zip([sin, cos, squared, to_above, to_below]) {
+                column[i] = x;
+            }
+        }
+        Self(columns)
+    }
+
+    /// At an angle of the block.
+    #[inline(always)]
+    pub fn at(&self, i: usize) -> CrankPosition {
+        let [sin, cos, squared, to_above, to_below] = self.0.each_ref().map(|column| column[i]);
+        CrankPosition { sin, cos, squared, to_above, to_below }
+    }
+}

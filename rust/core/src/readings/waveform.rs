@@ -1,10 +1,13 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
+use std::ops::Range;
+
 use ndarray::{Array1, Array2};
 
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::rod::Swing;
+use crate::gear::slider_crank::{CrankPosition, Proportions};
 use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
@@ -55,7 +58,9 @@ pub fn exact(
             || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
         );
         if request.torque {
-            kinematics.pressures.iter().for_each(|pressures| rows.add_pressure(pressures, angles));
+            for pressures in &kinematics.pressures {
+                rows.add_pressure(pressures, &pressures.proportions, angles, 0..angles.len());
+            }
         }
         Ok(())
     })?;
@@ -91,12 +96,15 @@ fn torques(engine: &Engine, wanted: bool) -> usize {
     }
 }
 
-/// Force x, y, moment x, y, roll and crank torque, and what pressure adds to these.
-struct WaveformRows {
-    columns: [AngleColumn; 8],
+/// Force x, y, moment x, y, roll and crank torque, and what pressure adds to these, at a block of crank
+/// angles.
+pub(super) struct WaveformRows {
+    pub columns: [AngleColumn; 8],
 }
 
 impl WaveformRows {
+    pub const ZERO: Self = Self { columns: [const { AngleColumn::ZERO }; 8] };
+
     #[inline(always)]
     fn add_kinematics(
         &mut self,
@@ -105,20 +113,35 @@ impl WaveformRows {
         torque: bool,
         square: f64,
     ) {
-        let main = Units::new(angles, 0..angles.len(), Order::FIRST);
+        let all = 0..angles.len();
+        let main = Units::new(angles, all.clone(), Order::FIRST);
         for pistons in &kinematics.pistons {
             let other = (pistons.ratio.abs() != 1)
-                .then(|| Units::at_speed(angles, 0..angles.len(), pistons.ratio));
+                .then(|| Units::at_speed(angles, all.clone(), pistons.ratio));
             let units = other.as_ref().unwrap_or(&main);
+            let crank = |i: usize| units.crank(pistons.phase, i);
+            let proportions = pistons.cylinder.proportions();
             if torque {
-                self.add::<true>(pistons, square, units);
+                self.add::<true, true>(pistons, &proportions, crank, square);
             } else {
-                self.add::<false>(pistons, square, units);
+                self.add::<true, false>(pistons, &proportions, crank, square);
             }
         }
+        self.add_unbalances(kinematics, angles, all, torque, square);
+    }
+
+    #[inline(always)]
+    pub fn add_unbalances(
+        &mut self,
+        kinematics: &Kinematics,
+        angles: &CrankAngles,
+        range: Range<usize>,
+        torque: bool,
+        square: f64,
+    ) {
         let [force_x, force_y, moment_x, moment_y, roll, ..] = &mut self.columns;
         for unbalances in &kinematics.unbalances {
-            let units = Units::at_speed(angles, 0..angles.len(), unbalances.ratio);
+            let units = Units::at_speed(angles, range.clone(), unbalances.ratio);
             let [force, moment] = unbalances.planar.map(|sum| sum * square);
             units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
             units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
@@ -130,19 +153,28 @@ impl WaveformRows {
         }
     }
 
+    /// Adds pistons of slider-cranks of these proportions, with their cranks there at each angle.
     #[inline(always)]
-    fn add<const TORQUE: bool>(&mut self, pistons: &Pistons, square: f64, units: &Units) {
+    pub fn add<const PLANAR: bool, const TORQUE: bool>(
+        &mut self,
+        pistons: &Pistons,
+        proportions: &Proportions,
+        position: impl Fn(usize) -> CrankPosition,
+        square: f64,
+    ) {
         let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
-        let (proportions, arm) = (pistons.cylinder.proportions(), pistons.arm * square);
+        let arm = pistons.arm * square;
         let senses = pistons.senses().map(|sense| sense * square);
         let [on_block, on_crank] = senses.map(|sense| sense * pistons.second_moment);
         for i in 0..BLOCK {
-            let motion = proportions.motion_at(&units.crank(pistons.phase, i));
-            force_x[i] += force.re * motion.acceleration;
-            force_y[i] += force.im * motion.acceleration;
-            moment_x[i] += moment.re * motion.acceleration;
-            moment_y[i] += moment.im * motion.acceleration;
+            let motion = proportions.motion_at(&position(i));
+            if PLANAR {
+                force_x[i] += force.re * motion.acceleration;
+                force_y[i] += force.im * motion.acceleration;
+                moment_x[i] += moment.re * motion.acceleration;
+                moment_y[i] += moment.im * motion.acceleration;
+            }
             if TORQUE {
                 let along = motion.velocity + proportions.offset;
                 roll[i] += (on_block * along + arm) * motion.acceleration;
@@ -152,16 +184,22 @@ impl WaveformRows {
         if TORQUE && pistons.rod_inertia != 0.0 {
             let [on_block, on_crank] = senses.map(|sense| sense * pistons.rod_inertia);
             for i in 0..BLOCK {
-                let swing = Swing::new(&proportions, &units.crank(pistons.phase, i));
+                let swing = Swing::new(proportions, &position(i));
                 roll[i] += on_block * swing.roll();
                 crank[i] += on_crank * swing.crank();
             }
         }
     }
 
-    fn add_pressure(&mut self, pressures: &Pressures, angles: &CrankAngles) {
+    pub fn add_pressure(
+        &mut self,
+        pressures: &Pressures,
+        proportions: &Proportions,
+        angles: &CrankAngles,
+        range: Range<usize>,
+    ) {
         let mut torques = AngleColumn::ZERO;
-        pressures.add(&pressures.proportions, angles, 0..angles.len(), &mut torques[..]);
+        pressures.add(proportions, angles, range, &mut torques[..]);
         let [on_block, on_crank] = pressures.gear.senses();
         for (column, sense) in [(4, -on_block), (5, on_crank)] {
             for (i, torque) in torques.iter().enumerate() {
@@ -269,7 +307,7 @@ fn fill_blocks(
     let tasks = listed;
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 4])| {
         cancel.check()?;
-        let mut rows = WaveformRows { columns: [const { AngleColumn::ZERO }; 8] };
+        let mut rows = WaveformRows::ZERO;
         add(&CrankAngles::of_checked(thetas), &mut rows)?;
         let [force_x, force_y, moment_x, moment_y, torque_columns @ ..] = &rows.columns;
         for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {

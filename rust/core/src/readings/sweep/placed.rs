@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use super::{Quantity, Sweep};
 use crate::gear::GearKind;
-use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Cylinder, Proportions};
+use crate::gear::slider_crank::{Cylinder, Proportions};
 use crate::load::Loads;
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::readings::balance::TorquePart;
-use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Units};
+use crate::readings::kinematics::{Cranks, Kinematics, Units};
+use crate::readings::waveform::WaveformRows;
 
 /// An engine at one bank angle.
 pub(super) struct Placed {
@@ -64,8 +64,8 @@ impl Sweep {
 }
 
 impl Placed {
-    /// Writes the values of every row, times a factor, at some crank angles, at most [`BLOCK`]; of
-    /// torque that of inertia or that of pressure, which takes none.
+    /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
+    /// inertia or that of pressure, which takes none.
     #[inline(always)]
     pub fn write<'o>(
         &self,
@@ -75,154 +75,47 @@ impl Placed {
         range: Range<usize>,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
-        if quantity.part() == Some(TorquePart::Gas) {
-            return self.gas(matches!(quantity, Quantity::Torque(_)), angles, range, outs);
+        let of_gas = quantity.part() == Some(TorquePart::Gas);
+        let torque = !quantity.is_planar();
+        let (mut unbalances, mut cranks) = (WaveformRows::ZERO, Vec::new());
+        if !of_gas {
+            unbalances.add_unbalances(&self.kinematics, angles, range.clone(), torque, factor);
+            cranks.extend(self.kinematics.pistons.iter().map(|pistons| {
+                let units = Units::at_speed(angles, range.clone(), pistons.ratio);
+                Cranks::new(&units, pistons.phase)
+            }));
         }
-        let cranks = |p: &Pistons| Cranks::new(p, &Units::at_speed(angles, range.clone(), p.ratio));
-        let cranks: Vec<Cranks> = self.kinematics.pistons.iter().map(cranks).collect();
-        let [mut x, mut y] = [AngleColumn::ZERO, AngleColumn::ZERO];
-        for unbalances in &self.kinematics.unbalances {
-            let units = Units::at_speed(angles, range.clone(), unbalances.ratio);
-            let at_start = match quantity {
-                Quantity::Force => unbalances.planar[0],
-                Quantity::Moment => unbalances.planar[1],
-                Quantity::Torque(_) => unbalances.roll,
-                Quantity::CrankTorque(_) => continue,
-            };
-            units.add_turning(at_start, unbalances.ratio, [&mut x[..], &mut y[..]]);
-        }
-        match quantity {
-            Quantity::Force => self.planar(0, factor, &cranks, &[x, y], outs),
-            Quantity::Moment => self.planar(1, factor, &cranks, &[x, y], outs),
-            Quantity::Torque(_) => self.torque::<true>(factor, &cranks, &y, outs),
-            Quantity::CrankTorque(_) => {
-                self.torque::<false>(factor, &cranks, &AngleColumn::ZERO, outs);
-            }
-        }
-    }
-
-    /// Torque of pressure.
-    fn gas<'o>(
-        &self,
-        on_block: bool,
-        angles: &CrankAngles,
-        range: Range<usize>,
-        outs: &mut impl Iterator<Item = &'o mut [f64]>,
-    ) {
+        let (mut rows, used) = (WaveformRows::ZERO, if torque { 4..6 } else { 0..4 });
         for (point, out) in self.points.iter().zip(outs) {
-            out.fill(0.0);
-            for (pressures, proportions) in self.kinematics.pressures.iter().zip(&point.pressures) {
-                let mut torque = AngleColumn::ZERO;
-                pressures.add(proportions, angles, range.clone(), &mut torque[..]);
-                let [block, crank] = pressures.gear.senses();
-                let sense = if on_block { -block } else { crank };
-                out.iter_mut().zip(&torque[..]).for_each(|(out, torque)| *out += sense * torque);
-            }
-        }
-    }
-
-    /// Force (0) or moment (1).
-    #[inline(always)]
-    fn planar<'o>(
-        &self,
-        which: usize,
-        factor: f64,
-        cranks: &[Cranks],
-        unbalances: &[AngleColumn; 2],
-        outs: &mut impl Iterator<Item = &'o mut [f64]>,
-    ) {
-        let pistons = &self.kinematics.pistons;
-        for (PlacedPoint { pistons: proportions, .. }, out) in self.points.iter().zip(outs) {
-            let [mut x, mut y] = unbalances.clone();
-            for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
-                let along = pistons.planar[which];
-                for i in 0..BLOCK {
-                    let acceleration = proportions.motion_at(&cranks.at(i)).acceleration;
-                    x[i] = along.re.mul_add(acceleration, x[i]);
-                    y[i] = along.im.mul_add(acceleration, y[i]);
+            rows.columns[used.clone()].clone_from_slice(&unbalances.columns[used.clone()]);
+            if of_gas {
+                for (pressures, of) in self.kinematics.pressures.iter().zip(&point.pressures) {
+                    rows.add_pressure(pressures, of, angles, range.clone());
                 }
             }
-            let (pairs, _) = out.as_chunks_mut::<2>();
-            for (pair, (x, y)) in pairs.iter_mut().zip(x.iter().zip(&y[..])) {
-                *pair = [factor * x, factor * y];
-            }
-        }
-    }
-
-    /// Roll torque on the block, or torque on the crank.
-    #[inline(always)]
-    fn torque<'o, const ROLL: bool>(
-        &self,
-        factor: f64,
-        cranks: &[Cranks],
-        unbalances: &AngleColumn,
-        outs: &mut impl Iterator<Item = &'o mut [f64]>,
-    ) {
-        let pistons = &self.kinematics.pistons;
-        for (PlacedPoint { pistons: proportions, .. }, out) in self.points.iter().zip(outs) {
-            let mut sum = unbalances.clone();
-            for ((pistons, cranks), proportions) in pistons.iter().zip(cranks).zip(proportions) {
-                let [on_block, on_crank] = pistons.senses();
-                let sense = if ROLL { on_block } else { on_crank };
-                let (masses, shift) =
-                    (sense * pistons.second_moment, if ROLL { pistons.arm } else { 0.0 });
-                for (i, sum) in sum.iter_mut().enumerate() {
-                    let motion = proportions.motion_at(&cranks.at(i));
-                    let arm =
-                        if ROLL { motion.velocity + proportions.offset } else { -motion.velocity };
-                    *sum = motion.acceleration.mul_add(masses.mul_add(arm, shift), *sum);
-                }
-                if pistons.rod_inertia != 0.0 {
-                    for (i, sum) in sum.iter_mut().enumerate() {
-                        let swing = Swing::new(proportions, &cranks.at(i));
-                        let torque = if ROLL { swing.roll() } else { swing.crank() };
-                        *sum = (sense * pistons.rod_inertia).mul_add(torque, *sum);
-                    }
+            let pistons = self.kinematics.pistons.iter().zip(&point.pistons);
+            for ((pistons, of), cranks) in pistons.zip(&cranks) {
+                let crank = |i: usize| cranks.at(i);
+                if torque {
+                    rows.add::<false, true>(pistons, of, crank, factor);
+                } else {
+                    rows.add::<true, false>(pistons, of, crank, factor);
                 }
             }
-            out.iter_mut().zip(&sum[..]).for_each(|(out, sum)| *out = factor * sum);
-        }
-    }
-}
-
-/// Positions of the cranks of pistons that move together.
-struct Cranks {
-    sin: AngleColumn,
-    cos: AngleColumn,
-    squared: AngleColumn,
-    to_above: AngleColumn,
-    to_below: AngleColumn,
-}
-
-impl Cranks {
-    #[inline(always)]
-    fn new(pistons: &Pistons, units: &Units) -> Self {
-        let mut cranks = Self {
-            sin: AngleColumn::ZERO,
-            cos: AngleColumn::ZERO,
-            squared: AngleColumn::ZERO,
-            to_above: AngleColumn::ZERO,
-            to_below: AngleColumn::ZERO,
-        };
-        for i in 0..BLOCK {
-            let crank = units.crank(pistons.phase, i);
-            cranks.sin[i] = crank.sin;
-            cranks.cos[i] = crank.cos;
-            cranks.squared[i] = crank.squared;
-            cranks.to_above[i] = crank.to_above;
-            cranks.to_below[i] = crank.to_below;
-        }
-        cranks
-    }
-
-    #[inline(always)]
-    fn at(&self, i: usize) -> CrankPosition {
-        CrankPosition {
-            sin: self.sin[i],
-            cos: self.cos[i],
-            squared: self.squared[i],
-            to_above: self.to_above[i],
-            to_below: self.to_below[i],
+            let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &rows.columns;
+            let (x, y) = match quantity {
+                Quantity::Force => (force_x, force_y),
+                Quantity::Moment => (moment_x, moment_y),
+                Quantity::Torque(_) => (roll, roll),
+                Quantity::CrankTorque(_) => (crank, crank),
+            };
+            if torque {
+                out.copy_from_slice(&x[..out.len()]);
+                continue;
+            }
+            for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
+                *pair = [*x, *y];
+            }
         }
     }
 }
