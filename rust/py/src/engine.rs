@@ -129,86 +129,42 @@ where
 }
 
 /// Where the cylinders of a vee sit and how they are numbered.
-pub struct VeeLayout {
-    bank_angle: Angle,
-    throws: Vec<Angle>,
-    spacing: f64,
-    pin_split: Angle,
-    bank_stagger: f64,
-    rotating_mass: Vec<f64>,
-    numbering: String,
-    odd_bank: String,
-    first_tdc: Angle,
-}
+pub struct VeeLayout(pub Vee);
 
 impl<'py> FromPyObject<'_, 'py> for VeeLayout {
     type Error = PyErr;
 
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self {
-            bank_angle: entry(&layout, "bank_angle")?,
-            throws: entry(&layout, "throws")?,
+        let angle = |name: &str| entry::<Angle>(&layout, name).map(|angle| angle.0);
+        let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
+        let sides = [("right", Side::Right), ("left", Side::Left)];
+        Ok(Self(Vee {
+            bank_angle: angle("bank_angle")?,
+            throws: angles(entry(&layout, "throws")?),
             spacing: entry(&layout, "spacing")?,
-            pin_split: entry(&layout, "pin_split")?,
+            pin_split: angle("pin_split")?,
             bank_stagger: entry(&layout, "bank_stagger")?,
             rotating_mass: entry(&layout, "rotating_mass")?,
-            numbering: entry(&layout, "numbering")?,
-            odd_bank: entry(&layout, "odd_bank")?,
-            first_tdc: entry(&layout, "first_tdc")?,
-        })
-    }
-}
-
-impl VeeLayout {
-    pub fn vee(self) -> PyResult<Vee> {
-        let numberings = [("alternating", Numbering::Alternating), ("by-bank", Numbering::ByBank)];
-        Ok(Vee {
-            bank_angle: self.bank_angle.0,
-            throws: angles(self.throws),
-            spacing: self.spacing,
-            pin_split: self.pin_split.0,
-            bank_stagger: self.bank_stagger,
-            rotating_mass: self.rotating_mass,
-            numbering: choice("numbering", &self.numbering, &numberings)?,
-            first_bank: choice(
-                "odd_bank",
-                &self.odd_bank,
-                &[("right", Side::Right), ("left", Side::Left)],
-            )?,
-            first_tdc: self.first_tdc.0,
-        })
+            numbering: choice("numbering", &entry::<String>(&layout, "numbering")?, &numberings)?,
+            first_bank: choice("odd_bank", &entry::<String>(&layout, "odd_bank")?, &sides)?,
+            first_tdc: angle("first_tdc")?,
+        }))
     }
 }
 
 /// Where the cylinders of an inline engine sit.
-struct InlineLayout {
-    throws: Vec<Angle>,
-    spacing: f64,
-    rotating_mass: Vec<f64>,
-    first_tdc: Angle,
-}
+struct InlineLayout(Inline);
 
 impl<'py> FromPyObject<'_, 'py> for InlineLayout {
     type Error = PyErr;
 
     fn extract(layout: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self {
-            throws: entry(&layout, "throws")?,
+        Ok(Self(Inline {
+            throws: angles(entry(&layout, "throws")?),
             spacing: entry(&layout, "spacing")?,
             rotating_mass: entry(&layout, "rotating_mass")?,
-            first_tdc: entry(&layout, "first_tdc")?,
-        })
-    }
-}
-
-impl InlineLayout {
-    fn inline(self) -> Inline {
-        Inline {
-            throws: angles(self.throws),
-            spacing: self.spacing,
-            rotating_mass: self.rotating_mass,
-            first_tdc: self.first_tdc.0,
-        }
+            first_tdc: entry::<Angle>(&layout, "first_tdc")?.0,
+        }))
     }
 }
 
@@ -269,12 +225,12 @@ impl Engine {
 
     #[staticmethod]
     fn inline(parts: Parts, layout: InlineLayout) -> PyResult<Self> {
-        layout.inline().engine(cylinder(parts)?).or_raise().map(Self::from)
+        layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
     }
 
     #[staticmethod]
     fn vee(parts: Parts, layout: VeeLayout) -> PyResult<Self> {
-        layout.vee()?.engine(cylinder(parts)?).or_raise().map(Self::from)
+        layout.0.engine(cylinder(parts)?).or_raise().map(Self::from)
     }
 
     #[staticmethod]
@@ -288,7 +244,7 @@ impl Engine {
     ) -> PyResult<Self> {
         let rule = firing_rule(rule, intervals, strokes)?;
         let order: FiringOrder = firing_order.parse().or_raise()?;
-        order.inline(cylinder(parts)?, &rule, &layout.inline()).or_raise().map(Self::from)
+        order.inline(cylinder(parts)?, &rule, &layout.0).or_raise().map(Self::from)
     }
 
     #[staticmethod]
@@ -302,7 +258,7 @@ impl Engine {
     ) -> PyResult<Self> {
         let order: FiringOrder = firing_order.parse().or_raise()?;
         let rule = firing_rule(rule, intervals, strokes)?;
-        order.vee(cylinder(parts)?, &rule, &layout.vee()?).or_raise().map(Self::from)
+        order.vee(cylinder(parts)?, &rule, &layout.0).or_raise().map(Self::from)
     }
 
     #[staticmethod]

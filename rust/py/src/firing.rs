@@ -192,6 +192,6 @@ pub fn vee_throws<'py>(
 ) -> PyResult<Two<'py, PyArray1<f64>>> {
     let rule = firing_rule("even", intervals, strokes)?;
     let order = firing_order.parse().or_raise()?;
-    let found = firing::vee_throws(&order, &rule, &layout.vee()?).or_raise()?;
+    let found = firing::vee_throws(&order, &rule, &layout.0).or_raise()?;
     Ok((column(py, found.throws), column(py, found.pin_splits)))
 }
