@@ -94,16 +94,10 @@ pub fn shared(forces: &[(Complex64, f64)], front: f64, rear: f64) -> [Complex64;
     taken
 }
 
-/// Places of the first and the last cylinder, m.
-fn ends(engine: &Engine) -> [f64; 2] {
-    let z = || engine.stations().iter().map(|place| place.z);
-    [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
-}
-
 /// Length over which a moment counts as much as a force, m: half the distance between the first and
 /// the last cylinder, or the crank radius where they are at one place.
 fn half_length(engine: &Engine) -> f64 {
-    let [first, last] = ends(engine);
+    let [first, last] = engine.ends();
     if last > first { (last - first) / 2.0 } else { engine.largest_crank_radius() }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::least_squares::least_squares;
-use super::{NEGLIGIBLE, TurningPart, ends, half_length, over_square, weights};
+use super::{NEGLIGIBLE, TurningPart, half_length, over_square, weights};
 use crate::Complex64;
 use crate::engine::{Engine, Shaft, Unbalance};
 use crate::numbers::angle::Angle;
@@ -194,7 +194,7 @@ fn unbalances(
 
 /// The single plane in which an unbalance makes this force and moment, or the first and last cylinder.
 fn free_planes(engine: &Engine, wanted: &TurningPart, reference: f64) -> Vec<f64> {
-    let [first, last] = ends(engine);
+    let [first, last] = engine.ends();
     if last <= first {
         return vec![first];
     }
@@ -240,7 +240,7 @@ fn fitted(ratio: i32, unbalances: Vec<Unbalance>, reference: f64) -> Fitted {
 
 /// Length of an engine, m: along the crank or of a crank and its rod, whichever is the larger.
 fn size(engine: &Engine) -> f64 {
-    let [first, last] = ends(engine);
+    let [first, last] = engine.ends();
     let reach = engine.gears().iter().map(|gear| gear.crank_radius() + gear.rod_length());
     reach.fold(last - first, f64::max)
 }

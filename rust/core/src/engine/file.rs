@@ -20,41 +20,41 @@ pub const LONGEST_TEXT: usize = 1 << 24;
 #[serde(deny_unknown_fields)]
 struct EngineFile {
     schema: u32,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     name: String,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     source: String,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     firing_order: String,
     #[serde(default = "four", skip_serializing_if = "is_four")]
     strokes: u32,
     /// Reference plane of moments, where it is not the middle.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     reference_z: Option<f64>,
     /// Places of the main bearings.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     mains: Vec<f64>,
     /// Running gear of every station that has none of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
     placements: Vec<Place>,
     /// On the crankshaft, besides the rotating masses.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     counterweights: Vec<WeightEntry>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     shafts: Vec<BalanceShaft>,
     /// Cranks besides the main one.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     cranks: Vec<OtherCrank>,
     /// Absolute pressure in the crankcase, Pa, of an engine with cycles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     crankcase: Option<f64>,
     /// Pressure in cylinders over a cycle.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     cycles: Vec<Cycle>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct OtherCrank {
     x: f64,
@@ -70,13 +70,13 @@ struct PartsEntry {
     reciprocating_mass: f64,
     #[serde(default)]
     pin_offset: f64,
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     rod_inertia_excess: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     bore: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     piston_mass: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     rod: Option<RodFigures>,
 }
 
@@ -98,14 +98,9 @@ fn is_four(strokes: &u32) -> bool {
     *strokes == 4
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_main(crank: &usize) -> bool {
-    *crank == 0
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// True for what a file may leave out.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 #[derive(Serialize, Deserialize)]
@@ -117,22 +112,22 @@ struct Place {
     #[serde(default)]
     rotating_mass: f64,
     /// Number of the bank, where directions alone do not tell which is which.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     bank: Option<usize>,
     /// Number of the crank: 0 is the main one, from 1 those of the list.
-    #[serde(default, skip_serializing_if = "is_main")]
+    #[serde(default, skip_serializing_if = "is_default")]
     crank: usize,
     /// Number of the cycle, from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     cycle: Option<usize>,
     /// Whether it fires at the top dead centre of the second turn.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "is_default")]
     second_turn: bool,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     cylinder: Option<PartsEntry>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct WeightEntry {
     /// kg·m.
@@ -140,14 +135,14 @@ struct WeightEntry {
     angle_deg: Degrees,
     z: f64,
     /// Number of the cylinder whose crankpin the angle is measured from.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pin: Option<usize>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct BalanceShaft {
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     name: String,
     ratio: i32,
     #[serde(default)]
@@ -196,7 +191,7 @@ fn unbalances(weights: &[WeightEntry], list: &str) -> Result<Vec<Unbalance>> {
 }
 
 /// Degrees as a number, or as a fraction in a string where no double is exact.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, PartialEq)]
 #[serde(untagged, expecting = "expected degrees, a number or a text such as \"360/7\"")]
 enum Degrees {
     Number(f64),

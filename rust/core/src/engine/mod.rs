@@ -127,14 +127,12 @@ impl Engine {
             return Err(Error::value("number of cylinders", count, hint));
         }
         check_each_cylinder("bank", bank_keys.len(), count)?;
-        let mut gears = Vec::new();
-        let mut gear_of = Vec::with_capacity(count);
         for (i, station) in stations.iter_mut().enumerate() {
             limits::finite(&format!("z[{i}]"), station.z)?;
             limits::not_negative(&format!("rotating_mass[{i}]"), station.rotating_mass)?;
             (station.tdc, station.bank) = (station.tdc.reduced(), station.bank.reduced());
-            gear_of.push(index_of(&mut gears, &station.cylinder));
         }
+        let (gears, gear_of) = distinct(stations.iter().map(|station| station.cylinder));
         let engine = Self {
             name: String::new(),
             source: String::new(),
@@ -279,10 +277,14 @@ impl Engine {
     /// z midway between the first and the last cylinder: the default reference plane.
     #[must_use]
     pub fn middle(&self) -> f64 {
-        let z = || self.stations.iter().map(|place| place.z);
-        let (first, last) =
-            (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
+        let [first, last] = self.ends();
         f64::midpoint(first, last)
+    }
+
+    /// Places of the first and the last cylinder, m.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        let z = || self.stations.iter().map(|place| place.z);
+        [z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max)]
     }
 
     /// Reference plane of moments, where it is not the middle, m.
@@ -419,7 +421,8 @@ impl Engine {
 
     /// The same engine with a firing order, such as `1-3-4-2`; empty where it is not known.
     pub fn firing_as(&self, firing_order: impl Into<String>, strokes: Strokes) -> Result<Self> {
-        let firing_order = text("firing_order", firing_order.into())?;
+        let firing_order = firing_order.into();
+        limits::name("firing_order", &firing_order)?;
         let engine = Self { firing_order, strokes, ..self.clone() };
         engine.check_gas()?;
         Ok(engine)
@@ -427,7 +430,9 @@ impl Engine {
 
     /// The same engine under another name.
     pub fn named(&self, name: impl Into<String>, source: impl Into<String>) -> Result<Self> {
-        let (name, source) = (text("name", name.into())?, text("source", source.into())?);
+        let (name, source) = (name.into(), source.into());
+        limits::name("name", &name)?;
+        limits::name("source", &source)?;
         Ok(Self { name, source, ..self.clone() })
     }
 }
@@ -437,33 +442,22 @@ fn check_each_cylinder(argument: &str, found: usize, expected: usize) -> Result<
     limits::same_length(argument, found, "the engine", expected, "cylinder")
 }
 
-/// A text of moderate length.
-fn text(argument: &str, text: String) -> Result<String> {
-    if text.len() <= limits::LONGEST_NAME {
-        return Ok(text);
-    }
-    let hint = format!("give {} bytes at most", limits::LONGEST_NAME);
-    Err(Error::value(argument, text, hint))
-}
-
 /// Index of the first value equal to each.
 pub(crate) fn first_equal<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<usize> {
-    let mut known: Vec<T> = Vec::new();
-    let index = |value| {
-        known.iter().position(|other| *other == value).unwrap_or_else(|| {
-            known.push(value);
-            known.len() - 1
-        })
-    };
-    values.map(index).collect()
+    distinct(values).1
 }
 
-/// Index of a value in a list, to which it is added where it is new.
-fn index_of<T: PartialEq + Copy>(list: &mut Vec<T>, value: &T) -> usize {
-    list.iter().position(|other| other == value).unwrap_or_else(|| {
-        list.push(*value);
-        list.len() - 1
-    })
+/// Values without repetition, and for each the index of its own.
+fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> (Vec<T>, Vec<usize>) {
+    let mut found: Vec<T> = Vec::new();
+    let index = |value| {
+        found.iter().position(|other| *other == value).unwrap_or_else(|| {
+            found.push(value);
+            found.len() - 1
+        })
+    };
+    let index_of = values.map(index).collect();
+    (found, index_of)
 }
 
 #[cfg(test)]

@@ -89,10 +89,7 @@ impl Shaft {
     /// Checked; `place` is its name in errors.
     pub(super) fn checked(mut self, place: &str) -> Result<Self> {
         check_rotation(place, self.ratio, self.axis)?;
-        if self.name.len() > limits::LONGEST_NAME {
-            let hint = format!("give {} bytes at most", limits::LONGEST_NAME);
-            return Err(Error::value(format!("{place}.name"), &self.name, hint));
-        }
+        limits::name(&format!("{place}.name"), &self.name)?;
         check_count(&format!("{place}.unbalances"), self.unbalances.len())?;
         for (i, unbalance) in self.unbalances.iter_mut().enumerate() {
             let place = format!("{place}.unbalances[{i}]");

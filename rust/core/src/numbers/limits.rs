@@ -75,6 +75,14 @@ pub fn tolerance(rtol: f64) -> Result<f64> {
     Err(Error::figure("rtol", rtol, "give a number from 1e-15 to below 1"))
 }
 
+/// A text of at most [`LONGEST_NAME`].
+pub fn name(argument: &str, text: &str) -> Result<()> {
+    if text.len() <= LONGEST_NAME {
+        return Ok(());
+    }
+    Err(Error::value(argument, text, format!("give at most {LONGEST_NAME} bytes")))
+}
+
 /// A list of as many entries as another, one for each `item`.
 pub fn same_length(
     argument: &str,

@@ -84,10 +84,7 @@ impl Cycle {
             let hint = format!("give from {fewest} to {MOST_POINTS} points");
             return Err(Error::value("theta_deg", format!("{} points", angles.len()), hint));
         }
-        if given.name.len() > limits::LONGEST_NAME {
-            let hint = format!("give at most {} bytes", limits::LONGEST_NAME);
-            return Err(Error::value("name", &given.name, hint));
-        }
+        limits::name("name", &given.name)?;
         for (k, &angle) in angles.iter().enumerate() {
             limits::finite(&format!("theta_deg[{k}]"), angle)?;
             if k > 0 && angle < angles[k - 1] {

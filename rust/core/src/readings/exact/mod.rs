@@ -92,8 +92,6 @@ impl Levers {
         reference: Option<f64>,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let places = || engine.stations().iter().map(|place| place.z);
-        let ends = [f64::min, f64::max].map(|end| places().reduce(end).unwrap_or_default());
         let mut lengths: Vec<f64> = loads.list.iter().map(|load| load.z).collect();
         // A plane that is a decimal is exact; any other is known from the middle of the engine.
         let reference = reference.or(engine.reference_z());
@@ -104,7 +102,7 @@ impl Levers {
                 vec![Ratio::from(-1)]
             }
             (plane, None) => {
-                lengths.extend(ends);
+                lengths.extend(engine.ends());
                 let half = Ratio::new(-1, 2);
                 let rest = plane.map(|plane| plane - engine.middle());
                 lengths.extend(rest);
