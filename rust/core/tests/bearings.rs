@@ -159,8 +159,11 @@ fn bearings_are_between_throws_unless_they_are_given() {
     // Cylinders of one bank, or as far apart as a crank radius, are on throws of their own.
     let z = [0.05, 0.1, 0.17, 0.21, 0.29, 0.33, 0.4];
     let throws = [0.05, 0.1, 0.19, 0.31, 0.4];
-    let places: Vec<f64> = mixed().throw_places().iter().map(|place| place.z).collect();
-    assert_close(&places, &throws);
+    let places = |of: &Engine| of.throw_places().iter().map(|place| place.z).collect::<Vec<_>>();
+    assert_close(&places(&mixed()), &throws);
+    let in_one_bank = |place: &Station| Station { bank: angle(60.0), ..*place };
+    let inline = mixed().stations().iter().map(in_one_bank).collect();
+    assert_close(&places(&Engine::new("", "", inline).unwrap()), &z);
     let bearings = mixed().bearings();
     assert_close(&bearings, &[0.025, 0.075, 0.145, 0.25, 0.355, 0.445]);
     assert_eq!(mixed().with_mains(bearings.clone()).unwrap().bearings(), bearings);

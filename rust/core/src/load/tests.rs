@@ -1,11 +1,12 @@
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::*;
 use crate::Spectrum;
-use crate::engine::Engine;
-use crate::engine::{Shaft, Station, Unbalance};
+use crate::engine::{Details, Engine, Gas, Shaft, Station, Unbalance};
 use crate::gear::slider_crank::Cylinder;
 use crate::gear::{Gear, GearKind};
+use crate::pressure::{Cycle, Given};
 
 const REFERENCE: f64 = 0.03;
 
@@ -94,6 +95,34 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
     );
     assert_eq!(loads.unbalance_orders(), [whole(1), whole(2)]);
     assert!(loads.has_rod_inertia(0));
+    let plain = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let station = Station { cylinder: plain, ..engine().stations()[0] };
+    assert!(!self::loads(&Engine::new("", "", vec![station]).unwrap()).has_rod_inertia(0));
+}
+
+#[test]
+fn volumes_are_of_the_pistons_under_pressure_by_gear() {
+    let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
+    let pressure = theta_deg.iter().map(|theta| 1e5 * (2.0 + theta.to_radians().cos())).collect();
+    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+    let bores = [0.08, 0.07, 0.09].map(|bore| Details { bore: Some(bore), ..Details::default() });
+    let gas = Gas {
+        cycles: vec![Arc::new(Cycle::new(given).unwrap())],
+        cycle_of: vec![Some(0); 3],
+        crankcase: 1e5,
+        later: vec![false; 3],
+    };
+    let fired = engine().with_details(bores.to_vec()).unwrap();
+    // Area times crank radius: cylinders 1 and 3 share a gear.
+    let swept = |bore: f64, radius: f64| TAU / 8.0 * bore * bore * radius;
+    let expected = [swept(0.08, 0.05) + swept(0.09, 0.05), swept(0.07, 0.04)];
+    let volumes = |gas: Gas| loads(&fired.with_gas(gas).unwrap()).volumes();
+    for (found, expected) in volumes(gas.clone()).into_iter().zip(expected) {
+        // Some roundings of half a unit in the last place.
+        assert!((found - expected).abs() < 1e-15 * expected, "{found} {expected}");
+    }
+    let gone = Gas { cycle_of: vec![None, Some(0), None], ..gas };
+    assert_eq!(volumes(gone)[0], 0.0);
 }
 
 #[test]

@@ -197,22 +197,29 @@ mod tests {
     fn quotients_are_rounded_once() {
         assert_eq!(nearest(0, 7), 0.0);
         assert_eq!(nearest(-1, 3), -1.0 / 3.0);
+        // Less than 3072 by a part of 2⁸⁰; in 128 bits the quotient has 48.
+        assert_eq!(nearest(3 << 90, (1 << 80) + 1), 3072.0);
         let mut state = 1_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             i128::from(state >> 1)
         };
-        for _ in 0..10_000 {
-            let (above, below) = (random() * 360, (random() >> 13) + 1);
+        let mut compared = 0;
+        for k in 0..10_000 {
+            // Denominators on both sides of 2⁵³, to which doubles are exact.
+            let (above, below) = (random() * 360, (random() >> [13, 8][k % 2]) + 1);
             let found = nearest(-above, below);
             assert_eq!(found, -nearest(above, below));
-            // |q·2¹⁰ − p·2¹⁰/below| for q and its neighbours, in whole multiples of 1/below.
-            let error = |q: f64| ((q * 1024.0) as i128 * below - above * 1024).abs();
+            // |q − above/below|·2⁴⁰ in whole multiples of 1/below, for q and its neighbours: doubles
+            // from 2¹³ on are multiples of 2⁻³⁹.
+            let error = |q: f64| ((q * 2_f64.powi(40)) as i128 * below - (above << 40)).abs();
             let found = -found;
-            if found > 8192.0 && found < 1e15 {
+            if (8192.0..1e9).contains(&found) {
                 assert!(error(found) <= error(found.next_up()).min(error(found.next_down())));
+                compared += 1;
             }
         }
+        assert!(compared > 5000, "{compared}");
     }
 
     fn multiples(figures: &[f64]) -> Multiples {
