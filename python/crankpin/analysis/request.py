@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order, Orders, Spectrum
 
+ENGINE_HINT = 'give a crankpin.Engine, such as Engine.preset("i4")'
+
 
 class Request(Record):
     """Orders, tolerance, reference plane, spectrum and whether torque is computed; checked."""
@@ -120,7 +122,7 @@ def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
     core = getattr(engine, "core", None)
     if not isinstance(core, _core.Engine):
-        raise inputs.rejected(name, engine, "give a crankpin.Engine")
+        raise inputs.rejected(name, engine, ENGINE_HINT)
     return core
 
 

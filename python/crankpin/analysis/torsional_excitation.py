@@ -11,7 +11,7 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.model.engine import Engine
+from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Order
+    from crankpin.model.engine import Engine
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
@@ -126,8 +127,7 @@ def torsional_excitation(
     >>> abs(found.torque[:, 0]).round(1)
     array([99.2, 99.2, 99.2, 99.2])
     """
-    if not isinstance(engine, Engine):
-        raise inputs.rejected("engine", engine, "give a crankpin.Engine")
+    engine_core(engine)
     speed = inputs.angular_speed(rpm)
     cycles = engine.cycles
     listed = orders

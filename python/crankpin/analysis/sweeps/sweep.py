@@ -22,7 +22,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import Request, check_request, engine_core
+from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engine_core
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.model.engine import Engine
@@ -641,7 +641,7 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
         engines = inputs.items("engines", engines, "give crankpin.Engine objects")
     for engine in engines:
         if not isinstance(engine, Engine):
-            raise inputs.rejected("engines", engine, "give crankpin.Engine objects")
+            raise inputs.rejected("engines", engine, ENGINE_HINT)
     if names is None:
         names = [""] * len(engines)
     return list(engines), tuple(names)
