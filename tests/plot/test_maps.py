@@ -155,6 +155,26 @@ def test_map_of_orders_on_axes() -> None:
     np.testing.assert_array_equal(np.asarray(cells(ax))[[1, 3]], s.force.peak.T)
 
 
+@pytest.mark.parametrize(
+    ("more", "x", "swept"),
+    [
+        ({"rpm": [1000, 2000], "rod_ratio": [0.2, 0.3]}, None, "rod_ratio, rpm"),
+        ({"rpm": 1000}, None, "engine"),
+        ({"rpm": [1000, 2000]}, "engine", "engine, rpm"),
+    ],
+)
+def test_map_of_orders_is_over_one_number(more: dict[str, Any], x: str | None, swept: str) -> None:
+    s = cp.sweep(I4 if "rod_ratio" in more else [I4, V6], **more, orders=[2])
+    with pytest.raises(cp.InputError, match=f'"orders" needs one swept number, not {swept}; give'):
+        s.plot(kind="orders", x=x)
+
+
+def test_map_of_nothing_has_no_scale_of_colours() -> None:
+    s = cp.sweep(V6, rpm=[1000, 2000], orders=[1])
+    panels = s.plot(kind="orders", quantity="force")
+    assert figure_of(panels).axes == [*panels.ravel()]
+
+
 @pytest.mark.slow
 def test_map_of_nothing_is_drawn() -> None:
     s = cp.sweep(V6, rpm=[1000, 2000], orders=[1])

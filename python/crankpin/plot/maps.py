@@ -95,10 +95,10 @@ def order_map(
     """Draw peaks over speed, or another swept number, and order, in one logarithmic scale."""
     name = swept_quantity(sweep, quantity)
     dims = [dim for dim in sweep.coords if dim != "engine"]
-    along = along_x(sweep, x or ("rpm" if "rpm" in dims else None), dims or ["engine"])
-    if dims != [along]:
+    if len(dims) != 1 or x not in (None, *dims):
         swept = ", ".join(sweep.coords)
         raise InputError(f'kind = "orders" needs one swept number, not {swept}; give kind="curves"')
+    (along,) = dims
     orders = sweep.orders or (1,)  # zero, where nothing shakes
     rows, note = _rows(sweep, name, orders, single=ax is not None, by_order=True)
     words = words_of(sweep)
