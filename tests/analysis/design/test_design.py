@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import doctest
 import itertools
 import math
 import pickle
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import crankpin as cp
@@ -21,13 +19,6 @@ from rederivation import design as brute
 
 CROSS_PLANE: dict[str, Any] = {"bank_angle_deg": 90, "throws_deg": [0, 90, 180, 270]}
 """A V8 whose four throws all point another way."""
-
-
-def test_the_manual() -> None:
-    manual = Path(__file__).parents[3] / "docs" / "how-to" / "inverse-design.md"
-    found = doctest.testfile(str(manual), module_relative=False)
-    assert found.attempted > 5
-    assert not found.failed
 
 
 # --- engines that were built --------------------------------------------------------------------

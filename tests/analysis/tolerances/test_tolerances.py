@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import doctest
 import pickle
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import crankpin as cp
@@ -448,8 +446,3 @@ def test_nothing_varies_where_nothing_deviates() -> None:
 def test_some_part_must_deviate(given: dict[str, Any]) -> None:
     with pytest.raises(cp.InputError, match="no part deviates: give a spread, recip"):
         cp.tolerances(I6, rpm=RPM, **given)
-
-
-def test_the_how_to_says_the_truth() -> None:
-    page = Path(__file__).parents[3] / "docs" / "how-to" / "tolerances.md"
-    assert doctest.testfile(str(page), module_relative=False).failed == 0
