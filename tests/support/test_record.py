@@ -35,6 +35,11 @@ class Rows(Listed[int], Record):
     rows: tuple[int, ...]
 
 
+class Others(Listed[int], Record):
+    _items = "rows"
+    rows: tuple[int, ...]
+
+
 def made(**changes: Any) -> Made:  # noqa: ANN401 - of any field
     given: dict[str, Any] = {"name": "x", "values": np.array([1.0, np.nan])}
     return Made(**given | {"by_name": {"a": np.zeros(2)}} | changes)
@@ -47,6 +52,8 @@ def test_records_compare_hash_pickle_and_copy_by_their_fields() -> None:
         assert hash(other) == hash(one)
     for other in (made(name="y"), made(values=np.ones(2)), made(by_name={}), 1, None):
         assert other != one
+    assert copy.copy(one) is copy.deepcopy([one])[0] is one  # nothing in them changes
+    assert Rows((1, 2)) != Others((1, 2))
     back = pickle.loads(pickle.dumps(made(note="kept")))  # noqa: S301 - its own
     assert (back, back.note) == (one, "kept")
     assert repr(Rows((1, 2))) == "Rows(rows=(1, 2))"
