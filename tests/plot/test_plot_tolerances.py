@@ -91,7 +91,7 @@ def test_new_axes_and_errors() -> None:
     ax = T.plot(kind="shares", by="total.force.peak")
     assert len(ax.patches) == len(T.shares.columns) - 2
     plt.close("all")
-    with pytest.raises(cp.InputError, match=r'kind = .pie.: give "histogram" or "ecdf"'):
+    with pytest.raises(cp.InputError, match=r'kind = .pie.: give "histogram", "ecdf" or "shares"'):
         T.plot(kind="pie")
     with pytest.raises(cp.InputError, match="by = "):
         T.plot(by="weight")

@@ -38,7 +38,13 @@ OTHERS = ("#", "cargo ", "git ", "jupyter ", "pip ", "pytest", "python benchmark
 """Beginnings of lines of shell that no page can run here."""
 
 
-@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(page, marks=[pytest.mark.slow] * page.endswith("/pictures.md"))
+        for page in PAGES
+    ],
+)
 def test_code_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
     monkeypatch.chdir(tmp_path)

@@ -680,7 +680,7 @@ def test_to_pandas() -> None:
         ({"planes": [[0.1], [0.2]]}, "^planes has 2 entries"),
         ({"planes": [0.1], "remove": "moment"}, r"^planes\[0\] = \[0.1\]: a couple takes two"),
         ({"bearings": [0.1]}, r"^bearings\[0\] = \[0.1\]: give the places of two bearings"),
-        ({"remove": "all"}, '^remove = \'all\': give "both" or "force" or "moment"'),
+        ({"remove": "all"}, '^remove = \'all\': give "both", "force" or "moment"'),
         ({"ratios": [2, 2], "remove": ["force", "both"]}, "shafts of one ratio share their task"),
         ({"engine": "i4"}, "^engine = 'i4': give a crankpin.Engine"),
     ],
