@@ -14,13 +14,7 @@ if TYPE_CHECKING:
 TESTS = Path(__file__).parent.parent / "tests"
 sys.path.insert(0, str(TESTS))
 
-from rederivation import (  # noqa: E402 - from the tests beside us
-    harmonics_mp,
-    ijesc,
-    ito,
-    kinematics,
-    pressure,
-)
+from rederivation import harmonics_mp, ijesc, ito, kinematics, pressure  # noqa: E402 - from the tests beside us
 
 __all__ = ["TESTS", "harmonics_mp", "ijesc", "ito", "kinematics", "pressure", "relative_errors"]
 

@@ -94,14 +94,7 @@ def numpy_orders(scene: Scene, count: int, samples: int = 64) -> tuple[Array, Ar
 
 
 @numba.njit(parallel=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _numba_plain(
-    ratios,
-    theta,
-    tdc,
-    bank,
-    levers,
-    scale,
-):
+def _numba_plain(ratios, theta, tdc, bank, levers, scale):
     force = np.empty((len(ratios), len(theta), 2))
     moment = np.empty((len(ratios), len(theta), 2))
     cos_bank, sin_bank = np.cos(bank), np.sin(bank)
@@ -125,14 +118,7 @@ def _numba_plain(
 
 
 @numba.njit(parallel=True, error_model="numpy", fastmath=True)  # type: ignore[untyped-decorator]
-def _numba_hoisted(
-    ratios,
-    theta,
-    tdc,
-    bank,
-    levers,
-    scale,
-):
+def _numba_hoisted(ratios, theta, tdc, bank, levers, scale):
     force = np.empty((len(ratios), len(theta), 2))
     moment = np.empty((len(ratios), len(theta), 2))
     count, angles = len(tdc), len(theta)

@@ -56,9 +56,7 @@ class Sweep(NamedTuple):
 
 
 FULL = Sweep(
-    "4 firing orders × 171 bank angles",
-    ijesc.FIRING_ORDERS,
-    tuple(np.arange(10.0, 181.0).tolist()),
+    "4 firing orders × 171 bank angles", ijesc.FIRING_ORDERS, tuple(np.arange(10.0, 181.0).tolist())
 )
 COARSER = Sweep(
     "4 firing orders × 18 bank angles",

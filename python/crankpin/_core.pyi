@@ -365,12 +365,7 @@ class Sweep:
     def peaks(self, name: str, which: str, progress: _Progress | None) -> _Real: ...
     def waveform_shape(self, name: str, angles: int) -> list[int]: ...
     def waveform(
-        self,
-        name: str,
-        angles: CrankAngles,
-        exact: bool,
-        out: _Real,
-        progress: _Progress | None,
+        self, name: str, angles: CrankAngles, exact: bool, out: _Real, progress: _Progress | None
     ) -> None: ...
 
 @final
@@ -466,10 +461,7 @@ class Firing:
 def check_timing(given: Sequence[str]) -> None: ...
 def inline_throws(firing_order: str, intervals: Sequence[str] | None, strokes: int) -> _Real: ...
 def vee_throws(
-    firing_order: str,
-    intervals: Sequence[str] | None,
-    strokes: int,
-    layout: dict[str, Any],
+    firing_order: str, intervals: Sequence[str] | None, strokes: int, layout: dict[str, Any]
 ) -> tuple[_Real, _Real]: ...
 
 @final

@@ -377,11 +377,7 @@ def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, sp
     assert splits.tolist() == [split] * 3
     assert throws.tolist() == [0.0, 120.0, 240.0]
     engine = cp.Engine.vee(
-        CYLINDER,
-        bank_angle_deg=bank_angle,
-        throws_deg=throws,
-        pin_split_deg=splits[0],
-        spacing=0.1,
+        CYLINDER, bank_angle_deg=bank_angle, throws_deg=throws, pin_split_deg=splits[0], spacing=0.1
     )
     assert engine.firing("1-2-3-4-5-6").even
 

@@ -103,11 +103,7 @@ def test_speeds_of_a_diagram_solve_the_equation_of_motion() -> None:
 ROD = cp.Rod(mass=0.6, inertia=0.002, length=0.15, to_crankpin=0.045)
 CYLINDER = cp.Cylinder.from_rod(ROD, 0.05, piston_mass=0.5, pin_offset=0.004, bore=0.09)
 TWIN = cp.Engine.from_lists(
-    CYLINDER,
-    tdc_deg=[0, 90],
-    bank_deg=[90, 90],
-    z=[0.0, 0.1],
-    firing_order="1-2",
+    CYLINDER, tdc_deg=[0, 90], bank_deg=[90, 90], z=[0.0, 0.1], firing_order="1-2"
 ).with_cycle(cp.Cycle.example())
 
 

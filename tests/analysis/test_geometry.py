@@ -6,12 +6,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import CYLINDER
-from crankpin.analysis.geometry import (
-    assumed_bores,
-    geometry,
-    weights_on_crank,
-    weights_on_shafts,
-)
+from crankpin.analysis.geometry import assumed_bores, geometry, weights_on_crank, weights_on_shafts
 from crankpin.model.crankpins import bays, throws
 
 STAGGERED = cp.Engine.vee(

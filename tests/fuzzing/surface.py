@@ -157,11 +157,7 @@ SUBJECTS: dict[str, Any] = {
     "waveforms of a sweep": swept().waveform([0.0, 1.0]),
     "waveforms of a sweep, exact": swept().waveform([0.0, 1.0], exact=True),
 }
-PLAIN = {
-    "Choice",
-    "InputError",
-    "OrderBalance",
-}  # take anything, and hold it
+PLAIN = {"Choice", "InputError", "OrderBalance"}  # take anything, and hold it
 RESULTS_MADE_ELSEWHERE = {
     "Balance",
     "BalanceShafts",

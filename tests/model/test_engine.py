@@ -321,10 +321,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: I4.with_shafts([cp.Shaft(2, [cp.Unbalance(0.003, 0.15)], x=80)]),
         "^x = 80 m at a crank radius of 0.043 m: was it given in millimetres",
     ),
-    "weight in mm": (
-        lambda: I4.with_counterweights([cp.Unbalance(0.003, z=150)]),
-        "^z = 150 m at",
-    ),
+    "weight in mm": (lambda: I4.with_counterweights([cp.Unbalance(0.003, z=150)]), "^z = 150 m at"),
     "weight in g·mm": (
         lambda: I4.with_counterweights([cp.Unbalance(8000, z=0.1)]),
         "^amount = 8000 kg·m: was it given in g·mm or g·m",

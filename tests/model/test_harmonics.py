@@ -86,11 +86,7 @@ def test_rod_ratios_next_to_one(gap: float, order: int) -> None:
 
 
 @settings(max_examples=60, deadline=None)
-@given(
-    ratio=st.floats(0.01, 0.95),
-    share=st.floats(-0.99, 0.99),
-    theta=st.floats(0, 360),
-)
+@given(ratio=st.floats(0.01, 0.95), share=st.floats(-0.99, 0.99), theta=st.floats(0, 360))
 def test_all_orders_sum_to_the_exact_force(ratio: float, share: float, theta: float) -> None:
     offset = share * (1 / ratio - 1) * 0.9
     orders = np.arange(1, 1500)

@@ -21,11 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = {
-    "python/crankpin": ("*.py", "strings.mjs"),
-    "docs": ("*.md", "*.ipynb"),
-    ".": ("*.md",),
-}
+FOLDERS = {"python/crankpin": ("*.py", "strings.mjs"), "docs": ("*.md", "*.ipynb"), ".": ("*.md",)}
 """Folder → names of the files whose prose is checked, in it and, but for the root, below it."""
 LISTS = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
 WORDS = {pattern: instead for each in LISTS.values() for pattern, instead in each.items()}

@@ -53,11 +53,7 @@ def bank_moment(arrangement: Sequence[int], theta: ArrayLike, rod_ratio: float) 
 
 
 def engine_moment(
-    first: Sequence[int],
-    second: Sequence[int],
-    v_angle: float,
-    theta: ArrayLike,
-    rod_ratio: float,
+    first: Sequence[int], second: Sequence[int], v_angle: float, theta: ArrayLike, rod_ratio: float
 ) -> tuple[Array, Array]:
     """Equation (5) over M_0, pitch M_y and yaw M_x; alpha_2 = -alpha_1 = v_angle/2 (radians)."""
     one, two = bank_moment(first, theta, rod_ratio), bank_moment(second, theta, rod_ratio)

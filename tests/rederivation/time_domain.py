@@ -72,11 +72,7 @@ def _bore_angles(engine: EngineLists, theta: ArrayLike) -> Array:
 
 
 def _geometry(engine: EngineLists) -> tuple[Array, Array, Array]:
-    return (
-        engine.column("crank_radius"),
-        engine.column("rod_length"),
-        engine.column("pin_offset"),
-    )
+    return (engine.column("crank_radius"), engine.column("rod_length"), engine.column("pin_offset"))
 
 
 def cylinder_forces(engine: EngineLists, rpm: float, theta: ArrayLike) -> Array:
@@ -91,10 +87,7 @@ def cylinder_forces(engine: EngineLists, rpm: float, theta: ArrayLike) -> Array:
     spin = engine.column("rotating_mass") * engine.column("crank_radius") * omega**2
     pin = bank + local
     return np.stack(
-        [
-            along * np.cos(bank) + spin * np.cos(pin),
-            along * np.sin(bank) + spin * np.sin(pin),
-        ],
+        [along * np.cos(bank) + spin * np.cos(pin), along * np.sin(bank) + spin * np.sin(pin)],
         axis=-1,
     )
 

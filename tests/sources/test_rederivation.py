@@ -13,15 +13,7 @@ import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from conftest import DATA
-from rederivation import (
-    crossplane,
-    ebook,
-    harmonics_mp,
-    ijesc,
-    ito,
-    kinematics,
-    time_domain,
-)
+from rederivation import crossplane, ebook, harmonics_mp, ijesc, ito, kinematics, time_domain
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 721)
 

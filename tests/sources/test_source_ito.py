@@ -68,10 +68,7 @@ def tdc_deg(phases: list[int]) -> list[str]:
 def bank(phases: list[int], direction_deg: float = 90.0) -> cp.Engine:
     """One bank as an engine of its own."""
     return cp.Engine.from_lists(
-        CYLINDER,
-        tdc_deg=tdc_deg(phases),
-        bank_deg=[direction_deg] * 7,
-        z=-SPACING * ito.LEVERS,
+        CYLINDER, tdc_deg=tdc_deg(phases), bank_deg=[direction_deg] * 7, z=-SPACING * ito.LEVERS
     )
 
 

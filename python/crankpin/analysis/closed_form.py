@@ -215,10 +215,7 @@ class ClosedForm(Record):
 
     def _parts_of(self, axis: str) -> tuple[Expression, Expression]:
         real, imaginary, _ = self._phasors[axis]
-        return (
-            self._cosines(real, self._denominator),
-            self._cosines(imaginary, self._denominator),
-        )
+        return (self._cosines(real, self._denominator), self._cosines(imaginary, self._denominator))
 
     def _phasor(self, axis: str) -> Expression:
         real, imaginary = self._parts_of(axis)

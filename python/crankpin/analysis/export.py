@@ -143,12 +143,7 @@ def _tidy(
     index = pandas.MultiIndex.from_product(list(points.values()), names=list(points))
     parts = [
         pandas.DataFrame(
-            {
-                "quantity": quantity,
-                "component": component,
-                **figures,
-                "unit": KINDS[quantity].unit,
-            },
+            {"quantity": quantity, "component": component, **figures, "unit": KINDS[quantity].unit},
             index=index,
         ).reset_index()
         for quantity, component, figures in columns

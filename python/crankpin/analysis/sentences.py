@@ -167,10 +167,7 @@ def _bob_weights(finding: Finding, whole: Explanation) -> str:
 def _hardware(finding: Finding, whole: Explanation) -> str:
     forward, backward, *after = finding.values
     before, now = forward + backward, sum(after)
-    there = {
-        "counterweights": whole.engine.counterweights,
-        "balance shafts": whole.engine.shafts,
-    }
+    there = {"counterweights": whole.engine.counterweights, "balance shafts": whole.engine.shafts}
     acting = [
         f"the {group[:-1]}" if len(there[group]) == 1 else group
         for group in finding.reason.split(" and ")

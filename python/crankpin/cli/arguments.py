@@ -121,7 +121,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
     "--rtol": {
         "help": "with --orders auto: largest sum of the omitted orders, relative to m·r·ω² "
-        "(default: 1e-9)",
+        "(default: 1e-9)"
     },
     "--quantity": {
         "choices": ("force", "moment", "torque"),

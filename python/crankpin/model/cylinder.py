@@ -476,11 +476,7 @@ def slider_crank_harmonics(
 ) -> NDArray[np.float64]: ...
 @overload
 def slider_crank_harmonics(
-    rod_ratio: ArrayLike,
-    orders: Orders,
-    pin_offset_ratio: ArrayLike,
-    *,
-    rtol: float | None = None,
+    rod_ratio: ArrayLike, orders: Orders, pin_offset_ratio: ArrayLike, *, rtol: float | None = None
 ) -> NDArray[np.complex128]: ...
 def slider_crank_harmonics(
     rod_ratio: ArrayLike,

@@ -240,12 +240,7 @@ def _weights(engine: Engine, ax: Axes, theta: float, ink: Inks, thick: float) ->
 
 
 def _shafts(
-    engine: Engine,
-    ax: Axes,
-    theta: float,
-    ink: Inks,
-    ends: tuple[float, float],
-    thick: float,
+    engine: Engine, ax: Axes, theta: float, ink: Inks, ends: tuple[float, float], thick: float
 ) -> None:
     weights = weights_on_shafts(engine, theta)
     radii = iter(radius_of_amounts(engine, [each.amount for shaft in weights for each in shaft]))

@@ -12,12 +12,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import (
-    label_x,
-    label_y,
-    make_panels,
-    note_zero,
-)
+from crankpin.plot.layout import label_x, label_y, make_panels, note_zero
 from crankpin.plot.rows import (
     Rows,
     Words,

@@ -14,14 +14,7 @@ from crankpin._support import labels
 from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
 from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import (
-    add_legend,
-    axes_or_new,
-    label_x,
-    label_y,
-    points_of,
-    set_title,
-)
+from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
 from crankpin.plot.style import background, colours, foreground, muted
 
 if TYPE_CHECKING:
@@ -163,11 +156,7 @@ def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: 
 
 
 def _mark_overlaps(
-    ax: Axes,
-    overlaps: Sequence[Gaps],
-    exhausts: NDArray[np.float64],
-    rows: list[int],
-    cycle: float,
+    ax: Axes, overlaps: Sequence[Gaps], exhausts: NDArray[np.float64], rows: list[int], cycle: float
 ) -> list[Any]:
     """Hatch both exhausts where two of a bank are open at one time; return a legend's handle."""
     looks = {

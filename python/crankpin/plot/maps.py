@@ -9,22 +9,8 @@ from matplotlib.colors import LogNorm, Normalize
 
 from crankpin._core import InputError
 from crankpin._support.quantities import QUANTITIES
-from crankpin.plot.layout import (
-    Panels,
-    label_x,
-    label_y,
-    make_panels,
-    note_zero,
-)
-from crankpin.plot.rows import (
-    Row,
-    Rows,
-    along_x,
-    dimension,
-    rows_of,
-    swept_quantity,
-    words_of,
-)
+from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero
+from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, swept_quantity, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
 

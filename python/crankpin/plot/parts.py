@@ -15,14 +15,7 @@ from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, entry_of, lines, mark
-from crankpin.plot.layout import (
-    Panels,
-    inches_of,
-    label_x,
-    label_y,
-    make_panels,
-    set_panel_title,
-)
+from crankpin.plot.layout import Panels, inches_of, label_x, label_y, make_panels, set_panel_title
 from crankpin.plot.rows import (
     MOST,
     along_x,
@@ -119,12 +112,7 @@ def _panels(
 
 
 def _draw(
-    ax: Axes,
-    sweep: Sweep,
-    vector: Quantity,
-    along: str,
-    style: dict[str, Any],
-    column: int = 0,
+    ax: Axes, sweep: Sweep, vector: Quantity, along: str, style: dict[str, Any], column: int = 0
 ) -> None:
     """Draw both parts of an order; the column is a place among what is not drawn along x."""
     sizes = np.abs(np.stack([getattr(vector, part) for part in labels.TURNING], axis=-1))

@@ -12,11 +12,7 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin.analysis.sweeps.sweep import Sweep
 from crankpin.plot.curves import curves
 from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import (
-    check_one_place,
-    label_x,
-    make_panels,
-)
+from crankpin.plot.layout import check_one_place, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
 from crankpin.plot.rows import given_orders, largest, swept_quantity, words_of
@@ -137,13 +133,7 @@ def _class(ax: Axes, classes: Sequence[str]) -> None:
 
 # --- sweep ---------------------------------------------------------------------------------------
 
-KINDS = {
-    "curves": curves,
-    "parts": parts,
-    "map": heat_map,
-    "orders": order_map,
-    "bars": bars,
-}
+KINDS = {"curves": curves, "parts": parts, "map": heat_map, "orders": order_map, "bars": bars}
 
 
 @picture.register(Sweep)

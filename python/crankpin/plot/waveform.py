@@ -120,10 +120,7 @@ def _sweep_waveform(
 
 
 def _curves(
-    panels: NDArray[Any],
-    result: SweepWaveform,
-    values: NDArray[np.float64],
-    style: dict[str, Any],
+    panels: NDArray[Any], result: SweepWaveform, values: NDArray[np.float64], style: dict[str, Any]
 ) -> list[Any]:
     """Draw a curve for each point of the sweep; return the entries of a legend."""
     sweep = result.sweep
@@ -141,10 +138,7 @@ def _curves(
 
 
 def _envelope(
-    panels: NDArray[Any],
-    result: SweepWaveform,
-    values: NDArray[np.float64],
-    style: dict[str, Any],
+    panels: NDArray[Any], result: SweepWaveform, values: NDArray[np.float64], style: dict[str, Any]
 ) -> list[Any]:
     """Draw bands of quantiles over all points, and the median; return the entries of a legend."""
     label = style.get("label")

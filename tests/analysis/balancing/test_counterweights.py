@@ -421,10 +421,7 @@ def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool
     free = cp.counterweights(engine, planes=places)
     bound = {"plane 1": 0.6 * free.hardware[0].amount, "plane 5": 2.0 * free.largest}
     fitted = cp.counterweights(
-        engine,
-        planes=places,
-        bound=bound,
-        minimise="largest" if largest else "squares",
+        engine, planes=places, bound=bound, minimise="largest" if largest else "squares"
     )
     assert fitted.exact
     assert fitted.hardware[0].amount <= bound["plane 1"] * (1 + 1e-9)

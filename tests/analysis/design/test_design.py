@@ -146,8 +146,7 @@ def test_designs_fire_at_the_intervals_asked_for(
 
 
 @pytest.mark.parametrize(
-    ("cylinders", "layout", "given"),
-    [(6, "inline", {}), (12, "vee", {"bank_angle_deg": 60})],
+    ("cylinders", "layout", "given"), [(6, "inline", {}), (12, "vee", {"bank_angle_deg": 60})]
 )
 def test_what_needs_nothing(cylinders: int, layout: str, given: dict[str, Any]) -> None:
     by = [f"[{n}].{what}.peak" for n in (1, 2) for what in ("force", "moment")]

@@ -42,10 +42,7 @@ class Crank:
 
     @classmethod
     def of(
-        cls,
-        throws: Sequence[Exact],
-        splits: Sequence[Exact] = (),
-        bank_angle: Exact | None = None,
+        cls, throws: Sequence[Exact], splits: Sequence[Exact] = (), bank_angle: Exact | None = None
     ) -> Crank:
         """Return the crank of these angles, reduced, and turned until its front throw is at 0."""
         return cls(

@@ -234,8 +234,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column("shaft", tuple(str(k) for k in range(1, len(self) + 1))),
             Column("order", tuple(str(abs(each.ratio)) for each in self.hardware)),
             Column(
-                "part",
-                tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware),
+                "part", tuple("forward" if each.ratio > 0 else "backward" for each in self.hardware)
             ),
             Column("force", tuple(abs(self.force).tolist()), "kg·m"),
             Column("moment", tuple(abs(self.moment).tolist()), "kg·m²"),

@@ -22,11 +22,7 @@ G_MM = 1e-6
 
 
 def two_plane_correction(
-    amount_g_mm: ArrayLike,
-    angle_deg: ArrayLike,
-    *,
-    measured_z: ArrayLike,
-    correction_z: ArrayLike,
+    amount_g_mm: ArrayLike, angle_deg: ArrayLike, *, measured_z: ArrayLike, correction_z: ArrayLike
 ) -> TwoPlaneCorrection:
     """Return the unbalances in two planes that correct those measured in two others.
 

@@ -155,9 +155,7 @@ def _of_throws(question: Question) -> Iterator[Family]:
 # --- a given firing -----------------------------------------------------------------------------
 
 
-def _pairs(
-    question: Question,
-) -> Iterator[tuple[tuple[Exact, ...], tuple[Exact, ...]]]:
+def _pairs(question: Question) -> Iterator[tuple[tuple[Exact, ...], tuple[Exact, ...]]]:
     """Yield top dead centres of the right and the left bank, throw by throw."""
     assert question.tdcs is not None  # noqa: S101 - the caller has looked
     counts = Counter(question.tdcs)

@@ -140,11 +140,7 @@ def balances(swept: Sweep) -> Iterator[Iterator[Balance]]:
         )
         yield (
             balance(
-                each,
-                swept.fixed["rpm"],
-                spectrum=request.spectrum,
-                torque=request.torque,
-                **chosen,
+                each, swept.fixed["rpm"], spectrum=request.spectrum, torque=request.torque, **chosen
             )
             for each in turned
         )

@@ -292,10 +292,7 @@ SAME = 1e-3
 
 
 def dips(
-    measured: Measured,
-    angles: NDArray[np.float64],
-    values: NDArray[np.float64],
-    tolerance: float,
+    measured: Measured, angles: NDArray[np.float64], values: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.float64]:
     """Return bank angles between the given ones at which the objective is lower than at them."""
 
