@@ -74,8 +74,9 @@ def legible(figure: Figure) -> Figure:
 def assert_inside(figure: Figure, ax: Axes) -> None:
     """Title, labels and legend of axes are within their figure, a pixel allowed for hinting."""
     texts = [ax.title, *(ax.get_title(loc="left") and [ax._left_title])]  # type: ignore[attr-defined]
-    for artist in [*texts, ax.xaxis.label, ax.yaxis.label, ax.get_legend()]:
-        if artist is not None and artist.get_visible() and ax.axison:
+    labels = [ax.xaxis.label, ax.yaxis.label] if ax.axison else []
+    for artist in [*texts, *labels, ax.get_legend()]:
+        if artist is not None and artist.get_visible():
             box = artist.get_window_extent()
             if box.width > 1.0:
                 assert figure.bbox.padded(1.0).containsx(box.x0), artist

@@ -166,6 +166,16 @@ def _cell(ax: Axes, along: str) -> float:
     return float(getattr(part, along)) * _extent(parent, along)
 
 
+def _to_the_right(ax: Axes) -> float:
+    """Return the pixels from the left of axes to the right end of their place.
+
+    Axes of a given aspect are smaller than their place.
+    """
+    parent: Any = ax.get_figure(root=False)
+    right, left = ax.get_position(original=True).x1, ax.get_position().x0
+    return float(right - left) * _extent(parent, "width")
+
+
 def _root(place: Axes | FigureBase) -> Figure:
     figure = place.get_figure(root=True)
     assert isinstance(figure, Figure)  # noqa: S101 - what is drawn has one
@@ -235,6 +245,8 @@ class _FittedText:
         """
         if not isinstance(self.place, Axes):
             return _extent(self.place, self.along)
+        if self.text.get_horizontalalignment() == "left" and self.place.get_aspect() != "auto":
+            return _to_the_right(self.place)
         parent: Any = self.place.get_figure(root=False)
         # Axes of a given aspect are smaller than their place.
         part: float = getattr(self.place.get_position(original=True), self.along)
@@ -368,7 +380,9 @@ class _Legend:
             return False  # removed
         names = [str(handle.get_label()) for handle in self.handles]
         left, down = 0.0, 0.0
-        arranged = self._arranged(names, _extent(self.place, "width"))
+        of_axes = isinstance(self.place, Axes)
+        across = _to_the_right(self.place) if of_axes else _extent(self.place, "width")
+        arranged = self._arranged(names, across)
         if isinstance(self.place, Axes):
             dpi, frame = _root(self.place).dpi, self.place.bbox
             below, beside = self.place.xaxis.get_tightbbox(), self.place.yaxis.get_tightbbox()
@@ -376,7 +390,7 @@ class _Legend:
             room = 0.0 if beside is None else max(0.0, frame.x0 - beside.x0)
             if len(names) > MOST_ROWS * arranged["ncols"]:
                 # Under the labels of the vertical axis there is room too.
-                wider = self._arranged(names, frame.width + room)
+                wider = self._arranged(names, across + room)
                 if wider["ncols"] > arranged["ncols"]:
                     left, arranged = room / dpi, wider
         how = (arranged["ncols"], arranged["labels"], round(left, 2), round(down, 2))
