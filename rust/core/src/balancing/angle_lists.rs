@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::nonnegative::{minimum, stack};
+use super::least_squares::{minimum, stack};
 use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors};
 use crate::Complex64;
 use crate::numbers::error::Result;

@@ -7,7 +7,6 @@
 mod angle_lists;
 mod discs;
 mod least_squares;
-mod nonnegative;
 pub mod shafts;
 pub mod weights;
 

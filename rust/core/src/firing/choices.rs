@@ -184,7 +184,7 @@ fn distinct_orders(firings: &[Firing]) -> (Vec<String>, bool) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines::{cylinder, engine, figures, intervals, placed, vee};
+    use super::super::tests::{cylinder, engine, figures, intervals, placed, vee};
     use super::*;
     use crate::layout::Side;
 

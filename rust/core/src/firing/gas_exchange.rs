@@ -199,7 +199,7 @@ impl Firing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines::{cylinder, placed};
+    use super::super::tests::{cylinder, placed};
     use super::*;
 
     /// Highest where crank and rod are in one line, asin(e/(l + r)) after TDC; lowest half a turn

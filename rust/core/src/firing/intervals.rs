@@ -72,7 +72,7 @@ impl Firing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines::{engine, vee};
+    use super::super::tests::{engine, vee};
     use super::*;
     use crate::layout::{FiringOrder, Side, Strokes};
     use crate::numbers::cancel::Cancel;

@@ -19,7 +19,7 @@ mod tops;
 pub mod way;
 
 #[cfg(test)]
-mod engines;
+mod tests;
 
 pub use choices::MOST_LISTED;
 pub use gas_exchange::{Overlap, Period, Periods, Timing};

@@ -40,7 +40,7 @@ pub fn vee_throws(order: &FiringOrder, rule: &FiringRule, layout: &Vee) -> Resul
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines::{figures, vee};
+    use super::super::tests::{figures, vee};
     use super::*;
     use crate::layout::Strokes;
 

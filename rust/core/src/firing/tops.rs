@@ -71,7 +71,7 @@ pub(super) fn same(a: Angle, b: Angle) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::Firing;
-    use super::super::engines::{cylinder, intervals, placed};
+    use super::super::tests::{cylinder, intervals, placed};
     use super::*;
     use crate::layout::Strokes;
     use crate::numbers::cancel::Cancel;

@@ -176,7 +176,7 @@ impl std::fmt::Display for Firing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines::{engine, intervals, vee};
+    use super::super::tests::{engine, intervals, vee};
     use super::super::*;
     use crate::layout::{FiringOrder, Side, Strokes};
     use crate::numbers::cancel::Cancel;

@@ -8,10 +8,9 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::enumerate::{Entry, LARGEST_SEARCH, classes, packed};
-use super::family::{Families, Family};
+use super::family::{Families, Family, Same};
 use super::images::Image;
 use super::moments::{NEAR, fold, near};
-use super::same::Same;
 use super::window::WindowTarget;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};

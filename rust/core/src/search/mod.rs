@@ -14,7 +14,6 @@ mod images;
 mod magnitude;
 mod moments;
 mod packing;
-mod same;
 mod shared;
 mod throws;
 mod vee;

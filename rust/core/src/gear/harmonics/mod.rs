@@ -11,7 +11,7 @@
 //! grows too long; what replaces it, and from where, is in `near_one`.
 //!
 //! Imports run downwards: `roots` → `near_one` → `centred`, `offset` → [`force`] → `fractions`,
-//! [`rod`], [`torque`] → [`cutoff`], [`table`] → [`torque_table`].
+//! [`rod`], [`torque`] → [`cutoff`], [`table`].
 
 mod centred;
 pub mod cutoff;
@@ -23,7 +23,6 @@ pub mod rod;
 mod roots;
 pub mod table;
 pub mod torque;
-pub mod torque_table;
 
 pub use cutoff::highest_order;
 pub use force::{coefficients, tail_bound};

@@ -5,16 +5,15 @@
 //!
 //! With more than a hundred terms a series is summed in numbers of twice the digits. With thousands
 //! of terms quadrature replaces it: near the crank that cannot turn the acceleration is a spike as
-//! narrow as √(2·reach) at both ends, and the number of [`panels`] grows only with the logarithm of
-//! its width.
+//! narrow as √(2·reach) at both ends, and the number of panels, which halve towards it, grows only with
+//! the logarithm of its width.
 
-mod panels;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use std::sync::LazyLock;
 
-use std::f64::consts::{FRAC_2_PI, PI};
-
-use self::panels::graded_panels;
 use super::roots::Sides;
 use crate::numbers::double::Double;
+use crate::numbers::quadrature::gauss_legendre;
 
 /// Rod ratios up to here take at most 68 terms, whose roundings are a few units in the last place.
 const LARGEST_PLAIN_RATIO: f64 = 0.99;
@@ -130,4 +129,64 @@ fn heights(sides: &Sides, angle: f64) -> (f64, f64) {
     let height = |near: f64, far: f64| ((near + rise) * (far + rest)).sqrt();
     let (above, below) = (sides.above.high, sides.below.high);
     (height(above, below), height(below, above))
+}
+
+/// Integral over [0, π/2] of a function with a spike of this width at 0 and waves of order n.
+fn graded_panels(width: f64, n: f64, f: impl Fn(f64) -> f64) -> f64 {
+    /// Radians of a wave that one panel of [`GAUSS`] resolves to rounding.
+    const WAVE_PER_PANEL: f64 = 4.0;
+    let mut edges = vec![FRAC_PI_2];
+    while edges[edges.len() - 1] > 0.5 * width {
+        edges.push(0.5 * edges[edges.len() - 1]);
+    }
+    edges.push(0.0);
+    let mut sum = 0.0;
+    // From the spike outwards.
+    for pair in edges.windows(2).rev() {
+        let parts = (n * (pair[0] - pair[1]) / WAVE_PER_PANEL).ceil().max(1.0);
+        let half = 0.5 * (pair[0] - pair[1]) / parts;
+        for part in 0..parts as usize {
+            let middle = pair[1] + half * (2 * part + 1) as f64;
+            sum += GAUSS.iter().map(|&(x, w)| w * f(half.mul_add(x, middle))).sum::<f64>() * half;
+        }
+    }
+    sum
+}
+
+/// The 20-point rule on [−1, 1].
+static GAUSS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(20));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ cos nφ/(w² + φ²): between 0 and π/2 by the exponential of a wide range, and its spike.
+    #[test]
+    fn panels_follow_spike_and_waves_and_no_more() {
+        for exponent in 0..30 {
+            let width = 0.5_f64.powi(exponent);
+            for n in [0.0, 1.0, 30.0, 1000.0] {
+                let calls = std::cell::Cell::new(0);
+                // w/(w² + φ²) is the slope of arctan(φ/w), n cos nφ that of sin nφ.
+                let integral = graded_panels(width, n, |φ| {
+                    calls.set(calls.get() + 1);
+                    width / (width * width + φ * φ) + n * (n * φ).cos()
+                });
+                let exact = (FRAC_PI_2 / width).atan() + (n * FRAC_PI_2).sin();
+                // Twenty nodes to a panel: 1e-15 of its size, waves of n included.
+                assert!(
+                    (integral - exact).abs() < 1e-14 * (1.0 + n),
+                    "{width} {n}: {integral} {exact}"
+                );
+                // One panel for each halving, and one for each four radians of waves.
+                let halvings = (PI / width).log2().ceil() + 1.0;
+                let most = 20.0 * (halvings + n * FRAC_PI_2 / 4.0);
+                assert!(
+                    f64::from(calls.get()) <= most + 20.0,
+                    "{width} {n}: {} {most}",
+                    calls.get()
+                );
+            }
+        }
+    }
 }

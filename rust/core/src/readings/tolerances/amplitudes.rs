@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::gear::harmonics::{self, rod, table, torque, torque_table};
+use crate::gear::harmonics::{self, rod, table, torque};
 use crate::gear::slider_crank::Cylinder;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
@@ -34,7 +34,7 @@ pub(super) fn amplitudes(
         table::write_centred(&ratios, numbers, None, &mut values, cancel)?;
         found[0] = columns(&values, [1.0, 0.0]);
         if wants_torque {
-            torque_table::write_centred_roll(&ratios, numbers, &mut values, cancel)?;
+            table::write_centred_roll(&ratios, numbers, &mut values, cancel)?;
             found[1] = columns(&values, [0.0, 1.0]);
             found[2] = columns(&values, [0.0, -1.0]);
         }
