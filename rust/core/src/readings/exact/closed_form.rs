@@ -259,7 +259,7 @@ fn phasor(sum: &RootSum, cancel: &Cancel) -> Result<Phasor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Station;
+    use crate::engine::{Shaft, Station, Unbalance};
     use crate::gear::slider_crank::Cylinder;
     use crate::readings::balance::{Request, Vector, balance};
 
@@ -297,6 +297,21 @@ mod tests {
         assert_eq!(*value, 10 * form.denominator * form.denominator);
         assert!(rest.iter().all(|&c| c == 0));
         assert!(form.phasors[3].square.iter().all(|&c| c == 0));
+    }
+
+    #[test]
+    fn shafts_turn_with_the_crank_or_against_it() {
+        let shaft = |ratio| {
+            let unbalance = Unbalance { amount: 0.0125, angle: Angle::ZERO, z: 0.0, pin: None };
+            Shaft { name: String::new(), ratio, axis: [0.0; 2], unbalances: vec![unbalance] }
+        };
+        let engine = crossplane().with_shafts(vec![shaft(1), shaft(-1)]).unwrap();
+        let form = of_order(&engine, 1, false, None).unwrap();
+        let (pistons, shafts) = form.parts.split_at(8);
+        assert!(pistons.iter().all(|part| part.motion == LoadMotion::Along));
+        let shafts: Vec<_> = shafts.iter().map(|part| (part.motion, part.weight)).collect();
+        let half = Ratio::new(1, 2);
+        assert_eq!(shafts, [(LoadMotion::Forward, half), (LoadMotion::Backward, half)]);
     }
 
     /// c₀ + Σ cₖ·2cos(2πk/N).

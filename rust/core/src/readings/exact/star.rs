@@ -198,6 +198,9 @@ mod tests {
         assert!(!at(&apart, 2).is_major);
         let root = stars(&[0.0, 180.0], &[1.0, 2.0_f64.sqrt()]);
         assert_eq!(at(&root, 2).verdict, Verdict::Undecided);
+        // A turn apart, wherever the first fires.
+        let twin = stars(&[90.0, 450.0], &[1.0; 2]);
+        assert_eq!([1, 2].map(|halves| at(&twin, halves).is_major), [false, true]);
         let decimals = stars(&[0.0, 180.0, 180.0], &[0.3, 0.1, 0.2]);
         assert_eq!(at(&decimals, 2).verdict, Verdict::Vanishes);
         assert!(at(&decimals, 2).sum == Complex64::default());

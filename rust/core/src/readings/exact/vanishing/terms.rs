@@ -289,13 +289,10 @@ impl Proof {
         if !quantity.is_component() || !piston || bore.symbol == 0 {
             return Some(*share);
         }
-        let step = self.roots.directions[share.load].turns;
-        let root = share.root.turned(-step);
-        let root = super::super::roots::UnityRoot {
-            direction: (bore.symbol, SymbolEntry::Component),
-            ..root
-        };
-        (share.root.direction.1 == SymbolEntry::UnityRoot).then_some(Share { root, ..*share })
+        // All of one bore are turned alike.
+        let mut component = *share;
+        component.root.direction = (bore.symbol, SymbolEntry::Component);
+        (share.root.direction.1 == SymbolEntry::UnityRoot).then_some(component)
     }
 }
 

@@ -4,7 +4,9 @@ use proptest::sample::select;
 use std::sync::Arc;
 
 use super::*;
-use crate::engine::{Shaft, Station, Unbalance};
+use crate::engine::{Details, Gas, Hold, Shaft, Station, Unbalance};
+use crate::pressure::{Cycle, Given};
+use crate::search::{Bank, Search};
 use crate::{Angle, Cylinder};
 
 fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
@@ -61,6 +63,71 @@ fn gas_has_half_orders_in_a_four_stroke_alone() {
         assert_eq!(found(Some(&firing)).unwrap(), expected);
     }
     assert!(found(None).unwrap_err().to_string().contains("need a firing order"));
+}
+
+/// Cylinders of unlike dimensions have no ratio that is known, but torques that are evaluated.
+#[test]
+fn gas_of_unlike_cylinders_remains_where_it_is_evaluated() {
+    let mut stations =
+        engine(&[0.0, 180.0].map(|tdc| (tdc, 90.0, 0.0, 0.4, 0.0))).stations().to_vec();
+    stations[1].cylinder = Cylinder::new(0.04, 0.15, 0.4, 0.0).unwrap();
+    let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
+    let pressure = theta_deg.iter().map(|&theta| 1e5 * (2.0 - (0.01 * theta).cos())).collect();
+    let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+    let gas = Gas {
+        cycles: vec![Arc::new(Cycle::new(given).unwrap())],
+        cycle_of: vec![Some(0); 2],
+        crankcase: 1e5,
+        later: vec![false; 2],
+    };
+    let bored = Details { bore: Some(0.08), ..Details::default() };
+    let plain = Engine::new("", "", stations).unwrap().with_details(vec![bored; 2]).unwrap();
+    let fired = plain.with_gas(gas).unwrap();
+    let order = [Order::from_halves(1).unwrap()];
+    let firing = Firing::with_later(&Arc::new(plain.clone()), Strokes::Four, &[false; 2]).unwrap();
+    for (engine, firing, verdict) in [(&fired, None, R), (&plain, Some(&firing), U)] {
+        let found = super::vanishing(engine, &order, None, firing, &crate::Cancel::new()).unwrap();
+        assert_eq!((found.verdicts[0][9], found.within_rounding[0][9]), (verdict, false));
+    }
+}
+
+/// The harmonic is below the smallest double, and known not to be zero by its sign.
+#[test]
+fn harmonics_that_underflow_remain() {
+    let single = engine(&[(0.0, 90.0, 0.0, 0.45, 0.0)]);
+    let force =
+        harmonics::coefficients(&single.gears()[0].proportions(), &[1000], &crate::Cancel::new());
+    assert_eq!(force.unwrap()[0].norm(), 0.0);
+    assert_eq!(verdicts(&single, 1000)[1], R);
+}
+
+/// The bank angles arg(−Z₂/Z₁) of Ito and Hattori are in general no parts of a turn.
+#[test]
+fn bank_angles_without_backward_moment_are_proved() {
+    let cancel = crate::Cancel::new();
+    let phases = [0.0, 90.0, 180.0, 270.0].map(|degrees| Angle::from_degrees(degrees).unwrap());
+    for hold in [Hold::Firing, Hold::Pins] {
+        let bank = Bank::with_phases(&phases).unwrap();
+        let search = Search::new(bank, hold, &cancel).unwrap();
+        // At 0° both banks are one.
+        let angles = search.angles([1.0, 180.0], &cancel).unwrap();
+        let mut irrational = 0;
+        for k in 0..angles.count() {
+            let found = search.solution(&angles, k).unwrap();
+            let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+            let engine = found.engine(cylinder, 0.1).unwrap();
+            assert_eq!(verdicts(&engine, 1)[7], V, "{}", found.bank_angle);
+            let bank_angle = engine.banks().unwrap().angle();
+            if bank_angle.turns().is_none() {
+                irrational += 1;
+                // Far beyond rounding, but no decimal of a few digits.
+                let beside = Angle::from_degrees(bank_angle.degrees() + 1e-9 / 3.0).unwrap();
+                let moved = engine.with_bank_angle(beside, hold).unwrap();
+                assert_ne!(verdicts(&moved, 1)[7], V, "{}", found.bank_angle);
+            }
+        }
+        assert!(irrational > 2, "{irrational}");
+    }
 }
 
 #[test]
