@@ -66,6 +66,9 @@ KINDS = QUANTITIES | PARTS
 PLANE_VECTORS = tuple(name for name, kind in QUANTITIES.items() if kind.planar)
 """Names of the vectors in the cross-section plane."""
 
+COMPONENTS = ("x", "y", "forward", "backward")
+"""Components of such a vector, as the core counts them."""
+
 _ACROSS = ("|F_x|", "|F_y|"), ("along x", "along y")
 LOADS = {
     each.name: each

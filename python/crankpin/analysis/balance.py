@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 
-TURNING = ("forward", "backward")
-"""Parts of a vector in the cross-section plane."""
 EXPLAINED = 3
 """Sentences under a table in notebooks."""
 UNIT_RPM = 30.0 / math.pi
@@ -185,7 +183,7 @@ class Balance(ByOrder, Tabled):
                 "phasors": lambda: core.xy(quantity),
                 "forward": lambda: core.forward(quantity),
                 "backward": lambda: core.backward(quantity),
-                "peak": lambda: sum(np.abs(self.read(quantity, each)) for each in TURNING),
+                "peak": lambda: sum(np.abs(self.read(quantity, each)) for each in labels.TURNING),
                 "total_peak": lambda: core.sum_peak_vector(quantity),
                 "total_peak_xy": lambda: core.sum_peak_xy(quantity),
             }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
-from crankpin._support.quantities import QUANTITIES
+from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.record import Record
 from crankpin.analysis.request import engine_core
 
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
 Expression: TypeAlias = Any
 """A SymPy expression; SymPy is imported when it is used."""
-
-COMPONENTS = ("x", "y", "forward", "backward")
-"""Phasors of a closed form, as the core counts them."""
 
 
 def closed_form(

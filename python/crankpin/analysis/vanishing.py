@@ -9,6 +9,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
+from crankpin._support.quantities import COMPONENTS
 from crankpin._support.record import AbsentError, Record, Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import firing as fires
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from crankpin._support.inputs import Order, Orders
     from crankpin.model.engine import Engine
 
-COMPONENTS = ("x", "y", "forward", "backward")
-"""Components of a plane vector."""
 
 SUMS = {
     ("force", "x"): "F_x",

@@ -32,7 +32,6 @@ def add_presets(commands: Commands) -> None:
 
 
 def _presets(given: Given) -> str:
-    """Return what the command prints."""
     return printed(Presets().table("description"), csv=given.text("--csv"))
 
 
@@ -60,7 +59,6 @@ def add_firing(commands: Commands) -> None:
 
 
 def _firing(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("firing")
     strokes = None if given.text("--strokes") is None else int(given.text("--strokes"))
     if given.text("--all") or (given.text("--order") is None and not engine.firing_order):

@@ -70,7 +70,6 @@ def add_counterweights(commands: Commands) -> None:
 
 
 def _counterweights(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("counterweights")
     picture, file = given.picture_file(), given.save_file()
     angles = given.range("--angles", "°")
@@ -130,7 +129,6 @@ def add_bob_weight(commands: Commands) -> None:
 
 
 def _bob_weight(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("bob-weight")
     picture, file = given.picture_file(), given.save_file()
     if (mass := given.optional("--reciprocating", "kg")) is not None:
@@ -195,7 +193,6 @@ def add_shafts(commands: Commands) -> None:
 
 
 def _shafts(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("shafts")
     fits = given.text("--ratio") is not None
     for name in OF_OPTIONS if fits else OF_A_FIT:

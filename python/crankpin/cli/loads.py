@@ -50,7 +50,6 @@ def add_torque(commands: Commands) -> None:
 
 
 def _torque(given: Given) -> str:
-    """Return what the command prints."""
     engine, note = _fired(given, "torque")
     chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
     picture, quantity = given.picture_file(), ON[given.text("--on")]
@@ -108,7 +107,6 @@ def add_bearings(commands: Commands) -> None:
 
 
 def _bearings(given: Given) -> str:
-    """Return what the command prints."""
     engine, note = _fired(given, "bearings")
     picture, kind = given.picture_file(), given.text("--picture")
     loads = bearing_loads(engine, given.number("--rpm", "rpm"))

@@ -86,7 +86,6 @@ def add_design(commands: Commands) -> None:
 
 
 def _design(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("design")
     if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
         hint = "give an engine with one or two banks and one kind of cylinder"
@@ -189,7 +188,6 @@ def add_tolerances(commands: Commands) -> None:
 
 
 def _tolerances(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("tolerances")
     picture = given.picture_file()
     samples = given.whole("--samples")

@@ -48,7 +48,6 @@ def add_balance(commands: Commands) -> None:
 
 
 def _balance(given: Given) -> str:
-    """Return what the command prints."""
     engine = given.engine("balance")
     chosen = given.chosen()
     picture = given.picture_file()
@@ -78,7 +77,6 @@ def add_explain(commands: Commands) -> None:
 
 
 def _explain(given: Given) -> str:
-    """Return what the command prints."""
     return f"{given.engine('explain').explain(given.optional('--rpm', 'rpm'))}\n"
 
 
@@ -115,7 +113,6 @@ def add_sweep(commands: Commands) -> None:
 
 
 def _sweep(given: Given) -> str:
-    """Return what the command prints."""
     engines = given.engines()
     typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit, _) in SWEPT.items()}
     axes = {dim: values for dim, values in typed.items() if values is not None}
@@ -228,7 +225,6 @@ def add_rank(commands: Commands) -> None:
 
 
 def _rank(given: Given) -> str:
-    """Return what the command prints."""
     engines = given.engines()
     own = given.text("--bank-angle") == "own"
     angles: Any = None if own else given.range("--bank-angle", "°")

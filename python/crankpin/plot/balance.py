@@ -27,7 +27,7 @@ from crankpin.plot.layout import (
 from crankpin.plot.phasors import phasors
 from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
 from crankpin.plot.rows import largest
-from crankpin.plot.style import SERIES, count_series, hollow, series
+from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import drawn_quantity, number, series_names, series_of, with_unit
 
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.quantity import OrderBalance
 
 
-MARKERS = "os^Dv"
 BESIDE = 6.0
 """Points between stems of the same order."""
 ZEROS = "crankpin zeros"

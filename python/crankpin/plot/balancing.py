@@ -16,6 +16,7 @@ from crankpin.analysis.balancing.fitted_shafts import SHAKEN, BalanceShafts
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
 from crankpin.plot.style import (
+    MARKERS,
     SERIES,
     background,
     count_series,
@@ -111,7 +112,6 @@ def _balance_shafts(
 
 MOST_SETS = 24
 """Largest number of sets shown below each other, those with the fewest shafts."""
-MARKERS = "os^Dv"
 TARGET = "crankpin target"
 """Marks the lines at the targets by their gid."""
 REACHED = "target reached"

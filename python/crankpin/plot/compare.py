@@ -22,6 +22,7 @@ from crankpin.plot.layout import (
     points_of,
     set_panel_title,
 )
+from crankpin.plot.rows import MATTERS
 from crankpin.plot.style import background, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, number, rounded, with_unit
@@ -34,8 +35,6 @@ WIDTH = 0.36
 SIDE_BY_SIDE = 5.0
 """Inches that two panels beside each other need."""
 TURN = np.arange(361.0)
-MATTERS = 1e-3
-"""Orders that are below this part of the largest peak in both engines have no bars."""
 
 
 @picture.register(Comparison)

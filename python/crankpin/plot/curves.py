@@ -27,6 +27,7 @@ from crankpin.plot.rows import (
 from crankpin.plot.style import (
     DASHES,
     DISTINCT,
+    MARKERS,
     SERIES,
     cycle,
     entry,
@@ -275,7 +276,7 @@ def _dots(
     """Draw engines below each other: names need room, and between two engines there is nothing."""
     rows = np.arange(len(names))
     for k, curve in enumerate(drawn):
-        look: dict[str, Any] = {"marker": "os^Dv"[k % 5], "markersize": 6.0}
+        look: dict[str, Any] = {"marker": MARKERS[k % len(MARKERS)], "markersize": 6.0}
         look |= curve.style | {"linestyle": ""}
         heights = peaks[:, *curve.place]
         ax.plot(heights, rows, gid=SERIES, label=curve.name or "_", clip_on=False, **look)

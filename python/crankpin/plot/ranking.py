@@ -14,10 +14,11 @@ from crankpin.analysis.arrangements.search import ArrangementSearch
 from crankpin.analysis.design.designs import Designs, bank_angle_range
 from crankpin.analysis.design.families import turned
 from crankpin.analysis.ranking.ranking import Ranking
-from crankpin.plot.curves import engine_looks
+from crankpin.plot.curves import FEW_POINTS, engine_looks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
 from crankpin.plot.style import DISTINCT, SERIES, foreground, ring, series, write_at_mark
+from crankpin.plot.sweep import MOST_ENGINES
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import (
     in_degrees,
@@ -37,10 +38,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.design.designs import Design
     from crankpin.analysis.ranking.ranking import Choice
 
-MOST_ENGINES = 24
-"""Engines shown below each other, the best ones."""
-FEW_POINTS = 40
-"""Maximum number of points of a curve that are marked."""
 POINTS = 181
 """Bank angles of a design's curve, besides those of the designs."""
 BEST, DESIGN = "best bank angle", "design"

@@ -30,6 +30,8 @@ DASHES: tuple[Any, ...] = (
     (0, (4, 1.5, 1.5, 1.5, 1.5, 1.5)),
     (0, (2.5, 2.5)),
 )
+MARKERS = "os^Dv"
+"""Marks of successive series."""
 DISTINCT = len(DASHES)
 """Number of series that colours and dashes distinguish."""
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 SUMMARY = 4
 """The highest order by which engines are classed, and drawn by default."""
 MOST_ENGINES = 24
+"""Engines shown below each other."""
 HATCHES = ("", "////", "....", "xxxx")
 CLASSES = {
     (False, False): "balanced",

@@ -9,7 +9,7 @@ import numpy as np
 
 from crankpin._support import labels, optional
 from crankpin._support.record import AbsentError, Listed, Record, Tabled
-from crankpin._support.tables import Table
+from crankpin._support.tables import SHOWN, Table
 from crankpin.analysis.balance import balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.ranking.objectives import ByObjectives
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.model.engine import Engine
     from crankpin.model.shafts import Shaft, Unbalance
-
-SHOWN = 30
-"""Sets shown in text."""
 
 
 class BalancerOption(Record):
