@@ -380,8 +380,8 @@ class _Legend:
             return False  # removed
         names = [str(handle.get_label()) for handle in self.handles]
         left, down = 0.0, 0.0
-        of_axes = isinstance(self.place, Axes)
-        across = _to_the_right(self.place) if of_axes else _extent(self.place, "width")
+        place = self.place
+        across = _to_the_right(place) if isinstance(place, Axes) else _extent(place, "width")
         arranged = self._arranged(names, across)
         if isinstance(self.place, Axes):
             dpi, frame = _root(self.place).dpi, self.place.bbox
