@@ -173,6 +173,7 @@ RESULTS_MADE_ELSEWHERE = {
     "Waveform",
     "Sweep",
     "SweepWaveform",
+    "Tolerances",
 }  # by methods of Engine and of Sweep, by sweep and by rank
 
 

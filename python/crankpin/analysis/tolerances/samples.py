@@ -23,6 +23,7 @@ from crankpin.analysis.tolerances.spreads import (
     FIGURES,
     OF_PINS,
     Distribution,
+    Spreads,
     deviating,
     deviations,
 )
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from crankpin._support.progress import Progress
     from crankpin.analysis.ranking.objectives import Objective
     from crankpin.analysis.request import Request
-    from crankpin.analysis.tolerances.spreads import Spreads
     from crankpin.model.engine import Engine
 
 QUANTILES = (0.05, 0.5, 0.95)
@@ -114,6 +114,11 @@ class Tolerances(ByOrder, Tabled):
     """Bounds on what omitted orders add to force, moment and torque of the nominal engine."""
     by: tuple[str, ...]
     """Names of what tables and pictures show."""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.figures, Spreads):
+            raise inputs.rejected("figures", self.figures, "use crankpin.tolerances")
+        check_request(self.request, "crankpin.tolerances")
 
     @property
     def orders(self) -> tuple[Order, ...]:
