@@ -355,6 +355,22 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         r"throws_deg = \[0\.0, 2\.0944, 4\.18879\]: was it given in radians.* 120°, 240°",
     ),
     "bank angle in radians": (lambda: vee(bank_angle_deg=math.pi / 3), "bank_angle_deg = 1.0472?"),
+    "directions in radians in a file": (
+        lambda: cp.Engine.from_toml(
+            V6.to_toml()
+            .replace("bank_deg = 45.0", "bank_deg = 0.7854")
+            .replace("bank_deg = 135.0", "bank_deg = 2.3562")
+        ),
+        r"^bank_deg = \[0.7854, 2.3562, .*: was it given in radians",
+    ),
+    "a bore in millimetres in a file": (
+        lambda: cp.Engine.from_toml(
+            cp.Engine.preset("i4", cylinder=CYLINDER.replace(bore=0.086))
+            .to_toml()
+            .replace("bore = 0.086", "bore = 86")
+        ),
+        "^bore = 86 m and stroke = ",
+    ),
     "in three decimals": (
         lambda: vee(bank_angle_deg=0.785),
         "^bank_angle_deg = 0.785: .* 44.9772°",

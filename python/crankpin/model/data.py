@@ -549,10 +549,14 @@ class EngineData:
             order = _core.Firing.named(core, core.firing_order, core.strokes)
             core = core.firing_as(order.text, core.strokes)
         read = cls(core)
-        _ = read.cylinders  # rods that contradict their cylinders raise
-        for parts in set(core.cylinders):
-            checks.cylinder(*parts[:2])
+        for each in set(read.cylinders):  # rods that contradict their cylinders raise
+            checks.cylinder(each.crank_radius, each.rod_length)
+            if each.bore is not None:
+                checks.bore(each.bore, each.stroke)
         checks.units(core)
+        for name in ("tdc_deg", "bank_deg"):
+            angles = getattr(core, name).tolist()
+            checks.radians(name, angles, angles)
         return read
 
     def to_toml(self) -> str:

@@ -428,9 +428,7 @@ pub fn from_toml(text: &str) -> Result<Engine> {
             let entry = text.lines().nth(index).and_then(|line| line.split_once('='));
             let (key, value) = entry.map_or(("", ""), |(key, value)| (key.trim(), value.trim()));
             let key = if key.is_empty() { String::new() } else { format!(", {}", shorten(key)) };
-            let hint =
-                if has_decimal_comma(value) { "; a decimal has a point, not a comma" } else { "" };
-            let reason = plain(error.message());
+            let (hint, reason) = (hint(value), plain(error.message()));
             Error::File {
                 format: "TOML",
                 reason: format!("line {}{key}: {reason}{hint}", index + 1),
@@ -463,12 +461,19 @@ fn plain(message: &str) -> String {
     shorten(&WORDS.iter().fold(message.to_owned(), all))
 }
 
-/// Whether a value is a number with a comma, such as 0,1485.
-fn has_decimal_comma(value: &str) -> bool {
-    value.split_once(',').is_some_and(|(whole, rest)| {
-        let digits = |part: &str| part.bytes().next().is_some_and(|byte| byte.is_ascii_digit());
-        whole.trim_start_matches('-').parse::<u64>().is_ok() && digits(rest)
-    })
+/// What is wrong with a value that begins as a number does: 0,1485 or 86mm.
+fn hint(value: &str) -> &'static str {
+    let digits = |text: char| text.is_ascii_digit() || "+-.".contains(text);
+    let value = value.trim_start_matches('"');
+    let rest = value.trim_start_matches(digits);
+    let mut next = rest.chars();
+    match (rest.len() < value.len(), next.next(), next.next()) {
+        (true, Some(','), Some('0'..='9')) => "; a decimal has a point, not a comma",
+        (true, Some(first), _) if first.is_alphabetic() => {
+            "; numbers have no units: metres, kilograms and degrees"
+        }
+        _ => "",
+    }
 }
 
 /// Without a byte order mark, which some editors put before a text.
@@ -685,9 +690,12 @@ mod tests {
         let error = from_toml("schema = 1\nreference_z = 0,5\n").unwrap_err().to_string();
         assert!(error.contains("line 2, reference_z: "), "{error}");
         assert!(error.ends_with("; a decimal has a point, not a comma"), "{error}");
-        for (value, comma) in [("0,5", true), ("-12,5e3", true), ("[0, 5]", false), ("0, 5", false)]
-        {
-            assert_eq!(has_decimal_comma(value), comma, "{value}");
+        for value in ["86mm", "\"86mm\"", "-1.5kg"] {
+            assert!(hint(value).starts_with("; numbers have no units"), "{value}");
+        }
+        assert_eq!(hint("-12,5e3"), hint("0,5"));
+        for value in ["[0, 5]", "0, 5", "\"V6\"", "0.5", "0.5 1", "true"] {
+            assert_eq!(hint(value), "", "{value}");
         }
     }
 
