@@ -640,6 +640,17 @@ def test_wrong_units_are_warned_of_once_in_words_of_the_shell(
     assert capsys.readouterr().err == f"crankpin: warning: {said}\n"
 
 
+@pytest.mark.filterwarnings("default")
+def test_figures_of_a_file_are_not_to_be_typed_with_units(capsys: CAPTURE, tmp_path: Path) -> None:
+    text = cp.Engine.preset("i4").to_toml().replace("bore = 0.086", "bore = 86")
+    (tmp_path / "i4.toml").write_text(text, encoding="utf-8")
+    assert main(["balance", f"{tmp_path / 'i4.toml'}"]) == 0
+    assert capsys.readouterr().err == (
+        "crankpin: warning: bore = 86 m and stroke = 0.086 m: are both in metres? Lengths are "
+        "metres here, masses kilograms\n"
+    )
+
+
 def test_other_errors_are_ours_and_stay_visible(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError
