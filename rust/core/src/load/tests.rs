@@ -100,29 +100,50 @@ fn loads_are_pistons_then_crank_unbalances_then_shafts() {
     assert!(!self::loads(&Engine::new("", "", vec![station]).unwrap()).has_rod_inertia(0));
 }
 
-#[test]
-fn volumes_are_of_the_pistons_under_pressure_by_gear() {
+/// The [`engine`] with bores and one cycle, and area times crank radius of each cylinder.
+fn fired(cycle_of: [Option<usize>; 3]) -> (Engine, [f64; 3]) {
     let theta_deg: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
     let pressure = theta_deg.iter().map(|theta| 1e5 * (2.0 + theta.to_radians().cos())).collect();
     let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
-    let bores = [0.08, 0.07, 0.09].map(|bore| Details { bore: Some(bore), ..Details::default() });
     let gas = Gas {
         cycles: vec![Arc::new(Cycle::new(given).unwrap())],
-        cycle_of: vec![Some(0); 3],
+        cycle_of: cycle_of.to_vec(),
         crankcase: 1e5,
-        later: vec![false; 3],
+        later: vec![false, true, false],
     };
-    let fired = engine().with_details(bores.to_vec()).unwrap();
-    // Area times crank radius: cylinders 1 and 3 share a gear.
-    let swept = |bore: f64, radius: f64| TAU / 8.0 * bore * bore * radius;
-    let expected = [swept(0.08, 0.05) + swept(0.09, 0.05), swept(0.07, 0.04)];
-    let volumes = |gas: Gas| loads(&fired.with_gas(gas).unwrap()).volumes();
-    for (found, expected) in volumes(gas.clone()).into_iter().zip(expected) {
+    let bores = [0.08, 0.07, 0.09];
+    let details = bores.map(|bore| Details { bore: Some(bore), ..Details::default() });
+    let fired = engine().with_details(details.to_vec()).and_then(|engine| engine.with_gas(gas));
+    let swept = |(bore, radius): (f64, f64)| TAU / 8.0 * bore * bore * radius;
+    (fired.unwrap(), [(bores[0], 0.05), (bores[1], 0.04), (bores[2], 0.05)].map(swept))
+}
+
+#[test]
+fn volumes_are_of_the_pistons_under_pressure_by_gear() {
+    let (all, swept) = fired([Some(0); 3]);
+    // Cylinders 1 and 3 share a gear.
+    let expected = [swept[0] + swept[2], swept[1]];
+    for (found, expected) in loads(&all).volumes().into_iter().zip(expected) {
         // Some roundings of half a unit in the last place.
         assert!((found - expected).abs() < 1e-15 * expected, "{found} {expected}");
     }
-    let gone = Gas { cycle_of: vec![None, Some(0), None], ..gas };
-    assert_eq!(volumes(gone)[0], 0.0);
+    assert_eq!(loads(&fired([None, Some(0), None]).0).volumes()[0], 0.0);
+}
+
+/// Σ area · radius · e^{−inφ} over the cylinders of a gear, φ the firing top dead centre.
+#[test]
+fn pressure_turns_with_the_crank_angle_of_firing() {
+    let (engine, swept) = fired([Some(0); 3]);
+    let firing = [10.0, 130.0 + 360.0, 255.0];
+    for halves in 1..=5 {
+        let wanted = Wanted { planar: false, roll: true, by_bank: false };
+        let terms = loads(&engine).sums(Order::from_halves(halves).unwrap(), wanted);
+        let of = |i: usize| cis(-0.5 * f64::from(halves) * firing[i]) * swept[i];
+        for (gear, expected) in [of(0) + of(2), of(1)].into_iter().enumerate() {
+            let gas = terms.iter().find(|term| term.harmonic == Harmonic::Gas(gear)).unwrap();
+            close(gas.roll.value, expected);
+        }
+    }
 }
 
 #[test]
