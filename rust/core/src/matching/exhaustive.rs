@@ -298,7 +298,8 @@ impl Partitions<'_> {
             }
             best = self.best[&(without, sets)];
         }
-        let others = subsets(left[1], if self.problem.kinds.len() > 1 { places } else { 0 });
+        let other = subsets(left[1], if self.problem.kinds.len() > 1 { places } else { 0 });
+        let others: Vec<u32> = other.collect();
         for first in subsets(left[0] & !lowest, places - 1) {
             for &other in &others {
                 self.cancel.check()?;
@@ -333,10 +334,19 @@ impl Partitions<'_> {
 }
 
 /// All subsets of so many bits.
-fn subsets(bits: u32, count: usize) -> Vec<u32> {
+fn subsets(bits: u32, count: usize) -> impl Iterator<Item = u32> {
     let places: Vec<usize> = bits_of(bits).collect();
-    let mask = |chosen: Vec<usize>| chosen.into_iter().fold(0, |mask, place| mask | 1 << place);
-    combinations(&places, count).into_iter().map(mask).collect()
+    let end = 1u64 << places.len();
+    // The next larger number with as many ones (Gosper).
+    let next = |&of: &u64| {
+        let (lowest, above) = (of & of.wrapping_neg(), of + (of & of.wrapping_neg()));
+        (of > 0).then(|| above | ((of ^ above) / lowest) >> 2)
+    };
+    let chosen = std::iter::successors(Some((1u64 << count) - 1), next);
+    chosen.take_while(move |&of| of < end).map(move |of| {
+        let places = places.iter().enumerate().filter(|(k, _)| of >> k & 1 == 1);
+        places.fold(0, |mask, (_, place)| mask | 1 << place)
+    })
 }
 
 /// Places of the bits that are set.
