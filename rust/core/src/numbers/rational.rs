@@ -197,6 +197,10 @@ mod tests {
     fn quotients_are_rounded_once() {
         assert_eq!(nearest(0, 7), 0.0);
         assert_eq!(nearest(-1, 3), -1.0 / 3.0);
+        // Midway between two doubles, to the even one; and a third beyond.
+        let midway = (1 << 54) + 2;
+        assert_eq!(nearest(midway, 1), 2_f64.powi(54));
+        assert_eq!(nearest(3 * midway + 1, 3), 2_f64.powi(54).next_up());
         // Less than 3072 by a part of 2⁸⁰; in 128 bits the quotient has 48.
         assert_eq!(nearest(3 << 90, (1 << 80) + 1), 3072.0);
         let mut state = 1_u64;
