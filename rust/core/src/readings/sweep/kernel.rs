@@ -6,7 +6,7 @@
 //! the sums times harmonics at points of rod ratio and pin offset; a row of the result is a
 //! combination of the two. Every number is evaluated by itself, whatever else is swept.
 
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Range};
 
 use bytemuck::Zeroable;
 use rayon::prelude::*;
@@ -18,6 +18,7 @@ use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
+use crate::numbers::crank_angles::parts;
 use crate::numbers::error::Result;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
@@ -25,6 +26,8 @@ use crate::readings::balance::TorquePart;
 
 /// Numbers of waves and of coefficients held at a time.
 const SLAB: usize = 1 << 19;
+/// Most points of rod ratio and pin offset whose coefficients one thread computes.
+const PART: usize = 1 << 11;
 /// Most rows of a task.
 pub(super) const PIECE: usize = 1024;
 /// Rows between two checks for cancellation.
@@ -78,27 +81,38 @@ impl Job<'_> {
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
             for point_slab in slabs(points) {
-                let coefficients = |(loads, layout): &(Loads, Layout)| {
-                    let points = point_slab.clone();
+                let parts: Vec<Range<usize>> = parts(point_slab.clone(), PART).collect();
+                let each_part = layouts.iter().flat_map(|of_engine| {
+                    parts.iter().map(move |points| (of_engine, points.clone()))
+                });
+                let coefficients = |((loads, layout), points): (&(Loads, Layout), Range<usize>)| {
                     Coefficients::new(sweep, self.quantity, (loads, layout), points, self.cancel)
                 };
-                let coefficients = self.each(layouts.iter().collect(), many, coefficients)?;
+                let coefficients = self.each(each_part.collect(), many, coefficients)?;
                 let mut tasks = Vec::new();
                 for (out, coefficients) in
-                    out.chunks_mut(angles * points * width).zip(&coefficients)
+                    out.chunks_mut(angles * points * width).zip(coefficients.chunks(parts.len()))
                 {
                     let span = angle_slab.start * points..angle_slab.end * points;
                     let out = &mut out[span.start * width..span.end * width];
-                    // Rows are contiguous over several bank angles where the slab has all points.
-                    let (per_run, part) = if point_slab.len() == points {
-                        (out.len(), 0..out.len())
-                    } else {
-                        (points * width, point_slab.start * width..point_slab.end * width)
-                    };
+                    // Rows are contiguous over several bank angles where a part has all points.
+                    let whole = parts[0].len() == points;
+                    let per_run = if whole { out.len() } else { points * width };
                     for (run, out) in out.chunks_mut(per_run.max(1)).enumerate() {
-                        let rows = out[part.clone()].chunks_mut(piece * width).enumerate();
-                        let first = |k| run * point_slab.len() + k * piece;
-                        tasks.extend(rows.map(|(k, rows)| (coefficients, first(k), rows)));
+                        let mut rest = if whole {
+                            out
+                        } else {
+                            &mut out[point_slab.start * width..point_slab.end * width]
+                        };
+                        for coefficients in coefficients {
+                            let length =
+                                if whole { rest.len() } else { coefficients.points * width };
+                            let (own, others) = rest.split_at_mut(length);
+                            rest = others;
+                            let rows = own.chunks_mut(piece * width).enumerate();
+                            let first = |k| run * coefficients.points + k * piece;
+                            tasks.extend(rows.map(|(k, rows)| (coefficients, first(k), rows)));
+                        }
                     }
                 }
                 let work =

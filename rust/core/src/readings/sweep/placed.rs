@@ -79,7 +79,7 @@ impl Placed {
         let torque = !quantity.is_planar();
         let (mut unbalances, mut cranks) = (WaveformRows::ZERO, Vec::new());
         if !of_gas {
-            unbalances.add_unbalances(&self.kinematics, angles, range.clone(), torque, factor);
+            unbalances.add_unbalances(&self.kinematics, angles, range.clone(), torque, 1.0);
             cranks.extend(self.kinematics.pistons.iter().map(|pistons| {
                 let units = Units::at_speed(angles, range.clone(), pistons.ratio);
                 Cranks::new(&units, pistons.phase)
@@ -97,9 +97,9 @@ impl Placed {
             for ((pistons, of), cranks) in pistons.zip(&cranks) {
                 let crank = |i: usize| cranks.at(i);
                 if torque {
-                    rows.add::<false, true>(pistons, of, crank, factor);
+                    rows.add::<false, true>(pistons, of, crank, 1.0);
                 } else {
-                    rows.add::<true, false>(pistons, of, crank, factor);
+                    rows.add::<true, false>(pistons, of, crank, 1.0);
                 }
             }
             let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &rows.columns;
@@ -109,12 +109,13 @@ impl Placed {
                 Quantity::Torque(_) => (roll, roll),
                 Quantity::CrankTorque(_) => (crank, crank),
             };
+            // Last, as where rows are multiplied for several speeds: a row has the same bits in any sweep.
             if torque {
-                out.copy_from_slice(&x[..out.len()]);
+                out.iter_mut().zip(&x[..]).for_each(|(out, x)| *out = factor * x);
                 continue;
             }
             for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
-                *pair = [*x, *y];
+                *pair = [factor * x, factor * y];
             }
         }
     }
