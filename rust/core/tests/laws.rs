@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::random::{angles, cylinders, engines, vees};
-use common::{by_orders, changed, turning, whole, xy};
+use common::{InArrays, by_orders, changed, turning, whole, xy};
 use crankpin_core::angle::cis_degrees;
 use crankpin_core::balance::{TorquePart, Vector, balance};
 use crankpin_core::harmonics::{self, torque::TorqueHarmonics};

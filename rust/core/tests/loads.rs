@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::random::{angles, engines, stations, vees, weighted};
-use common::{angle, by_orders, changed, kinematics, scales, turning, whole, xy};
+use common::{InArrays, angle, by_orders, changed, kinematics, scales, turning, whole, xy};
 use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
 use crankpin_core::exact::vanishing::{ProofQuantity as Sum, QUANTITIES, Verdict, vanishing};

@@ -6,7 +6,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{
-    alone, by_orders, in_line, kinematics, mixed, places, plain, there, weighted, whole, xy,
+    InArrays, alone, by_orders, in_line, kinematics, mixed, places, plain, there, weighted, whole,
+    xy,
 };
 use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};

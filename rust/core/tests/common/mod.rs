@@ -7,10 +7,12 @@ pub mod random;
 use std::sync::Arc;
 
 use crankpin_core::balance::{Balance, Vector, balance};
-use crankpin_core::sweep::Axes;
+use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Request, Shaft, Station, Unbalance,
+    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Request, Result, Shaft, Station,
+    Sweep, Unbalance,
 };
+use ndarray::ArrayD;
 
 /// Crank radius, rod length, reciprocating mass, pin offset, inertia of the rod beyond its two
 /// masses; top dead centre and bank, degrees; z; rotating mass.
@@ -249,4 +251,43 @@ pub fn scales(engine: &Engine, reference: f64) -> [f64; 3] {
         torque = torque.max(p.cylinder.rod_inertia_excess().abs() * p.cylinder.rod_ratio());
     }
     [force, force * lever, torque]
+}
+
+/// Results of a sweep in arrays of their own.
+pub trait InArrays {
+    fn phasors(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<ArrayD<Complex64>>;
+    fn peaks(&self, quantity: Quantity, figure: Figure, cancel: &Cancel) -> Result<ArrayD<f64>>;
+}
+
+impl InArrays for Sweep {
+    fn phasors(
+        &self,
+        quantity: Quantity,
+        figure: Figure,
+        cancel: &Cancel,
+    ) -> Result<ArrayD<Complex64>> {
+        let write = |out: &mut [Complex64]| self.write_phasors(quantity, figure, out, cancel);
+        in_array(self, (quantity, figure), write)
+    }
+
+    fn peaks(&self, quantity: Quantity, figure: Figure, cancel: &Cancel) -> Result<ArrayD<f64>> {
+        let write = |out: &mut [f64]| self.write_peaks(quantity, figure, out, cancel);
+        in_array(self, (quantity, figure), write)
+    }
+}
+
+fn in_array<T: Clone + Default>(
+    sweep: &Sweep,
+    (quantity, figure): (Quantity, Figure),
+    write: impl FnOnce(&mut [T]) -> Result<()>,
+) -> Result<ArrayD<T>> {
+    sweep.check_size(quantity, figure, size_of::<T>())?;
+    let mut values = ArrayD::default(sweep.result_shape(quantity, figure));
+    write(values.as_slice_mut().unwrap())?;
+    Ok(values)
 }

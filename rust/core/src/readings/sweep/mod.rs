@@ -18,18 +18,15 @@ mod waveform;
 
 use std::sync::Arc;
 
-use ndarray::{Array, IxDyn};
-
 pub use self::axes::{Axes, MapAxes};
 use self::block::Block;
-use self::kernel::{Job, Number};
+use self::kernel::Job;
 use self::operating::Nodes;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
-use crate::numbers::memory;
 use crate::numbers::order::{self, Order};
 use crate::readings::balance::TorquePart;
 use crate::readings::peaks::PeakFinder;
@@ -87,9 +84,6 @@ pub struct Sweep {
     omitted: Vec<Order>,
     error_bound: [f64; 3],
 }
-
-/// Axes: engine, bank angle, rod ratio, pin offset, speed, load; then orders and components, if any.
-pub type Values<T> = Array<T, IxDyn>;
 
 impl Sweep {
     /// Checks everything that can be wrong. With a map of cycles there are as many engines in a row as it
@@ -175,13 +169,8 @@ impl Sweep {
         self
     }
 
-    /// What is swept.
-    #[must_use]
-    pub fn axes(&self) -> &Axes {
-        &self.axes
-    }
-
-    /// Lengths of all axes of a result.
+    /// Lengths of all axes of a result: engine, bank angle, rod ratio, pin offset, speed, load; then orders
+    /// and components, if any.
     #[must_use]
     pub fn result_shape(&self, quantity: Quantity, figure: Figure) -> Vec<usize> {
         let orders = &[self.orders.len()][..];
@@ -201,27 +190,8 @@ impl Sweep {
         limits::result_size("sweep", &self.result_shape(quantity, figure), bytes, hint)
     }
 
-    /// Peak phasors of each order, along (about) x and y or as forward and backward parts.
-    pub fn phasors(
-        &self,
-        quantity: Quantity,
-        figure: Figure,
-        cancel: &Cancel,
-    ) -> Result<Values<Complex64>> {
-        self.allocated(quantity, figure, |out| self.write_phasors(quantity, figure, out, cancel))
-    }
-
-    /// A figure of every point.
-    pub fn peaks(
-        &self,
-        quantity: Quantity,
-        figure: Figure,
-        cancel: &Cancel,
-    ) -> Result<Values<f64>> {
-        self.allocated(quantity, figure, |out| self.write_peaks(quantity, figure, out, cancel))
-    }
-
-    /// [`Self::phasors`] into a buffer as long as the product of [`Self::result_shape`].
+    /// Writes peak phasors of each order, along (about) x and y or as forward and backward parts, to a
+    /// buffer as long as the product of [`Self::result_shape`].
     pub fn write_phasors(
         &self,
         quantity: Quantity,
@@ -239,7 +209,7 @@ impl Sweep {
         })
     }
 
-    /// [`Self::peaks`] into a buffer as long as the product of [`Self::result_shape`].
+    /// Writes a figure of every point to a buffer as long as the product of [`Self::result_shape`].
     pub fn write_peaks(
         &self,
         quantity: Quantity,
@@ -374,19 +344,6 @@ impl Sweep {
             "torque=False was given; leave it out"
         };
         Err(Error::NoTorque(reason))
-    }
-
-    fn allocated<T: Number>(
-        &self,
-        quantity: Quantity,
-        figure: Figure,
-        write: impl FnOnce(&mut [T]) -> Result<()>,
-    ) -> Result<Values<T>> {
-        self.check_size(quantity, figure, size_of::<T>())?;
-        let shape = self.result_shape(quantity, figure);
-        let mut values: Vec<T> = memory::zeros(shape.iter().product())?;
-        write(&mut values)?;
-        memory::array("sweep", &shape[..], values)
     }
 
     /// Numbers of a row, after a check of a buffer for all rows; zero where the buffer then is zero.
