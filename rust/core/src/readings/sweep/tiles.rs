@@ -12,8 +12,8 @@ use crate::numbers::simd::vectorised;
 
 /// Crank angles of a tile.
 pub(super) const TILE: usize = 256;
-/// Terms that are added in one pass over a row.
-const TOGETHER: usize = 4;
+/// Angles summed side by side, in registers.
+const TOGETHER: usize = 16;
 
 /// A part of a sum that is not zero in every row: real or imaginary parts of the phasors of an order.
 #[derive(Clone, Copy)]
@@ -29,8 +29,8 @@ pub(super) struct Tiles(Vec<Vec<Tile>>);
 /// Whole lines of the cache.
 #[repr(align(64))]
 struct Tile {
-    cos: [f64; TILE],
-    sin: [f64; TILE],
+    cos: [[f64; TOGETHER]; TILE / TOGETHER],
+    sin: [[f64; TOGETHER]; TILE / TOGETHER],
 }
 
 impl OrderWave {
@@ -88,25 +88,24 @@ impl Tiles {
     ) {
         let (row, _) = row.as_chunks::<COMPONENTS>();
         let (out, _) = out.as_chunks_mut::<COMPONENTS>();
+        let mut of_tile = Vec::with_capacity(terms.len());
         for (k, out) in (first..).zip(out.chunks_mut(TILE)) {
-            let of = |term: &OrderWave| {
+            of_tile.clear();
+            of_tile.extend(terms.iter().map(|term| {
                 let tile = &self.0[term.order][k];
                 let numbers = if term.sine { &tile.sin } else { &tile.cos };
                 (row[term.order].map(|phasor| term.weight(phasor)), numbers)
-            };
-            // The first one to four are written, to them others are added.
-            let written = terms.len().checked_sub(1).map_or(0, |more| more % TOGETHER + 1);
-            let (start, rest) = terms.split_at(written);
-            match start {
-                [a, b, c, d] => write([a, b, c, d].map(of), out),
-                [a, b, c] => write([a, b, c].map(of), out),
-                [a, b] => write([a, b].map(of), out),
-                [a] => write([a].map(of), out),
-                _ => write([], out),
-            }
-            let (fours, _) = rest.as_chunks::<TOGETHER>();
-            for [a, b, c, d] in fours {
-                add([a, b, c, d].map(of), out);
+            }));
+            for (block, out) in out.chunks_mut(TOGETHER).enumerate() {
+                let mut sums = [[0.0; COMPONENTS]; TOGETHER];
+                for (weights, numbers) in &of_tile {
+                    for (sum, number) in sums.iter_mut().zip(&numbers[block]) {
+                        for (sum, weight) in sum.iter_mut().zip(weights) {
+                            *sum = weight.mul_add(*number, *sum);
+                        }
+                    }
+                }
+                out.copy_from_slice(&sums[..out.len()]);
             }
         }
     }
@@ -114,48 +113,19 @@ impl Tiles {
 
 impl Tile {
     fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
-        let mut tile = Self { cos: [0.0; TILE], sin: [0.0; TILE] };
+        let zeros = [[0.0; TOGETHER]; TILE / TOGETHER];
+        let mut tile = Self { cos: zeros, sin: zeros };
         vectorised(
             #[inline(always)]
-            || angles.multiples(order, range, &mut tile.cos, &mut tile.sin),
+            || {
+                angles.multiples(
+                    order,
+                    range,
+                    tile.cos.as_flattened_mut(),
+                    tile.sin.as_flattened_mut(),
+                )
+            },
         );
         tile
     }
-}
-
-/// Write the sum of some terms.
-#[inline(always)]
-fn write<const N: usize, const COMPONENTS: usize>(
-    terms: [([f64; COMPONENTS], &[f64; TILE]); N],
-    out: &mut [[f64; COMPONENTS]],
-) {
-    for (i, out) in out.iter_mut().enumerate().take(TILE) {
-        *out = [0.0; COMPONENTS];
-        *out = plus(&terms, i, *out);
-    }
-}
-
-/// Add some terms to what is there.
-#[inline(always)]
-fn add<const N: usize, const COMPONENTS: usize>(
-    terms: [([f64; COMPONENTS], &[f64; TILE]); N],
-    out: &mut [[f64; COMPONENTS]],
-) {
-    for (i, out) in out.iter_mut().enumerate().take(TILE) {
-        *out = plus(&terms, i, *out);
-    }
-}
-
-#[inline(always)]
-fn plus<const N: usize, const COMPONENTS: usize>(
-    terms: &[([f64; COMPONENTS], &[f64; TILE]); N],
-    i: usize,
-    mut sum: [f64; COMPONENTS],
-) -> [f64; COMPONENTS] {
-    for (weights, numbers) in terms {
-        for (sum, weight) in sum.iter_mut().zip(weights) {
-            *sum = weight.mul_add(numbers[i], *sum);
-        }
-    }
-    sum
 }
