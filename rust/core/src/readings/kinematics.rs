@@ -53,6 +53,8 @@ pub(crate) struct Pistons {
     pub cylinder: Cylinder,
     /// Speed of the crank over that of the main one.
     pub ratio: i32,
+    /// Factors of the torques on the block and on the main crank.
+    pub senses: [f64; 2],
     tdc: Angle,
     /// `e^{−iρ·tdc}`.
     pub phase: Complex64,
@@ -81,25 +83,18 @@ pub(crate) struct Pressures {
     pub volume: f64,
 }
 
-impl Pistons {
-    /// Factors of the torques on the block and on the main crank.
-    pub fn senses(&self) -> [f64; 2] {
-        [f64::from(self.ratio.signum()), f64::from(self.ratio.abs())]
-    }
-}
-
 impl Pressures {
-    /// Adds the torque on a crank of ratio 1 by pistons that move so, at crank angles of a block.
+    /// Adds the torque on a crank of ratio 1 by pistons that move so, at crank angles of a block;
+    /// `units` are those of the main crank.
     pub fn add(
         &self,
         proportions: &Proportions,
-        angles: &CrankAngles,
-        range: std::ops::Range<usize>,
+        units: &Units,
+        degrees: &[f64],
         torque: &mut [f64],
     ) {
         let Some(Pressure { cycle, crankcase }) = &self.gear.pressure else { return };
-        let units = Units::new(angles, range.clone(), Order::FIRST);
-        for (i, (θ, torque)) in angles.degrees()[range].iter().zip(torque).enumerate() {
+        for (i, (θ, torque)) in degrees.iter().zip(torque).enumerate() {
             let velocity = proportions.motion_at(&units.crank(self.phase, i)).velocity;
             let gauge = cycle.pressure_deg(θ - self.firing_deg) - crankcase;
             // The piston's way down is minus its distance from the crank.
@@ -136,6 +131,7 @@ impl Kinematics {
                         gear,
                         cylinder: cylinders[gear],
                         ratio,
+                        senses: loads.gears[gear].senses(),
                         tdc: load.phase,
                         phase: load.phase.cis(-i64::from(ratio.abs())),
                         planar: Default::default(),
@@ -184,7 +180,7 @@ impl Kinematics {
     pub fn add_inertia(&self, angles: &CrankAngles, [inertia, slope]: [&mut [f64]; 2]) {
         for pistons in &self.pistons {
             let units = Units::at_speed(angles, 0..angles.len(), pistons.ratio);
-            let (proportions, [_, speed]) = (pistons.cylinder.proportions(), pistons.senses());
+            let (proportions, [_, speed]) = (pistons.cylinder.proportions(), pistons.senses);
             for i in 0..angles.len() {
                 let crank = units.crank(pistons.phase, i);
                 let motion = proportions.motion_at(&crank);
@@ -241,30 +237,5 @@ impl Units {
             *x += at_start.re * cos - at_start.im * sin;
             *y += at_start.re * sin + at_start.im * cos;
         }
-    }
-}
-
-/// Positions of a crank at a block of crank angles, a column for each of their numbers.
-pub(crate) struct Cranks([AngleColumn; 5]);
-
-impl Cranks {
-    /// Of a crank that is `phase` ahead.
-    #[inline(always)]
-    pub fn new(units: &Units, phase: Complex64) -> Self {
-        let mut columns = [const { AngleColumn::ZERO }; 5];
-        for i in 0..BLOCK {
-            let CrankPosition { sin, cos, squared, to_above, to_below } = units.crank(phase, i);
-            for (column, x) in columns.iter_mut().zip([sin, cos, squared, to_above, to_below]) {
-                column[i] = x;
-            }
-        }
-        Self(columns)
-    }
-
-    /// At an angle of the block.
-    #[inline(always)]
-    pub fn at(&self, i: usize) -> CrankPosition {
-        let [sin, cos, squared, to_above, to_below] = self.0.each_ref().map(|column| column[i]);
-        CrankPosition { sin, cos, squared, to_above, to_below }
     }
 }

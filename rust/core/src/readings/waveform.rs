@@ -7,7 +7,7 @@ use ndarray::{Array1, Array2};
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::gear::rod::Swing;
-use crate::gear::slider_crank::{CrankPosition, Proportions};
+use crate::gear::slider_crank::Proportions;
 use crate::load::Loads;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, check};
@@ -57,11 +57,6 @@ pub fn exact(
             #[inline(always)]
             || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
         );
-        if request.torque {
-            for pressures in &kinematics.pressures {
-                rows.add_pressure(pressures, &pressures.proportions, angles, 0..angles.len());
-            }
-        }
         Ok(())
     })?;
     memory.waveform(None)
@@ -116,18 +111,16 @@ impl WaveformRows {
         let all = 0..angles.len();
         let main = Units::new(angles, all.clone(), Order::FIRST);
         for pistons in &kinematics.pistons {
-            let other = (pistons.ratio.abs() != 1)
-                .then(|| Units::at_speed(angles, all.clone(), pistons.ratio));
-            let units = other.as_ref().unwrap_or(&main);
-            let crank = |i: usize| units.crank(pistons.phase, i);
             let proportions = pistons.cylinder.proportions();
-            if torque {
-                self.add::<true, true>(pistons, &proportions, crank, square);
-            } else {
-                self.add::<true, false>(pistons, &proportions, crank, square);
-            }
+            let at = (&main, angles, all.clone());
+            self.add_pistons(pistons, &proportions, at, [true, torque], square);
         }
         self.add_unbalances(kinematics, angles, all, torque, square);
+        if torque {
+            for pressures in &kinematics.pressures {
+                self.add_pressure(pressures, &pressures.proportions, &main, angles.degrees());
+            }
+        }
     }
 
     #[inline(always)]
@@ -153,38 +146,47 @@ impl WaveformRows {
         }
     }
 
-    /// Adds pistons of slider-cranks of these proportions, with their cranks there at each angle.
+    /// Adds force and moment, torques or all of them of pistons of slider-cranks of these proportions,
+    /// at a block of angles of which the main crank's units are given.
     #[inline(always)]
-    pub fn add<const PLANAR: bool, const TORQUE: bool>(
+    pub fn add_pistons(
         &mut self,
         pistons: &Pistons,
         proportions: &Proportions,
-        position: impl Fn(usize) -> CrankPosition,
+        (main, angles, range): (&Units, &CrankAngles, Range<usize>),
+        [planar, torque]: [bool; 2],
         square: f64,
     ) {
+        let other;
+        let units = if pistons.ratio.abs() == 1 {
+            main
+        } else {
+            other = Units::at_speed(angles, range, pistons.ratio);
+            &other
+        };
         let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
         let arm = pistons.arm * square;
-        let senses = pistons.senses().map(|sense| sense * square);
+        let senses = pistons.senses.map(|sense| sense * square);
         let [on_block, on_crank] = senses.map(|sense| sense * pistons.second_moment);
         for i in 0..BLOCK {
-            let motion = proportions.motion_at(&position(i));
-            if PLANAR {
+            let motion = proportions.motion_at(&units.crank(pistons.phase, i));
+            if planar {
                 force_x[i] += force.re * motion.acceleration;
                 force_y[i] += force.im * motion.acceleration;
                 moment_x[i] += moment.re * motion.acceleration;
                 moment_y[i] += moment.im * motion.acceleration;
             }
-            if TORQUE {
+            if torque {
                 let along = motion.velocity + proportions.offset;
                 roll[i] += (on_block * along + arm) * motion.acceleration;
                 crank[i] -= on_crank * motion.velocity * motion.acceleration;
             }
         }
-        if TORQUE && pistons.rod_inertia != 0.0 {
+        if torque && pistons.rod_inertia != 0.0 {
             let [on_block, on_crank] = senses.map(|sense| sense * pistons.rod_inertia);
             for i in 0..BLOCK {
-                let swing = Swing::new(proportions, &position(i));
+                let swing = Swing::new(proportions, &units.crank(pistons.phase, i));
                 roll[i] += on_block * swing.roll();
                 crank[i] += on_crank * swing.crank();
             }
@@ -195,11 +197,11 @@ impl WaveformRows {
         &mut self,
         pressures: &Pressures,
         proportions: &Proportions,
-        angles: &CrankAngles,
-        range: Range<usize>,
+        units: &Units,
+        degrees: &[f64],
     ) {
         let mut torques = AngleColumn::ZERO;
-        pressures.add(proportions, angles, range, &mut torques[..]);
+        pressures.add(proportions, units, degrees, &mut torques[..]);
         let [on_block, on_crank] = pressures.gear.senses();
         for (column, sense) in [(4, -on_block), (5, on_crank)] {
             for (i, torque) in torques.iter().enumerate() {

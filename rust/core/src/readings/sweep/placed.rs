@@ -11,7 +11,7 @@ use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::readings::balance::TorquePart;
-use crate::readings::kinematics::{Cranks, Kinematics, Units};
+use crate::readings::kinematics::{Kinematics, Units};
 use crate::readings::waveform::WaveformRows;
 
 /// An engine at one bank angle.
@@ -64,42 +64,36 @@ impl Sweep {
 }
 
 impl Placed {
-    /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
-    /// inertia or that of pressure, which takes none.
+    /// Writes the values of every row, times a factor, at a block of crank angles of which the main
+    /// crank's units are given; of torque that of inertia or that of pressure, which takes none.
     #[inline(always)]
     pub fn write<'o>(
         &self,
-        quantity: Quantity,
-        factor: f64,
-        angles: &CrankAngles,
-        range: Range<usize>,
+        (quantity, factor): (Quantity, f64),
+        (main, angles, range): (&Units, &CrankAngles, Range<usize>),
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let of_gas = quantity.part() == Some(TorquePart::Gas);
         let torque = !quantity.is_planar();
-        let (mut unbalances, mut cranks) = (WaveformRows::ZERO, Vec::new());
+        let mut unbalances = WaveformRows::ZERO;
         if !of_gas {
             unbalances.add_unbalances(&self.kinematics, angles, range.clone(), torque, 1.0);
-            cranks.extend(self.kinematics.pistons.iter().map(|pistons| {
-                let units = Units::at_speed(angles, range.clone(), pistons.ratio);
-                Cranks::new(&units, pistons.phase)
-            }));
         }
         let (mut rows, used) = (WaveformRows::ZERO, if torque { 4..6 } else { 0..4 });
         for (point, out) in self.points.iter().zip(outs) {
             rows.columns[used.clone()].clone_from_slice(&unbalances.columns[used.clone()]);
             if of_gas {
                 for (pressures, of) in self.kinematics.pressures.iter().zip(&point.pressures) {
-                    rows.add_pressure(pressures, of, angles, range.clone());
+                    rows.add_pressure(pressures, of, main, &angles.degrees()[range.clone()]);
                 }
-            }
-            let pistons = self.kinematics.pistons.iter().zip(&point.pistons);
-            for ((pistons, of), cranks) in pistons.zip(&cranks) {
-                let crank = |i: usize| cranks.at(i);
-                if torque {
-                    rows.add::<false, true>(pistons, of, crank, 1.0);
-                } else {
-                    rows.add::<true, false>(pistons, of, crank, 1.0);
+            } else {
+                for (pistons, of) in self.kinematics.pistons.iter().zip(&point.pistons) {
+                    let at = (main, angles, range.clone());
+                    if torque {
+                        rows.add_pistons(pistons, of, at, [false, true], 1.0);
+                    } else {
+                        rows.add_pistons(pistons, of, at, [true, false], 1.0);
+                    }
                 }
             }
             let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &rows.columns;

@@ -115,16 +115,10 @@ impl Tile {
     fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
         let zeros = [[0.0; TOGETHER]; TILE / TOGETHER];
         let mut tile = Self { cos: zeros, sin: zeros };
+        let [cos, sin] = [&mut tile.cos, &mut tile.sin].map(|numbers| numbers.as_flattened_mut());
         vectorised(
             #[inline(always)]
-            || {
-                angles.multiples(
-                    order,
-                    range,
-                    tile.cos.as_flattened_mut(),
-                    tile.sin.as_flattened_mut(),
-                )
-            },
+            || angles.multiples(order, range, cos, sin),
         );
         tile
     }

@@ -13,9 +13,10 @@ use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
+use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
-use crate::readings::kinematics::BLOCK;
+use crate::readings::kinematics::{BLOCK, Units};
 
 /// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;
@@ -152,8 +153,10 @@ impl Sweep {
                             let size = BLOCK * rows.components;
                             let mut outs =
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
+                            let main = Units::new(rows.angles, part.clone(), Order::FIRST);
                             for here in placed {
-                                here.write(quantity, factor, rows.angles, part.clone(), &mut outs);
+                                let at = (&main, rows.angles, part.clone());
+                                here.write((quantity, factor), at, &mut outs);
                             }
                         }
                     },
