@@ -22,7 +22,7 @@ import pytest
 from conftest import DATA
 from crankpin import cli
 from crankpin.cli import main
-from crankpin.cli.arguments import Given
+from crankpin.cli.arguments import COMMANDS, Given
 from matplotlib import pyplot as plt
 
 IJESC = [
@@ -34,7 +34,6 @@ IJESC = [
 IJESC_SPECTRUM = {1: 1.487 * 0.045, 2: 1.487 * 0.045**2 / 0.158}
 BANK_ANGLES = np.arange(10.0, 171.0, 10.0)
 CAPTURE = pytest.CaptureFixture[str]
-COMMANDS = [each.__name__.removeprefix("add_").replace("_", "-") for each in cli.COMMANDS]
 
 
 def printed(capsys: CAPTURE, *argv: str) -> str:
@@ -679,6 +678,10 @@ def test_version(capsys: CAPTURE) -> None:
 
 
 @pytest.mark.slow
+def test_the_help_lists_every_command() -> None:
+    assert sorted(cli.ORDER) == sorted(COMMANDS)
+
+
 @pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])
 def test_examples_of_help_run(
     capsys: CAPTURE, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: list[str]

@@ -8,32 +8,18 @@ import warnings
 from typing import TYPE_CHECKING
 
 from crankpin._core import InputError, __version__
-from crankpin.cli import engines, hardware, loads, making, new, outputs, shaking
-from crankpin.cli.arguments import PROG, Given, Parser, in_options
+from crankpin.cli import engines, hardware, loads, making, new, outputs, shaking  # noqa: F401 - commands
+from crankpin.cli.arguments import COMMANDS, PROG, Given, Parser, in_options
 from crankpin.model import checks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-COMMANDS = (
-    engines.add_presets,
-    new.add_new,
-    shaking.add_balance,
-    shaking.add_explain,
-    shaking.add_sweep,
-    shaking.add_rank,
-    engines.add_firing,
-    loads.add_torque,
-    loads.add_bearings,
-    hardware.add_counterweights,
-    hardware.add_bob_weight,
-    hardware.add_shafts,
-    making.add_design,
-    making.add_tolerances,
-    engines.add_view,
-    engines.add_gallery,
-)
-"""Functions that add the commands, in the order of the help."""
+ORDER = (
+    "presets", "new", "balance", "explain", "sweep", "rank", "firing", "torque", "bearings",
+    "counterweights", "bob-weight", "shafts", "design", "tolerances", "view", "gallery",
+)  # fmt: skip
+"""Commands in the order of the help."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -72,10 +58,9 @@ def _text(argv: Sequence[str] | None) -> str:
     with warnings.catch_warnings():
         warnings.showwarning = _Warnings(given)
         try:
-            text: str = arguments.run(Given(arguments, typed))
+            return outputs.shown(Given(arguments, typed), arguments.run)
         except InputError as error:
             raise InputError(in_options(str(error), given)) from None
-    return text
 
 
 class _Warnings:
@@ -101,6 +86,6 @@ def _parser() -> Parser:
     )
     parser.add_argument("--version", action="version", version=f"crankpin {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for each in COMMANDS:
-        each(commands)
+    for name in ORDER:
+        COMMANDS[name](commands)
     return parser

@@ -7,7 +7,7 @@ import math
 import re
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from crankpin._support.inputs import Orders, Spectrum
+    from crankpin.cli.outputs import Shown
 
 PROG = "crankpin"
 MOST_ROWS = 1_000_000
@@ -100,6 +101,8 @@ class Parser(argparse.ArgumentParser):
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 """What a command adds its parser to."""
+Run: TypeAlias = "Callable[[Given], str | Shown]"
+"""Computes what a command prints."""
 
 OPTIONS: dict[str, dict[str, Any]] = {
     "name": {"metavar": "NAME", "help": "a preset, or an engine file (.toml, .json)"},
@@ -165,31 +168,55 @@ OPTIONS: dict[str, dict[str, Any]] = {
 """Options of several commands."""
 
 
+class Option(NamedTuple):
+    """An option as argparse takes it."""
+
+    names: tuple[str, ...]
+    settings: dict[str, Any]
+    group: str
+    """Title of its group in the help; empty for none."""
+
+
+def option(*names: str, group: str = "", **settings: object) -> Option:
+    """Return an option of one command, or of :data:`OPTIONS` with other settings."""
+    return Option(names, OPTIONS.get(names[0], {}) | settings, group)
+
+
+COMMANDS: dict[str, Callable[[Commands], None]] = {}
+"""Name of each command → the function that adds its parser."""
+
+
 def command(
-    commands: Commands,
-    name: str,
-    what: str,
-    *,
-    example: str,
-    run: Callable[[Given], str],
-    note: str = "",
-) -> Parser:
-    """Add a command with its help to the others; return its parser."""
-    parser = commands.add_parser(
-        name,
-        help=what,
-        description=f"{what[0].upper()}{what[1:]}.",
-        epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.set_defaults(run=run)
-    return parser
+    name: str, what: str, *options: str | Option, example: str, note: str = ""
+) -> Callable[[Run], Run]:
+    """Make a function a command; several options of :data:`OPTIONS` are named in one text."""
+    listed = list[Option]()
+    for each in options:
+        if isinstance(each, Option):
+            listed.append(each)
+        else:
+            listed += (Option((flag,), OPTIONS[flag], "") for flag in each.split())
 
+    def register(run: Run) -> Run:
+        def add(commands: Commands) -> None:
+            parser = commands.add_parser(
+                name,
+                help=what,
+                description=f"{what[0].upper()}{what[1:]}.",
+                epilog=f"{note}\n\nexample:\n  {PROG} {example}".strip(),
+                formatter_class=argparse.RawDescriptionHelpFormatter,
+            )
+            parser.set_defaults(run=run)
+            groups: dict[str, argparse._ActionsContainer] = {"": parser}
+            for names, settings, group in listed:
+                if group not in groups:
+                    groups[group] = parser.add_argument_group(group)
+                groups[group].add_argument(*names, **settings)
 
-def shared(parser: Parser, *names: str, **changes: object) -> None:
-    """Add options of :data:`OPTIONS`; a command may change, for one, what its help says."""
-    for name in names:
-        parser.add_argument(name, **OPTIONS[name] | changes)
+        COMMANDS[name] = add
+        return run
+
+    return register
 
 
 # --- values -------------------------------------------------------------------------------------
@@ -388,7 +415,7 @@ class Given:
 
     def picture_file(self) -> Path | None:
         """Return the file of the picture, checked before anything is computed for it."""
-        if (text := self.text("--plot")) is None:
+        if (text := self._typed.get("plot")) is None:
             return None
         path = Path(text)
         if path.suffix.lower() not in PICTURES:
@@ -398,7 +425,7 @@ class Given:
 
     def save_file(self) -> Path | None:
         """Return the file for the engine that is found, checked before anything is computed."""
-        text = self.text("--save")
+        text = self._typed.get("save")
         return None if text is None else engine_files.checked(text, "--save")
 
 

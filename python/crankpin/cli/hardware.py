@@ -12,12 +12,12 @@ from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
 from crankpin.analysis.balancing.balancer_options import balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
-from crankpin.cli.arguments import command, shared
-from crankpin.cli.outputs import draw, printed, save
+from crankpin.cli.arguments import command, option
+from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
     from crankpin.analysis.balancing.planes import Planes
-    from crankpin.cli.arguments import Commands, Given
+    from crankpin.cli.arguments import Given, Option
     from crankpin.model.engine import Engine
 
 OF_A_FIT = ("--x", "--y", "--planes", "--bearings", "--remove", "--quantity")
@@ -26,55 +26,45 @@ OF_OPTIONS = ("--rpm", "--by", "--target")
 """Options that ``--ratio`` has no use for."""
 
 
-def add_counterweights(commands: Commands) -> None:
-    """Add the command ``counterweights``."""
-    fits = command(
-        commands,
-        "counterweights",
-        "counterweights that remove the most of the forward part of order 1",
-        example="counterweights v8-crossplane --planes webs --plot weights.png",
-        run=_counterweights,
-        note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
-        "Residuals are in kg·m and kg·m², to be multiplied by ω².",
-    )
-    shared(fits, "name")
-    fits.add_argument(
+@command(
+    "counterweights",
+    "counterweights that remove the most of the forward part of order 1",
+    "name",
+    option(
         "--planes",
         default="webs",
         metavar="ends|webs|Z,…|NAME=Z,…",
         help="where weights can be: at the first and last cylinder, at both webs of every throw, "
         "or at places in m; --planes=-0.1,0.4 if the first is below zero (default: %(default)s)",
-    )
-    fits.add_argument(
+    ),
+    option(
         "--target",
         choices=("external", "internal"),
         default="external",
         help="relieve the mounts, or every throw's own main bearings (default: %(default)s)",
-    )
-    fits.add_argument(
+    ),
+    option(
         "--factor",
         help="share of the reciprocating mass to balance, as of a bob weight, 0.5 or 50%% (default:"
         " whatever removes all of the forward part)",
-    )
-    fits.add_argument(
+    ),
+    option(
         "--minimise",
         choices=("squares", "largest"),
         default="squares",
         help="what to minimise among weights that do the same (default: %(default)s)",
-    )
-    fits.add_argument("--bound", help="largest mass·radius of a plane, kg·m")
-    fits.add_argument(
-        "--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"
-    )
-    shared(fits, "--reference-z", "--units", "--csv", "--plot", "--save")
-
-
-def _counterweights(given: Given) -> str:
-    engine = given.engine("counterweights")
-    picture, file = given.picture_file(), given.save_file()
+    ),
+    option("--bound", help="largest mass·radius of a plane, kg·m"),
+    option("--angles", metavar="RANGE", help="drilling places, degrees: 0,90,180,270 or 0:345:15"),
+    "--reference-z --units --csv --plot --save",
+    example="counterweights v8-crossplane --planes webs --plot weights.png",
+    note="Amounts are mass·radius in kg·m, angles those at θ = 0 from +x, as the crank turns.\n"
+    "Residuals are in kg·m and kg·m², to be multiplied by ω².",
+)
+def _counterweights(given: Given) -> Shown:
     angles = given.range("--angles", "°")
-    fitted = counterweights(
-        engine,
+    fit = counterweights(
+        given.engine("counterweights"),
         planes=_planes(given),
         target=given.text("--target"),
         factor=given.optional("--factor"),
@@ -82,9 +72,7 @@ def _counterweights(given: Given) -> str:
         bound=given.optional("--bound", "kg·m"),
         angles_deg=None if angles is None else np.atleast_1d(angles).tolist(),
     )
-    save(fitted.fitted, file)
-    draw(fitted, picture)
-    return printed(fitted.table, csv=given.text("--csv"))
+    return Shown(fit.table, fit, engine=fit.fitted)
 
 
 def _planes(given: Given) -> Planes:
@@ -102,97 +90,81 @@ def _planes(given: Given) -> Planes:
     return {name.strip(): float(given.decimal("--planes", z, "m")) for name, _, z in parts}
 
 
-def add_bob_weight(commands: Commands) -> None:
-    """Add the command ``bob-weight``."""
-    weighs = command(
-        commands,
-        "bob-weight",
-        "bob weight of each crankpin in grams, and residuals by balance factor",
-        example="bob-weight v8-crossplane --rotating 550g --reciprocating 620g --oil 4g",
-        run=_bob_weight,
-        note="Masses are those of one cylinder, by default the engine's.",
-    )
-    shared(weighs, "name")
-    weighs.add_argument(
+def _mass(flag: str, what: str) -> Option:
+    return option(flag, metavar="MASS", help=f"{what}: 550g, or a number in kg")
+
+
+@command(
+    "bob-weight",
+    "bob weight of each crankpin in grams, and residuals by balance factor",
+    "name",
+    option(
         "--factor",
         default="0.5",
         help="part of the reciprocating mass, 0.5 or 50%% (default: %(default)s)",
-    )
-    masses = {
-        "--rotating": "big end, bolts and bearing shells",
-        "--reciprocating": "piston, pin, rings and small end",
-        "--oil": "oil of a crankpin (default: 0)",
-    }
-    for flag, what in masses.items():
-        weighs.add_argument(flag, metavar="MASS", help=f"{what}: 550g, or a number in kg")
-    shared(weighs, "--units", "--csv", "--plot", "--save")
-
-
-def _bob_weight(given: Given) -> str:
+    ),
+    _mass("--rotating", "big end, bolts and bearing shells"),
+    _mass("--reciprocating", "piston, pin, rings and small end"),
+    _mass("--oil", "oil of a crankpin (default: 0)"),
+    "--units --csv --plot --save",
+    example="bob-weight v8-crossplane --rotating 550g --reciprocating 620g --oil 4g",
+    note="Masses are those of one cylinder, by default the engine's.",
+)
+def _bob_weight(given: Given) -> Shown:
     engine = given.engine("bob-weight")
-    picture, file = given.picture_file(), given.save_file()
     if (mass := given.optional("--reciprocating", "kg")) is not None:
         cylinders = [each.replace(reciprocating_mass=mass) for each in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
     if (mass := given.optional("--rotating", "kg")) is not None:
         engine = engine.replace(rotating_mass=mass)
     bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
-    save(bob.fitted, file)
-    draw(bob, picture)
-    return printed(bob.table, csv=given.text("--csv"))
+    return Shown(bob.table, bob, engine=bob.fitted)
 
 
-def add_shafts(commands: Commands) -> None:
-    """Add the command ``shafts``."""
-    fits = command(
-        commands,
-        "shafts",
-        "balance shafts fitted to an engine, or sets of hardware compared",
-        example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
-        run=_shafts,
-        note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
-        "shafts are fitted. Write values that begin with a minus as --ratio=-2,2.",
+def _axis(flag: str, where: str) -> Option:
+    return option(
+        flag,
+        metavar="M,…",
+        help=f"distances of the shafts {where} the crank axis, m: one for all or one for each, "
+        "free where left out: where they cancel roll torque (default: free)",
     )
-    shared(fits, "name")
-    fits.add_argument(
-        "--ratio", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"
-    )
-    for axis, where in (("x", "to the right of"), ("y", "above")):
-        fits.add_argument(
-            f"--{axis}",
-            metavar="M,…",
-            help=f"distances of the shafts {where} the crank axis, m: one for all or one for each, "
-            "free where left out: where they cancel roll torque (default: free)",
-        )
-    fits.add_argument("--planes", metavar="Z,…", help="places of the unbalances along the crank, m")
-    fits.add_argument("--bearings", metavar="Z,Z", help="places of the bearings, m")
-    fits.add_argument("--remove", choices=REMOVE, help="what the shafts remove (default: both)")
-    shared(fits, "--rpm", default=None, help="crank speed of the comparison (default: 3000)")
-    shared(
-        fits,
+
+
+@command(
+    "shafts",
+    "balance shafts fitted to an engine, or sets of hardware compared",
+    "name",
+    option("--ratio", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"),
+    _axis("--x", "to the right of"),
+    _axis("--y", "above"),
+    option("--planes", metavar="Z,…", help="places of the unbalances along the crank, m"),
+    option("--bearings", metavar="Z,Z", help="places of the bearings, m"),
+    option("--remove", choices=REMOVE, help="what the shafts remove (default: both)"),
+    option("--rpm", default=None, help="crank speed of the comparison (default: 3000)"),
+    option(
         "--by",
         default=None,
         help="what to compare, as for rank (default: total.force.peak,total.moment.peak)",
-    )
-    fits.add_argument(
+    ),
+    option(
         "--target",
         metavar="OBJECTIVE=VALUE,…",
         help="largest value allowed, in N or N·m, or in %% of the engine's own: "
         "[1].moment.peak=0,total.moment.peak=300 or total.moment.peak=5%%",
-    )
-    shared(fits, "--reference-z", "--units")
-    shared(fits, "--quantity")
-    shared(fits, "--csv", help="print the first table as CSV")
-    shared(fits, "--plot")
-    shared(
-        fits,
+    ),
+    "--reference-z --units --quantity",
+    option("--csv", help="print the first table as CSV"),
+    "--plot",
+    option(
         "--save",
         help="write the engine with what was found (.toml, .json); without --ratio the least "
         "hardware that reaches --target",
-    )
-
-
-def _shafts(given: Given) -> str:
+    ),
+    example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
+    note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
+    "shafts are fitted. Write values that begin with a minus as --ratio=-2,2.",
+)
+def _shafts(given: Given) -> Shown:
     engine = given.engine("shafts")
     fits = given.text("--ratio") is not None
     for name in OF_OPTIONS if fits else OF_A_FIT:
@@ -202,8 +174,7 @@ def _shafts(given: Given) -> str:
     return _fit(engine, given) if fits else _compare(engine, given)
 
 
-def _fit(engine: Engine, given: Given) -> str:
-    picture, file = given.picture_file(), given.save_file()
+def _fit(engine: Engine, given: Given) -> Shown:
     fit = balance_shafts(
         engine,
         given.whole_numbers("--ratio"),
@@ -213,16 +184,14 @@ def _fit(engine: Engine, given: Given) -> str:
         bearings=given.numbers("--bearings", "m"),
         remove=given.text("--remove") or "both",
     )
-    save(fit.fitted, file)
-    draw(fit, picture, quantity=given.quantity([engine]))
-    return printed(fit.table, csv=given.text("--csv"))
+    return Shown(fit.table, fit, {"quantity": given.quantity([engine])}, fit.fitted)
 
 
-def _compare(engine: Engine, given: Given) -> str:
-    picture, file = given.picture_file(), given.save_file()
+def _compare(engine: Engine, given: Given) -> Shown:
     by = (given.text("--by") or "total.force.peak,total.moment.peak").split(",")
     targets, relative = _targets(given)
-    if file is not None and targets is None:
+    saved = given.text("--save") is not None
+    if saved and targets is None:
         raise InputError("--save needs --ratio or --target")
     options = balancer_options(
         engine,
@@ -231,10 +200,8 @@ def _compare(engine: Engine, given: Given) -> str:
         target=targets,
         relative=relative,
     )
-    if file is not None:
-        save(options.fitted, file)
-    draw(options, picture)
-    return printed(options.table, csv=given.text("--csv"))
+    # Without a set that reaches the target there is no engine to be saved, which is an error.
+    return Shown(options.table, options, engine=options.fitted if saved else None)
 
 
 def _coordinates(given: Given, flag: str) -> float | list[float | None] | None:

@@ -11,11 +11,11 @@ from crankpin._support import labels
 from crankpin.analysis.design.design import design
 from crankpin.analysis.tolerances.spreads import FIGURES, SPREADS
 from crankpin.analysis.tolerances.tolerances import tolerances
-from crankpin.cli.arguments import command, shared
-from crankpin.cli.outputs import draw, printed, save
+from crankpin.cli.arguments import command, option
+from crankpin.cli.outputs import Shown
 
 if TYPE_CHECKING:
-    from crankpin.cli.arguments import Commands, Given
+    from crankpin.cli.arguments import Given, Option
     from crankpin.model.engine import Engine
 
 MOST_SAMPLES = 10_000_000
@@ -23,74 +23,64 @@ FLAGS = {name: f"--{name.removesuffix('_deg').replace('_', '-')}" for name in FI
 """Figure that spreads → its option."""
 
 
-def add_design(commands: Commands) -> None:
-    """Add the command ``design``."""
-    designs = command(
-        commands,
-        "design",
-        "cranks, pin splits and bank angles that minimise an objective",
-        example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
-        run=_design,
-        note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
-        "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
-    )
-    shared(designs, "name")
-    designs.add_argument("--cylinders", metavar="N", help="number of cylinders (default: NAME's)")
-    designs.add_argument(
+@command(
+    "design",
+    "cranks, pin splits and bank angles that minimise an objective",
+    "name",
+    option("--cylinders", metavar="N", help="number of cylinders (default: NAME's)"),
+    option(
         "--layout",
         choices=("inline", "vee", "flat", "boxer"),
         help="layout of the engine (default: inline or vee)",
-    )
-    shared(designs, "--by")
-    designs.add_argument(
+    ),
+    "--by",
+    option(
         "--bank-angle",
         metavar="RANGE",
         help="of a vee, degrees: one, or LOW:HIGH to choose from (default: NAME's)",
-    )
-    designs.add_argument(
+    ),
+    option(
         "--pin-split",
         metavar="RANGE",
         help="left pin minus right pin, degrees, or LOW:HIGH (default: shared pins)",
-    )
-    designs.add_argument(
-        "--own-splits", action="store_true", help="let each throw have a split of its own"
-    )
-    designs.add_argument(
+    ),
+    option("--own-splits", action="store_true", help="let each throw have a split of its own"),
+    option(
         "--throws",
         metavar="A,B,…",
         help="throws to be put in order, degrees, or free (default: equally spaced)",
-    )
-    designs.add_argument("--even-firing", action="store_true", help="only cranks that fire evenly")
-    designs.add_argument(
+    ),
+    option("--even-firing", action="store_true", help="only cranks that fire evenly"),
+    option(
         "--intervals", metavar="A,B,…", help="only cranks that fire at these intervals, degrees"
-    )
-    designs.add_argument(
+    ),
+    option(
         "--counterweights",
         action="store_true",
         help="do not count what counterweights remove, the forward part of order 1",
-    )
-    designs.add_argument(
+    ),
+    option(
         "--shafts",
         metavar="A,B,…",
         help="speed ratios of balance shafts that are allowed: --shafts=-1 or --shafts=2,-2",
-    )
-    shared(designs, "--rpm", "--orders")
-    designs.add_argument(
-        "--count", default="20", help="number of designs to print (default: %(default)s)"
-    )
-    shared(designs, "--seed", "--csv", "--plot")
-    shared(designs, "--save", help="write the design of --pick, an engine file (.toml, .json)")
-    designs.add_argument(
+    ),
+    "--rpm --orders",
+    option("--count", default="20", help="number of designs to print (default: %(default)s)"),
+    "--seed --csv --plot",
+    option("--save", help="write the design of --pick, an engine file (.toml, .json)"),
+    option(
         "--pick", metavar="N", default="1", help="which design --save writes (default: %(default)s)"
-    )
-
-
-def _design(given: Given) -> str:
+    ),
+    example="design v10-72 --bank-angle 60:120 --even-firing --by total.moment.peak",
+    note="Moving parts, spacing, bank angle, number of cylinders and banks are those of NAME;\n"
+    "its crank is not used. Objectives are those of rank. Ranges are LOW:HIGH.",
+)
+def _design(given: Given) -> Shown:
     engine = given.engine("design")
     if len(set(engine.cylinders)) > 1 or len(engine.banks) > 2:
         hint = "give an engine with one or two banks and one kind of cylinder"
         raise InputError(f"NAME = {given.text('name')}: {hint}")
-    picture, file, pick = given.picture_file(), given.save_file(), given.whole("--pick")
+    pick = given.whole("--pick")
     if not 1 <= pick <= given.whole("--count"):
         raise InputError(f"--pick = {pick}: give the place of one of the designs, from 1")
     layout: Any = given.text("--layout") or ("inline" if len(engine.banks) == 1 else "vee")
@@ -118,12 +108,10 @@ def _design(given: Given) -> str:
         count=given.whole("--count"),
         seed=given.whole("--seed"),
     )
-    if file is not None:
-        if pick > len(found):
-            raise InputError(f"--pick = {pick}: there are {len(found)} designs")
-        save(found.engines[pick - 1], file)
-    draw(found, picture)
-    return printed(found.table, csv=given.text("--csv"))
+    if pick > len(found) and given.text("--save") is not None:
+        raise InputError(f"--pick = {pick}: there are {len(found)} designs")
+    engines = dict(enumerate(found.engines, start=1))
+    return Shown(found.table, found, engine=engines.get(pick))
 
 
 def _spacing(engine: Engine) -> float:
@@ -149,47 +137,38 @@ def _angles(given: Given, flag: str) -> Any:  # noqa: ANN401 - one angle or two,
     return ends[0] if len(ends) == 1 else tuple(ends)
 
 
-def add_tolerances(commands: Commands) -> None:
-    """Add the command ``tolerances``."""
-    one = command(
-        commands,
-        "tolerances",
-        "residuals caused by deviating masses, crankpins, places and rods",
-        example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
-        run=_tolerances,
-        note="Spreads are standard deviations, or half widths with --distribution uniform.",
-    )
-    shared(one, "name")
-    for figure in FIGURES:
-        title, unit = labels.TOLERANCES[figure]
-        what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
-        one.add_argument(
-            FLAGS[figure], metavar="X", default="0",
-            help=f"{what}, {'degrees' if unit == '°' else unit}",
-        )  # fmt: skip
-    one.add_argument(
+def _spread(figure: str) -> Option:
+    title, unit = labels.TOLERANCES[figure]
+    what = f"spread of the {title} of each {'crankpin' if 'crank' in title else 'cylinder'}"
+    unit = "degrees" if unit == "°" else unit
+    return option(FLAGS[figure], metavar="X", default="0", help=f"{what}, {unit}")
+
+
+@command(
+    "tolerances",
+    "residuals caused by deviating masses, crankpins, places and rods",
+    "name",
+    *map(_spread, FIGURES),
+    option(
         "--distribution",
         choices=tuple(SPREADS),
         default="normal",
         help="distribution of the deviations (default: %(default)s)",
-    )
-    one.add_argument("--samples", default="10000", help="number of samples (default: %(default)s)")
-    shared(one, "--seed", "--rpm")
-    shared(
-        one,
-        "--by",
-        default=None,
-        help="what to report, as for rank (default: total peaks, and order 1)",
-    )
-    one.add_argument(
+    ),
+    option("--samples", default="10000", help="number of samples (default: %(default)s)"),
+    "--seed --rpm",
+    option(
+        "--by", default=None, help="what to report, as for rank (default: total peaks, and order 1)"
+    ),
+    option(
         "--shares", action="store_true", help="report the share of each tolerance in the variance"
-    )
-    shared(one, "--orders", "--reference-z", "--units", "--csv", "--plot")
-
-
-def _tolerances(given: Given) -> str:
+    ),
+    "--orders --reference-z --units --csv --plot",
+    example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
+    note="Spreads are standard deviations, or half widths with --distribution uniform.",
+)
+def _tolerances(given: Given) -> Shown:
     engine = given.engine("tolerances")
-    picture = given.picture_file()
     samples = given.whole("--samples")
     if samples > MOST_SAMPLES:
         raise InputError(f"--samples = {samples}: give {MOST_SAMPLES} at most")
@@ -208,6 +187,6 @@ def _tolerances(given: Given) -> str:
         by=None if given.text("--by") is None else given.text("--by").split(","),
         orders=given.orders(),
     )
-    draw(result, picture, kind="shares" if given.text("--shares") else "histogram")
-    table = result.shares if given.text("--shares") else result.table
-    return printed(table, csv=given.text("--csv"))
+    if given.text("--shares"):
+        return Shown(result.shares, result, {"kind": "shares"})
+    return Shown(result.table, result)

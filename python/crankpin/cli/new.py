@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin.cli.arguments import PROG, command, shared
+from crankpin.cli.arguments import PROG, command, option
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.cylinder import Cylinder, Rod
 from crankpin.model.data import allowed
@@ -19,7 +19,7 @@ from crankpin.model.engine import Engine
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from crankpin.cli.arguments import Commands, Given
+    from crankpin.cli.arguments import Given
 
 BUILDERS = {
     "inline": "inline",
@@ -79,38 +79,40 @@ MASSES = {
 """Options of one cylinder's parts → their help."""
 
 
-def add_new(commands: Commands) -> None:
-    """Add the command ``new``."""
-    new = command(
-        commands,
-        "new",
-        "make an engine file: a layout by its usual name, and weighed parts",
-        example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm "
-        "--piston 480g --rod-mass 560g -o harley.toml",
-        run=_new,
-        note="KIND is one of\n"
-        f"{_wrapped(presets.aliases())}\n"
-        f'or any preset ("{PROG} presets" lists them), whose layout is taken with other figures;\n'
-        "or a builder, which takes its layout from options:\n"
-        f"{_wrapped(BUILDERS)}\n"
-        "Lengths and masses take units: 86mm, 3.4in, 480g, 17oz, 1.2lb.",
-    )
-    new.add_argument("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline")
-    parts = new.add_argument_group("parts of one cylinder (default: a nominal half litre)")
-    for options, unit in ((LENGTHS, "LENGTH"), (MASSES, "MASS")):
-        for flag, what in options.items():
-            parts.add_argument(flag, metavar=unit, help=what)
-    layout = new.add_argument_group("layout (default: that of the preset)")
-    for flag, (_, how, what) in LAYOUT.items():
-        several = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"}
-        layout.add_argument(flag, metavar=several.get(how, "A" if how != "m" else "M"), help=what)
-    new.add_argument("--name", help="name of the engine (default: that of its kind)")
-    shared(new, "--units")
-    new.add_argument(
+def _wrapped(names: Iterable[str]) -> str:
+    return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")
+
+
+PARTS = "parts of one cylinder (default: a nominal half litre)"
+SHAPE = "layout (default: that of the preset)"
+METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT", "m": "M"}
+"""How an option is read → what stands for its value; others are one angle."""
+
+
+@command(
+    "new",
+    "make an engine file: a layout by its usual name, and weighed parts",
+    option("kind", metavar="KIND", help="such as v-twin, v6, boxer-4, radial, inline"),
+    *(option(flag, group=PARTS, metavar="LENGTH", help=what) for flag, what in LENGTHS.items()),
+    *(option(flag, group=PARTS, metavar="MASS", help=what) for flag, what in MASSES.items()),
+    *(
+        option(flag, group=SHAPE, metavar=METAVARS.get(how, "A"), help=what)
+        for flag, (_, how, what) in LAYOUT.items()
+    ),
+    option("--name", help="name of the engine (default: that of its kind)"),
+    "--units",
+    option(
         "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
-    )
-
-
+    ),
+    example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm "
+    "--piston 480g --rod-mass 560g -o harley.toml",
+    note="KIND is one of\n"
+    f"{_wrapped(presets.aliases())}\n"
+    f'or any preset ("{PROG} presets" lists them), whose layout is taken with other figures;\n'
+    "or a builder, which takes its layout from options:\n"
+    f"{_wrapped(BUILDERS)}\n"
+    "Lengths and masses take units: 86mm, 3.4in, 480g, 17oz, 1.2lb.",
+)
 def _new(given: Given) -> str:
     """Write the file; return what the command prints."""
     typed = given.text("--out")
@@ -281,7 +283,3 @@ def _rod(
             "(--rod-centre)."
         )
     return Rod.estimated(mass or 0.0, length, centre)
-
-
-def _wrapped(names: Iterable[str]) -> str:
-    return textwrap.fill(", ".join(names), 88, initial_indent="  ", subsequent_indent="  ")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Any, TextIO
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 import numpy as np
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from crankpin._support.tables import Table
     from crankpin.analysis.balance import Balance
     from crankpin.analysis.sweeps.sweep import Sweep
+    from crankpin.cli.arguments import Given, Run
     from crankpin.model.engine import Engine
 
 MOST_OMITTED = 8
@@ -22,9 +25,32 @@ CONTROLS = {code: "�" for code in (*range(32), *range(127, 160)) if chr(code) 
 """Control characters, which a terminal would obey, and what is printed instead."""
 
 
-def printed(table: Table, *, csv: bool) -> str:
-    """Return a table, with those below it, as text; as CSV without them."""
-    return table.csv() if csv else f"{table.text()}\n"
+class Shown(NamedTuple):
+    """What a command found."""
+
+    table: Table
+    drawn: Any = None
+    """Result of which ``--plot`` is a picture."""
+    options: Mapping[str, str] = MappingProxyType({})
+    """Options of its plot."""
+    engine: Engine | None = None
+    """Engine that ``--save`` writes."""
+    note: str = ""
+    """Text below the table, of which CSV has none."""
+
+
+def shown(given: Given, run: Run) -> str:
+    """Run a command; write its picture and engine to the files given, return what it prints."""
+    picture, file = given.picture_file(), given.save_file()
+    found = run(given)
+    if isinstance(found, str):
+        return found
+    if file is not None and found.engine is not None:
+        found.engine.save(file)
+    if picture is not None:
+        _draw(found.drawn, picture, **found.options)
+    # CSV is of one table, without those below it.
+    return found.table.csv() if given.text("--csv") else f"{found.table.text()}\n{found.note}"
 
 
 def left_out(result: Balance | Sweep) -> str:
@@ -41,10 +67,7 @@ def left_out(result: Balance | Sweep) -> str:
     )
 
 
-def draw(result: Any, path: Path | None, **options: str) -> None:  # noqa: ANN401 - what has plot
-    """Write the picture of a result, if a file is given."""
-    if path is None:
-        return
+def _draw(result: Any, path: Path, **options: str) -> None:  # noqa: ANN401 - what has plot
     figure = np.ravel(result.plot(**options))[0].get_figure(root=True)
     from matplotlib import pyplot as plt  # noqa: PLC0415 - plot() says if it is missing
 
@@ -52,12 +75,6 @@ def draw(result: Any, path: Path | None, **options: str) -> None:  # noqa: ANN40
         figure.savefig(path, dpi=200)
     finally:
         plt.close(figure)
-
-
-def save(engine: Engine, file: Path | None) -> None:
-    """Write an engine file, if one is given."""
-    if file is not None:
-        engine.save(file)
 
 
 # --- streams ------------------------------------------------------------------------------------

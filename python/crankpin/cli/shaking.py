@@ -14,11 +14,11 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.tables import Table
 from crankpin.analysis.ranking.rank import rank
 from crankpin.analysis.sweeps.sweep import Sweep, engine_titles, sweep
-from crankpin.cli.arguments import MOST_ROWS, PROG, command, shared
-from crankpin.cli.outputs import draw, left_out, printed, save
+from crankpin.cli.arguments import MOST_ROWS, PROG, command, option
+from crankpin.cli.outputs import Shown, left_out
 
 if TYPE_CHECKING:
-    from crankpin.cli.arguments import Commands, Given
+    from crankpin.cli.arguments import Given
 
 SWEPT = {
     "bank_angle_deg": ("--bank-angle", "°", "bank angle °"),
@@ -34,85 +34,61 @@ HALF_ORDERS = (
 )
 
 
-def add_balance(commands: Commands) -> None:
-    """Add the command ``balance``."""
-    one = command(
-        commands,
-        "balance",
-        "peaks of force, moment and torque at one speed, order by order",
-        example="balance v6-60 --rpm 6000 --plot v6.png",
-        run=_balance,
-    )
-    shared(one, "name", "--rpm", "--orders", "--rtol")
-    shared(one, "--quantity", "--reference-z", "--spectrum", "--units", "--csv", "--plot")
-
-
-def _balance(given: Given) -> str:
-    engine = given.engine("balance")
-    chosen = given.chosen()
-    picture = given.picture_file()
+@command(
+    "balance",
+    "peaks of force, moment and torque at one speed, order by order",
+    "name --rpm --orders --rtol --quantity --reference-z --spectrum --units --csv --plot",
+    example="balance v6-60 --rpm 6000 --plot v6.png",
+)
+def _balance(given: Given) -> Shown:
+    engine, chosen = given.engine("balance"), given.chosen()
     balance = engine.balance(given.number("--rpm", "rpm"), spectrum=given.spectrum(), **chosen)
-    draw(balance, picture, quantity=given.quantity([engine]))
-    text = printed(balance.table, csv=given.text("--csv"))
-    if given.text("--csv"):
-        return text
+    note = ""
     if chosen["orders"] == "auto":
-        return text + left_out(balance)
-    halves = any(order % 1 for order in chosen["orders"])
-    return text + (HALF_ORDERS if halves and not engine.fired else "")
+        note = left_out(balance)
+    elif any(order % 1 for order in chosen["orders"]) and not engine.fired:
+        note = HALF_ORDERS
+    return Shown(balance.table, balance, {"quantity": given.quantity([engine])}, note=note)
 
 
-def add_explain(commands: Commands) -> None:
-    """Add the command ``explain``."""
-    one = command(
-        commands,
-        "explain",
-        "how an engine shakes and why, in plain sentences",
-        example="explain v8-crossplane --rpm 6000",
-        run=_explain,
-    )
-    shared(one, "name")
-    shared(one, "--rpm", default=None, help="crank speed (default: figures without a speed)")
-    shared(one, "--reference-z", "--units")
-
-
+@command(
+    "explain",
+    "how an engine shakes and why, in plain sentences",
+    "name",
+    option("--rpm", default=None, help="crank speed (default: figures without a speed)"),
+    "--reference-z --units",
+    example="explain v8-crossplane --rpm 6000",
+)
 def _explain(given: Given) -> str:
     return f"{given.engine('explain').explain(given.optional('--rpm', 'rpm'))}\n"
 
 
-def add_sweep(commands: Commands) -> None:
-    """Add the command ``sweep``."""
-    many = command(
-        commands,
-        "sweep",
-        "peaks of each order over bank angle, rod ratio, pin offset or speed",
-        example="sweep ijesc-v6 --rpm 5000 --bank-angle 10:170:10 --plot v6.png",
-        run=_sweep,
-        note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number. Write one\n"
-        "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
-        "angle goes from 10 to 170 by 10.",
-    )
-    many.add_argument(
+@command(
+    "sweep",
+    "peaks of each order over bank angle, rod ratio, pin offset or speed",
+    option(
         "names",
         metavar="NAME",
         nargs="+",
         help="presets, engine files (.toml, .json), or families of presets: ijesc-v6 stands for "
         "all whose names begin with ijesc-v6-",
-    )
-    many.add_argument("--bank-angle", metavar="RANGE", help="bank angles, degrees")
-    many.add_argument("--rod-ratio", metavar="RANGE", help="crank radius / rod length")
-    many.add_argument("--pin-offset", metavar="RANGE", help="pin offsets, m")
-    shared(many, "--rpm", metavar="RANGE", help="crank speeds (default: %(default)s)")
-    shared(many, "--hold", "--orders", "--rtol")
-    shared(
-        many,
+    ),
+    option("--bank-angle", metavar="RANGE", help="bank angles, degrees"),
+    option("--rod-ratio", metavar="RANGE", help="crank radius / rod length"),
+    option("--pin-offset", metavar="RANGE", help="pin offsets, m"),
+    option("--rpm", metavar="RANGE", help="crank speeds (default: %(default)s)"),
+    "--hold --orders --rtol",
+    option(
         "--quantity",
         help="quantity of the table (default: moment, or force if all cylinders are at one z)",
-    )
-    shared(many, "--reference-z", "--spectrum", "--units", "--csv", "--plot")
-
-
-def _sweep(given: Given) -> str:
+    ),
+    "--reference-z --spectrum --units --csv --plot",
+    example="sweep ijesc-v6 --rpm 5000 --bank-angle 10:170:10 --plot v6.png",
+    note="A range is START:STOP:STEP (stop included), a list a,b,c, or one number. Write one\n"
+    "that begins with minus as --pin-offset=-0.002:0.002:0.001. With nothing to sweep, bank\n"
+    "angle goes from 10 to 170 by 10.",
+)
+def _sweep(given: Given) -> Shown:
     engines = given.engines()
     typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit, _) in SWEPT.items()}
     axes = {dim: values for dim, values in typed.items() if values is not None}
@@ -130,7 +106,6 @@ def _sweep(given: Given) -> str:
     if rows > MOST_ROWS:
         raise InputError(f"{rows} points to sweep: give {MOST_ROWS} at most")
     chosen = given.chosen()
-    picture = given.picture_file()
     result = sweep(
         engines if len(engines) > 1 else next(iter(engines.values())),
         **axes,
@@ -138,12 +113,10 @@ def _sweep(given: Given) -> str:
         spectrum=given.spectrum(),
         **chosen,
     )
-    found, negligible = _tables_of(result, given)
-    draw(result, picture, quantity=given.quantity(result.engines))
-    text = printed(tables.stacked(*found), csv=given.text("--csv"))
-    if given.text("--csv") or chosen["orders"] != "auto":
-        return text
-    return text + negligible + left_out(result)
+    found, note = _tables_of(result, given)
+    note = note + left_out(result) if chosen["orders"] == "auto" else ""
+    drawn = {"quantity": given.quantity(result.engines)}
+    return Shown(tables.stacked(*found), result, drawn, note=note)
 
 
 def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
@@ -197,34 +170,28 @@ def _how(result: Sweep, given: Given) -> str:
     return ", ".join(parts)
 
 
-def add_rank(commands: Commands) -> None:
-    """Add the command ``rank``."""
-    ranks = command(
-        commands,
-        "rank",
-        "engines ranked by an objective, best first, each at its best bank angles",
-        example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
-        run=_rank,
-        note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
-        "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
-        "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
-        "(of one order) and unevenness_deg.",
-    )
-    ranks.add_argument("names", metavar="NAME", nargs="+", help="as for sweep")
-    shared(ranks, "--by")
-    ranks.add_argument(
+@command(
+    "rank",
+    "engines ranked by an objective, best first, each at its best bank angles",
+    option("names", metavar="NAME", nargs="+", help="as for sweep"),
+    "--by",
+    option(
         "--bank-angle",
         metavar="RANGE",
         help="degrees to choose from, or own for each engine's own (default: 10:170:10 if every "
         "engine has two banks, else own)",
-    )
-    shared(ranks, "--hold")
-    ranks.add_argument("--refine", action="store_true", help="look between these angles too")
-    shared(ranks, "--rpm", "--orders", "--reference-z", "--spectrum", "--units", "--csv", "--plot")
-    shared(ranks, "--save", help="write the best engine at its best bank angle (.toml, .json)")
-
-
-def _rank(given: Given) -> str:
+    ),
+    "--hold",
+    option("--refine", action="store_true", help="look between these angles too"),
+    "--rpm --orders --reference-z --spectrum --units --csv --plot",
+    option("--save", help="write the best engine at its best bank angle (.toml, .json)"),
+    example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
+    note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
+    "total.force.peak (the longest vector, all orders together), the same with .peak_xy,\n"
+    "total.torque.peak, [1].moment.backward (left by counterweights), [2].moment.peak\n"
+    "(of one order) and unevenness_deg.",
+)
+def _rank(given: Given) -> Shown:
     engines = given.engines()
     own = given.text("--bank-angle") == "own"
     angles: Any = None if own else given.range("--bank-angle", "°")
@@ -234,7 +201,6 @@ def _rank(given: Given) -> str:
     points = len(engines) * (1 if angles is None else np.size(angles))
     if points > MOST_ROWS:
         raise InputError(f"{points} points to rank: give {MOST_ROWS} at most")
-    picture, file = given.picture_file(), given.save_file()
     ranking = rank(
         engines,
         rpm=given.number("--rpm", "rpm"),
@@ -245,6 +211,4 @@ def _rank(given: Given) -> str:
         refine=given.text("--refine"),
         orders=given.orders(),
     )
-    save(ranking.best()[0].engine, file)
-    draw(ranking, picture)
-    return printed(ranking.table, csv=given.text("--csv"))
+    return Shown(ranking.table, ranking, engine=ranking.best()[0].engine)
