@@ -171,7 +171,8 @@ def search_arrangements(
         )
     with progress_bar.shown(watched, f"V{count}") as told:
         core = _core.Search(count, rule, phases, held, shared, told)
-    return ArrangementSearch(core, count, rule, phases, hold, shared, progress=watched)
+    given = None if phases is None else tuple(phases)
+    return ArrangementSearch(core, count, rule, given, hold, shared, progress=watched)
 
 
 class ArrangementSearch(Record):
@@ -191,13 +192,13 @@ class ArrangementSearch(Record):
     array([0.])
     """
 
-    core: _core.Search
+    core: _core.Search = dataclasses.field(compare=False)
     """Compiled counterpart."""
     cylinders: int
     """Number of cylinders of the vee."""
     alternating: bool
     """True if front and rear halves take turns to fire."""
-    phases: list[str] | None
+    phases: tuple[str, ...] | None
     """Phases of a bank's throws where they were given, degrees."""
     hold: Hold
     """What is held as the bank angle changes: top dead centres or crankpins."""
@@ -205,7 +206,7 @@ class ArrangementSearch(Record):
     """True if both banks share their crankpins."""
     window_deg: tuple[float, float] = _WHOLE
     """Range of the bank angles listed, degrees."""
-    progress: Progress = False
+    progress: Progress = dataclasses.field(default=False, compare=False)
     """The progress bar, as given."""
 
     def __post_init__(self) -> None:
@@ -253,8 +254,7 @@ class ArrangementSearch(Record):
         """
         ends = (_bank_angle("low", low), _bank_angle("high", high))
         window = (max(ends[0], self.window_deg[0]), min(ends[1], self.window_deg[1]))
-        rest = (self.cylinders, self.alternating, self.phases, self.hold, self.shared_pins, window)
-        return ArrangementSearch(self.core, *rest, progress=self.progress)
+        return self.replace(window_deg=window)
 
     def __len__(self) -> int:
         return len(self._angles)
@@ -362,19 +362,8 @@ class ArrangementSearch(Record):
         part = "" if self.window_deg == _WHOLE else f", bank angles {low:g} to {high:g}"
         return f"<ArrangementSearch of a V{self.cylinders}{rule}: {found}{part}>"
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ArrangementSearch) and self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash((self.cylinders, self.alternating))
-
-    def _key(self) -> tuple[Any, ...]:
-        phases = None if self.phases is None else tuple(self.phases)
-        given = (self.cylinders, self.alternating, phases, self.hold)
-        return (*given, self.shared_pins, self.window_deg)
-
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_again, self._key())
+        return (_again, self._compared())
 
 
 def _again(
