@@ -8,7 +8,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::order::{self, Order};
 use crate::readings::amplitude::wrenches;
-use crate::readings::choice;
+use crate::readings::choice::{self, Chosen};
 use crate::readings::peaks::PeakFinder;
 use crate::wrench::{Planar, Torque, Wrench, rounding};
 
@@ -183,36 +183,23 @@ pub fn balance(
     let torque = request.torque && engine.spectrum().is_none();
     let loads = Loads::new(engine, reference);
     let square = omega * omega;
-    let mut balance = match orders {
+    let chosen = match orders {
         Orders::Given(orders) => {
             order::check_list(orders)?;
             let (wrenches, mean) = wrenches(&loads, torque, orders, &[], cancel)?;
-            Balance {
-                orders: orders.clone(),
-                omitted: Vec::new(),
-                wrenches,
-                mean,
-                error_bound: [0.0; 3],
-                has_torque: torque,
-                loads: loads.list.len(),
-            }
+            let (orders, omitted) = (orders.clone(), Vec::new());
+            Chosen { orders, wrenches, mean, omitted, error_bound: [0.0; 4] }
         }
-        Orders::Auto { rtol } => {
-            let chosen = choice::within(*rtol, engine, &loads, torque, cancel)?;
-            let [force, moment, inertia, gas] = chosen.error_bound;
-            Balance {
-                orders: chosen.orders,
-                omitted: chosen.omitted,
-                wrenches: chosen.wrenches,
-                mean: chosen.mean,
-                error_bound: [force * square, moment * square, inertia * square + gas],
-                has_torque: torque,
-                loads: loads.list.len(),
-            }
-        }
+        Orders::Auto { rtol } => choice::within(*rtol, engine, &loads, torque, cancel)?,
     };
-    for wrench in &mut balance.wrenches {
-        *wrench = wrench.at_speed(square);
-    }
-    Ok(balance)
+    let [force, moment, inertia, gas] = chosen.error_bound;
+    Ok(Balance {
+        orders: chosen.orders,
+        omitted: chosen.omitted,
+        wrenches: chosen.wrenches.into_iter().map(|wrench| wrench.at_speed(square)).collect(),
+        mean: chosen.mean,
+        error_bound: [force * square, moment * square, inertia * square + gas],
+        has_torque: torque,
+        loads: loads.list.len(),
+    })
 }

@@ -13,7 +13,8 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::limits;
 use crate::numbers::memory;
-use crate::numbers::order::Order;
+use crate::numbers::order::{self, Order};
+use crate::numbers::pool;
 use crate::numbers::rational::divisor;
 use crate::numbers::simd::vectorised;
 
@@ -24,6 +25,8 @@ const MOST_PARTS: f64 = 4096.0;
 /// A polynomial falls from an extreme by 1 − cos nθ of its excursion at most (M. Riesz), and the nearest
 /// of the grid is half a step off: 1/(2 cos(π/16)), rounded up.
 const EXCURSION_OVER_SAMPLED: f64 = 0.51;
+/// Sums of a task.
+const TOGETHER: usize = 128;
 /// Most cosines that a grid keeps, a quarter of a mebibyte; beyond, a Fourier transform takes less time.
 const MOST_COSINES: usize = 1 << 15;
 
@@ -176,6 +179,27 @@ impl PeakFinder {
         }
         Ok(best)
     }
+}
+
+/// Largest magnitude over the turn of each sum of a mean and orders: rows of peak phasors, one of each
+/// order, and means of the rows, if any.
+pub fn largest_sums(
+    orders: &[Order],
+    phasors: &[Complex64],
+    means: &[f64],
+    cancel: &Cancel,
+) -> Result<Vec<f64>> {
+    order::check_list(orders)?;
+    let finder = PeakFinder::about_mean(orders)?;
+    let means = means.iter().copied().chain(std::iter::repeat(0.0));
+    let rows: Vec<_> = phasors.chunks_exact(orders.len()).zip(means).collect();
+    let chunks = pool::map(cancel, rows.chunks(TOGETHER).collect(), |rows| {
+        cancel.check()?;
+        rows.iter()
+            .map(|(row, mean)| finder.beside_mean(*mean, row, cancel))
+            .collect::<Result<Vec<_>>>()
+    })?;
+    Ok(chunks.concat())
 }
 
 /// Value and two derivatives by crank angle.

@@ -52,14 +52,13 @@ pub fn exact(
     let reference = engine.reference(request.reference_z)?;
     let loads = Loads::new(engine, reference);
     let kinematics = Kinematics::new(&loads);
-    let memory = in_blocks(theta_deg, torques(engine, request.torque), cancel, |angles, rows| {
+    in_blocks(theta_deg, torques(engine, request.torque), cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
             || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
         );
         Ok(())
-    })?;
-    memory.waveform(None)
+    })
 }
 
 /// As a sum of orders.
@@ -71,7 +70,7 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
-    let memory =
+    let waveform =
         in_blocks(theta_deg, torques(engine, balance.has_torque), cancel, |angles, rows| {
             vectorised(
                 #[inline(always)]
@@ -79,7 +78,7 @@ pub fn from_orders(
             );
             Ok(())
         })?;
-    memory.waveform(Some(balance))
+    Ok(Waveform { balance: Some(balance), ..waveform })
 }
 
 /// Number of torques: on the block and on the crank, and what pressure adds to them.
@@ -238,29 +237,6 @@ impl WaveformRows {
     }
 }
 
-/// Results in memory: force and moment in pairs of x and y, and the torques that there are.
-struct Memory {
-    pairs: [Vec<f64>; 2],
-    torques: Vec<Vec<f64>>,
-}
-
-impl Memory {
-    fn waveform(self, balance: Option<Balance>) -> Result<Waveform> {
-        let pairs = |values: Vec<f64>| memory::array("theta_deg", (values.len() / 2, 2), values);
-        let [force, moment] = self.pairs;
-        let mut torques = self.torques.into_iter().map(Array1::from);
-        let (torque, crank_torque) = (torques.next(), torques.next());
-        Ok(Waveform {
-            force: pairs(force)?,
-            moment: pairs(moment)?,
-            torque,
-            crank_torque,
-            gas: torques.next().zip(torques.next()).map(|(roll, crank)| [roll, crank]),
-            balance,
-        })
-    }
-}
-
 /// Numbers of [`pool::worth`] that take as long as a crank angle of an engine of a few cylinders.
 const NUMBERS: usize = 24;
 
@@ -270,7 +246,7 @@ fn in_blocks(
     torques: usize,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Send + Sync,
-) -> Result<Memory> {
+) -> Result<Waveform> {
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
@@ -287,19 +263,17 @@ fn fill_blocks(
     torques: usize,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Sync,
-) -> Result<Memory> {
+) -> Result<Waveform> {
     let angles = theta_deg.len();
-    let mut memory = Memory {
-        pairs: [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?],
-        torques: (0..torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?,
-    };
-    let mut pairs = memory.pairs.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
-    let mut torques: Vec<_> =
-        memory.torques.iter_mut().map(|values| values.chunks_mut(BLOCK)).collect();
+    let mut planar: [Vec<f64>; 2] = [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?];
+    let mut torques: Vec<Vec<f64>> =
+        (0..torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?;
+    let mut pairs = planar.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
+    let mut columns: Vec<_> = torques.iter_mut().map(|values| values.chunks_mut(BLOCK)).collect();
     let tasks = theta_deg.chunks(BLOCK).map(|thetas| {
         let pairs = pairs.each_mut().map(|chunks| chunks.next().unwrap_or_default());
         let mut of_block: [&mut [f64]; 4] = Default::default();
-        for (out, chunks) in of_block.iter_mut().zip(&mut torques) {
+        for (out, chunks) in of_block.iter_mut().zip(&mut columns) {
             *out = chunks.next().unwrap_or_default();
         }
         (thetas, pairs, of_block)
@@ -323,7 +297,17 @@ fn fill_blocks(
         Ok(())
     };
     pool::each(cancel, tasks, NUMBERS * angles, block)?;
-    Ok(memory)
+    let [force, moment] =
+        planar.map(|values| memory::array("theta_deg", (values.len() / 2, 2), values));
+    let mut torques = torques.into_iter().map(Array1::from);
+    Ok(Waveform {
+        force: force?,
+        moment: moment?,
+        torque: torques.next(),
+        crank_torque: torques.next(),
+        gas: torques.next().zip(torques.next()).map(|(roll, crank)| [roll, crank]),
+        balance: None,
+    })
 }
 
 #[cfg(test)]

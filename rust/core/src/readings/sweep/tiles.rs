@@ -88,7 +88,7 @@ impl Tiles {
     ) {
         let (row, _) = row.as_chunks::<COMPONENTS>();
         let (out, _) = out.as_chunks_mut::<COMPONENTS>();
-        let mut of_tile = Vec::with_capacity(terms.len());
+        let mut of_tile = Vec::new();
         for (k, out) in (first..).zip(out.chunks_mut(TILE)) {
             of_tile.clear();
             of_tile.extend(terms.iter().map(|term| {

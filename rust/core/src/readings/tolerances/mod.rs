@@ -1,14 +1,11 @@
 //! What remains of an engine's balance when its parts deviate from their figures, sample by sample.
 //!
-//! Imports run downwards: `amplitudes` → `terms`, `totals` → here.
+//! Imports run downwards: `amplitudes` → `terms` → here.
 
 mod amplitudes;
 mod terms;
-mod totals;
 
 use self::terms::Terms;
-pub use self::totals::largest_sums;
-use self::totals::peaks;
 use crate::Complex64;
 use crate::engine::Engine;
 use crate::numbers::cancel::Cancel;
@@ -246,6 +243,20 @@ impl Tolerances {
         }
         Ok(())
     }
+}
+
+/// Longest force and moment, largest torques on block and crank, of phasors of one sample: of force and
+/// moment along (about) x and y, of both torques, order by order.
+fn peaks(finder: &PeakFinder, phasors: &[Complex64], cancel: &Cancel) -> Result<[f64; 4]> {
+    let orders = phasors.len() / 6;
+    let of = |component: usize| &phasors[component * orders..][..orders];
+    let vector = |k: usize| finder.of_vector(of(2 * k), of(2 * k + 1), cancel);
+    let (roll, crank) = (of(4), of(5));
+    let on_block = finder.along_axis(roll, cancel)?;
+    // Without pin offset, rod inertia and shafts beside the crank one is minus the other.
+    let opposite = roll.iter().zip(crank).all(|(roll, crank)| *roll == -crank);
+    let on_crank = if opposite { on_block } else { finder.along_axis(crank, cancel)? };
+    Ok([vector(0)?, vector(1)?, on_block, on_crank])
 }
 
 /// Buffers of the samples of a chunk, as those of [`Sampled`].

@@ -266,7 +266,7 @@ fn sums_of_many_rows_peak_as_each_by_itself() {
     let orders = Order::all_whole(&ORDERS).unwrap();
     let rows: Vec<Complex64> =
         (0..1200).map(|k| Complex64::cis(0.7 * f64::from(k)) / f64::from(1 + k % 7)).collect();
-    let found = largest_sums(&orders, &rows, &[], &Cancel::new()).unwrap();
+    let found = crate::readings::peaks::largest_sums(&orders, &rows, &[], &Cancel::new()).unwrap();
     let finder = PeakFinder::new(&orders).unwrap();
     for (found, row) in found.iter().zip(rows.chunks(4)) {
         assert_eq!(Ok(*found), finder.along_axis(row, &Cancel::new()));
