@@ -54,7 +54,7 @@ def variables(
 @cache
 def arrays(quantity: str) -> tuple[str, ...]:
     """Return the names of the arrays of a quantity."""
-    return (*(what for _, _, what, _ in variables([quantity], fired=True)), "turning")
+    return tuple(what for _, _, what, _ in variables([quantity], fired=True))
 
 
 def to_xarray(

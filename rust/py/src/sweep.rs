@@ -165,28 +165,18 @@ impl Sweep {
         self.sweep.mean_piston_speed()
     }
 
+    /// Along (about) x and y or, of force and moment, forward and backward parts: (…, `n_orders`, 2).
     fn phasors<'py>(
         &self,
         py: Python<'py>,
         name: &str,
+        turning: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let figure = if turning { Figure::Turning } else { Figure::Amplitude };
         let quantity = quantity(name)?;
-        self.values(py, (quantity, Figure::Amplitude), progress.as_ref(), |out, cancel| {
-            self.sweep.write_phasors(quantity, Figure::Amplitude, out, cancel)
-        })
-    }
-
-    /// Forward and backward parts of force or moment: (…, `n_orders`, 2).
-    fn turning<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
-        let quantity = quantity(name)?;
-        self.values(py, (quantity, Figure::Turning), progress.as_ref(), |out, cancel| {
-            self.sweep.write_phasors(quantity, Figure::Turning, out, cancel)
+        self.values(py, (quantity, figure), progress.as_ref(), |out, cancel| {
+            self.sweep.write_phasors(quantity, figure, out, cancel)
         })
     }
 

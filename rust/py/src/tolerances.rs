@@ -1,7 +1,8 @@
 //! Samples of an engine whose figures deviate.
 
 use crankpin_core as core;
-use crankpin_core::tolerances::{Deviations, Distribution, FIGURES, largest_sums};
+use crankpin_core::peaks::largest_sums;
+use crankpin_core::tolerances::{Deviations, Distribution, FIGURES};
 use crankpin_core::{Complex64, Order, Request, memory};
 use ndarray::Array3;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};

@@ -17,7 +17,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin._support.record import Tabled
+from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
@@ -291,13 +291,14 @@ class Sweep(ByOrder, Tabled):
         return self.replace(request=check_request(request, "crankpin.sweep"))
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
-        if what in ("forward", "backward"):
-            return self.read(quantity, "turning")[..., int(what == "backward")]
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
-            if what == "turning":
-                return self.core.turning(quantity, report)
             if what == "phasors":
-                return self.core.phasors(quantity, report)
+                return self.core.phasors(quantity, False, report)
+            if what in labels.TURNING:
+                both = read_only(self.core.phasors(quantity, True, report))
+                for k, part in enumerate(labels.TURNING):  # computed together
+                    self._kept.setdefault((quantity, part), read_only(both[..., k]))
+                return self._kept[quantity, what]  # type: ignore[no-any-return]
             figures = {
                 "peak": "length" if quantity in PLANE_VECTORS else "amplitude",
                 "peak_xy": "amplitude",
