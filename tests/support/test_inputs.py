@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 NOT_NUMBERS: list[Any] = [
     "6000", b"6000", bytearray(b"6000"), True, np.True_, np.array(True), np.str_("6000"),
-    np.array(1j), np.complex128(1), np.array([6000.0]), [6000.0], {6000.0}, np.timedelta64(3),
+    np.array(1j), np.complex128(1), np.array([6000.0]), [6000.0], {6000.0}, np.timedelta64(3, "s"),
 ]  # fmt: skip
 NUMBERS: list[Any] = [
     7, 7.0, np.float32(7), np.int8(7), np.array(7), np.array(7.0), Fraction(7), Decimal(7),
