@@ -61,6 +61,13 @@ def test_throws_of_one_bank_are_those_of_its_cylinders_along_the_crank() -> None
     assert backward.banks == {"bank 1": (1, 2, 3, 4)}
 
 
+def test_errors_of_arguments_name_what_people_call() -> None:
+    with pytest.raises(TypeError, match=r"^Engine\.vee\(\) got an unexpected keyword argument"):
+        cp.Engine.vee(bank_angle=90)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match=r"^Engine\.replace\(\) takes 1 positional argument"):
+        cp.Engine.preset("i4").replace(4)  # type: ignore[misc]
+
+
 def test_right_bank_is_the_core_s() -> None:
     """The bank that turns clockwise as the bank angle grows."""
     rng = np.random.default_rng(3)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from types import FunctionType
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -13,7 +14,7 @@ from crankpin._support.record import AbsentError
 from crankpin._support.tables import SHOWN, Table
 from crankpin.model import shafts as rotating
 from crankpin.model.builders import Builders
-from crankpin.model.data import Hold
+from crankpin.model.data import EngineData, Hold
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -638,3 +639,11 @@ class Engine(Builders):
         return draw(  # type: ignore[no-any-return]
             self, ax, figure=figure, kind=kind, theta_deg=theta_deg, **style
         )
+
+
+# Errors of arguments name what people call.
+for _base in (EngineData, Builders):
+    for _name, _member in vars(_base).items():
+        _function = getattr(_member, "__func__", _member)
+        if isinstance(_function, FunctionType):
+            _function.__qualname__ = f"{Engine.__name__}.{_name}"
