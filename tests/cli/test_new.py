@@ -89,6 +89,9 @@ def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) ->
         # 0.6 kg · 36.25/145 = 0.15 kg; a handful of roundings.
         assert engine.cylinders[0].reciprocating_mass == pytest.approx(0.55, rel=1e-15)
         assert engine.rotating_mass[0] == pytest.approx(0.45, rel=1e-15)
+    tenths = made(capsys, f"{parts} --small-end 200g --big-end 555g")
+    assert tenths.cylinders[0].rod is not None
+    assert tenths.cylinders[0].rod.mass == 0.755
     weighed = made(capsys, f"{parts} --rod-mass 600g --rotating 500g --pin-offset 1mm")
     assert weighed.rotating_mass.tolist() == [0.5]
     assert weighed.cylinders[0].pin_offset == 0.001

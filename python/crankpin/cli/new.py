@@ -275,7 +275,9 @@ def _rod(
             "--reciprocating and --rotating"
         )
     if small is not None and big is not None:
-        mass, centre = small + big, length * small / (small + big)
+        # To the nanogram, which leaves 0.2 + 0.555 its decimals.
+        mass = round(small + big, 12)
+        centre = length * small / mass
     elif centre is None:
         centre = length / 3.0
         notes.append(
