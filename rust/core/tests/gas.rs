@@ -10,7 +10,9 @@ use crankpin_core::balance::{Balance, Orders, Request, TorquePart, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
-use crankpin_core::{Angle, Cancel, Crank, Cycle, Cylinder, Engine, Station, waveform};
+use crankpin_core::{
+    Angle, Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Station, waveform,
+};
 
 const BORE: f64 = 0.08;
 const RADIUS: f64 = 0.04;
@@ -87,6 +89,19 @@ fn contra_rotating_cranks_drive_together_and_leave_the_block_no_mean() {
             assert!((block[k] + (one + sense * other)).abs() < 1e-3, "{ratios:?} {θ}");
         }
         let balance = of_all(&engine);
+        for (k, θ) in theta_deg.iter().enumerate() {
+            let gas = (0..balance.orders.len()).map(|n| balance.torque(TorquePart::Gas, n));
+            let at = |order: Order| Complex64::from_polar(1.0, order.number() * θ.to_radians());
+            let mut sums = balance.mean(TorquePart::Gas);
+            for (gas, order) in gas.zip(&balance.orders) {
+                sums[0] += (gas.roll * at(*order)).re;
+                sums[1] += (gas.crank * at(*order)).re;
+            }
+            // Roundings of sums of some 100 N·m.
+            let within = balance.error_bound[2] + 1e-11;
+            assert!((sums[0] - block[k]).abs() < within, "{ratios:?} {θ}");
+            assert!((sums[1] - crank[k]).abs() < within, "{ratios:?} {θ}");
+        }
         let [on_block, on_crank] = balance.mean(TorquePart::Whole);
         assert!(on_crank > 10.0);
         assert!((on_block + 0.5 * (1.0 + sense) * on_crank).abs() < 1e-12 * on_crank);

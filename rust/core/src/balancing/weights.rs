@@ -214,19 +214,22 @@ impl Problem<'_> {
             Some(directions) => angle_lists::nearest(self, directions, target, bounds)?,
         };
         let found = found.ok_or_else(|| self.not_found("nearest"))?;
-        // Weights that came nearer would go further along the residual.
-        let made = self.made(&found);
+        if self.is_nearest(&found, target, bounds) {
+            Ok(found)
+        } else {
+            Err(self.not_found("nearest"))
+        }
+    }
+
+    /// Whether no weights within bounds come nearer to a target: they would go further along the residual.
+    fn is_nearest(&self, weights: &[PlacedWeight], target: &Vectors, bounds: &[f64]) -> bool {
+        let made = self.made(weights);
         let residual = target - &made;
         let further = self.support(&residual).into_iter().zip(bounds).map(|(support, bound)| {
             let is_rounding = bound.is_infinite() && support <= REACHED;
             if is_rounding { 0.0 } else { support * bound }
         });
-        let is_nearest = further.sum::<f64>() - made.dot(&residual) <= REACHED;
-        if residual.norm() <= REACHED || is_nearest {
-            Ok(found)
-        } else {
-            Err(self.not_found("nearest"))
-        }
+        residual.norm() <= REACHED || further.sum::<f64>() - made.dot(&residual) <= REACHED
     }
 
     pub fn not_found(&self, which: &str) -> Error {
@@ -412,6 +415,104 @@ mod tests {
             assert!((sums(0) + 0.5).norm() < DIGITS && (sums(2) - 0.7).norm() < DIGITS);
             assert!((sums(1) + 0.2).norm() < DIGITS);
             assert!((found.missing - 1.8 / 3.0).abs() < DIGITS);
+        }
+    }
+
+    /// Weights of planes that exert a force, with bounds; the angles allowed are quarters of a turn, or any.
+    fn force<'a>(
+        target: Complex64,
+        bounds: &[f64],
+        by_quarters: bool,
+        cancel: &'a Cancel,
+    ) -> Problem<'a> {
+        let quarters = (0..4).map(|k| Complex64::i().powu(k)).collect();
+        Problem {
+            rows: DMatrix::from_element(1, bounds.len(), 1.0),
+            target: vectors(&[target]),
+            bounds: bounds.to_vec(),
+            directions: by_quarters.then(|| vec![quarters; bounds.len()]),
+            cancel,
+        }
+    }
+
+    fn weights(vectors: &[(usize, Complex64)]) -> Vec<PlacedWeight> {
+        vectors.iter().map(|&(plane, vector)| PlacedWeight { plane, angle: 0, vector }).collect()
+    }
+
+    const ONE: Complex64 = Complex64::ONE;
+    const I: Complex64 = Complex64::I;
+    const FREE: f64 = f64::INFINITY;
+
+    #[test]
+    fn weights_are_nearest_where_no_others_go_further_along_the_residual() {
+        let cancel = Cancel::new();
+        for (is_nearest, target, bounds, by_quarters, exerted) in [
+            (true, 3.0 * ONE, [1.0, 0.5], false, [ONE, 0.5 * ONE]),
+            (false, 3.0 * ONE, [1.0, 0.5], false, [ONE, 0.4 * ONE]),
+            (false, 3.0 * ONE, [1.0, 0.5], false, [-ONE, -0.5 * ONE]),
+            (false, 3.0 * ONE, [1.0, 0.5], false, [I, 0.5 * ONE]),
+            (true, 3.0 * ONE, [FREE, 0.5], false, [2.6 * ONE, 0.4 * ONE]),
+            (false, 3.0 * ONE, [FREE, 0.5], false, [2.4 * ONE, 0.5 * ONE]),
+            (true, 0.2 * I, [1.0, 0.5], true, [0.1 * I, 0.1 * I]),
+            // Of quarters of a turn both reach as far towards 45 degrees.
+            (true, 3.0 * (ONE + I), [1.0, 1.0], true, [ONE, I]),
+            (false, 3.0 * (ONE + I), [1.0, 1.0], true, [ONE, ONE]),
+        ] {
+            let problem = force(target, &bounds, by_quarters, &cancel);
+            let found = weights(&[(0, exerted[0]), (1, exerted[1])]);
+            let case = format!("{target} within {bounds:?} by {exerted:?}");
+            assert_eq!(problem.is_nearest(&found, &problem.target, &bounds), is_nearest, "{case}");
+        }
+    }
+
+    #[test]
+    fn the_cap_on_all_bounds_is_where_the_sum_is_what_is_wanted() {
+        let cancel = Cancel::new();
+        for (cap, bounds, wanted) in [
+            // 2·min(b₀, cap) + min(b₁, cap) = wanted.
+            (1.0, [1.0, FREE], 3.0),
+            (3.0, [1.0, FREE], 5.0),
+            (3.0, [1.0, 4.0], 5.0),
+            (4.0, [1.0, 4.0], 6.0),
+            (0.5, [2.0, 1.0], 1.5),
+            (1.75, [2.0, 1.0], 4.5),
+            (FREE, [1.0, 4.0], 6.5),
+        ] {
+            let found = force(ONE, &bounds, false, &cancel).cap(&[2.0, 1.0], wanted);
+            assert!((found - cap).abs() < 1e-15 || found == cap, "{bounds:?} {wanted}: {found}");
+        }
+        assert_eq!(force(ONE, &[1.0, 1.0], false, &cancel).cap(&[0.0, 0.0], 1.0), FREE);
+    }
+
+    #[test]
+    fn what_solvers_leave_is_made_up_by_weights_with_room() {
+        let cancel = Cancel::new();
+        let rest = 1e-10;
+        for (is_proved, is_met, target, bounds, by_quarters, exerted) in [
+            (true, true, ONE, [FREE; 2], false, [(0.5 - rest) * ONE, 0.5 * ONE]),
+            (true, true, ONE, [FREE; 2], false, [(0.5 + rest) * ONE, 0.5 * ONE]),
+            (true, true, ONE, [FREE; 2], false, [0.5 * ONE, 0.5 * ONE + rest * I]),
+            // Room in one plane; in none, and more than it allows.
+            (true, true, ONE, [0.5, 0.6], false, [0.5 * ONE, (0.5 - rest) * ONE]),
+            (true, true, ONE, [0.5, 0.6], false, [(0.5 + rest) * ONE, 0.5 * ONE]),
+            (false, false, ONE, [0.5, 0.5], false, [0.5 * ONE, (0.5 - rest) * ONE]),
+            (false, true, ONE, [0.5, 0.5], false, [0.5 * ONE, (0.5 + rest) * ONE]),
+            // More than solvers leave.
+            (false, false, ONE, [FREE; 2], false, [0.5 * ONE, 0.5001 * ONE]),
+            // Along two directions; along one, in which weights can make up what is along it alone.
+            (true, true, ONE + I, [FREE; 2], true, [(1.0 - rest) * ONE, (1.0 + rest) * I]),
+            (false, true, ONE, [FREE; 2], true, [(0.5 - rest) * ONE, 0.5 * ONE]),
+            (false, false, ONE, [FREE; 2], true, [0.5 * ONE, 0.5 * ONE + rest * I]),
+        ] {
+            let problem = force(target, &bounds, by_quarters, &cancel);
+            let mut found = weights(&[(0, exerted[0]), (1, exerted[1])]);
+            let case = format!("{target} within {bounds:?} by {exerted:?}");
+            assert_eq!(problem.made_up(&mut found), is_proved, "{case}");
+            // A few roundings.
+            assert_eq!(problem.missing(&found).norm() < 1e-15, is_met, "{case}");
+            for weight in &found {
+                assert!(weight.vector.norm() <= bounds[weight.plane] * (1.0 + 1e-15), "{case}");
+            }
         }
     }
 }
