@@ -15,6 +15,7 @@ import pickle
 import re
 import subprocess
 import sys
+import sysconfig
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
@@ -680,6 +681,11 @@ def test_import_and_use_load_numpy_and_the_standard_library_alone() -> None:
     assert more - sys.stdlib_module_names == {"crankpin"}
     # Which take longer than all of crankpin.
     assert not more & {"asyncio", "email", "http", "multiprocessing", "unittest", "xml"}
+
+
+@pytest.mark.skipif(not sysconfig.get_config_var("Py_GIL_DISABLED"), reason="Python has its lock")
+def test_free_threaded_python_stays_without_its_lock() -> None:
+    assert run("import sys, crankpin; print(sys._is_gil_enabled())") == "False"
 
 
 def test_a_piston_faster_than_any_engines_warns_of_units() -> None:
