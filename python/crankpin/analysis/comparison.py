@@ -48,10 +48,6 @@ def compare(
     rtol, spectrum, torque
         As in :meth:`Engine.balance`; moments of each engine are about its own reference plane.
 
-    Returns
-    -------
-    Comparison
-
     Raises
     ------
     InputError

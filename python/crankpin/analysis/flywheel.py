@@ -71,10 +71,6 @@ def flywheel(
         Period of a turning-moment diagram, degrees; by default that of the angles given, the last
         of which stands for the first, and 720 of a function.
 
-    Returns
-    -------
-    Flywheel
-
     Raises
     ------
     InputError

@@ -180,10 +180,6 @@ def star_diagram(
     firing_order, strokes
         As in :meth:`Engine.firing`.
 
-    Returns
-    -------
-    StarDiagram
-
     Raises
     ------
     InputError

@@ -167,10 +167,6 @@ class Engine(Builders):
         torque
             False to leave out torque, in the result and in the choice of orders.
 
-        Returns
-        -------
-        Balance
-
         Raises
         ------
         InputError
@@ -219,10 +215,6 @@ class Engine(Builders):
         spectrum, torque
             As in :meth:`balance`; a spectrum needs ``orders``.
 
-        Returns
-        -------
-        Waveform
-
         Raises
         ------
         InputError
@@ -255,10 +247,6 @@ class Engine(Builders):
             ``firing_order``.
         strokes
             4, or 2 for a cycle in each turn; by default the engine's ``strokes``.
-
-        Returns
-        -------
-        Firing
 
         Raises
         ------
@@ -344,10 +332,6 @@ class Engine(Builders):
             Plane about which moments are taken, m; by default midway between the first and the last
             cylinder.
 
-        Returns
-        -------
-        VanishingOrders
-
         Raises
         ------
         InputError
@@ -381,10 +365,6 @@ class Engine(Builders):
         reference_z
             As in :meth:`vanishing_orders`.
 
-        Returns
-        -------
-        ClosedForm
-
         Raises
         ------
         InputError
@@ -411,10 +391,6 @@ class Engine(Builders):
         rpm
             Crank speed, for figures in N and N·m; by default they are relative to the first-order
             force of one piston.
-
-        Returns
-        -------
-        Explanation
 
         Raises
         ------

@@ -133,10 +133,6 @@ def search_arrangements(
         True for a tqdm bar (needs tqdm), or a function that is called with the steps done and the
         steps in all, some 50 times a second, while a long search runs.
 
-    Returns
-    -------
-    ArrangementSearch
-
     Raises
     ------
     InputError

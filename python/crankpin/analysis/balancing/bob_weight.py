@@ -53,10 +53,6 @@ def bob_weight(engine: Engine, factor: float = 0.5, oil: float = 0.0) -> BobWeig
     oil
         Oil in the bearings and the bore of a crankpin, kg of each pin.
 
-    Returns
-    -------
-    BobWeight
-
     Raises
     ------
     InputError

@@ -83,10 +83,6 @@ def counterweights(
         By default the longest lever of a plane or cylinder, or, for internal targets, half of the
         distance between main bearings: the sum of squares of their loads is then least.
 
-    Returns
-    -------
-    Counterweights
-
     Raises
     ------
     InputError

@@ -38,10 +38,6 @@ def two_plane_correction(
         Places of the planes of correction, m, such as the end webs (internal balance), or damper
         and flywheel (external balance): (2,).
 
-    Returns
-    -------
-    TwoPlaneCorrection
-
     Raises
     ------
     InputError

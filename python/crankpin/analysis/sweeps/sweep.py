@@ -106,10 +106,6 @@ def sweep(
         True for a tqdm bar during computations, or a function of (steps done, steps in all) that is
         called now and then; an exception that it raises stops the computation.
 
-    Returns
-    -------
-    Sweep
-
     Raises
     ------
     InputError
@@ -459,10 +455,6 @@ class Sweep(ByOrder, Tabled):
             Crank angles, degrees: (n_theta,); by default 0, 1, …, 720.
         exact
             True for exact kinematics, False for the sum of the sweep's orders.
-
-        Returns
-        -------
-        SweepWaveform
 
         Raises
         ------

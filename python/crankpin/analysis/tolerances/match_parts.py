@@ -188,10 +188,6 @@ def match_parts(
     progress
         True for a tqdm bar, or a function that is called with the steps done and the steps in all.
 
-    Returns
-    -------
-    Match
-
     Raises
     ------
     InputError

@@ -100,10 +100,6 @@ def tolerances(
     progress
         True for a tqdm bar, or a function that is called with the steps done and the steps in all.
 
-    Returns
-    -------
-    Tolerances
-
     Raises
     ------
     InputError
