@@ -12,9 +12,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.quantities import KINDS, PLANE_VECTORS
-from crankpin._support.warnings import suppressed
 from crankpin.analysis.balance import Balance, balance
-from crankpin.analysis.sweeps.sweep import sweep
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,7 +55,7 @@ class Objective(NamedTuple):
                 given = inputs.shorten(list(swept.orders))
                 raise InputError(f'orders = {given}: by = "{self.label}" needs order {self.order}')
             # Left out as negligible, or zero.
-            swept = again(swept, orders=[self.order])
+            swept = swept._at_orders((self.order,))
         if self.of_sweep is not None:
             found = np.array(self.of_sweep(swept)).reshape(len(swept.engines), -1)
         else:
@@ -98,25 +96,6 @@ class ByObjectives:
         """Return the objectives, all or the first few, in words; with the orders as given."""
         words = ", then ".join(each.words for each in self.objectives[:count])
         return words.replace("all orders", "all of the orders given") if given else words
-
-
-def again(swept: Sweep, **changes: object) -> Sweep:
-    """Return the same sweep of the same list of engines with some arguments changed."""
-    request = swept.request
-    arguments: dict[str, object] = {
-        "engines": list(swept.engines),
-        **swept.axes,
-        "hold": swept.hold,
-        "spectrum": request.spectrum,
-        "torque": request.torque,
-    }
-    # Orders chosen for the whole serve its parts.
-    arguments |= {"orders": swept.orders} if swept.orders else {"rtol": request.rtol}
-    arguments |= changes
-    if "orders" in changes:
-        arguments.pop("rtol", None)
-    with suppressed("mean piston speed"):
-        return sweep(**arguments)  # type: ignore[arg-type]
 
 
 def tie_tolerance(tie_rtol: object) -> float:

@@ -15,7 +15,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.ranking.objectives import ByObjectives, again, of_table
+from crankpin.analysis.ranking.objectives import ByObjectives, of_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -258,7 +258,10 @@ def _largest(values: NDArray[np.float64]) -> float:
 
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
-    return again(swept, engines=[engine], bank_angle_deg=angles)
+    # Orders chosen for the whole serve its parts.
+    request = swept.request.at_orders(swept.orders) if swept.orders else swept.request
+    axes = {**swept.axes, "bank_angle_deg": angles}
+    return swept.replace(engines=(engine,), names=("",), axes=axes, request=request)
 
 
 def angles_of(swept: Sweep) -> NDArray[np.float64] | None:
