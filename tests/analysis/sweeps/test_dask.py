@@ -13,6 +13,17 @@ pytest.importorskip("xarray")
 dask = pytest.importorskip("dask")
 
 V6, V8 = cp.Engine.preset("v6-60"), cp.Engine.preset("v8-crossplane")
+SINGLE = cp.Engine.from_lists(
+    cp.Cylinder(0.045, 0.15, 0.5, bore=0.09), bank_deg=[90], tdc_deg=[0], z=[0], firing_order="1"
+)
+MAP = cp.CycleMap(
+    rpm=[1000, 6000],
+    load=[0, 1],
+    cycles=[
+        [cp.Cycle(range(0, 720, 90), [peak, 3e5, *6 * [1e5]]) for peak in peaks]
+        for peaks in ([2e6, 5e6], [3e6, 8e6])
+    ],
+)
 AXES: dict[str, dict[str, Any]] = {
     "every axis": {
         "engines": [V6, V8],
@@ -45,6 +56,14 @@ AXES: dict[str, dict[str, Any]] = {
         "orders": "auto",
         "rtol": 1e-4,
         "chunks": {"rod_ratio": (1, 16, 33)},
+    },
+    "cycles over speed and load": {
+        "engines": SINGLE,
+        "rpm": [1000, 2000, 3500],
+        "load": [0, 0.3, 0.7, 1],
+        "cycle": MAP,
+        "orders": [0.5, 1, 2],
+        "chunks": {"rpm": 2, "load": 3},
     },
     "a spectrum": {
         "engines": V6,

@@ -12,10 +12,11 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin.analysis import export
-from crankpin.analysis.sweeps.sweep import Sweep
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from crankpin.analysis.sweeps.sweep import Sweep
 
 Chunks: TypeAlias = "int | str | Mapping[str, int | str | tuple[int, ...]]"
 """Points to a chunk: of every swept dimension, or by dimension, or ``"auto"``."""
@@ -30,8 +31,9 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
     sizes = lengths | {"order": len(whole.orders), "axis": 2}
     by_name = dict(zip(sizes, _normalized(chunks, lengths, sizes), strict=True))
     axes = {name: _axis(whole, name, by_name[name]) for name in lengths}
-    request = whole.request.at_orders(whole.orders)
-    fixed = {"engines": whole.engines, "names": None, "hold": whole.hold, "request": request}
+    # What every chunk has: its axes come in slices.
+    first = {name: float(np.ravel(values)[0]) for name, values in whole.axes.items()}
+    common = whole.replace(axes=first, request=whole.request.at_orders(whole.orders))
     variables: dict[str, Any] = {}
     for name, quantity, what, trailing in export.variables(quantities, fired=whole.fired):
         dims = (*lengths, *trailing)
@@ -43,9 +45,8 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
                 dims,
                 *slices,
                 new_axes={dim: sizes[dim] for dim in trailing},
-                dims=tuple(lengths),
-                fixed=fixed,
-                axes=dict(whole.fixed),
+                swept=tuple(lengths),
+                common=common,
                 quantity=quantity,
                 what=what,
                 # Slices of one axis along the one index that it has.
@@ -62,18 +63,17 @@ def dataset(whole: Sweep, chunks: Chunks, quantities: Sequence[str]) -> xr.Datas
 
 def _block(
     *slices: Any,  # noqa: ANN401 - engines or numbers
-    dims: tuple[str, ...],
-    fixed: Mapping[str, Any],
-    axes: Mapping[str, float],
+    swept: tuple[str, ...],
+    common: Sweep,
     quantity: str,
     what: str,
 ) -> Any:  # noqa: ANN401 - complex or real
     """Compute one chunk by an ordinary sweep."""
-    swept, given = dict(zip(dims, slices, strict=True)), dict(fixed)
-    if "engine" in swept:
-        given["engines"] = tuple(swept.pop("engine"))
-        given["names"] = tuple(engine.name for engine in given["engines"])
-    return Sweep(axes={**axes, **swept}, **given).read(quantity, what)
+    axes: dict[str, Any] = dict(zip(swept, slices, strict=True))
+    engines = tuple(axes.pop("engine", common.engines))
+    names = None if common.names is None else tuple(engine.name for engine in engines)
+    part = common.replace(engines=engines, names=names, axes={**common.axes, **axes})
+    return part.read(quantity, what)
 
 
 def _axis(whole: Sweep, name: str, chunks: tuple[int, ...]) -> Any:  # noqa: ANN401 - a dask array

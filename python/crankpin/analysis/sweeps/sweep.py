@@ -23,6 +23,7 @@ from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engine_core
+from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
 from crankpin.model.engine import Engine
@@ -502,9 +503,7 @@ class Sweep(ByOrder, Tabled):
             raise InputError(
                 "progress cannot be combined with to_dask; use dask.diagnostics.ProgressBar"
             )
-        from crankpin.analysis.sweeps.dask import dataset  # noqa: PLC0415 - it makes sweeps
-
-        return dataset(self, chunks, self.request.named(quantities, fired=self.fired))
+        return dask.dataset(self, chunks, self.request.named(quantities, fired=self.fired))
 
     def plot(
         self,
