@@ -392,9 +392,9 @@ def explicit_orders(values: object, name: str = "orders") -> list[int]:
     return _given(orders(values, name), name, "whole numbers")
 
 
-def explicit_half_orders(values: object, name: str = "orders") -> list[Order]:
+def explicit_half_orders(values: object) -> list[Order]:
     """Return a list of orders, halves among them, where none can be chosen."""
-    return _given(half_orders(values, name), name, "numbers")
+    return _given(half_orders(values), "orders", "numbers")
 
 
 def _given(listed: list[Number] | None, name: str, what: str) -> list[Number]:

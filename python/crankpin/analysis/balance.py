@@ -50,9 +50,9 @@ def balance(
     return found
 
 
-def over_square(engine: Engine, orders: Sequence[Order], *, torque: bool = False) -> Balance:
-    """Return the balance over ω²: forces in kg·m, moments and torques in kg·m²."""
-    return balance(engine, UNIT_RPM, orders=orders, torque=torque)
+def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
+    """Return the balance over ω²: forces in kg·m, moments in kg·m²."""
+    return balance(engine, UNIT_RPM, orders=orders, torque=False)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
