@@ -4,8 +4,6 @@
 //! scale so: a row of it for each cycle of a map is weighted as the cycles are, by linear interpolation
 //! over speed and load, and added.
 
-use rayon::prelude::*;
-
 use super::axes::Axes;
 use super::kernel::{Number, PIECE};
 use super::{Quantity, Sweep};
@@ -230,9 +228,9 @@ impl<T: Number> Operating<'_, T> {
     ) -> Result<()> {
         let (speeds, loads) = (self.sweep.squares.len(), self.sweep.nodes.loads());
         let rows = (STRETCH / (self.width.max(width) * cost).max(1)).clamp(1, PIECE);
-        let large = pool::worth(out.len() * cost);
-        let pieces = rows * width;
-        cancel.expect(out.len().div_ceil(pieces));
+        let numbers = out.len() * cost;
+        let pieces = memory::collected(out.chunks_mut(rows * width).enumerate())?;
+        cancel.expect(pieces.len());
         let piece = |(k, out): (usize, &mut [O])| {
             let mut room: Vec<T> = memory::zeros(self.width)?;
             let at = k * rows;
@@ -259,11 +257,7 @@ impl<T: Number> Operating<'_, T> {
             )?;
             cancel.step()
         };
-        if large {
-            let pieces = out.par_chunks_mut(pieces).enumerate();
-            return pool::run(cancel, || pieces.try_for_each(piece));
-        }
-        out.chunks_mut(pieces).enumerate().try_for_each(piece)
+        pool::each(cancel, pieces, numbers, piece)
     }
 }
 

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::placed::Placed;
 use super::tiles::{OrderWave, TILE, Tiles};
 use super::{Figure, Quantity, Sweep};
@@ -200,13 +198,10 @@ impl Rows<'_> {
         if out.is_empty() {
             return Ok(());
         }
-        let large = pool::worth(out.len());
+        let numbers = out.len();
         let parts: Vec<Range<usize>> = parts(0..self.angles.len(), SPAN).collect();
-        self.cancel.expect((out.len() / row).div_ceil(ROWS) * parts.len());
-        let part = |prepared: &P, part: usize, outs: Vec<&mut [f64]>| -> Result<()> {
-            work(prepared, parts[part].clone(), outs);
-            self.cancel.step()
-        };
+        let groups = memory::collected(out.chunks_mut(ROWS * row).enumerate())?;
+        self.cancel.expect(groups.len() * parts.len());
         let group = |(k, out): (usize, &mut [f64])| -> Result<()> {
             self.cancel.check()?;
             let prepared = prepare(k * ROWS..k * ROWS + out.len() / row)?;
@@ -215,17 +210,13 @@ impl Rows<'_> {
                 let blocks = out.chunks_mut(SPAN * self.components);
                 by_part.iter_mut().zip(blocks).for_each(|(outs, block)| outs.push(block));
             }
-            if large {
-                let tasks = by_part.into_par_iter().enumerate();
-                return tasks.try_for_each(|(k, outs)| part(&prepared, k, outs));
-            }
-            by_part.into_iter().enumerate().try_for_each(|(k, outs)| part(&prepared, k, outs))
+            let tasks = parts.iter().zip(by_part).collect();
+            pool::each(self.cancel, tasks, numbers, |(part, outs)| {
+                work(&prepared, part.clone(), outs);
+                self.cancel.step()
+            })
         };
-        if large {
-            let groups = out.par_chunks_mut(ROWS * row).enumerate();
-            return pool::run(self.cancel, || groups.try_for_each(group));
-        }
-        out.chunks_mut(ROWS * row).enumerate().try_for_each(group)
+        pool::each(self.cancel, groups, numbers, group)
     }
 }
 
