@@ -6,7 +6,7 @@ use crate::numbers::angle::LARGEST_ANGLE;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
-use crate::numbers::simd::sin_cos_degrees;
+use crate::numbers::simd::{sin_cos_degrees, vectorised};
 
 /// Crank angles modulo two turns, in which half orders come round.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +50,6 @@ impl CrankAngles {
     }
 
     /// Cosine and sine of nθ for some of the angles, each to a unit in the last place at any order.
-    #[inline(always)]
     pub(crate) fn multiples(
         &self,
         order: Order,
@@ -62,18 +61,24 @@ impl CrankAngles {
         let reduced = self.reduced.get(range).unwrap_or_default();
         let mut product = [0.0; 64];
         let parts = reduced.chunks(64).zip(cos.chunks_mut(64)).zip(sin.chunks_mut(64));
-        for ((reduced, cos), sin) in parts {
-            for (product, θ) in product.iter_mut().zip(reduced) {
-                *product = n * θ;
-            }
-            sin_cos_degrees(&product[..reduced.len()], sin, cos);
-            // nθ is the product and what its rounding took, at most 2.4e-10 degrees: 4e-12 rad,
-            // whose square is nothing.
-            for (((cos, sin), product), θ) in cos.iter_mut().zip(sin).zip(&product).zip(reduced) {
-                let rest = n.mul_add(*θ, -product).to_radians();
-                (*cos, *sin) = (rest.mul_add(-*sin, *cos), rest.mul_add(*cos, *sin));
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for ((reduced, cos), sin) in parts {
+                    for (product, θ) in product.iter_mut().zip(reduced) {
+                        *product = n * θ;
+                    }
+                    sin_cos_degrees(&product[..reduced.len()], sin, cos);
+                    // nθ is the product and what its rounding took, at most 2.4e-10 degrees: 4e-12
+                    // rad, whose square is nothing.
+                    let pairs = cos.iter_mut().zip(sin).zip(&product).zip(reduced);
+                    for (((cos, sin), product), θ) in pairs {
+                        let rest = n.mul_add(*θ, -product).to_radians();
+                        (*cos, *sin) = (rest.mul_add(-*sin, *cos), rest.mul_add(*cos, *sin));
+                    }
+                }
+            },
+        );
     }
 }
 
@@ -105,17 +110,13 @@ pub(crate) fn parts(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numbers::simd::vectorised;
     use proptest::prelude::*;
 
     fn multiples(degrees: &[f64], halves: u32) -> (Vec<f64>, Vec<f64>) {
         let order = Order::from_halves(halves).unwrap();
         let angles = CrankAngles::new(degrees).unwrap();
         let (mut cos, mut sin) = (vec![0.0; degrees.len()], vec![0.0; degrees.len()]);
-        vectorised(
-            #[inline(always)]
-            || angles.multiples(order, 0..degrees.len(), &mut cos, &mut sin),
-        );
+        angles.multiples(order, 0..degrees.len(), &mut cos, &mut sin);
         (cos, sin)
     }
 

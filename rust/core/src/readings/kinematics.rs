@@ -207,7 +207,6 @@ pub(crate) struct Units {
 
 impl Units {
     /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
-    #[inline(always)]
     pub fn new(angles: &CrankAngles, range: std::ops::Range<usize>, order: Order) -> Self {
         let mut units = Self { cos: AngleColumn([1.0; BLOCK]), sin: AngleColumn::ZERO };
         angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
@@ -215,7 +214,6 @@ impl Units {
     }
 
     /// At some multiple of these crank angles; a shaft's speed is an order.
-    #[inline(always)]
     pub fn at_speed(angles: &CrankAngles, range: std::ops::Range<usize>, ratio: i32) -> Self {
         let order = Order::whole(ratio.unsigned_abs()).unwrap_or(Order::FIRST);
         Self::new(angles, range, order)

@@ -306,11 +306,7 @@ fn blocks(theta_deg: &[f64], cancel: &Cancel) -> Result<Vec<(Range<usize>, Units
     for range in ranges {
         cancel.check()?;
         let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
-        let units = vectorised(
-            #[inline(always)]
-            || Units::new(&angles, 0..angles.len(), Order::FIRST),
-        );
-        blocks.push((range, units));
+        blocks.push((range, Units::new(&angles, 0..angles.len(), Order::FIRST)));
     }
     Ok(blocks)
 }

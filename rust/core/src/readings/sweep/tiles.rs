@@ -8,7 +8,6 @@ use std::ops::Range;
 use crate::Complex64;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::order::Order;
-use crate::numbers::simd::vectorised;
 
 /// Crank angles of a tile.
 pub(super) const TILE: usize = 256;
@@ -116,10 +115,7 @@ impl Tile {
         let zeros = [[0.0; TOGETHER]; TILE / TOGETHER];
         let mut tile = Self { cos: zeros, sin: zeros };
         let [cos, sin] = [&mut tile.cos, &mut tile.sin].map(|numbers| numbers.as_flattened_mut());
-        vectorised(
-            #[inline(always)]
-            || angles.multiples(order, range, cos, sin),
-        );
+        angles.multiples(order, range, cos, sin);
         tile
     }
 }
