@@ -18,7 +18,7 @@ from crankpin.analysis.quantity import ALL, one_order
 from crankpin.analysis.request import Request, check_request, engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
@@ -127,8 +127,7 @@ class Balance(ByOrder, Tabled):
         """
         if self.within is not None:
             return self.within[0].error_bound
-        bound = self.__dict__["_source"].error_bound
-        return self.request.bounds(map(bound, ("force", "moment", "torque")))
+        return self.request.bounds(self.__dict__["_source"].error_bound)
 
     @property
     def reference_z(self) -> float:
@@ -173,29 +172,17 @@ class Balance(ByOrder, Tabled):
 
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         core: _core.Balance = self.__dict__["_source"]
-        planar = KINDS[quantity].planar
-        readers: dict[str, Callable[[], Any]] = {
-            "zero_bound": lambda: core.zero_bound(quantity),
-            "peak_xy": lambda: np.abs(self.read(quantity, "phasors")),
-        }
-        if planar:
-            readers |= {
-                "phasors": lambda: core.xy(quantity),
-                "forward": lambda: core.forward(quantity),
-                "backward": lambda: core.backward(quantity),
-                "peak": lambda: sum(np.abs(self.read(quantity, each)) for each in labels.TURNING),
-                "total_peak": lambda: core.sum_peak_vector(quantity),
-                "total_peak_xy": lambda: core.sum_peak_xy(quantity),
-            }
-        else:
-            readers |= {
-                "phasors": lambda: core.torque(quantity),
-                "peak": readers["peak_xy"],
-                "total_peak": lambda: core.torque_sum_peak(quantity),
-                "mean": lambda: core.torque_mean(quantity),
-            }
-        found: NDArray[Any] = readers[what]()
-        return found
+        if what == "phasors":
+            return core.phasors(quantity, False)
+        if what in labels.TURNING:
+            return core.phasors(quantity, True)[:, int(what == "backward")]
+        if what == "peak" and KINDS[quantity].planar:
+            forward, backward = (np.abs(self.read(quantity, each)) for each in labels.TURNING)
+            return np.asarray(forward + backward)
+        if what in ("peak", "peak_xy"):
+            return np.asarray(np.abs(self.read(quantity, "phasors")))
+        # "zero_bound", "total_peak", "total_peak_xy" and "mean"
+        return np.asarray(getattr(core, what)(quantity))
 
     # --- tables and pictures --------------------------------------------------------------------
 

@@ -230,7 +230,7 @@ class Waveform(OverAngle, Tabled):
         """Quantity → upper bound on what the omitted orders add, N or N·m; zero if exact."""
         if self._summed is None:
             return self.request.bounds((0.0, 0.0, 0.0))
-        return self.request.bounds(map(self._summed.error_bound, ("force", "moment", "torque")))
+        return self.request.bounds(self._summed.error_bound)
 
     @property
     def fired(self) -> bool:

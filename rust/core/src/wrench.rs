@@ -1,7 +1,5 @@
 //! Force and moment of one order: phasors of a vector in the cross-section, and of a wrench.
 
-use std::f64::consts::FRAC_PI_2;
-
 use crate::Complex64;
 
 /// A vector of one order in the cross-section: `x + iy = forward·e^{inθ} + backward·e^{−inθ}`.
@@ -180,34 +178,6 @@ impl Wrench {
     }
 }
 
-/// An ellipse traced by force or moment in one order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ellipse {
-    /// Longest half axis.
-    pub major: f64,
-    /// Shortest half axis; below zero where the vector turns against the crank.
-    pub minor: f64,
-    /// Direction of the long axis from +x, radians in (−π/2, π/2]; 0 for a circle.
-    pub tilt: f64,
-}
-
-impl Ellipse {
-    /// From forward and backward parts.
-    #[must_use]
-    pub fn new(forward: Complex64, backward: Complex64) -> Self {
-        let (f, b) = (forward.norm(), backward.norm());
-        let mut tilt = 0.0;
-        if f != 0.0 && b != 0.0 {
-            tilt = (forward / f * (backward / b)).sqrt().arg();
-            // The root of −1 − 0i points down.
-            if tilt <= -FRAC_PI_2 {
-                tilt = FRAC_PI_2;
-            }
-        }
-        Self { major: f + b, minor: f - b, tilt }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,16 +188,6 @@ mod tests {
         assert_eq!(snapped(z, 1.0), z);
         assert_eq!(snapped(z, 1.2), Complex64::default());
         assert_eq!(snapped(z, 0.7), z);
-    }
-
-    #[test]
-    fn ellipse_tilts_lie_above_minus_ninety_degrees() {
-        let i = Complex64::i();
-        for (forward, backward) in [(i, i), (-i, -i), (i * 2.0, Complex64::new(-0.0, 1.0))] {
-            assert_eq!(Ellipse::new(forward, backward).tilt, FRAC_PI_2);
-        }
-        let circle = Ellipse::new(Complex64::default(), i * 3.0);
-        assert_eq!((circle.major, circle.minor, circle.tilt), (3.0, -3.0, 0.0));
     }
 
     #[test]

@@ -2,10 +2,9 @@
 
 use crankpin_core as core;
 use crankpin_core::balance::{Orders, Request, TorquePart, Vector};
-use crankpin_core::wrench::Ellipse;
 use crankpin_core::{Complex64, Error};
 use ndarray::{Array1, Array2};
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
@@ -46,13 +45,6 @@ pub fn balance(
 #[pyfunction]
 pub fn angular_speed(rpm: f64) -> PyResult<f64> {
     core::balance::angular_speed(rpm).or_raise()
-}
-
-/// Half axes and tilt (radians) of the ellipses of forward and backward parts.
-#[pyfunction]
-pub fn ellipse(parts: Vec<(Complex64, Complex64)>) -> Vec<(f64, f64, f64)> {
-    let axes = parts.into_iter().map(|(forward, backward)| Ellipse::new(forward, backward));
-    axes.map(|e| (e.major, e.minor, e.tilt)).collect()
 }
 
 /// Which part of a torque a quantity is.
@@ -106,91 +98,67 @@ impl Balance {
         numbers(&self.0.omitted)
     }
 
-    fn xy<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
-    ) -> PyResult<Bound<'py, PyArray2<Complex64>>> {
-        let vector = vector(quantity)?;
-        let phasors: Vec<_> = (0..self.0.orders.len()).map(|k| self.0.xy(vector, k)).collect();
-        Ok(frozen(py, Array2::from(phasors)))
+    /// Of force, moment and torque.
+    #[getter]
+    fn error_bound(&self) -> [f64; 3] {
+        self.0.error_bound
     }
 
-    fn forward<'py>(
+    /// As those of a sweep: along (about) x and y or, of force and moment, forward and backward parts.
+    fn phasors<'py>(
         &self,
         py: Python<'py>,
-        quantity: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        let vector = vector(quantity)?;
-        Ok(self.each(py, |k| self.0.planar(vector, k).forward))
+        name: &str,
+        turning: bool,
+    ) -> PyResult<Bound<'py, PyArrayDyn<Complex64>>> {
+        let orders = 0..self.0.orders.len();
+        if part(name).is_some() {
+            let (part, on_crank) = torque(name)?;
+            let torques = orders.map(|k| {
+                let torque = self.0.torque(part, k);
+                if on_crank { torque.crank } else { torque.roll }
+            });
+            return Ok(frozen(py, torques.collect::<Array1<_>>().into_dyn()));
+        }
+        let vector = vector(name)?;
+        let pairs = orders.map(|k| {
+            let planar = self.0.planar(vector, k);
+            if turning { [planar.forward, planar.backward()] } else { self.0.xy(vector, k) }
+        });
+        Ok(frozen(py, Array2::from(pairs.collect::<Vec<_>>()).into_dyn()))
     }
 
-    fn backward<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        let vector = vector(quantity)?;
-        Ok(self.each(py, |k| self.0.planar(vector, k).backward()))
-    }
-
-    fn zero_bound<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        if let Some(part) = part(quantity) {
+    fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        if let Some(part) = part(name) {
             return Ok(self.each(py, |k| self.0.torque_zero_bound(part, k)));
         }
-        let vector = vector(quantity)?;
+        let vector = vector(name)?;
         Ok(self.each(py, |k| self.0.zero_bound(vector, k)))
     }
 
-    fn error_bound(&self, quantity: &str) -> PyResult<f64> {
-        let [force, moment, torque] = self.0.error_bound;
-        if quantity == "torque" {
-            return Ok(torque);
-        }
-        Ok(if vector(quantity)? == Vector::Force { force } else { moment })
-    }
-
-    fn sum_peak_xy<'py>(
+    fn total_peak_xy<'py>(
         &self,
         py: Python<'py>,
-        quantity: &str,
+        name: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let vector = vector(quantity)?;
+        let vector = vector(name)?;
         let peaks = interrupt::run(py, |cancel| self.0.peak_xy(vector, cancel))?;
         Ok(frozen(py, peaks.to_vec().into()))
     }
 
-    fn sum_peak_vector(&self, py: Python<'_>, quantity: &str) -> PyResult<f64> {
-        let vector = vector(quantity)?;
+    /// The longest vector, or the largest torque, of all orders together.
+    fn total_peak(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
+        if part(name).is_some() {
+            let (part, on_crank) = torque(name)?;
+            return interrupt::run(py, |cancel| self.0.torque_peak(part, on_crank, cancel));
+        }
+        let vector = vector(name)?;
         interrupt::run(py, |cancel| self.0.peak(vector, cancel))
     }
 
-    /// Torque on the block (`"torque"`) or on the crank, or a part of it: `"torque.gas"`.
-    fn torque<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
-        let (part, on_crank) = torque(quantity)?;
-        Ok(self.each(py, |k| {
-            let torque = self.0.torque(part, k);
-            if on_crank { torque.crank } else { torque.roll }
-        }))
-    }
-
-    /// Largest torque of the mean and all orders together.
-    fn torque_sum_peak(&self, py: Python<'_>, quantity: &str) -> PyResult<f64> {
-        let (part, on_crank) = torque(quantity)?;
-        interrupt::run(py, |cancel| self.0.torque_peak(part, on_crank, cancel))
-    }
-
     /// Mean torque.
-    fn torque_mean(&self, quantity: &str) -> PyResult<f64> {
-        let (part, on_crank) = torque(quantity)?;
+    fn mean(&self, name: &str) -> PyResult<f64> {
+        let (part, on_crank) = torque(name)?;
         Ok(self.0.mean(part)[usize::from(on_crank)])
     }
 }

@@ -55,14 +55,6 @@ impl Firing {
         interrupt::run(py, |cancel| core::Firing::named(&engine, &order, strokes, cancel)).map(Self)
     }
 
-    /// The most even way to fire, if no other order is as even.
-    #[staticmethod]
-    fn most_even(py: Python<'_>, engine: &Engine, strokes: u32) -> PyResult<Self> {
-        let strokes = Strokes::from_number(strokes).or_raise()?;
-        let engine = Arc::clone(&engine.0);
-        interrupt::run(py, |cancel| core::Firing::most_even(&engine, strokes, cancel)).map(Self)
-    }
-
     #[staticmethod]
     fn all_named(engine: &Engine, firing_order: &str, strokes: u32) -> PyResult<Vec<Self>> {
         let strokes = Strokes::from_number(strokes).or_raise()?;

@@ -39,7 +39,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MOST_CYLINDERS", crankpin_core::limits::MOST_CYLINDERS)?;
     module.add("LONGEST_AXIS", crankpin_core::limits::LONGEST_AXIS)?;
     module.add("LONGEST_FILE", crankpin_core::engine::file::LONGEST_TEXT)?;
-    module.add("SCHEMA", crankpin_core::engine::file::SCHEMA)?;
     module.add("InputError", module.py().get_type::<convert::InputError>())?;
     module.add_class::<engine::Engine>()?;
     module.add_class::<balance::Balance>()?;
@@ -66,7 +65,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(slider_crank::centred_table, module)?)?;
     module.add_function(wrap_pyfunction!(slider_crank::offset_table, module)?)?;
     module.add_function(wrap_pyfunction!(balance::balance, module)?)?;
-    module.add_function(wrap_pyfunction!(balance::ellipse, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::turning, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::roll_torque, module)?)?;
     module.add_function(wrap_pyfunction!(balancing::least_weights, module)?)?;

@@ -104,21 +104,6 @@ impl Firing {
         Err(Error::value("firing_order", "None", hint))
     }
 
-    /// The most even way for an engine to fire, if no other order is as even.
-    ///
-    /// Of several ways in that order, which differ in where the second turn begins, this is the one
-    /// that [`Self::named`] gives.
-    pub fn most_even(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Self> {
-        let mut ways = Self::all(engine, strokes, cancel)?;
-        let as_even = ways.iter().take_while(|way| unevenness(way) == unevenness(&ways[0])).count();
-        if distinct_orders(&ways[..as_even]).0.len() == 1 {
-            return Ok(ways.swap_remove(0));
-        }
-        let text = listed(&ways[..as_even]);
-        let hint = format!("name one of the orders that are equally even: {text}");
-        Err(Error::value("firing_order", "None", hint))
-    }
-
     /// Every way for an engine to fire, the most even first.
     pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
         let tops = Tops::of(engine);
@@ -295,31 +280,6 @@ mod tests {
             unevenness.windows(2).any(|pair| 1e-3 < pair[1] - pair[0] && pair[1] - pair[0] < 0.5)
         );
         assert!(unevenness.is_sorted_by(|a, b| *a <= b + 1e-6), "{unevenness:?}");
-    }
-
-    #[test]
-    fn the_most_even_order_is_taken_if_no_other_is_as_even() {
-        let of = |tdcs: &[f64], strokes| {
-            let places: Vec<_> = tdcs.iter().map(|&tdc| (cylinder(0.0), tdc, 90.0)).collect();
-            Firing::most_even(&placed(&places), strokes, &Cancel::new())
-        };
-        let order = |tdcs: &[f64], strokes| of(tdcs, strokes).unwrap().to_string();
-        assert_eq!(order(&[0.0], Strokes::Four), "1");
-        assert_eq!(order(&[0.0, 240.0, 120.0], Strokes::Four), "1-2-3");
-        assert_eq!(order(&[0.0, 180.0, 180.0, 0.0], Strokes::Two), "1+4-2+3");
-        // Two ways in one order: 180-540 and 540-180.
-        let twin = of(&[0.0, 180.0], Strokes::Four).unwrap();
-        let named =
-            Firing::named(twin.engine(), &"1-2".parse().unwrap(), Strokes::Four, &Cancel::new())
-                .unwrap();
-        assert_eq!(twin, named);
-        let message = |tdcs: &[f64]| of(tdcs, Strokes::Four).unwrap_err().to_string();
-        assert_eq!(
-            message(&[0.0, 180.0, 180.0, 0.0]),
-            "firing_order = None: name one of the orders that are equally even: 1-2-4-3, 1-3-4-2"
-        );
-        assert!(message(&[0.0, 120.0, 240.0, 240.0, 120.0, 0.0]).ends_with(", …"));
-        assert!(message(&[0.0; MOST_LISTED + 1]).starts_with("number of cylinders = 17: "));
     }
 
     #[test]
