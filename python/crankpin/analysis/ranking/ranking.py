@@ -258,10 +258,8 @@ def _largest(values: NDArray[np.float64]) -> float:
 
 def _part(swept: Sweep, engine: Engine, angles: NDArray[np.float64]) -> Sweep:
     """Return the sweep of one engine at other angles."""
-    # Orders chosen for the whole serve its parts.
-    request = swept.request.at_orders(swept.orders) if swept.orders else swept.request
     axes = {**swept.axes, "bank_angle_deg": angles}
-    return swept.replace(engines=(engine,), names=("",), axes=axes, request=request)
+    return swept.replace(engines=(engine,), names=("",), axes=axes, request=swept._of_parts)
 
 
 def angles_of(swept: Sweep) -> NDArray[np.float64] | None:

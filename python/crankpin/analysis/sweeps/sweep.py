@@ -283,6 +283,11 @@ class Sweep(ByOrder, Tabled):
         made, (kind, fields) = super().__reduce__()
         return made, (kind, fields | {"progress": False})
 
+    @property
+    def _of_parts(self) -> Request:
+        """The request of parts of the sweep: orders chosen for the whole serve them."""
+        return self.request.at_orders(self.orders) if self.orders else self.request
+
     def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
         return self.replace(request=check_request(request, "crankpin.sweep"))
