@@ -459,6 +459,69 @@ def test_least_weights_are_those_of_a_general_optimiser(seed: int, largest: bool
     assert ours == pytest.approx(found.fun, rel=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("throws", "planes", "angles"),
+    [
+        ([65.0], [0.088, 0.089], [0, 90, 180, 270]),
+        ([2.0], [0.068, 0.091], [9.8, 28.9, 55.8, 59.4, 123.2, 144.9, 323.4, 357.5]),
+        ([0.0, 199.0], [0.029, 0.074, 0.164, 0.167], [0, 40, 80, 120, 160, 200, 240, 280, 320]),
+        ([307.0, 167.0], [-0.084, -0.02, 0.058, 0.09], [0, 60, 120, 180, 240, 300]),
+    ],
+)
+@pytest.mark.parametrize("minimise", ["squares", "largest"])
+def test_drilling_places_that_hardly_differ_have_least_weights(
+    throws: list[float],
+    planes: list[float],
+    angles: list[float],
+    minimise: Literal["squares", "largest"],
+) -> None:
+    """Planes a millimetre apart, angles that hardly reach: SciPy's solvers on the same question."""
+    optimize = pytest.importorskip("scipy.optimize")
+    engine = cp.Engine.inline(
+        cp.Cylinder(0.05, 0.15, 0.01), throws_deg=throws, spacing=0.1, rotating_mass=0.01
+    )
+    fitted = cp.counterweights(engine, planes=planes, angles_deg=angles, minimise=minimise)
+    before, after = (each.balance(UNIT_SPEED)[1] for each in (engine, fitted.fitted))
+    # Force in kg·m, moment over 0.1 m.
+    turning = np.array(
+        [[complex(b.force.forward), complex(b.moment.forward) / 0.1] for b in (before, after)]
+    )
+    units = np.exp(1j * np.radians(np.tile(angles, len(planes))))
+    levers = np.repeat(planes, len(angles)) - engine.reference_z
+    exerted = np.stack([units, 1j * levers * units / 0.1])
+    rows, wanted = (np.concatenate([of.real, of.imag]) for of in (exerted, -turning[0]))
+    _, missed = optimize.nnls(rows, wanted, maxiter=10_000)
+    size = np.linalg.norm(wanted)
+    assert np.linalg.norm(turning[1]) <= missed + 1e-9 * size
+    if minimise == "largest" and missed < 1e-12 * size:
+        sums = np.kron(np.eye(len(planes)), np.ones(len(angles)))
+        found = optimize.linprog(
+            np.append(np.zeros(rows.shape[1]), 1.0),
+            A_ub=np.c_[sums, -np.ones(len(planes))],
+            b_ub=np.zeros(len(planes)),
+            A_eq=np.c_[rows, np.zeros(4)],
+            b_eq=wanted / size,
+        )
+        # HiGHS keeps equations to 1e-7; the least largest weight has seven digits at worst.
+        assert fitted.largest / size == pytest.approx(found.fun, rel=1e-6)
+
+
+def test_a_plane_that_is_blind_to_what_is_missing_is_at_its_bound() -> None:
+    """Places in whole millimetres and two alike cylinders: all four weights are alike then."""
+    engine = cp.Engine.inline(
+        cp.Cylinder(0.05, 0.15, 1.0), throws_deg=[0, 199], spacing=0.1, rotating_mass=1.0
+    )
+    fitted = cp.counterweights(engine, planes=[0.029, 0.074, 0.164, 0.167], minimise="largest")
+    assert fitted.exact
+    # Three of them along the moment about the third place: its size over their distances.
+    forces = 0.075 * np.exp(1j * np.radians(engine.pin_deg))
+    moment = abs((forces * (engine.z - 0.164)).sum())
+    # Seven digits: of three weights, what the third exerts across them is known to no more.
+    assert fitted.largest == pytest.approx(moment / 0.228, rel=1e-7)
+    # The third changes the others' largest by the square of what it lacks.
+    assert [w.amount for w in fitted.hardware] == pytest.approx([fitted.largest] * 4, rel=1e-5)
+
+
 def test_a_bound_that_binds_leaves_the_least() -> None:
     fitted = cp.counterweights(CROSSPLANE, planes="ends", bound=0.5)
     assert not fitted.exact

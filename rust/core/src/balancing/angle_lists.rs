@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::least_squares::{minimum, stack};
+use super::least_squares::{Minimum, PENALTIES, minimum, stack};
 use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors};
 use crate::Complex64;
 use crate::numbers::error::Result;
@@ -22,29 +22,36 @@ pub(super) fn nearest(
     let start = columns.variables(&[], bounds);
     let goal = DVector::from_column_slice(target.as_slice());
     let rows = [&columns.made, &columns.filled];
-    let found = minimum(rows, [&goal, &room], start, problem.cancel)?;
-    Ok((found.missing <= ROUNDING).then(|| columns.weights(&found.x)))
+    let mut found = Minimum::start(start, room.len());
+    for penalty in PENALTIES {
+        found = minimum(rows, [&goal, &room], found, penalty, problem.cancel)?;
+        if found.missing <= ROUNDING {
+            return Ok(Some(columns.weights(&found.x)));
+        }
+    }
+    Ok(None)
 }
 
-/// Of weights that come as near as those given, within bounds, those with the least sum of squares.
+/// Of weights that come as near as those given, within bounds, those with the least sum of squares;
+/// none if they are not found to nine digits.
 ///
 /// A residual has planes that see it at their bounds: only the others have a choice.
 pub(super) fn least_squares(
     problem: &Problem,
     directions: &Directions,
     bounds: &[f64],
-    found: Vec<PlacedWeight>,
-) -> Result<Vec<PlacedWeight>> {
-    let residual = problem.missing(&found);
+    found: &[PlacedWeight],
+) -> Result<Option<Vec<PlacedWeight>>> {
+    let residual = problem.missing(found);
     let mut blind: Vec<usize> = (0..bounds.len()).collect();
     if residual.norm() > REACHED {
         let support = problem.support(&residual);
         blind.retain(|&plane| support[plane] <= 10.0 * REACHED);
     }
     let (mut moved, mut kept): (Vec<PlacedWeight>, Vec<PlacedWeight>) =
-        found.into_iter().partition(|weight| blind.contains(&weight.plane));
+        found.iter().partition(|weight| blind.contains(&weight.plane));
     if moved.is_empty() {
-        return Ok(kept);
+        return Ok(Some(kept));
     }
     let target = problem.made(&moved);
     for weight in &mut moved {
@@ -58,18 +65,19 @@ pub(super) fn least_squares(
         directions: Some(own.clone()),
         cancel: problem.cancel,
     };
-    let least = squares(&some, &own, &moved)?;
+    let Some(least) = squares(&some, &own, &moved)? else { return Ok(None) };
     kept.extend(least.into_iter().map(|each| PlacedWeight { plane: blind[each.plane], ..each }));
     kept.sort_by_key(|weight| (weight.plane, weight.angle));
-    Ok(kept)
+    Ok(Some(kept))
 }
 
-/// Of weights that do the same as those given, within bounds, those with the least sum of squares.
+/// Of weights that do the same as those given, within bounds, those with the least sum of squares;
+/// none if they are not found to nine digits.
 fn squares(
     problem: &Problem,
     directions: &Directions,
     found: &[PlacedWeight],
-) -> Result<Vec<PlacedWeight>> {
+) -> Result<Option<Vec<PlacedWeight>>> {
     let (bounds, equations) = (&problem.bounds, problem.target.len());
     let columns = AngleColumns::new(problem, directions, bounds);
     let mut sums = DMatrix::zeros(bounds.len(), columns.made.ncols());
@@ -80,19 +88,21 @@ fn squares(
     let held = stack(&columns.made, &columns.filled);
     let value = &held * &start;
     let none = DVector::zeros(bounds.len());
-    let best = minimum([&sums, &held], [&none, &value], start, problem.cancel)?;
-    // No weights that do the same have less than what the multipliers promise.
-    let multipliers = &best.multipliers.as_slice()[..equations];
-    let lambda = Vectors::from_column_slice(equations / 2, 2, multipliers);
-    let promised = lambda.dot(&problem.target)
-        - problem.support(&lambda).iter().zip(bounds).map(|(h, b)| energy(*h, *b)).sum::<f64>();
-    let squares = (&sums * &best.x).norm_squared() / 2.0;
-    let is_least = squares - promised <= REACHED * squares.max(1.0);
-    if is_least && best.missing <= ROUNDING {
-        Ok(columns.weights(&best.x))
-    } else {
-        Err(problem.not_found("least"))
+    let mut best = Minimum::start(start, value.len());
+    for penalty in PENALTIES {
+        best = minimum([&sums, &held], [&none, &value], best, penalty, problem.cancel)?;
+        // No weights that do the same have less than what the multipliers promise.
+        let multipliers = &best.multipliers.as_slice()[..equations];
+        let lambda = Vectors::from_column_slice(equations / 2, 2, multipliers);
+        let spent = problem.support(&lambda).into_iter().zip(bounds).map(|(h, b)| energy(h, *b));
+        let promised = lambda.dot(&problem.target) - spent.sum::<f64>();
+        let squares = (&sums * &best.x).norm_squared() / 2.0;
+        let is_least = squares - promised <= REACHED * squares.max(1.0);
+        if is_least && best.missing <= ROUNDING {
+            return Ok(Some(columns.weights(&best.x)));
+        }
     }
+    Ok(None)
 }
 
 /// What unit weights in planes and directions exert: a column for each, x of the equations and then y.

@@ -39,8 +39,10 @@ pub(super) fn least_squares(
     LeastSquares { solution, rank: kept.len() }
 }
 
-/// Weight of the equations beside the squares: each round gains about as many digits.
-const PENALTY: f64 = 1e4;
+/// Weights of the equations beside the squares, one after another until the minimum is good enough.
+/// Each round gains about as many digits, unless the variables that are left barely tell the equations
+/// apart; a great weight finds their multipliers then, and costs digits of the squares.
+pub(super) const PENALTIES: [f64; 5] = [1e4, 1e6, 1e8, 1e6, 1e4];
 /// What may be missing from an equation; figures are of order 1.
 const EXACT: f64 = 1e-13;
 const ROUNDS: usize = 60;
@@ -53,21 +55,28 @@ pub(super) struct Minimum {
     pub missing: f64,
 }
 
-/// Minimise |rows·x − target|² over x ≥ 0 with held·x = value, from a feasible `start`.
+impl Minimum {
+    /// Feasible variables to start from, and no multipliers.
+    pub fn start(x: DVector<f64>, equations: usize) -> Self {
+        Self { x, multipliers: DVector::zeros(equations), missing: 0.0 }
+    }
+}
+
+/// Minimise |rows·x − target|² over x ≥ 0 with held·x = value, from feasible variables.
 ///
 /// An augmented Lagrangian: equations weigh so moderately that no digits are lost, and their
 /// multipliers make up for the rest.
 pub(super) fn minimum(
     [rows, held]: [&DMatrix<f64>; 2],
     [target, value]: [&DVector<f64>; 2],
-    start: DVector<f64>,
+    mut found: Minimum,
+    penalty: f64,
     cancel: &Cancel,
 ) -> Result<Minimum> {
-    let weight = PENALTY.sqrt();
+    let weight = penalty.sqrt();
     let stacked = stack(rows, &(held * weight));
-    let mut found = Minimum { x: start, multipliers: DVector::zeros(held.nrows()), missing: 0.0 };
     for _ in 0..ROUNDS {
-        let wanted = (value + &found.multipliers / PENALTY) * weight;
+        let wanted = (value + &found.multipliers / penalty) * weight;
         let mut goal = target.clone().resize_vertically(stacked.nrows(), 0.0);
         goal.rows_mut(target.nrows(), held.nrows()).copy_from(&wanted);
         found.x = nonnegative(&stacked, &goal, found.x, cancel)?;
@@ -76,7 +85,7 @@ pub(super) fn minimum(
         if found.missing <= EXACT {
             break;
         }
-        found.multipliers += missing * PENALTY;
+        found.multipliers += missing * penalty;
     }
     Ok(found)
 }

@@ -75,6 +75,8 @@ pub(super) type Vectors = DMatrix<f64>;
 /// Part of the target that solvers may miss, to be made up by weights with room for it; part of a
 /// minimum that may be missing.
 pub(super) const REACHED: f64 = 1e-9;
+/// Part that the least largest weights may miss where a plane hardly sees what is missing.
+const EDGE: f64 = 1e-7;
 /// Room of such weights, relative to the target and to their bounds.
 const ROOM: f64 = 1e-6;
 /// What solvers may leave of their equations, in figures of order 1.
@@ -176,7 +178,14 @@ impl Problem<'_> {
             found = self.nearest(&self.target, &bounds)?;
         }
         match &self.directions {
-            Some(directions) => angle_lists::least_squares(self, directions, &bounds, found),
+            Some(directions) => {
+                match angle_lists::least_squares(self, directions, &bounds, &found)? {
+                    Some(least) => Ok(least),
+                    // The least largest weights leave hardly a choice: any of them will do.
+                    None if minimise == Minimise::Largest => Ok(found),
+                    None => Err(self.not_found("least")),
+                }
+            }
             None => Ok(found),
         }
     }
@@ -233,7 +242,9 @@ impl Problem<'_> {
     }
 
     pub fn not_found(&self, which: &str) -> Error {
-        let hint = format!("the {which} weights were not found to nine digits; give fewer planes");
+        let hint = format!(
+            "the {which} weights were not found to nine digits; give fewer planes or angles"
+        );
         Error::value("planes", format!("{} places", self.bounds.len()), hint)
     }
 
@@ -246,7 +257,7 @@ impl Problem<'_> {
         const MOST: usize = 200;
         let mut cap = 0.0;
         for _ in 0..MOST {
-            let bounds: Vec<f64> = self.bounds.iter().map(|bound| bound.min(cap)).collect();
+            let bounds = self.capped(cap);
             let residual = wanted - self.made(&self.nearest(wanted, &bounds)?);
             let size = residual.norm();
             if size <= 1e-3 * REACHED {
@@ -255,11 +266,40 @@ impl Problem<'_> {
             let next = self.cap(&self.support(&residual), wanted.dot(&residual));
             if next <= cap {
                 // No more digits.
-                return if size <= REACHED { Ok(bounds) } else { Err(self.not_found("least")) };
+                return if size <= REACHED { Ok(bounds) } else { self.relaxed(wanted, cap, size) };
             }
             cap = next;
         }
         Err(self.not_found("least"))
+    }
+
+    fn capped(&self, cap: f64) -> Vec<f64> {
+        self.bounds.iter().map(|bound| bound.min(cap)).collect()
+    }
+
+    /// Bounds above a cap that is too low by the rounding of a small residual, found by bisection.
+    ///
+    /// A residual that a plane hardly sees is known to few digits, and with it the next cap. At the
+    /// edge of what given bounds reach, no cap makes up for what is missed: those of the cap serve.
+    fn relaxed(&self, wanted: &Vectors, cap: f64, missed: f64) -> Result<Vec<f64>> {
+        let serves = |cap: f64| -> Result<bool> {
+            let found = self.nearest(wanted, &self.capped(cap))?;
+            Ok((wanted - self.made(&found)).norm() <= 1e-3 * REACHED)
+        };
+        let mut low = cap;
+        // The cap is proved to be no more than the least: bounds further above it might not be it.
+        for part in [REACHED, 1e-8, EDGE, 1e-6] {
+            let mut high = cap * (1.0 + part);
+            if serves(high)? {
+                while high - low > REACHED * high {
+                    let middle = f64::midpoint(low, high);
+                    *(if serves(middle)? { &mut high } else { &mut low }) = middle;
+                }
+                return Ok(self.capped(high));
+            }
+            low = high;
+        }
+        if missed <= EDGE { Ok(self.capped(cap)) } else { Err(self.not_found("least")) }
     }
 
     /// Least cap on all bounds with Σ min(boundₚ, cap)·supportₚ = wanted.
@@ -296,7 +336,7 @@ impl Problem<'_> {
             }
         }
         let missing = self.missing(weights);
-        if missing.norm() > REACHED {
+        if missing.norm() > EDGE {
             return false;
         }
         let room = |weight: &PlacedWeight| {
