@@ -530,3 +530,33 @@ def test_sympy_is_imported_when_it_is_used() -> None:
     command = [sys.executable, "-c", script]
     done = subprocess.run(command, capture_output=True, text=True, check=True)  # noqa: S603 - its own
     assert 'pip install "crankpin[exact]"' in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("pin_offset", "order", "words", "named"),
+    [
+        (0.0, 2, "0.00583559 kg·m·ω² of cylinder 1", 0.00583559),
+        (0.0, 4, "-0.000124211 kg·m·ω² of cylinder 1 (in lengths its size)", -0.000124211),
+        (
+            0.002,
+            1,
+            "(0.02 - 0.000294969i) kg·m·ω² of cylinder 1 (in lengths its size)",
+            0.02 - 0.000294969j,
+        ),
+    ],
+)
+def test_the_force_that_a_closed_form_names_has_its_sign(
+    pin_offset: float, order: int, words: str, named: complex
+) -> None:
+    """The phasors with the figure in place of F are those of the balance."""
+    cylinder = cp.Cylinder(0.04, 0.14, 0.5, pin_offset)
+    engine = cp.Engine.inline(cylinder, throws_deg=[0, 90, 90], spacing=0.1)
+    form = engine.closed_form(order, "force")
+    assert form.units_text.endswith(words)
+    there = engine.balance(60 / (2 * np.pi))[order].force
+    # Six digits are printed.
+    for part, F in (("y", named), ("forward", named), ("backward", named.conjugate())):
+        found = complex(getattr(form, part).subs(form.F, F))
+        assert found == pytest.approx(complex(getattr(there, part)), rel=1e-5)
+    direction = float(form.forward_phase) + np.angle(named)
+    assert np.exp(1j * direction) == pytest.approx(there.forward / abs(there.forward), rel=1e-5)

@@ -40,7 +40,8 @@ class ClosedForm(Record):
     ``F`` stands for m·r·ω²·aₙ of the cylinder ``unit_cylinder`` (in magnitudes, for its size) and
     ``a`` for ``spacing``, of which all distances between cylinders are whole multiples. Phasors are
     those of :class:`Balance`: a quantity is ``Re(P exp(inθ))``, and ``x + iy = forward exp(inθ) +
-    backward exp(−inθ)``. With a pin offset aₙ is complex, and ``backward`` goes with its conjugate.
+    backward exp(−inθ)``. aₙ is below zero in orders 4, 8, …; with a pin offset it is complex, and
+    ``backward`` goes with its conjugate.
     Angles of 15° and its multiples, among others, give radicals; the rest stay cosines.
 
     Made by :meth:`Engine.closed_form`. Jupyter shows the sum over the cylinders and its value.
@@ -149,24 +150,30 @@ class ClosedForm(Record):
 
     @cached_property
     def forward_phase(self) -> Expression:
-        """Direction of the forward part from +x at θ = 0; 0 where there is none."""
+        """Direction of the forward part from +x at θ = 0; 0 where there is none.
+
+        That of an F above zero: the argument of another is to be added, π below zero.
+        """
         return self._phase("forward")
 
     @cached_property
     def backward_phase(self) -> Expression:
-        """Direction of the backward part from +x at θ = 0; 0 where there is none."""
+        """Direction of the backward part from +x at θ = 0; 0 where there is none.
+
+        That of an F above zero: the argument of another is to be taken away, π below zero.
+        """
         return self._phase("backward")
 
     # --- the sum over the cylinders -------------------------------------------------------------
 
     @cached_property
     def x_terms(self) -> tuple[Expression, ...]:
-        """Contribution of each cylinder along (about) x: weight × cos(nθ − phase)."""
+        """Contribution of each cylinder along (about) x: weight × cos(nθ − phase), aₙ real."""
         return self._terms("x")
 
     @cached_property
     def y_terms(self) -> tuple[Expression, ...]:
-        """Contribution of each cylinder along (about) y: weight × cos(nθ − phase)."""
+        """Contribution of each cylinder along (about) y: weight × cos(nθ − phase), aₙ real."""
         return self._terms("y")
 
     @cached_property
@@ -282,9 +289,14 @@ class ClosedForm(Record):
         """What F and a stand for: their figures of this engine."""
         cylinder = self.engine.cylinders[self.unit_cylinder - 1]
         scale = cylinder.reciprocating_mass * cylinder.crank_radius
-        factor = abs(scale * complex(cylinder.harmonics(self.order)[0]))
+        factor = scale * complex(cylinder.harmonics(self.order)[0])
         order = str(self.order).translate(SUBSCRIPTS)
-        found = f"F = m·r·a{order}·ω² = {factor:.6g} kg·m·ω² of cylinder {self.unit_cylinder}"
+        value = f"{factor.real:.6g}"
+        if factor.imag:
+            value = f"({value} {'-' if factor.imag < 0 else '+'} {abs(factor.imag):.6g}i)"
+        found = f"F = m·r·a{order}·ω² = {value} kg·m·ω² of cylinder {self.unit_cylinder}"
+        if factor != abs(factor):
+            found += " (in lengths its size)"
         if self.quantity == "moment" and self.spacing:
             found += f", a = {1e3 * self.spacing:.6g} mm"
         return found

@@ -286,12 +286,14 @@ class Cycle(Tabled, ComputedCycles):
     def resolution_error(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
     ) -> NDArray[np.float64]:
-        """Return an error bound of the harmonics from the table's resolution, N·m: (n_orders,).
+        """Return an estimate of the harmonics' error from the table's resolution, N·m: (n_orders,).
 
         It is the largest change of each phasor when every other point is left out. Cubics through
         twice as many points have an error some 16 times smaller where pressure is smooth, and half
         as large beside a jump between points: the change exceeds the error of the whole table if
-        that is at most half of the thinned table's. Zero for polynomials.
+        that is at most half of the thinned table's. Of peaks 4° to 40° wide at steps of 0.5° to 4°,
+        two harmonics in a thousand have errors above it, up to six times, where the two errors are
+        alike by chance; the largest over orders ½ to 12 never is. Zero for polynomials.
 
         Parameters
         ----------
