@@ -73,7 +73,7 @@ def counterweights(
         mass·radius, ``"largest"`` for the least largest.
     bound
         Largest mass·radius of a plane, kg·m: a number, or a mapping name → number with the planes
-        that have one (needs SciPy where it binds).
+        that have one.
     angles_deg
         Angles at which a plane can have weights, degrees from +x at θ = 0: a list for all planes,
         or a mapping name → list; any angle by default. The mass·radius of a plane is
