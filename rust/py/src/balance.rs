@@ -7,8 +7,8 @@ use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 
-use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers, python_error};
-use crate::engine::Engine;
+use crate::convert::{self, OrRaise, OrderNumber, frozen, numbers};
+use crate::engine::{Engine, choice};
 use crate::interrupt;
 
 /// Which orders: a list, or a tolerance to choose them by.
@@ -66,14 +66,7 @@ pub fn torque(quantity: &str) -> PyResult<(TorquePart, bool)> {
 }
 
 fn vector(quantity: &str) -> PyResult<Vector> {
-    match quantity {
-        "force" => Ok(Vector::Force),
-        "moment" => Ok(Vector::Moment),
-        other => {
-            let hint = "give \"force\" or \"moment\"";
-            Err(python_error(Error::value("quantity", other, hint)))
-        }
-    }
+    choice("quantity", quantity, &[("force", Vector::Force), ("moment", Vector::Moment)])
 }
 
 impl Balance {

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::balance;
 use crate::convert::{self, OrRaise, OrderNumber, numbers, python_error};
-use crate::engine::{Engine, hold};
+use crate::engine::{Engine, choice, hold};
 use crate::interrupt;
 use crate::waveform::CrankAngles;
 
@@ -32,18 +32,15 @@ fn quantity(name: &str) -> PyResult<Quantity> {
 }
 
 fn figure(name: &str) -> PyResult<Figure> {
-    match name {
-        "amplitude" => Ok(Figure::Amplitude),
-        "length" => Ok(Figure::Length),
-        "sum" => Ok(Figure::Sum),
-        "length of sum" => Ok(Figure::LengthOfSum),
-        "zero bound" => Ok(Figure::ZeroBound),
-        "mean" => Ok(Figure::Mean),
-        other => {
-            let hint = "give \"amplitude\", \"length\", \"sum\", \"length of sum\", \"zero bound\" or \"mean\"";
-            Err(python_error(Error::value("figure", other, hint)))
-        }
-    }
+    let figures = [
+        ("amplitude", Figure::Amplitude),
+        ("length", Figure::Length),
+        ("sum", Figure::Sum),
+        ("length of sum", Figure::LengthOfSum),
+        ("zero bound", Figure::ZeroBound),
+        ("mean", Figure::Mean),
+    ];
+    choice("figure", name, &figures)
 }
 
 /// An array's numbers, if there is one.
