@@ -1,6 +1,7 @@
 //! Exact kinematics of a whole engine: its loads gathered by motion and top dead centre.
 
-use std::ops::{Deref, DerefMut};
+use std::borrow::Cow;
+use std::ops::{Deref, DerefMut, Range};
 
 use crate::Complex64;
 use crate::gear::rod::Swing;
@@ -84,18 +85,11 @@ pub(crate) struct Pressures {
 }
 
 impl Pressures {
-    /// Adds the torque on a crank of ratio 1 by pistons that move so, at crank angles of a block;
-    /// `units` are those of the main crank.
-    pub fn add(
-        &self,
-        proportions: &Proportions,
-        units: &Units,
-        degrees: &[f64],
-        torque: &mut [f64],
-    ) {
+    /// Adds the torque on a crank of ratio 1 by pistons that move so, at a block of crank angles.
+    pub fn add(&self, proportions: &Proportions, block: &AngleBlock, torque: &mut [f64]) {
         let Some(Pressure { cycle, crankcase }) = &self.gear.pressure else { return };
-        for (i, (θ, torque)) in degrees.iter().zip(torque).enumerate() {
-            let velocity = proportions.motion_at(&units.crank(self.phase, i)).velocity;
+        for (i, (θ, torque)) in block.degrees().iter().zip(torque).enumerate() {
+            let velocity = proportions.motion_at(&block.main.crank(self.phase, i)).velocity;
             let gauge = cycle.pressure_deg(θ - self.firing_deg) - crankcase;
             // The piston's way down is minus its distance from the crank.
             *torque -= gauge * velocity * self.volume;
@@ -198,6 +192,33 @@ impl Kinematics {
     }
 }
 
+/// A block of crank angles.
+pub(crate) struct AngleBlock<'a> {
+    angles: &'a CrankAngles,
+    range: Range<usize>,
+    main: Units,
+}
+
+impl<'a> AngleBlock<'a> {
+    /// These of the angles, at most [`BLOCK`].
+    pub fn new(angles: &'a CrankAngles, range: Range<usize>) -> Self {
+        let main = Units::new(angles, range.clone(), Order::FIRST);
+        Self { angles, range, main }
+    }
+
+    /// `e^{iθ}` at some multiple of the angles, either way round.
+    pub fn units(&self, ratio: i32) -> Cow<'_, Units> {
+        if ratio.abs() == 1 {
+            return Cow::Borrowed(&self.main);
+        }
+        Cow::Owned(Units::at_speed(self.angles, self.range.clone(), ratio))
+    }
+
+    fn degrees(&self) -> &[f64] {
+        &self.angles.degrees()[self.range.clone()]
+    }
+}
+
 /// `e^{iθ}` of a block of crank angles, or of a multiple of θ.
 #[derive(Clone)]
 pub(crate) struct Units {
@@ -207,14 +228,14 @@ pub(crate) struct Units {
 
 impl Units {
     /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
-    pub fn new(angles: &CrankAngles, range: std::ops::Range<usize>, order: Order) -> Self {
+    pub fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
         let mut units = Self { cos: AngleColumn([1.0; BLOCK]), sin: AngleColumn::ZERO };
         angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
         units
     }
 
     /// At some multiple of these crank angles; a shaft's speed is an order.
-    pub fn at_speed(angles: &CrankAngles, range: std::ops::Range<usize>, ratio: i32) -> Self {
+    pub fn at_speed(angles: &CrankAngles, range: Range<usize>, ratio: i32) -> Self {
         let order = Order::whole(ratio.unsigned_abs()).unwrap_or(Order::FIRST);
         Self::new(angles, range, order)
     }

@@ -1,7 +1,5 @@
 //! Force, moment and torque at given crank angles: from exact kinematics, or as a sum of orders.
 
-use std::ops::Range;
-
 use ndarray::{Array1, Array2};
 
 use crate::Complex64;
@@ -14,11 +12,12 @@ use crate::numbers::crank_angles::{CrankAngles, check};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
-use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
 use crate::readings::balance::{self, Balance, Orders, Request, Vector, angular_speed};
-use crate::readings::kinematics::{AngleColumn, BLOCK, Kinematics, Pistons, Pressures, Units};
+use crate::readings::kinematics::{
+    AngleBlock, AngleColumn, BLOCK, Kinematics, Pistons, Pressures, Units,
+};
 
 /// An engine's shaking over crank angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,17 +106,15 @@ impl WaveformRows {
         torque: bool,
         square: f64,
     ) {
-        let all = 0..angles.len();
-        let main = Units::new(angles, all.clone(), Order::FIRST);
+        let block = AngleBlock::new(angles, 0..angles.len());
         for pistons in &kinematics.pistons {
             let proportions = pistons.cylinder.proportions();
-            let at = (&main, angles, all.clone());
-            self.add_pistons(pistons, &proportions, at, [true, torque], square);
+            self.add_pistons(pistons, &proportions, &block, [true, torque], square);
         }
-        self.add_unbalances(kinematics, angles, all, torque, square);
+        self.add_unbalances(kinematics, &block, torque, square);
         if torque {
             for pressures in &kinematics.pressures {
-                self.add_pressure(pressures, &pressures.proportions, &main, angles.degrees());
+                self.add_pressure(pressures, &pressures.proportions, &block);
             }
         }
     }
@@ -126,14 +123,13 @@ impl WaveformRows {
     pub fn add_unbalances(
         &mut self,
         kinematics: &Kinematics,
-        angles: &CrankAngles,
-        range: Range<usize>,
+        block: &AngleBlock,
         torque: bool,
         square: f64,
     ) {
         let [force_x, force_y, moment_x, moment_y, roll, ..] = &mut self.columns;
         for unbalances in &kinematics.unbalances {
-            let units = Units::at_speed(angles, range.clone(), unbalances.ratio);
+            let units = block.units(unbalances.ratio);
             let [force, moment] = unbalances.planar.map(|sum| sum * square);
             units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
             units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
@@ -145,24 +141,17 @@ impl WaveformRows {
         }
     }
 
-    /// Adds force and moment, torques or all of them of pistons of slider-cranks of these proportions,
-    /// at a block of angles of which the main crank's units are given.
+    /// Adds force and moment, torques or all of them of pistons of slider-cranks of these proportions.
     #[inline(always)]
     pub fn add_pistons(
         &mut self,
         pistons: &Pistons,
         proportions: &Proportions,
-        (main, angles, range): (&Units, &CrankAngles, Range<usize>),
+        block: &AngleBlock,
         [planar, torque]: [bool; 2],
         square: f64,
     ) {
-        let other;
-        let units = if pistons.ratio.abs() == 1 {
-            main
-        } else {
-            other = Units::at_speed(angles, range, pistons.ratio);
-            &other
-        };
+        let units = &*block.units(pistons.ratio);
         let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &mut self.columns;
         let [force, moment] = pistons.planar.map(|sum| sum * square);
         let arm = pistons.arm * square;
@@ -196,11 +185,10 @@ impl WaveformRows {
         &mut self,
         pressures: &Pressures,
         proportions: &Proportions,
-        units: &Units,
-        degrees: &[f64],
+        block: &AngleBlock,
     ) {
         let mut torques = AngleColumn::ZERO;
-        pressures.add(proportions, units, degrees, &mut torques[..]);
+        pressures.add(proportions, block, &mut torques[..]);
         let [on_block, on_crank] = pressures.gear.senses();
         for (column, sense) in [(4, -on_block), (5, on_crank)] {
             for (i, torque) in torques.iter().enumerate() {

@@ -1,17 +1,14 @@
 //! Exact kinematics of an engine at one bank angle: what does not depend on the rod is evaluated once
 //! for many points.
 
-use std::ops::Range;
-
 use super::{Quantity, Sweep};
 use crate::gear::GearKind;
 use crate::gear::slider_crank::{Cylinder, Proportions};
 use crate::load::Loads;
 use crate::numbers::angle::Angle;
-use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::error::Result;
 use crate::readings::balance::TorquePart;
-use crate::readings::kinematics::{Kinematics, Units};
+use crate::readings::kinematics::{AngleBlock, Kinematics};
 use crate::readings::waveform::WaveformRows;
 
 /// An engine at one bank angle.
@@ -64,35 +61,35 @@ impl Sweep {
 }
 
 impl Placed {
-    /// Writes the values of every row, times a factor, at a block of crank angles of which the main
-    /// crank's units are given; of torque that of inertia or that of pressure, which takes none.
+    /// Writes the values of every row, times a factor, at a block of crank angles; of torque that of
+    /// inertia or that of pressure, which takes none.
     #[inline(always)]
     pub fn write<'o>(
         &self,
-        (quantity, factor): (Quantity, f64),
-        (main, angles, range): (&Units, &CrankAngles, Range<usize>),
+        quantity: Quantity,
+        factor: f64,
+        block: &AngleBlock,
         outs: &mut impl Iterator<Item = &'o mut [f64]>,
     ) {
         let of_gas = quantity.part() == Some(TorquePart::Gas);
         let torque = !quantity.is_planar();
         let mut unbalances = WaveformRows::ZERO;
         if !of_gas {
-            unbalances.add_unbalances(&self.kinematics, angles, range.clone(), torque, 1.0);
+            unbalances.add_unbalances(&self.kinematics, block, torque, 1.0);
         }
         let (mut rows, used) = (WaveformRows::ZERO, if torque { 4..6 } else { 0..4 });
         for (point, out) in self.points.iter().zip(outs) {
             rows.columns[used.clone()].clone_from_slice(&unbalances.columns[used.clone()]);
             if of_gas {
                 for (pressures, of) in self.kinematics.pressures.iter().zip(&point.pressures) {
-                    rows.add_pressure(pressures, of, main, &angles.degrees()[range.clone()]);
+                    rows.add_pressure(pressures, of, block);
                 }
             } else {
                 for (pistons, of) in self.kinematics.pistons.iter().zip(&point.pistons) {
-                    let at = (main, angles, range.clone());
                     if torque {
-                        rows.add_pistons(pistons, of, at, [false, true], 1.0);
+                        rows.add_pistons(pistons, of, block, [false, true], 1.0);
                     } else {
-                        rows.add_pistons(pistons, of, at, [true, false], 1.0);
+                        rows.add_pistons(pistons, of, block, [true, false], 1.0);
                     }
                 }
             }

@@ -11,10 +11,9 @@ use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::memory;
-use crate::numbers::order::Order;
 use crate::numbers::pool;
 use crate::numbers::simd::vectorised;
-use crate::readings::kinematics::{BLOCK, Units};
+use crate::readings::kinematics::{AngleBlock, BLOCK};
 
 /// Points that share a tile of cosines and sines.
 const ROWS: usize = 128;
@@ -151,10 +150,9 @@ impl Sweep {
                             let size = BLOCK * rows.components;
                             let mut outs =
                                 outs.iter_mut().filter_map(|out| out.chunks_mut(size).nth(k));
-                            let main = Units::new(rows.angles, part.clone(), Order::FIRST);
+                            let block = AngleBlock::new(rows.angles, part);
                             for here in placed {
-                                let at = (&main, rows.angles, part.clone());
-                                here.write((quantity, factor), at, &mut outs);
+                                here.write(quantity, factor, &block, &mut outs);
                             }
                         }
                     },
