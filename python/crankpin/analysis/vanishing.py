@@ -13,11 +13,10 @@ from crankpin._support.quantities import COMPONENTS
 from crankpin._support.record import AbsentError, Record, Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import firing as fires
+from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     import pandas as pd
     from numpy.typing import NDArray
 
@@ -48,7 +47,7 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
 
 
-class Verdicts(Record):
+class Verdicts(Keyed, Record):
     """Verdicts on a sum by order: "vanishes", "remains" or "undecided".
 
     A mapping from orders to verdicts; ``np.asarray`` makes an array of text. A force or moment
@@ -131,12 +130,6 @@ class Verdicts(Record):
             known = labels.orders_text(self.orders)
             raise inputs.rejected("order", order, f"decided were {known}")
         return self.words[self.orders.index(order)]
-
-    def __iter__(self) -> Iterator[Order]:
-        return iter(self.orders)
-
-    def __len__(self) -> int:
-        return len(self.orders)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
         return np.array(self.words, dtype=dtype)

@@ -9,7 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin.analysis.balancing.balance_shafts import REMOVE, balance_shafts
-from crankpin.analysis.balancing.balancer_options import balancer_options
+from crankpin.analysis.balancing.balancer_options import DEFAULT, balancer_options
 from crankpin.analysis.balancing.bob_weight import bob_weight
 from crankpin.analysis.balancing.counterweights import counterweights
 from crankpin.cli.arguments import command, option
@@ -188,7 +188,6 @@ def _fit(engine: Engine, given: Given) -> Shown:
 
 
 def _compare(engine: Engine, given: Given) -> Shown:
-    by = (given.text("--by") or "total.force.peak,total.moment.peak").split(",")
     targets, relative = _targets(given)
     saved = given.text("--save") is not None
     if saved and targets is None:
@@ -196,7 +195,7 @@ def _compare(engine: Engine, given: Given) -> Shown:
     options = balancer_options(
         engine,
         rpm=given.optional("--rpm", "rpm") or 3000.0,
-        by=by,
+        by=given.text("--by") or DEFAULT,
         target=targets,
         relative=relative,
     )

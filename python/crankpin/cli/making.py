@@ -184,7 +184,7 @@ def _tolerances(given: Given) -> Shown:
         distribution=given.text("--distribution"),
         samples=samples,
         seed=given.whole("--seed"),
-        by=None if given.text("--by") is None else given.text("--by").split(","),
+        by=given.text("--by"),
         orders=given.orders(),
     )
     if given.text("--shares"):

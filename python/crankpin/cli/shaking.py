@@ -206,7 +206,7 @@ def _rank(given: Given) -> Shown:
         rpm=given.number("--rpm", "rpm"),
         bank_angle_deg=angles,
         hold=None if own else given.text("--hold"),
-        by=given.text("--by").split(","),
+        by=given.text("--by"),
         spectrum=given.spectrum(),
         refine=given.text("--refine"),
         orders=given.orders(),
