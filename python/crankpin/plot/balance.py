@@ -29,11 +29,16 @@ from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
 from crankpin.plot.rows import largest
 from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, numeric
-from crankpin.plot.words import drawn_quantity, number, series_names, series_of, with_unit
+from crankpin.plot.words import (
+    drawn_quantity,
+    nonzero_in,
+    number,
+    series_names,
+    series_of,
+    with_unit,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
     from numpy.typing import NDArray
@@ -59,7 +64,7 @@ def spectrum(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw peaks over order; exact zeros as hollow circles on the axis."""
-    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    name = drawn_quantity(quantity, nonzero_in(result))
     logarithmic = inputs.flag("log", log)
     drawn = series_of(result, name)
     reject_figure(figure, "spectrum")
@@ -84,12 +89,6 @@ def spectrum(
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)
     return ax
-
-
-def _exists(result: Balance, name: str) -> bool:
-    """Return whether a quantity is determined and anywhere different from zero."""
-    found = getattr(result, name, None)
-    return found is not None and bool(found.peak.any())
 
 
 def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) -> None:  # noqa: ANN401
@@ -164,14 +163,19 @@ def ellipses(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw a panel for each of the largest orders, or all of them on given axes."""
-    name = plane_vector(quantity, lambda name: _exists(result, name))
+    name = plane_vector(quantity, result)
     places, note = largest(result, name)
     shown = [result.orders[place] for place in places]
     where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm"
     if ax is not None:
         ax = axes_or_new(ax)
         set_title(ax, labels.name_of(result.engine), where, note)
-        _on_one(ax, [result[order] for order in shown], name, style)
+        for order, look in zip(shown, series(ax, len(shown), style), strict=True):
+            curve = result[order]
+            ellipse(ax, curve, name, f"order {order}: {direction(curve, name)}", look)
+        scale_plane(ax)
+        label_plane(ax, name)
+        add_legend(ax)
         return ax
     rows = max(1, -(-len(shown) // COLUMNS))
     made = make_panels(None, figure, rows, min(COLUMNS, max(1, len(shown))), row_height=0.6)
@@ -213,14 +217,6 @@ def direction(order: OrderBalance, name: str) -> str:
     if minor == 0.0:
         return "straight line"
     return labels.TURNING["forward" if minor > 0.0 else "backward"]
-
-
-def _on_one(ax: Axes, orders: Sequence[OrderBalance], name: str, style: dict[str, Any]) -> None:
-    for order, look in zip(orders, series(ax, len(orders), style), strict=True):
-        ellipse(ax, order, name, f"order {order.order}: {direction(order, name)}", look)
-    scale_plane(ax)
-    label_plane(ax, name)
-    add_legend(ax)
 
 
 # --- balance -------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.font_manager import FontProperties
 
@@ -21,11 +20,12 @@ from crankpin.plot.layout import (
     note_zero,
     points_of,
     set_panel_title,
+    width_for,
 )
 from crankpin.plot.rows import MATTERS
 from crankpin.plot.style import background, series, write
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity, number, rounded, with_unit
+from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,10 +47,9 @@ def _comparison(
     **style: Any,  # noqa: ANN401 - of bars
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    name = drawn_quantity(quantity, nonzero_in(result.before, result.after))
     result.before.request.check(name)
-    width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
-    beside = width >= SIDE_BY_SIDE
+    beside = width_for(figure) >= SIDE_BY_SIDE
     shape: dict[str, Any] = {"width_ratios": [3, 2]} if beside else {"height_ratios": [2, 3]}
     grid = (1, 2) if beside else (2, 1)
     made = make_panels(ax, figure, *grid, row_height=0.75, **shape)
@@ -64,24 +63,13 @@ def _comparison(
     return made.drawn
 
 
-def _exists(result: Comparison, name: str) -> bool:
-    """Return whether a quantity is determined and different from zero in either engine."""
-    peaks = [getattr(each, name, None) for each in (result.before, result.after)]
-    return any(each is not None and each.peak.any() for each in peaks)
-
-
 def _total(result: Comparison, name: str) -> str:
     """Return what becomes of all orders together."""
     before, after = (getattr(each.total, name).peak for each in (result.before, result.after))
-    what = (
-        f"longest {QUANTITIES[name].words}"
-        if name in PLANE_VECTORS
-        else f"peak {QUANTITIES[name].words}"
-    )
-    return (
-        f"{what} {rounded(before, 4)} → {rounded(after, 4)} {QUANTITIES[name].unit}"
-        f" ({changed(before, after)})"
-    )
+    kind = QUANTITIES[name]
+    what = f"{'longest' if kind.planar else 'peak'} {kind.words}"
+    values = f"{rounded(before, 4)} → {rounded(after, 4)} {kind.unit}"
+    return f"{what} {values} ({changed(before, after)})"
 
 
 def changed(before: float, after: float) -> str:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import FigureBase
 from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
@@ -31,11 +29,12 @@ from crankpin.plot.layout import (
     set_figure_title,
     set_panel_title,
     set_title,
+    width_for,
 )
 from crankpin.plot.plane import label_plane, scale_plane
 from crankpin.plot.style import SERIES, muted, series
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity
+from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,7 +60,8 @@ def _counterweights(
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
     chosen = inputs.one_of("kind", kind, KINDS)
-    name = drawn_quantity(quantity, lambda name: _exists(result, name), PLANE_VECTORS)
+    exists = nonzero_in(over_square(result.engine, [1])[1], result.residual[1])
+    name = drawn_quantity(quantity, exists, PLANE_VECTORS)
     if chosen == "summary" and ax is None:
         return _summary(result, figure, style)
     reject_figure(figure, chosen)
@@ -78,12 +78,6 @@ def _counterweights(
     return ax
 
 
-def _exists(result: Counterweights, name: str) -> bool:
-    """Return whether order 1 has a force or moment before or after."""
-    found = (over_square(result.engine, [1]), result.residual)
-    return any(getattr(each[1], name).peak > 0.0 for each in found)
-
-
 def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:  # noqa: ANN401
     if "label" in style:
         raise InputError('label: kind="summary" shows one result; give kind="weights" and ax')
@@ -91,9 +85,7 @@ def _summary(result: Counterweights, figure: Any, style: dict[str, Any]) -> Any:
     shown = [name for name in PLANE_VECTORS if getattr(before, name).peak > 0.0]
     shown += ["moment"] if not shown else []
     count = 1 + len(shown)
-    given = isinstance(figure, FigureBase)
-    width = inches_of(figure) if given else float(mpl.rcParams["figure.figsize"][0])
-    beside = width >= NARROWEST * count
+    beside = width_for(figure) >= NARROWEST * count
     made = make_panels(
         None, figure, *((1, count) if beside else (count, 1)), row_height=0.75 if beside else 0.85
     )

@@ -13,17 +13,7 @@ from matplotlib.lines import Line2D
 
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import label_x, label_y, make_panels, note_zero
-from crankpin.plot.rows import (
-    Rows,
-    Words,
-    along_x,
-    at,
-    dimension,
-    rows_of,
-    swept_quantity,
-    values_of,
-    words_of,
-)
+from crankpin.plot.rows import Rows, Words, along_x, at, dimension, rows_of, values_of, words_of
 from crankpin.plot.style import (
     DASHES,
     DISTINCT,
@@ -39,7 +29,7 @@ from crankpin.plot.style import (
     write_at_mark,
 )
 from crankpin.plot.ticks import RoundLocator, degrees, from_zero, numeric, span
-from crankpin.plot.words import in_degrees, number, plain_text
+from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in, number, plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -199,7 +189,7 @@ def curves(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over a swept dimension, rows for orders and columns for axes."""
-    name = swept_quantity(sweep, quantity)
+    name = drawn_quantity(quantity, nonzero_in(sweep.total))
     rows = rows_of(sweep, name, orders, single=ax is not None)
     along, words = along_x(sweep, x), words_of(sweep)
     shared: dict[str, Any] = {"sharex": "col", "sharey": "row"}

@@ -126,6 +126,13 @@ def inches_of(place: Axes | FigureBase, extent: Literal["width", "height"] = "wi
     return max(_extent(place, extent) / _root(place).dpi, 0.5)
 
 
+def width_for(figure: object) -> float:
+    """Return the width of a figure given, or of a new one, inches."""
+    if isinstance(figure, FigureBase):
+        return inches_of(figure)
+    return float(mpl.rcParams["figure.figsize"][0])
+
+
 def points_of(place: Axes | FigureBase, text: str, font: FontProperties) -> float:
     """Return the width of a line of text, points."""
     return 72.0 * _width(place, text, font) / _root(place).dpi if text.strip() else 0.0

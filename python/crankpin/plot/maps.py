@@ -10,9 +10,10 @@ from matplotlib.colors import LogNorm, Normalize
 from crankpin._core import InputError
 from crankpin._support.quantities import QUANTITIES
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero
-from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, swept_quantity, words_of
+from crankpin.plot.rows import Row, Rows, along_x, dimension, rows_of, words_of
 from crankpin.plot.style import foreground
 from crankpin.plot.ticks import degrees, numeric
+from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,7 +48,7 @@ def heat_map(
 
     Orders have a scale of colours each, engines one that they share.
     """
-    name = swept_quantity(sweep, quantity)
+    name = drawn_quantity(quantity, nonzero_in(sweep.total))
     along, up = _axes_of(sweep, x)
     rows, note = _rows(sweep, name, orders, single=ax is not None)
     words = words_of(sweep)
@@ -79,7 +80,7 @@ def order_map(
     **style: Any,  # noqa: ANN401 - of pcolormesh
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw peaks over speed, or another swept number, and order, in one logarithmic scale."""
-    name = swept_quantity(sweep, quantity)
+    name = drawn_quantity(quantity, nonzero_in(sweep.total))
     dims = [dim for dim in sweep.coords if dim != "engine"]
     if len(dims) != 1 or x not in (None, *dims):
         swept = ", ".join(sweep.coords)

@@ -8,27 +8,17 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.curves import ZERO, Curve, entry_of, lines, mark
-from crankpin.plot.layout import Panels, inches_of, label_x, label_y, make_panels, set_panel_title
-from crankpin.plot.rows import (
-    MOST,
-    along_x,
-    dimension,
-    exists,
-    given_orders,
-    largest,
-    values_of,
-    words_of,
-)
+from crankpin.plot.layout import Panels, label_x, label_y, make_panels, set_panel_title, width_for
+from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
 from crankpin.plot.style import DISTINCT, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
-from crankpin.plot.words import drawn_quantity
+from crankpin.plot.words import drawn_quantity, nonzero_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +42,7 @@ def parts(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     """Draw both parts over a swept number, a panel for each order and what else was swept."""
-    name = drawn_quantity(quantity, lambda name: exists(sweep, name), PLANE_VECTORS)
+    name = drawn_quantity(quantity, nonzero_in(sweep.total), PLANE_VECTORS)
     along, words = along_x(sweep, x), words_of(sweep)
     if along == "engine":
         raise InputError('kind="parts" draws over a number, such as bank_angle_deg; sweep one')
@@ -99,7 +89,7 @@ def _panels(
     rest: int,
 ) -> tuple[Panels, NDArray[Any]]:
     """Return panels, also as (orders, rest). As many are side by side as fit."""
-    width = mpl.rcParams["figure.figsize"][0] if figure is None else inches_of(figure)
+    width = width_for(figure)
     if rest > 1 and width >= WIDE * rest:
         made = make_panels(ax, figure, orders, rest, sharex="col", sharey="row")
         return made, made.axes

@@ -34,7 +34,7 @@ from crankpin.plot.layout import (
 )
 from crankpin.plot.shapes import listed, outside
 from crankpin.plot.style import colours, foreground, muted, write
-from crankpin.plot.words import drawn_quantity, number, rounded
+from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,7 +71,7 @@ def phasors(
     """
     if ax is not None:
         raise InputError('ax: kind="phasors" has several panels; give figure=')
-    kind = drawn_quantity(quantity, lambda name: bool(np.any(getattr(result, name).peak)))
+    kind = drawn_quantity(quantity, nonzero_in(result))
     result.request.check(kind)
     shown = inputs.explicit_half_orders(
         orders if orders is not None else result.request.orders or ORDERS

@@ -11,13 +11,16 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.plot.layout import label_x, label_y, note_zero
 from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import drawn_quantity, in_degrees
+from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
+
+    from crankpin.analysis.balance import Balance
+    from crankpin.analysis.waveform import Waveform
 
 
 DOTS, LABELS = 30.0, 90.0
@@ -32,10 +35,10 @@ ARROWS = (15.0, 135.0, 255.0)
 """Crank angles of the arrows, degrees."""
 
 
-def plane_vector(quantity: object, exists: Callable[[str], bool]) -> str:
+def plane_vector(quantity: object, result: Balance | Waveform) -> str:
     """Return the quantity to draw, one that traces a curve, or raise an InputError."""
     among = PLANE_VECTORS if quantity is None else QUANTITIES
-    name = drawn_quantity(quantity, exists, among)
+    name = drawn_quantity(quantity, nonzero_in(result), among)
     if name not in PLANE_VECTORS:
         hint = 'give quantity="force" or "moment"'
         raise InputError(f"quantity = {name!r} traces no curve; {hint}")

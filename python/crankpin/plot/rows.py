@@ -10,7 +10,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.sweeps.sweep import engine_titles
-from crankpin.plot.words import drawn_quantity, numbers, short_names
+from crankpin.plot.words import numbers, short_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,17 +32,6 @@ def given_orders(orders: object) -> list[Order]:
     if found := inputs.explicit_half_orders(orders):
         return found
     raise InputError("orders = []: give at least one order, such as [1, 2]")
-
-
-def swept_quantity(sweep: Sweep, given: object) -> str:
-    """Return the quantity asked for, by default the moment, or else the first that exists."""
-    return drawn_quantity(given, lambda name: exists(sweep, name))
-
-
-def exists(sweep: Sweep, name: str) -> bool:
-    """Return whether a quantity is determined and anywhere different from zero."""
-    found = getattr(sweep.total, name, None)
-    return found is not None and bool(found.peak.any())
 
 
 def largest(result: ByOrder, quantity: str, most: int = MOST) -> tuple[list[int], str]:
@@ -81,13 +70,14 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     By default all orders together and the three largest ones; with ``orders`` given a row for each
     of them. With ``single`` the largest magnitude of all orders, or of the one given.
     """
-    together = getattr(sweep.total, quantity)
     planar = quantity in PLANE_VECTORS and not single
-    what = "peak_xy" if planar else "peak"
+
+    def row(name: str, found: Any) -> Row:  # noqa: ANN401 - what has quantities
+        vector = getattr(found, quantity)
+        return Row(name, vector.peak_xy if planar else vector.peak[..., np.newaxis])
 
     def one(order: Order) -> Row:
-        values = getattr(getattr(sweep[order], quantity), what)
-        return Row(f"order {order}", values if planar else values[..., np.newaxis])
+        return row(f"order {order}", sweep[order])
 
     columns = QUANTITIES[quantity].components
     if single and quantity in PLANE_VECTORS:
@@ -100,8 +90,7 @@ def rows_of(sweep: Sweep, quantity: str, orders: object = None, *, single: bool 
     if len(sweep.orders) == 1:
         return Rows([one(sweep.orders[0])], columns, "")
     given = " given" if sweep.request.orders is not None else ""
-    values = getattr(together, what)
-    rows = [Row(f"all orders{given}", values if planar else values[..., np.newaxis])]
+    rows = [row(f"all orders{given}", sweep.total)]
     if single:
         return Rows(rows, columns, "")
     places, note = largest(sweep, quantity, MOST - 1)

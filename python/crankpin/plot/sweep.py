@@ -15,10 +15,10 @@ from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import check_one_place, label_x, make_panels
 from crankpin.plot.maps import heat_map, order_map
 from crankpin.plot.parts import parts
-from crankpin.plot.rows import given_orders, largest, swept_quantity, words_of
+from crankpin.plot.rows import given_orders, largest, words_of
 from crankpin.plot.style import DISTINCT, background, colours, foreground, hollow, muted, write
 from crankpin.plot.ticks import numeric
-from crankpin.plot.words import plain_text
+from crankpin.plot.words import drawn_quantity, nonzero_in, plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +56,7 @@ def bars(
         swept = ", ".join(sweep.coords)
         raise InputError(f'kind = "bars" needs a sweep over engines alone, not over {swept}')
     both = quantity is None and ax is None
-    names = ["force", "moment"] if both else [swept_quantity(sweep, quantity)]
+    names = ["force", "moment"] if both else [drawn_quantity(quantity, nonzero_in(sweep.total))]
     chosen = _orders(sweep, names, orders)
     peaks = [np.stack([getattr(sweep[n], name).peak for n in chosen], axis=-1) for name in names]
     classes, words = _classes(sweep, chosen), words_of(sweep)

@@ -33,6 +33,7 @@ from crankpin.plot.ticks import degrees, numeric, span
 from crankpin.plot.words import (
     by_component,
     drawn_quantity,
+    nonzero_in,
     number,
     series_names,
     series_of,
@@ -58,7 +59,7 @@ def orbit(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw the tip of a force or moment, with crank angles and the direction marked."""
-    name = plane_vector(quantity, lambda name: _exists(result, name))
+    name = plane_vector(quantity, result)
     ax = axes_or_new(ax)
     where = f"{QUANTITIES[name].words}, {number(result.rpm)} rpm, {summed(result, name)}"
     set_title(ax, labels.name_of(result.engine), where)
@@ -67,11 +68,6 @@ def orbit(
     label_plane(ax, name)
     add_legend(ax)
     return ax
-
-
-def _exists(result: Waveform | SweepWaveform, name: str) -> bool:
-    """Return whether a quantity is determined and anywhere different from zero."""
-    return bool(np.any(getattr(result, name, 0.0)))
 
 
 # --- sweep waveform ------------------------------------------------------------------------------
@@ -92,7 +88,7 @@ def _sweep_waveform(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    name = drawn_quantity(quantity, nonzero_in(result))
     count = math.prod(len(values) for values in result.sweep.coords.values())
     chosen = "curves" if count <= DISTINCT else "envelope"
     if kind is not None:
@@ -199,7 +195,7 @@ def curves(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     """Draw a quantity over crank angle, a curve for each axis."""
-    name = drawn_quantity(quantity, lambda name: _exists(result, name))
+    name = drawn_quantity(quantity, nonzero_in(result))
     drawn = series_of(result, name)
     values = np.concatenate([by_component(result.read(each), name) for each in drawn], axis=-1)
     ax = axes_or_new(ax)
