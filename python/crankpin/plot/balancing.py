@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -93,10 +91,9 @@ def _balance_shafts(
     wide_enough(ax, float(np.append(before, after).max(initial=0.0)))
     rows = rows_for(ax, [f"order {each.order} {each.part}".rstrip() for each in parts])
     ax.hlines(rows, after, before, color=muted(ax, 0.4), linewidth=1.2, zorder=2, gid=CHANGE)
-    given = mpl.cbook.normalize_kwargs(style, Line2D)
     # What does not change is a dot in a ring.
     for values, text, size in ((before, "without shafts", 9.0), (after, "with shafts", 4.5)):
-        (look,) = series(ax, 1, given)
+        (look,) = series(ax, 1, style)
         marks: dict[str, Any] = {"marker": "o", "markersize": size} | look | {"linestyle": ""}
         if values is before:
             marks |= {"markerfacecolor": background(ax), "markeredgewidth": 1.5}
@@ -148,12 +145,11 @@ def _balancers(
     usual = font_of("ytick.labelsize", "medium").get_size_in_points()
     size = max(SMALLEST, min(usual, room / len(ax.get_yticks())))
     ax.tick_params(axis="y", labelsize=size)
-    given = mpl.cbook.normalize_kwargs(style, Line2D)
     limits = dict(result.targets)
     reached = np.array([each.reaches for each in shown])
     for k in drawn:
         name = result.by[k]
-        (look,) = series(ax, 1, given)
+        (look,) = series(ax, 1, style)
         marker = MARKERS[count_series(ax) % len(MARKERS)]
         marks: dict[str, Any] = {"marker": marker, "markersize": min(6.0, size)} | look
         marks |= {"linestyle": ""}

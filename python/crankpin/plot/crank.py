@@ -10,7 +10,6 @@ from matplotlib.transforms import Bbox
 
 from crankpin.analysis.geometry import (
     assumed_bores,
-    crank_angle,
     direction,
     geometry,
     weights_on_crank,
@@ -67,14 +66,13 @@ def star(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
 
     Unbalances of one direction are added up; the area of their disc or sector is as the sum.
     """
-    theta = crank_angle(theta_deg)
     ink = inks_of(ax)
     largest = crank_radius(engine)
-    turn = complex(direction(theta))
+    turn = complex(direction(theta_deg))
     pins = {at * turn: cylinders for at, cylinders in pins_in_line(engine).items()}
     half = 0.65 * JOURNAL * largest
-    rotating = by_direction(rotating_masses(engine, theta))
-    weights = by_direction(weights_on_crank(engine, theta))
+    rotating = by_direction(rotating_masses(engine, theta_deg))
+    weights = by_direction(weights_on_crank(engine, theta_deg))
     radii = radius_of_amounts(engine, [*rotating.values(), *weights.values()])
     # Rotating masses are round and at their pins, so that they do not look like counterweights.
     rounds = [AS_LARGE * radius for radius in radii[: len(rotating)]]
@@ -156,9 +154,8 @@ class Stretch(NamedTuple):
 
 def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # noqa: ANN401
     """Draw journals, crankpins, webs, unbalances and balance shafts over z, as seen from x < 0."""
-    theta = crank_angle(theta_deg)
     ink = inks_of(ax)
-    up = geometry(engine, theta).crankpin.imag
+    up = geometry(engine, theta_deg).crankpin.imag
     drawn, pitch = _stretches(engine)
     thick = 0.09 * pitch
     half = JOURNAL * crank_radius(engine)
@@ -187,8 +184,8 @@ def side(engine: Engine, ax: Axes, theta_deg: float, **style: Any) -> None:  # n
     flywheel = 1.5 * crank_radius(engine)
     wheel = _rectangle(back, back + 2.0 * thick, -flywheel, flywheel)
     add(ax, [wheel], facecolor=ink.metal, edgecolor=ink.line, linewidth=0.8, zorder=3)
-    _weights(engine, ax, theta, ink, thick)
-    _shafts(engine, ax, theta, ink, (front, back + 2.0 * thick), thick)
+    _weights(engine, ax, theta_deg, ink, thick)
+    _shafts(engine, ax, theta_deg, ink, (front, back + 2.0 * thick), thick)
     reach = max(flywheel, 2.0 * crank_radius(engine))
     ax.update_datalim([(front - thick, -reach), (back + 3.0 * thick, reach)])
     to_scale = pitch > 0.5 * crank_radius(engine)

@@ -83,8 +83,8 @@ def bundle_of(
     """
     lengths = [len(sweep.coords[dim]) for dim in others]
     places = list(np.ndindex(*lengths))
-    label = str(style.get("label") or "")
-    given = {name: value for name, value in style.items() if name != "label"}
+    given = mpl.cbook.normalize_kwargs(dict(style), Line2D)
+    label = str(given.pop("label", None) or "")
     if not others:
         (look,) = series(ax, 1, given)
         return Bundle([Curve((), look, label)], [], None)
@@ -117,13 +117,8 @@ def bundle_of(
         handles.append(Line2D([], [], color=muted(ax), **THIN, label=f"each: {what}"))
     distinct = few and n_rest <= MOST_DASHES
     drawn = names if distinct else [""] * len(names)
-    return Bundle(_zipped(places, looks, drawn), handles, None if few else others[0])
-
-
-def _zipped(
-    places: Sequence[tuple[Any, ...]], looks: Sequence[dict[str, Any]], names: Sequence[str]
-) -> list[Curve]:
-    return [Curve(*each) for each in zip(places, looks, names, strict=True)]
+    curves = [Curve(*each) for each in zip(places, looks, drawn, strict=True)]
+    return Bundle(curves, handles, None if few else others[0])
 
 
 def engine_looks(
@@ -220,8 +215,7 @@ def _draw(
     others = [dim for dim in dims if dim != along]
     peaks = [np.moveaxis(row.peaks, dims.index(along), 0) for row in rows.rows]
     sizes = peaks[0].max(axis=-1).min(axis=0, initial=np.inf).reshape(-1)
-    of_lines = mpl.cbook.normalize_kwargs(dict(style), Line2D)
-    bundle = bundle_of(panels[0, 0], sweep, others, words, sizes, of_lines)
+    bundle = bundle_of(panels[0, 0], sweep, others, words, sizes, style)
     for row, column in np.ndindex(*panels.shape):
         panel: Any = panels[row, column]
         heights = peaks[row][..., column]

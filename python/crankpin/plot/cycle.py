@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.lines import Line2D
 
 from crankpin._support import labels
 from crankpin.analysis.flywheel import Flywheel
@@ -85,7 +83,6 @@ def _flywheel(
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
     panels = make_panels(ax, figure, 2, 1, row_height=0.55, sharex=True)
-    given = mpl.cbook.normalize_kwargs(style, Line2D)
     theta = result.theta_deg
     gas = "torque" if result.engine is None else "gas"
     curves = {gas: result.torque}
@@ -97,7 +94,7 @@ def _flywheel(
     for panel, (lines, level, name, quantity) in zip(
         panels.axes[:, 0], drawn[-len(panels.axes) :], strict=True
     ):
-        looks = series(panel, len(lines), given)
+        looks = series(panel, len(lines), style)
         for (text, values), look in zip(lines.items(), looks, strict=True):
             named = ", ".join(filter(None, [label, text]))
             panel.plot(theta, values, gid=SERIES, label=named, **look)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.colors import to_rgb
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
 
@@ -15,7 +13,7 @@ from crankpin.analysis.firing import Firing, Gaps
 from crankpin.plot import ticks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, points_of, set_title
-from crankpin.plot.style import background, colours, foreground, muted
+from crankpin.plot.style import background, colours, font_of, foreground, muted, tint, write
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -64,8 +62,8 @@ def _firing(
     row_height = room * _row_height(ax, len(rows))
     inlet, exhaust, compression, power = _inks(ax)
     faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
-    strokes = [
-        Kind(name, _tint(ax, faces[name]), periods, STROKES, name[0].upper())
+    strokes = [  # paler than valves
+        Kind(name, tint(ax, faces[name], 0.45), periods, STROKES, name[0].upper())
         for name, periods in result.strokes_deg().items()
     ]
     opened = []
@@ -116,11 +114,6 @@ def _inks(ax: Axes) -> tuple[Any, Any, Any, Any]:
     return blue, red, muted(ax, 0.3), orange
 
 
-def _tint(ax: Axes, colour: Any) -> Any:  # noqa: ANN401 - colours
-    """Return a colour of strokes, paler than that of valves."""
-    return 0.45 * np.array(to_rgb(colour)) + 0.55 * np.array(background(ax))
-
-
 def _pieces(period: ArrayLike, cycle: float) -> list[tuple[float, float]]:
     """Return start and length of a period; past the end of the cycle it goes on at its start."""
     start, end = np.asarray(period, dtype=np.float64).tolist()
@@ -145,14 +138,8 @@ def _bars(
 def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: int) -> None:
     for start, length in pieces:
         if length >= 45.0:
-            ax.text(
-                start + 0.5 * length,
-                row + STROKES[0] + 0.5 * STROKES[1],
-                letter,
-                ha="center",
-                va="center_baseline",
-                fontsize="x-small",
-            )
+            place = complex(start + 0.5 * length, row + STROKES[0] + 0.5 * STROKES[1])
+            write(ax, letter, place, 0j, va="center_baseline", fontsize="x-small")
 
 
 def _mark_overlaps(
@@ -197,7 +184,7 @@ def _dress(ax: Axes, result: Firing, rows: list[int], row_height: float) -> None
     ax.tick_params(axis="y", length=0)
     label_x(ax, "crank angle θ")
     if row_height < ROW:
-        size = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
+        size = font_of("ytick.labelsize", "medium").get_size_in_points()
         ax.tick_params(axis="y", labelsize=min(size, max(5.0, 65.0 * row_height)))
     spacious = len(result.banks) > 1 and row_height >= ROW
     label_y(ax, "cylinder, bank by bank" if spacious else "cylinder")

@@ -203,16 +203,9 @@ def _cells(
             row = round(order / step) - 1
             cells[row] = peaks[in_order, place, k]
             if peaks.any() and not cells[row].any():
+                look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "x-small"}
                 middle = float(np.mean([x.min(), x.max()]))
-                panel.text(
-                    middle,
-                    order,
-                    "zero",
-                    ha="center",
-                    va="center",
-                    fontsize="x-small",
-                    color=foreground(panel),
-                )
+                panel.text(middle, order, "zero", color=foreground(panel), **look)
         cells[cells == 0.0] = np.nan
         drawn = {"shading": "nearest", "rasterized": True} | options
         mesh = panel.pcolormesh(x[in_order], rows, cells, **drawn)

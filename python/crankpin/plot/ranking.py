@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.lines import Line2D
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
@@ -17,7 +15,7 @@ from crankpin.analysis.ranking.ranking import Ranking
 from crankpin.plot.curves import FEW_POINTS, engine_looks
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, set_title
-from crankpin.plot.style import DISTINCT, SERIES, foreground, ring, series, write_at_mark
+from crankpin.plot.style import DISTINCT, SERIES, foreground, once, ring, series, write_at_mark
 from crankpin.plot.sweep import MOST_ENGINES
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import (
@@ -53,7 +51,6 @@ def _ranking(
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
     ax = axes_or_new(ax)
-    of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
     names, shared = short_names(list(ranking.names))
     title, _, common = shared.rpartition(", ")
     title = ranking.names[0] if len(names) == 1 else title or f"{len(names)} engines"
@@ -63,7 +60,7 @@ def _ranking(
     if ranking.bank_angles_deg is None:
         best = ranking.best(min(len(ranking), MOST_ENGINES))
         short = dict(zip(ranking.names, names, strict=True))
-        _listed(ax, best, [short[choice.name] for choice in best], of_lines)
+        _listed(ax, best, [short[choice.name] for choice in best], style)
         label_x(ax, quantity)
         rest = len(ranking) - len(best)
         note = f"{rest} more engines not shown" if rest else ""
@@ -72,7 +69,7 @@ def _ranking(
     set_title(ax, title, ranking.description(1), labels.HELD.get(ranking.hold or "", ""))
     heights = np.where(np.isfinite(ranking.values), ranking.values, np.nan)
     _dress(ax, ranking.bank_angles_deg, heights, quantity)
-    _curves(ax, ranking, ranking.bank_angles_deg, heights, names, of_lines)
+    _curves(ax, ranking, ranking.bank_angles_deg, heights, names, style)
     add_legend(ax, common, last=BEST)
     return ax
 
@@ -140,16 +137,15 @@ def _designs(
     if number < 1:
         raise InputError(f"count = {number}: give a whole number, 1 or more")
     ax = axes_or_new(ax)
-    of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
     best = designs.designs[:number]
     names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]
     quantity = objective_words(designs.objectives[0])
     set_title(ax, _title(designs, len(best)), designs.description(1))
     if designs.question.banks == 2 and designs.objectives[0].quantity:
-        _over_bank_angle(ax, designs, best, names, quantity, of_lines)
+        _over_bank_angle(ax, designs, best, names, quantity, style)
         add_legend(ax, last=DESIGN)
     else:
-        _listed(ax, best, names, of_lines)
+        _listed(ax, best, names, style)
         label_x(ax, quantity)
     return ax
 
@@ -203,8 +199,7 @@ def _over_bank_angle(
         )
         if not allowed.all():
             thin = look | {"linestyle": ":", "linewidth": 0.8}
-            known = FORBIDDEN in ax.get_legend_handles_labels()[1]
-            ax.plot(angles, heights[k], gid="", label="_" if known else FORBIDDEN, **thin)
+            ax.plot(angles, heights[k], gid="", label=once(ax, FORBIDDEN), **thin)
     for k, design in enumerate(best):
         place = np.array([own[k]]), np.array([design.value])
         ring(ax, *place, looks[firsts[k]]["color"], "o", DESIGN)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 
 from crankpin.analysis.geometry import (
@@ -18,7 +17,7 @@ from crankpin.analysis.geometry import (
     weights_on_shafts,
 )
 from crankpin.model.crankpins import crankpins
-from crankpin.plot.style import background, colours, foreground, muted, write
+from crankpin.plot.style import background, colours, foreground, muted, tint, write
 from crankpin.plot.words import rounded
 
 if TYPE_CHECKING:
@@ -63,20 +62,15 @@ class Inks(NamedTuple):
 def inks_of(ax: Axes) -> Inks:
     """Return the colours of parts: foreground, background, and the first of the axes' cycle."""
     crank, weight, shaft = colours(ax, 3)
-    paper = background(ax)
-
-    def tint(colour: Any, strength: float) -> Any:  # noqa: ANN401 - colours
-        return strength * np.array(to_rgb(colour)) + (1.0 - strength) * np.array(paper)
-
     return Inks(
         line=foreground(ax),
         faint=muted(ax, 0.5),
-        paper=paper,
+        paper=background(ax),
         metal=muted(ax, 0.15),
-        web=tint(crank, 0.9),
-        journal=tint(crank, 0.35),
-        weight=tint(weight, 0.75),
-        shaft=tint(shaft, 0.75),
+        web=tint(ax, crank, 0.9),
+        journal=tint(ax, crank, 0.35),
+        weight=tint(ax, weight, 0.75),
+        shaft=tint(ax, shaft, 0.75),
     )
 
 

@@ -62,7 +62,12 @@ def background(ax: Axes) -> tuple[float, float, float]:
 
 def muted(ax: Axes, strength: float = 0.65) -> tuple[float, float, float]:
     """Return a colour between background (0) and foreground (1), for what is secondary."""
-    mixed = strength * np.array(colors.to_rgb(foreground(ax)))
+    return tint(ax, foreground(ax), strength)
+
+
+def tint(ax: Axes, colour: Any, strength: float) -> tuple[float, float, float]:  # noqa: ANN401
+    """Return a colour between background (0) and another one (1)."""
+    mixed = strength * np.array(colors.to_rgb(colour))
     mixed += (1.0 - strength) * np.array(background(ax))
     red, green, blue = mixed.tolist()
     return red, green, blue
@@ -147,6 +152,11 @@ MARK = "crankpin mark"
 """Marks rings by their gid."""
 
 
+def once(ax: Axes, label: str) -> str:
+    """Return a label, or ``_``, which makes no entry, where the legend of axes has it already."""
+    return "_" if label in ax.get_legend_handles_labels()[1] else label
+
+
 def ring(
     ax: Axes,
     x: NDArray[Any],
@@ -156,9 +166,8 @@ def ring(
     label: str,
 ) -> None:
     """Draw hollow marks; the first with a label on the axes is its entry in the legend."""
-    known = label in ax.get_legend_handles_labels()[1]
     look = {"marker": marker, "markersize": 8.0, "markeredgewidth": 1.2, "zorder": 4, "gid": MARK}
-    hollow(ax, x, y, colour, **look, markerfacecolor="none", label="_" if known else label)
+    hollow(ax, x, y, colour, **look, markerfacecolor="none", label=once(ax, label))
 
 
 def hollow(

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.font_manager import FontProperties
-from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
@@ -15,7 +13,7 @@ from crankpin.analysis.ranking import objectives
 from crankpin.analysis.tolerances.samples import QUANTILES, Tolerances
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import add_legend, axes_or_new, inches_of, label_x, label_y, set_title
-from crankpin.plot.style import SERIES, foreground, muted, series
+from crankpin.plot.style import SERIES, font_of, foreground, muted, once, series
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import objective_words
 
@@ -52,9 +50,11 @@ def _tolerances(
     ax = axes_or_new(ax)
     objective = objectives.named(name)
     set_title(ax, labels.name_of(result.engine), _words(result, objective.words))
-    (look,) = series(ax, 1, mpl.cbook.normalize_kwargs(style, Line2D))
+    (look,) = series(ax, 1, style)
     distribution(ax, values, look, label or f"{result.samples} samples")
-    _nominal(ax, result.nominal_value(name))
+    dashed: dict[str, Any] = {"linewidth": 1.2, "linestyle": (0, (4, 2)), "gid": ""}
+    dashed |= {"color": foreground(ax), "label": once(ax, NOMINAL)}
+    ax.axvline(result.nominal_value(name), **dashed)
     numeric(ax.xaxis)
     numeric(ax.yaxis)
     label_x(ax, objective_words(objective))
@@ -116,14 +116,7 @@ def _ecdf(ax: Axes, values: NDArray[np.float64], look: dict[str, Any], label: st
 def _quantile_label(ax: Axes) -> str:
     """Return the entry of the legend for quantiles, once."""
     text = ", ".join(f"{100 * q:g}" for q in QUANTILES) + " % quantiles"
-    return "_" if text in ax.get_legend_handles_labels()[1] else text
-
-
-def _nominal(ax: Axes, value: float) -> None:
-    label = "_" if NOMINAL in ax.get_legend_handles_labels()[1] else NOMINAL
-    ax.axvline(
-        value, color=foreground(ax), linewidth=1.2, linestyle=(0, (4, 2)), label=label, gid=""
-    )
+    return once(ax, text)
 
 
 def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any]) -> Axes:
@@ -167,5 +160,5 @@ def _fit_rows(ax: Axes, rows: int) -> None:
     """Write the names of rows in type that is no higher than a row."""
     # Title and legend will leave a third of the height of short axes.
     points = 0.33 * 72.0 * inches_of(ax, "height") / rows
-    usual = FontProperties(size=mpl.rcParams["ytick.labelsize"]).get_size_in_points()
+    usual = font_of("ytick.labelsize", "medium").get_size_in_points()
     ax.tick_params(axis="y", length=0, labelsize=min(usual, max(4.5, points)))

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.lines import Line2D
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -99,12 +97,11 @@ def _sweep_waveform(
     else:
         values = by_component(values, name)
     draw_panels = _curves if chosen == "curves" else _envelope
-    of_lines = mpl.cbook.normalize_kwargs(style, Line2D)
     words = words_of(result.sweep)
     points = f"{count} points of a sweep" if chosen == "envelope" else ""
     made = make_panels(ax, figure, 1, len(columns), row_height=0.75, sharey=True)
     made.name_columns(columns)
-    handles = draw_panels(made.axes, result, values, of_lines)
+    handles = draw_panels(made.axes, result, values, style)
     for k, panel in enumerate(made.axes.flat):
         _dress(panel, result.theta_deg, values[..., k])
     label_y(made.axes[0, 0], with_unit(name))
