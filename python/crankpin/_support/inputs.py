@@ -247,12 +247,15 @@ def file_path(path: object, endings: tuple[str, ...], hint: str, name: str = "pa
     return file
 
 
-def whole(name: str, value: object) -> int:
-    """Return a whole number."""
+def whole(name: str, value: object, least: int | None = None) -> int:
+    """Return a whole number that is at least another."""
     try:
-        return _index(value)
+        found = _index(value)
     except TypeError:
         raise rejected(name, value, "give a whole number") from None
+    if least is not None and found < least:
+        raise rejected(name, found, f"give a whole number, {least} or more")
+    return found
 
 
 def _index(value: Any) -> int:  # noqa: ANN401 - anything that operator.index() takes
@@ -337,6 +340,12 @@ def angles(name: str, values: object) -> list[str]:
     return [angle(f"{name}[{k}]", value) for k, value in enumerate(listed)]
 
 
+def degrees(angle: Angle) -> float:
+    """Return an angle that is kept as a number or as exact text, degrees."""
+    numerator, _, denominator = str(angle).partition("/")
+    return float(numerator) / float(denominator or 1)
+
+
 def firing_order(name: str, values: object) -> str:
     """Return a firing order as text."""
     hint = "give cylinder numbers, such as '1-3-4-2' or [1, 3, 4, 2]"
@@ -361,10 +370,10 @@ def orders(values: object, name: str = "orders") -> list[int] | None:
     return _orders(values, name, _index, hint)
 
 
-def half_orders(values: object, name: str = "orders") -> list[Order] | None:
+def half_orders(values: object) -> list[Order] | None:
     """Return a list of orders, halves among them, or None for ``"auto"``."""
     hint = "orders are multiples of crank speed, whole or half, such as [0.5, 1, 2]"
-    return _orders(values, name, order, hint)
+    return _orders(values, "orders", order, hint)
 
 
 def _orders(

@@ -9,7 +9,6 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin.model import shafts as rotating
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -98,7 +97,7 @@ def weights_on_shafts(engine: Engine, theta_deg: float = 0.0) -> list[list[Weigh
 
 
 def _turned(unbalance: Unbalance, by_deg: float) -> Weight:
-    angle = rotating.degrees(unbalance.angle_deg) + by_deg
+    angle = inputs.degrees(unbalance.angle_deg) + by_deg
     return Weight(unbalance.z, unbalance.amount, angle % 360.0)
 
 

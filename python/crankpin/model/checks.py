@@ -247,7 +247,7 @@ def pin_split(core: _core.Engine, split: str) -> None:
         Left pin minus right pin, as the core takes it.
     """
     tdc, banks = core.tdc_deg, core.bank_deg
-    degrees = _degrees(split)
+    degrees = inputs.degrees(split)
     if degrees % 360.0 in (0.0, 180.0) or fires_evenly(tdc):
         return
     left = banks == max(banks)  # of an upright vee
@@ -291,8 +291,3 @@ def fires_evenly(tdc_deg: NDArray[np.float64]) -> bool:
     # Two cylinders, a turn apart, have each of `half` equally spaced top dead centres.
     places = (tdc_deg - tdc_deg[0]) * (half / 360.0)
     return sorted(places.round(6) % half) == sorted([*range(half), *range(half)])
-
-
-def _degrees(text: str) -> float:
-    over, _, under = text.partition("/")
-    return float(over) / float(under or 1)

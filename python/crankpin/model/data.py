@@ -150,10 +150,9 @@ class EngineData:
     @property
     def cylinders(self) -> tuple[Cylinder, ...]:
         """Moving parts of each cylinder."""
-        each = zip(self._core.cylinders, self._core.details, strict=True)
-        known = {key: Cylinder._of(*key) for key in set(each)}
-        each = zip(self._core.cylinders, self._core.details, strict=True)
-        return tuple(known[key] for key in each)
+        keys = [*zip(self._core.cylinders, self._core.details, strict=True)]
+        known = {key: Cylinder._of(*key) for key in set(keys)}
+        return tuple(known[key] for key in keys)
 
     @property
     def tdc_deg(self) -> NDArray[np.float64]:

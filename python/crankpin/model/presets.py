@@ -41,8 +41,6 @@ class Presets(Mapping[str, Engine]):
     """
 
     def __getitem__(self, name: str) -> Engine:
-        if name not in self:
-            raise UnknownPresetError(_unknown(name))
         return preset(name)
 
     def __contains__(self, name: object) -> bool:
@@ -109,8 +107,6 @@ def preset(name: str, *, cylinder: Cylinder | None = None, spacing: float | None
     rotating mass are kept. Where the layout offsets its bores (VR and W engines) each keeps its
     offset in metres, and the given pin offset is added to it.
     """
-    if not isinstance(name, str):
-        raise inputs.rejected("name", name, "give the name of a preset, as a string")
     if name not in Presets():
         raise UnknownPresetError(_unknown(name))
     if cylinder is not None and not isinstance(cylinder, Cylinder):

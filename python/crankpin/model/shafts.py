@@ -206,10 +206,4 @@ def _readable(angle: str) -> float | str:
 def _text(weight: _Weight) -> str:
     amount, angle, z, pin = weight
     place = "" if pin is None else f"pin {pin + 1} + "
-    return f"{amount:.4g} kg·m at {place}{degrees(angle):.6g}°, z = {z:.4g} m"
-
-
-def degrees(angle: Angle) -> float:
-    """Return an angle that is kept as a number or as exact text, degrees."""
-    numerator, _, denominator = str(angle).partition("/")
-    return float(numerator) / float(denominator or 1)
+    return f"{amount:.4g} kg·m at {place}{inputs.degrees(angle):.6g}°, z = {z:.4g} m"

@@ -13,7 +13,6 @@ from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import over_square
 from crankpin.analysis.balancing.counterweights import Counterweights
 from crankpin.model.crankpins import crankpins
-from crankpin.model.shafts import degrees
 from crankpin.plot.balance import direction, ellipse
 from crankpin.plot.dispatch import picture
 from crankpin.plot.layout import (
@@ -120,7 +119,7 @@ def _weights(ax: Axes, result: Counterweights, style: dict[str, Any]) -> None:
         label=style.get("label", "_"),
         **look,
     )
-    angles = [degrees(weight.angle_deg) for weight in result.hardware]
+    angles = [inputs.degrees(weight.angle_deg) for weight in result.hardware]
     _needles(ax, places, tops, angles, line.get_color(), "crankpin weights")
     largest = float(tops.max(initial=0.0)) or 1.0
     pins = crankpins(result.engine)

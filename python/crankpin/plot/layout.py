@@ -103,8 +103,7 @@ def make_panels(
         extent = (width, height * row_height * rows + for_texts)
         figure = plt.figure(figsize=extent, layout=Layout())
     elif not isinstance(figure, FigureBase):
-        shown = inputs.shorten(figure)
-        raise InputError(f"figure = {shown}: give a matplotlib Figure or SubFigure")
+        raise inputs.rejected("figure", figure, "give a matplotlib Figure or SubFigure")
     return Panels(figure, figure.subplots(rows, columns, squeeze=False, **options))
 
 
@@ -117,8 +116,7 @@ def check_one_place(ax: object, figure: object) -> None:
 def reject_figure(figure: object, kind: str) -> None:
     """Raise an InputError if a figure is given to a kind of picture with one panel."""
     if figure is not None:
-        shown = inputs.shorten(figure)
-        raise InputError(f"figure = {shown}: kind={kind!r} has one panel; give ax")
+        raise inputs.rejected("figure", figure, f"kind={kind!r} has one panel; give ax")
 
 
 def inches_of(place: Axes | FigureBase, extent: Literal["width", "height"] = "width") -> float:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin.analysis.arrangements.search import ArrangementSearch
 from crankpin.analysis.design.designs import Designs, bank_angle_range
@@ -133,9 +132,7 @@ def _designs(
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
 ) -> Axes:
-    number = inputs.whole("count", count)
-    if number < 1:
-        raise InputError(f"count = {number}: give a whole number, 1 or more")
+    number = inputs.whole("count", count, 1)
     ax = axes_or_new(ax)
     best = designs.designs[:number]
     names = [", ".join(filter(None, [label, _crank_text(each)])) for each in best]

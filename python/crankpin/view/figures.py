@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -256,7 +255,7 @@ def _unbalances(unbalances: Iterable[Unbalance]) -> list[dict[str, Any]]:
     return [
         {
             "amount": each.amount,
-            "angle_deg": float(Fraction(each.angle_deg)),
+            "angle_deg": inputs.degrees(each.angle_deg),
             "z": each.z,
             "pin": None if each.pin is None else each.pin - 1,
         }

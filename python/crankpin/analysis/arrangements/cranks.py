@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections import Counter
 from fractions import Fraction
@@ -126,25 +127,16 @@ class Symmetries:
         for cranks whose bank angle is still to be found.
         """
         at_ends = exchange and crank.bank_angle in (0, HALF)
-        for mirror in (False, True):
-            for reverse in (False, True):
-                for swap in (False, True) if at_ends else (False,):
-                    changes = [
-                        word
-                        for word, done in (
-                            ("mirrored", mirror),
-                            ("reversed", reverse),
-                            ("banks exchanged", swap),
-                        )
-                        if done
-                    ]
-                    if not changes or (mirror and self.offset):
-                        continue
-                    if self.staggered and len(changes) % 2:
-                        continue
-                    found = crank.mirrored() if mirror else crank
-                    found = found.reversed() if reverse else found
-                    yield ", ".join(changes), found.exchanged() if swap else found
+        for mirror, reverse, swap in itertools.product((False, True), repeat=3):
+            done = {"mirrored": mirror, "reversed": reverse, "banks exchanged": swap}
+            changes = [word for word, is_done in done.items() if is_done]
+            if not changes or (mirror and self.offset) or (swap and not at_ends):
+                continue
+            if self.staggered and len(changes) % 2:
+                continue
+            found = crank.mirrored() if mirror else crank
+            found = found.reversed() if reverse else found
+            yield ", ".join(changes), found.exchanged() if swap else found
 
     def first(self, crank: Crank, *, exchange: bool = True) -> Crank:
         """Return the representative of all equivalent cranks: the first in order of size."""

@@ -300,9 +300,7 @@ class ArrangementSearch(Record):
         9.13
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
-        wanted = inputs.whole("count", count)
-        if wanted < 0:
-            raise InputError(f"count = {wanted}: give a whole number, 0 or more")
+        wanted = inputs.whole("count", count, 0)
         return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below

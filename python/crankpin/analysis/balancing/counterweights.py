@@ -15,7 +15,6 @@ from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, intern
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.model.crankpins import bays
-from crankpin.model.shafts import degrees
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -259,7 +258,7 @@ class Counterweights(Tabled):
             Column("plane", tuple(plane for plane, _ in self.by_plane)),
             Column("z", tuple(weight.z for weight in self.hardware), "m"),
             Column("amount", tuple(weight.amount for weight in self.hardware), "kg·m"),
-            Column("angle", tuple(degrees(weight.angle_deg) for weight in self.hardware), "°"),
+            Column("angle", tuple(inputs.degrees(each.angle_deg) for each in self.hardware), "°"),
         )
         note = "" if self.by_plane else "No weights are needed in these planes, or none help."
         title = f"{labels.name_of(self.engine)}: counterweights"

@@ -18,7 +18,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import UNIT_RPM, Balance, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.geometry import direction
-from crankpin.model.shafts import Shaft, degrees
+from crankpin.model.shafts import Shaft
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -180,7 +180,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
                 hint = "give bearings=(z_front, z_rear) to balance_shafts"
                 raise InputError(f"bearings = None: {hint}")
             forces = [
-                (each.amount * complex(direction(degrees(each.angle_deg))), each.z)
+                (each.amount * complex(direction(inputs.degrees(each.angle_deg))), each.z)
                 for each in shaft.unbalances
             ]
             loads.append(np.array(_core.shared(forces, *bearings)) * shaft.ratio**2 * square)
@@ -218,7 +218,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
             Column("y", tuple(shaft.y for _, shaft, _ in listed), "m"),
             Column("z", tuple(weight.z for *_, weight in listed), "m"),
             Column("unbalance", tuple(weight.amount for *_, weight in listed), "kg·m"),
-            Column("phase", tuple(degrees(weight.angle_deg) for *_, weight in listed), "°"),
+            Column("phase", tuple(inputs.degrees(weight.angle_deg) for *_, weight in listed), "°"),
         )
         note = ""
         if self.engine.fired:

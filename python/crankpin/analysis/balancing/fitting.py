@@ -19,7 +19,7 @@ from crankpin._support.record import read_only
 from crankpin.analysis.balancing.planes import turning
 from crankpin.model.crankpins import bays
 from crankpin.model.engine import Engine
-from crankpin.model.shafts import Unbalance, degrees, unbalance_of
+from crankpin.model.shafts import Unbalance, unbalance_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -141,7 +141,7 @@ def external(
     allowed = None
     if angles is not None:
         allowed = [
-            np.deg2rad([degrees(angle) for angle in angles[name]]).tolist() for name in names
+            np.deg2rad([inputs.degrees(angle) for angle in angles[name]]).tolist() for name in names
         ]
     limits = [bounds[name] for name in names]
     found, reached, missing = _core.least_weights(
@@ -275,4 +275,4 @@ def bay_alone(engine: Engine, bay: Bay) -> Engine:
 def _in_bay(engine: Engine, weight: Unbalance) -> Unbalance:
     """Return a weight at its own angle: its pin has another number in a bay, or none."""
     start = 0.0 if weight.pin is None else float(engine.pin_deg[weight.pin - 1])
-    return Unbalance(weight.amount, weight.z, start + degrees(weight.angle_deg))
+    return Unbalance(weight.amount, weight.z, start + inputs.degrees(weight.angle_deg))

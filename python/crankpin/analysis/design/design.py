@@ -160,11 +160,7 @@ def design(
     """
     objectives = listed_objectives(by)
     tolerance = tie_tolerance(tie_rtol)
-    wanted = inputs.whole("count", count)
-    start = inputs.whole("seed", seed)
-    for name, number, least in (("count", wanted, 1), ("seed", start, 0)):
-        if number < least:
-            raise InputError(f"{name} = {number}: give a whole number, {least} or more")
+    wanted, start = inputs.whole("count", count, 1), inputs.whole("seed", seed, 0)
     speed = inputs.number("rpm", rpm)
     summed = inputs.orders(orders)
     watched = progress_bar.checked(progress)

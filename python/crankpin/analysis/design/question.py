@@ -139,10 +139,9 @@ def checked(
     split = _splits(kind, shared_pins, pin_split_deg)
     free = isinstance(throws_deg, str) and throws_deg == "free"
     if intervals is not None and throws_deg is not None:
-        raise InputError(
-            f"throws_deg = {inputs.shorten(throws_deg)}: the firing intervals determine the "
-            "throws; leave out throws_deg, or even_firing and intervals_deg"
-        )
+        hint = "leave out throws_deg, or even_firing and intervals_deg"
+        why = f"the firing intervals determine the throws; {hint}"
+        raise inputs.rejected("throws_deg", throws_deg, why)
     count = number // banks
     return Question(
         cylinders=number,
@@ -178,8 +177,7 @@ def _intervals(
     if intervals_deg is None:
         return (simple(Fraction(cycle, number)),) * number if even else None
     if even:
-        given = inputs.shorten(intervals_deg)
-        raise InputError(f"intervals_deg = {given}: leave it out, or even_firing")
+        raise inputs.rejected("intervals_deg", intervals_deg, "leave it out, or even_firing")
     listed = [exact(each) for each in inputs.angles("intervals_deg", intervals_deg)]
     if len(listed) != number or sum(listed) != cycle or min(listed) < 0:
         hint = f"give {number} intervals, none negative, that add up to {cycle}"
@@ -212,8 +210,7 @@ def _splits(kind: str, shared_pins: bool | None, given: Range | None) -> tuple[E
     if kind == "boxer":
         return (HALF, HALF)
     if shared and given is not None:
-        given_text = inputs.shorten(given)
-        raise InputError(f"pin_split_deg = {given_text}: shared pins have none; leave one out")
+        raise inputs.rejected("pin_split_deg", given, "shared pins have none; leave one out")
     if shared or kind == "inline":
         return (0, 0)
     if given is None:

@@ -234,9 +234,7 @@ def match_parts(
             f"{several}"
         )
     listed = inputs.explicit_orders(orders)
-    start = inputs.whole("seed", seed)
-    if start < 0:
-        raise InputError(f"seed = {start}: give zero or more")
+    start = inputs.whole("seed", seed, 0)
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
@@ -282,10 +280,8 @@ def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]
     found = [assignment_of(ours, theirs[::-1]) for ours, theirs in zip(pistons, rods, strict=True)]
     everything = len(parts.pistons) == len(small) == count * sets
     if everything:
-        rising, falling = (
-            np.argsort(parts.pistons, kind="stable"),
-            np.argsort(-small, kind="stable"),
-        )
+        rising = np.argsort(parts.pistons, kind="stable")
+        falling = np.argsort(-small, kind="stable")
         together = windows(parts.pistons[rising] + small[falling], count, sets)
         others = [assignment_of(rising[each], falling[each]) for each in together]
         found = min(
@@ -439,16 +435,13 @@ class Match(Tabled):
     @property
     def unused(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """Numbers of the pistons and of the rods that are left."""
-        totals = [len(self.parts.pistons), 0 if self.parts.rods is None else len(self.parts.rods)]
-        used: list[set[int]] = [set(), set()]
-        for each in self.assignment:
-            used[0] |= set(each.pistons)
-            used[1] |= set(each.rods or ())
-        left = [
-            tuple(k for k in range(1, total + 1) if k not in taken)
-            for total, taken in zip(totals, used, strict=True)
-        ]
-        return left[0], left[1]
+        rods = () if self.parts.rods is None else self.parts.rods
+        pistons_used = {k for each in self.assignment for k in each.pistons}
+        rods_used = {k for each in self.assignment for k in each.rods or ()}
+        return (
+            tuple(k for k in range(1, len(self.parts.pistons) + 1) if k not in pistons_used),
+            tuple(k for k in range(1, len(rods) + 1) if k not in rods_used),
+        )
 
     @property
     def table(self) -> Table:

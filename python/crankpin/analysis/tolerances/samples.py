@@ -69,8 +69,8 @@ def _checked(name: str, request: Request) -> Objective:
             + ", ".join(f'"{name}"' for name in objectives.COMMON[:3])
         )
     if found.order is not None and found.order not in (request.orders or ()):
-        given = inputs.shorten(list(request.orders or ()))
-        raise InputError(f'orders = {given}: by = "{name}" needs order {found.order}')
+        hint = f'by = "{name}" needs order {found.order}'
+        raise inputs.rejected("orders", list(request.orders or ()), hint)
     if "torque" in name:
         request.check("torque")
     return found
