@@ -200,6 +200,30 @@ def test_pins_held_take_the_firing_along_as_banks_move_apart() -> None:
     assert np.allclose(again_90.firing_deg, v6.firing_deg)
 
 
+def test_a_copy_fires_in_the_same_turns_as_its_engine() -> None:
+    twin = cp.Engine.preset("v-twin-52")
+    twin = twin.replace(cylinder=twin.cylinders[0].replace(bore=BORE)).with_cycle(cycle())
+    for angle in (0.0, 60.0, 128.0, 180.0):
+        turned = twin.with_bank_angle(angle, hold="pins")
+        assert turned.replace(name=turned.name) == turned
+        apart = np.diff(turned.firing_deg) - np.diff(turned.firing().angles_deg)
+        assert np.allclose(apart % 720.0, 0.0)
+        assert np.array_equal(turned.replace(rotating_mass=0.1).firing_deg, turned.firing_deg)
+
+
+def test_a_copy_fires_as_the_engine_whose_order_was_dropped() -> None:
+    v6 = engines()["odd v6"].with_cycle(cycle())
+    turned = v6.with_bank_angle(0.0, hold="pins").with_bank_angle(180.0, hold="pins")
+    assert turned.fired
+    assert turned.firing_order == ""
+    assert turned.replace(name=turned.name) == turned
+    heavier = turned.replace(rotating_mass=0.3)
+    assert np.array_equal(heavier.firing_deg, turned.firing_deg)
+    assert heavier.cycles == turned.cycles
+    with pytest.raises(cp.InputError, match="firing_order = None"):
+        turned.replace(pin_deg=turned.pin_deg)  # of another crank nothing is known
+
+
 def test_a_cylinder_without_gas_and_one_that_is_weak() -> None:
     i4 = engines()["i4"]
     theta = np.arange(0.0, 720.0, 1.0)

@@ -389,6 +389,11 @@ class EngineData:
         cycles: Any = self.cycles if _is_kept(cycle) else cycle
         if cycles is None:
             return changed
+        pins_kept = tdc_deg is None and pin_deg is None and count == self.strokes
+        if _is_kept(cycle) and crankcase is None and pins_kept and firing_order is None:
+            # Each cylinder fires in the turn in which it did, whether or not its order was dropped.
+            fired = changed._core.fired_as(self._core, list(range(len(self))))
+            return type(self)(fired.firing_as(changed.firing_order, count))
         above = self.crankcase if crankcase is None else crankcase
         return changed.with_cycle(cycles, crankcase=ATMOSPHERE if above is None else above)
 

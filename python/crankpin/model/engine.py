@@ -239,6 +239,8 @@ class Engine(Builders):
     ) -> Firing:
         """Return angles and intervals of firing in an order; of several ways the most even.
 
+        Of an engine with cycles, without arguments, it is the way in which these fire.
+
         Parameters
         ----------
         firing_order
