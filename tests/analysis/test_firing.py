@@ -776,7 +776,7 @@ def test_command_lists_orders(capsys: CAPTURE) -> None:
 @pytest.mark.parametrize(
     ("argv", "words"),
     [
-        (["i4", "--order", "1-2-3-4"], "firing_order = 1-2-3-4: this crank cannot fire in"),
+        (["i4", "--order", "1-2-3-4"], "--order = 1-2-3-4: this crank cannot fire in"),
         (["i4", "--all", "--plot", "i4.png"], "--plot needs --order"),
         (["i4", "--order", "1-3-4-2", "--plot", "i4.txt"], "--plot = i4.txt: a picture's name"),
         (["ijesc-v6"], "NAME = ijesc-v6: firing takes one engine of ijesc-v6-1-3-5-2-4-6"),

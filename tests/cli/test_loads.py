@@ -84,6 +84,17 @@ def test_torque_is_that_of_the_library(capsys: CAPTURE, on: str) -> None:
     assert float(rows[3][2]) == np.angle(quantity[1.5].phasor, deg=True)
 
 
+def test_a_fired_engine_keeps_its_own_cycle(capsys: CAPTURE, tmp_path: Path) -> None:
+    engine = cp.Engine.preset("i4")
+    cycle = cp.Cycle.otto(engine.cylinders[0], compression_ratio=9, pressure_ratio=3)
+    fired = engine.with_cycle(cycle)
+    fired.save(tmp_path / "i4.toml")
+    out = printed(capsys, f"torque {tmp_path / 'i4.toml'} --orders 2")
+    assert f"{fired.balance(3000).crank_torque.mean:.2f}" in out
+    assert "petrol" not in out
+    assert "petrol" in printed(capsys, f"torque {tmp_path / 'i4.toml'} --cycle petrol")
+
+
 @pytest.mark.parametrize(
     ("command", "pictures"),
     [("torque", ["curves", "spectrum"]), ("bearings", ["polar", "curves", "bending"])],
@@ -106,6 +117,7 @@ def test_pictures_are_written(
         ("torque i4 --crankcase 1.2bars", "--crankcase = 1.2bars: give a number"),
         ("torque i4 --orders 0.25", "--orders = 0.25: give multiples of crank speed"),
         ("bearings i4 --load piston", "--load"),
+        ("bearings i4 --cycle petrol --bore 0", "--bore = 0.0: give metres above zero"),
     ],
 )
 def test_errors_name_the_option(capsys: CAPTURE, typed: str, message: str) -> None:

@@ -96,7 +96,9 @@ class Parser(argparse.ArgumentParser):
             raise InputError(f"{name} = {labels.cut(str(value))}: {hint}{meant}")
 
     def error(self, message: str) -> NoReturn:  # noqa: D102 - of the base class
-        raise InputError(f"{message}; see {self.prog} --help")
+        flag = re.fullmatch(r"argument (?:-\w/)?(--[\w-]+): expected one argument", message)
+        minus = f"; write a value that begins with a minus as {flag[1]}=-…" if flag else ""
+        raise InputError(f"{message}{minus}; see {self.prog} --help")
 
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
@@ -143,7 +145,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "FILE",
         "help": "cylinder pressure over crank angle: a text file of two columns under a header "
         "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example "
-        "(default: %(default)s)",
+        "(default: the engine's own, or else petrol)",
     },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {
@@ -166,6 +168,10 @@ OPTIONS: dict[str, dict[str, Any]] = {
     },
 }
 """Options of several commands."""
+
+
+RENAMED = {"firing_order": "order", "path": "out"}
+"""Argument of the library → the option of a command that has it under another name."""
 
 
 class Option(NamedTuple):
@@ -227,7 +233,8 @@ def in_options(message: str, options: Iterable[str]) -> str:
     known = {*options} - {"name", "names"}
 
     def option(found: re.Match[str]) -> str:
-        named = next((each for each in (found[0], found[1]) if each in known), None)
+        names = (found[0], found[1], RENAMED.get(found[0]))
+        named = next((each for each in names if each in known), None)
         return f"--{named.replace('_', '-')}" if named else found[0]
 
     said = re.sub(r"(?:(?<=^)|(?<=; ))(\w+?)(?:_deg|_mass)?(?=(?: =| is| has|\[))", option, message)
@@ -433,6 +440,7 @@ def _hint(typed: str, unit: str) -> str:
     """Return what may be typed behind a number, and how a range is typed."""
     if re.fullmatch(r"\d+(\.\d+)?\s*(-|–|\.\.|to)\s*\d+(\.\d+)?°?", typed):
         low, high = re.findall(r"\d+(?:\.\d+)?", typed)
-        return f", such as {low}:{high}:10"
+        half = abs(float(high) - float(low)) / 2.0 or 1.0
+        return f", such as {low}:{high}:{10.0 ** math.floor(math.log10(half)):g}"
     known = {"kg": "g, lb, oz", "m": "mm, in", "kg·m": "g·mm, oz·in", "": "%"}.get(unit)
     return f", such as 12 or with a unit ({known})" if known and NUMBER.fullmatch(typed) else ""

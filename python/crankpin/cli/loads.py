@@ -30,8 +30,7 @@ ON = {"crank": "crank_torque", "block": "torque"}
         default="crank",
         help="torque that is printed (default: %(default)s)",
     ),
-    option("--cycle", default="petrol"),
-    "--bore --crankcase",
+    "--cycle --bore --crankcase",
     option(
         "--picture",
         choices=("curves", "spectrum"),
@@ -44,7 +43,7 @@ ON = {"crank": "crank_torque", "block": "torque"}
     "The engine needs a firing order.",
 )
 def _torque(given: Given) -> Shown:
-    engine, note = _fired(given, "torque")
+    engine, note = _fired(given, "torque", otherwise="petrol")
     chosen, rpm = given.chosen(), given.number("--rpm", "rpm")
     balance, quantity = engine.balance(rpm, **chosen), ON[given.text("--on")]
     drawn = balance if given.text("--picture") == "spectrum" else engine.waveform(rpm)
@@ -61,7 +60,7 @@ def _torque(given: Given) -> Shown:
     option(
         "--cycle",
         help="cylinder pressure over crank angle: a file, or petrol or diesel for an example "
-        "(default: none)",
+        "(default: the engine's own, if it has one)",
     ),
     "--bore --crankcase",
     option(
@@ -99,17 +98,21 @@ def _bearings(given: Given) -> Shown:
     return Shown(table, loads, {"kind": kind, **options}, note=note)
 
 
-def _fired(given: Given, name: str) -> tuple[Engine, str]:
+def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
     """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
     engine, typed = given.engine(name), given.text("--cycle")
     if typed is None:
-        return engine, ""
+        if engine.fired or otherwise is None:
+            return engine, ""
+        typed = otherwise
     example = typed in EXAMPLES
     cycle = Cycle.example(typed, strokes=engine.strokes) if example else Cycle.load(typed)
     bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [
-        each.replace(bore=bore or each.bore or each.stroke) if unknown or bore else each
+        each.replace(bore=(each.bore or each.stroke) if bore is None else bore)
+        if unknown or bore is not None
+        else each
         for each in engine.cylinders
     ]
     fired = engine.replace(cylinder=cylinders).with_cycle(
