@@ -103,6 +103,10 @@ def fitted(draw: st.DrawFn) -> cp.Engine:
     return engine
 
 
+# Of compression alone the work is nothing; with its angles reversed a cycle takes what it gave.
+MOTORED = cp.Cycle.motored(cp.Engine.preset("i4").cylinders[0], compression_ratio=9)
+BRAKING = cp.Cycle(-PETROL.theta_deg[::-1], PETROL.pressure[::-1])
+
 PRESETS = [cp.Engine.preset(name) for name in cp.presets()]
 V8, I4, SINGLE = (cp.Engine.preset(name) for name in ("v8-crossplane", "i4", "single"))
 CYLINDER = I4.cylinders[0].replace(bore=0.086)
@@ -523,8 +527,38 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         cp.Engine.preset("v6-90-odd-fire"),
         None,
         ("It fires unevenly, at intervals of 150-90-150-90-150-90°: 1-6-5-4-3-2.\n"
-        "Uneven firing leaves gas torque of orders 1.5 and 3."),
+        "Uneven firing leaves gas torque of orders 1.5 and 3, and of higher ones."),
     ),
+    # Its rows are offset to either side: what is left below order 3 is theirs.
+    (
+        cp.Engine.preset("vr6").with_cycle(PETROL),
+        None,
+        ("It fires evenly, every 120°: 1-5-3-6-2-4.\nEven firing of unlike cylinders leaves gas "
+        "torque of orders 0.5, 1.5, 2.5 and 3, and of higher ones."),
+    ),
+    (
+        I4.replace(cylinder=CYLINDER).with_cycle(MOTORED),
+        None,
+        "Gas pressure does no work over a cycle; its torque has peaks of ",
+    ),
+    (
+        I4.replace(cylinder=CYLINDER).with_cycle(BRAKING),
+        None,
+        "Gas pressure brakes the crank with ",
+    ),
+    # What turns with the crank is removed by the counterweights alone.
+    (
+        cp.bob_weight(SINGLE).fitted.with_shafts([cp.Shaft(-1, [cp.Unbalance(0.01, 0.0, 270)])]),
+        3000,
+        ("The counterweight and the balance shaft reduce the shaking force of order 1 from 1.91 kN "
+        "to 32.1 N, none of which turns with the crank."),
+    ),
+    (
+        cp.Engine.inline(cp.Cylinder(0.5, 1.5, 100.0), throws_deg=[0, 100, 250], spacing=1.2),
+        None,
+        "rocking moment of one piston's first-order force F at a lever of 1.97 m, in pitch",
+    ),
+    (WITH_HARDWARE[-2], 3000, "as large as a millionth of one throw's first-order force."),
     (V8, None, ("It fires evenly, every 90°: 1-8-4-3-6-5-7-2.\n"
      "Gas torque begins at order 4: all lower orders cancel exactly.")),
     (
@@ -542,6 +576,14 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
 @pytest.mark.parametrize(("engine", "rpm", "expected"), SENTENCES)
 def test_words(engine: cp.Engine, rpm: float | None, expected: str) -> None:
     assert expected in str(engine.explain(rpm))
+
+
+def test_pistons_that_pull_nothing_do_not_pull_together() -> None:
+    shaft = cp.Shaft(3, [cp.Unbalance(0.01, 0.15)])
+    found = str(I4.with_shafts([shaft]).explain(RPM))
+    assert "Order 3 leaves a shaking force of 8.88 kN, constant in size, turning with" in found
+    assert re.search("Order 3 .*together", found) is None
+    assert "pull together" in found  # at order 2
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,9 @@ class Sums:
         bores = np.exp(-1j * np.radians(self.engine.bank_deg))
         pulls = self.cylinders[:, 1, k] * bores  # counterweights and throws have no backward part
         largest = np.abs(pulls).max()
-        return len(pulls) > 1 and abs(np.abs(pulls).sum() - abs(pulls.sum())) <= ROUNDING * largest
+        if len(pulls) < 2 or not largest:
+            return False
+        return bool(abs(np.abs(pulls).sum() - abs(pulls.sum())) <= ROUNDING * largest)
 
     # --- why orders cancel ----------------------------------------------------------------------
 

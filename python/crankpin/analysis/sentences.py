@@ -32,6 +32,8 @@ LISTED = 4
 """Most pairs of cylinders that a sentence lists."""
 LINE = 1e-9
 """Forward and backward parts that differ by less make a straight line."""
+LONG = 0.9995
+"""Levers from here on, m, are given in metres: in millimetres they have more than three digits."""
 SAME = 0.005
 """Peaks that differ by less are as large in three digits, or nearly."""
 
@@ -65,7 +67,8 @@ def size(value: float, quantity: str, whole: Explanation, *, up: bool = False) -
         return f"{figure(value, QUANTITIES[quantity].unit_over_square, up=up)} times ω²"
     force, share = unit_force(whole), value / whole.unit
     if quantity == "moment":
-        return f"{force} at a lever of {figure(1e3 * share, 'mm', up=up)}"
+        lever = figure(share, "m", up=up) if share >= LONG else figure(1e3 * share, "mm", up=up)
+        return f"{force} at a lever of {lever}"
     if abs(share - 1.0) <= SAME:
         return force
     text = figure(100.0 * share, "% of", up=up) if share < 1.0 else figure(share, "times", up=up)
@@ -183,12 +186,16 @@ def _hardware(finding: Finding, whole: Explanation) -> str:
         return f"{subject} remove{s} the whole {what}, {was}: it is {zero}"
     if abs(now - before) <= SAME * before:
         return f"{subject} leave{s} the {what} at {left} and turn{s} its direction"
+    rest = ""
     for part, still, sense in ((forward, after[0], "with"), (backward, after[1], "against")):
         if part and not still:
+            if len(acting) > 1:  # of which one may do nothing in this sense
+                rest = f", none of which turns {sense} the crank"
+                continue
             all_of = f"all of the {what} that turns {sense} the crank"
             return f"{subject} remove{s} {all_of}: it changes from {was} to {left}"
     verb = "reduce" if now < before else "raise"
-    return f"{subject} {verb}{s} the {what} from {was} to {left}"
+    return f"{subject} {verb}{s} the {what} from {was} to {left}{rest}"
 
 
 def _cancels(finding: Finding, whole: Explanation) -> str:
@@ -224,7 +231,7 @@ def _rest(finding: Finding, whole: Explanation) -> str:
         if value > NEGLIGIBLE * scale
     ]
     if not found:
-        return f"no {other}order is as large as a millionth of one piston's first-order force"
+        return f"no {other}order is as large as a millionth of {unit_force(whole)}"
     return f"all {other}orders together make at most {listed(found)}"
 
 
@@ -234,9 +241,15 @@ def _inertia_torque(finding: Finding, whole: Explanation) -> str:
 
 
 def _gas_torque(finding: Finding, whole: Explanation) -> str:
-    mean, *peaks = (figure(value, "N·m") for value in finding.values)
-    each = (f"{peak} at order {order:g}" for peak, order in zip(peaks, finding.orders, strict=True))
-    return f"gas pressure turns the crank with {mean} on average, and peaks of {listed(each)}"
+    mean, *peaks = finding.values
+    each = (
+        f"{figure(peak, 'N·m')} at order {order:g}"
+        for peak, order in zip(peaks, finding.orders, strict=True)
+    )
+    if abs(mean) <= NEGLIGIBLE * max(peaks):
+        return f"gas pressure does no work over a cycle; its torque has peaks of {listed(each)}"
+    verb, size_of = "turns" if mean > 0.0 else "brakes", figure(abs(mean), "N·m")
+    return f"gas pressure {verb} the crank with {size_of} on average, and peaks of {listed(each)}"
 
 
 def _firing(finding: Finding, whole: Explanation) -> str:
@@ -254,9 +267,11 @@ def _gas_orders(finding: Finding, whole: Explanation) -> str:
     if finding.orders == (first,):
         lower = ": all lower orders cancel exactly" if len(whole.engine) > 1 else ""
         return f"gas torque begins at order {first:g}{lower}"
-    return (
-        f"{finding.reason.removesuffix('ly')} firing leaves gas torque of {orders(finding.orders)}"
-    )
+    left, firing = orders(finding.orders), f"{finding.reason.removesuffix('ly')} firing"
+    cylinders = whole.engine.cylinders
+    if len({(each.stroke, each.rod_length, each.pin_offset, each.bore) for each in cylinders}) > 1:
+        firing += " of unlike cylinders"
+    return f"{firing} leaves gas torque of {left}, and of higher ones"
 
 
 def _articulated(finding: Finding, whole: Explanation) -> str:

@@ -35,10 +35,11 @@ HIGHEST = 12
 class StarDiagram(Keyed, Tabled):
     """Phase vectors of the cylinders of an engine, and their sums, order by order.
 
-    At order k the gas torque of a cylinder that fires at the crank angle φ has the phase
-    exp(−ikφ). Of cylinders with one cycle the sum of these vectors, times the torque's harmonic of
-    one cylinder, is the engine's; with the amplitudes of a torsional mode shape as their lengths it
-    is what excites the mode. ``d[1.5]`` is a sum.
+    At order k the gas torque of a cylinder whose firing top dead centre, its crankpin in line with
+    the bore, is at the crank angle φ has the phase exp(−ikφ). Of alike cylinders with one cycle the
+    sum of these vectors, times the torque's harmonic of one cylinder, is the engine's; with the
+    amplitudes of a torsional mode shape as their lengths it is what excites the mode. ``d[1.5]`` is
+    a sum.
 
     Made by :func:`crankpin.star_diagram`.
 
