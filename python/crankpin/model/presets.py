@@ -19,7 +19,6 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, tables
-from crankpin._support.record import AbsentError
 from crankpin.model.cylinder import Cylinder
 from crankpin.model.engine import Engine
 
@@ -71,8 +70,9 @@ class Presets(Mapping[str, Engine]):
         rows = []
         for name, engine in self.items():
             text = labels.cut(_data()["engines"][name][column], longest)
-            order = engine.firing_order or "–"
-            rows.append((name, len(engine), _bank_angle(engine), order, text))
+            angle = getattr(engine, "bank_angle_deg", None)
+            banks = "–" if angle is None else f"{angle:.6g}"
+            rows.append((name, len(engine), banks, engine.firing_order or "–", text))
         return tables.Table.from_rows("Presets", header, rows, np.empty((len(rows), 0)))
 
 
@@ -260,13 +260,6 @@ def _unknown(name: object) -> str:
     if not isinstance(name, str):
         return f"name = {inputs.shorten(name)}: give the name of a preset, as a string"
     return f"name = {suggestion(name)}"
-
-
-def _bank_angle(engine: Engine) -> str:
-    try:
-        return f"{engine.bank_angle_deg:.6g}"
-    except AbsentError:
-        return "–"
 
 
 @functools.cache

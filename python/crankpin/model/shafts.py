@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
 from crankpin._core import InputError
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from crankpin._support.inputs import Angle
+    from crankpin._support.record import Item
 
 _Weight: TypeAlias = tuple[float, str, float, int | None]
 
@@ -116,7 +117,7 @@ class Shaft:
         object.__setattr__(self, "x", inputs.finite("x", self.x))
         object.__setattr__(self, "y", inputs.finite("y", self.y))
         object.__setattr__(self, "name", inputs.text("name", self.name))
-        object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances))
+        object.__setattr__(self, "unbalances", _listed("unbalances", self.unbalances, Unbalance))
         for k, each in enumerate(self.unbalances):
             if each.pin is not None:
                 hint = "leave it out: only the crankshaft has crankpins"
@@ -125,7 +126,7 @@ class Shaft:
 
 def with_counterweights(core: _core.Engine, weights: Iterable[Unbalance]) -> _core.Engine:
     """Return an engine with these unbalances on its crankshaft."""
-    listed = _listed("counterweights", weights)
+    listed = _listed("counterweights", weights, Unbalance)
     made = core.with_counterweights([_weight(weight) for weight in listed])
     checks.hardware(core, listed, ())
     return made
@@ -138,10 +139,7 @@ def counterweights(core: _core.Engine) -> tuple[Unbalance, ...]:
 
 def with_shafts(core: _core.Engine, given: Iterable[Shaft]) -> _core.Engine:
     """Return an engine with these balance shafts."""
-    listed = inputs.items("shafts", given, "give a list of crankpin.Shaft")
-    for k, each in enumerate(listed):
-        if not isinstance(each, Shaft):
-            raise inputs.rejected(f"shafts[{k}]", each, "give a crankpin.Shaft")
+    listed = _listed("shafts", given, Shaft)
     made = core.with_shafts(
         [
             (each.name, each.ratio, each.x, each.y, [_weight(u) for u in each.unbalances])
@@ -175,11 +173,11 @@ def lines(core: _core.Engine) -> list[str]:
     return found
 
 
-def _listed(name: str, given: Any) -> tuple[Unbalance, ...]:  # noqa: ANN401 - checked here
-    listed = inputs.items(name, given, "give a list of crankpin.Unbalance")
+def _listed(name: str, given: object, kind: type[Item]) -> tuple[Item, ...]:
+    listed = inputs.items(name, given, f"give a list of crankpin.{kind.__name__}")
     for k, each in enumerate(listed):
-        if not isinstance(each, Unbalance):
-            raise inputs.rejected(f"{name}[{k}]", each, "give a crankpin.Unbalance")
+        if not isinstance(each, kind):
+            raise inputs.rejected(f"{name}[{k}]", each, f"give a crankpin.{kind.__name__}")
     return tuple(listed)
 
 

@@ -95,13 +95,9 @@ def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) 
     """Draw one series: a line up to each peak, a marker there, a hollow circle for zero."""
     along = np.repeat(orders, 3)
     up = np.stack([np.zeros_like(peaks), peaks, np.full_like(peaks, np.nan)], axis=1).ravel()
-    of_series: dict[str, Any] = {
-        "marker": MARKERS[count_series(ax) % len(MARKERS)],
-        "markersize": 5.0,
-    }
-    of_series |= style
-    of_series["markevery"] = slice(1, None, 3)
-    (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **of_series)
+    look: dict[str, Any] = {"marker": MARKERS[count_series(ax) % len(MARKERS)], "markersize": 5.0}
+    look |= style | {"markevery": slice(1, None, 3)}
+    (line,) = ax.plot(along, up, gid=SERIES, label=text, zorder=2.5, **look)
     zeros = orders[peaks == 0.0]
     known = ZERO in ax.get_legend_handles_labels()[1]
     look = {"markersize": 5.0, "transform": ax.get_xaxis_transform(), "gid": ZEROS}

@@ -54,11 +54,9 @@ def _firing(
 ) -> Axes:
     rows = [cylinder for bank in result.banks for cylinder in bank]
     room = 1.0 if ax is None else 0.55  # the legend of given axes will take its part
-    if ax is None:
-        ax = axes_or_new(ax)
+    new, ax = ax is None, axes_or_new(ax)
+    if new:
         _make_room(ax, len(rows))
-    else:
-        ax = axes_or_new(ax)
     row_height = room * _row_height(ax, len(rows))
     inlet, exhaust, compression, power = _inks(ax)
     faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}

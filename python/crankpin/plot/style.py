@@ -110,15 +110,11 @@ def colours(ax: Axes, count: int) -> list[Any]:
 
 
 def scale(ax: Axes, count: int) -> list[Any]:
-    """Return colours of a scale, without the end that is close to the background."""
-    return list(scale_of(ax)(np.linspace(0.0, 1.0, count)))
-
-
-def scale_of(ax: Axes) -> colors.Colormap:
-    """Return the scale of colours: viridis without its end that is close to the background."""
+    """Return colours of viridis, without its end that is close to the background."""
     dark = float(np.mean(background(ax))) < 0.5
     low, high = (0.2, 1.0) if dark else (0.0, 0.92)
-    return colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
+    colours_of = colors.ListedColormap(mpl.colormaps["viridis"](np.linspace(low, high, 256)))
+    return list(colours_of(np.linspace(0.0, 1.0, count)))
 
 
 def series(ax: Axes, count: int, style: Mapping[str, Any] | None = None) -> list[dict[str, Any]]:

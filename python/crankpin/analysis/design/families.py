@@ -128,20 +128,17 @@ def _all(question: Question) -> Iterator[Family]:
 def _of_throws(question: Question) -> Iterator[Family]:
     """Yield the families of given throws in all orders, or of free ones."""
     count = question.count
-    variables = []
-    fixed: Exact = 0
+    variables: list[Variable] = []
+    splits: tuple[Exact, ...] = ()
+    angle: Exact | None = None
     if question.banks == 2:
         low, high = question.bank_angle
-        fixed = low if low == high else fixed
+        angle = low if low == high else 0
         variables += [Variable(low, high, bank_angle=1)] if low < high else []
-        split = question.pin_split[0] if question.fixed_split else 0
-        splits: tuple[Exact, ...] = (split,) * count
+        splits = (question.pin_split[0] if question.fixed_split else 0,) * count
         if not question.fixed_split:
             groups = [(1,) * count] if question.same_split else _units(count)
             variables += [Variable(*question.pin_split, splits=group) for group in groups]
-    else:
-        splits = ()
-    angle = fixed if question.banks == 2 else None
     if question.free_throws:
         turning = [Variable(0, TURN, throws=unit) for unit in _units(count)[1:]]
         base = Crank.of([0] * count, splits, angle)
