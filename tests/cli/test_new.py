@@ -192,6 +192,11 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
     [
         ("new v6-75", '"v6-75": no such preset; .* build it by crankpin new v6 --bank-angle 75; '),
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
+        ("new lists --banks 90 --z 0", "new lists needs --tdc or --pins; see crankpin new --help"),
+        (
+            "new v6 --stroke 80mm --rod 150mm --piston 1 --rod-mass 1 --rod-centre 200mm",
+            "--rod-centre = 0.2: give metres, 0 to length = 0.15",
+        ),
         (
             "new v8 --cylinders 8",
             "--cylinders does not apply to v8, which takes --bank-angle, --throws, ",

@@ -170,7 +170,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
 """Options of several commands."""
 
 
-RENAMED = {"firing_order": "order", "path": "out"}
+RENAMED = {"firing_order": "order", "path": "out", "to_crankpin": "rod_centre"}
 """Argument of the library → the option of a command that has it under another name."""
 
 

@@ -197,6 +197,8 @@ def _changes(given: Given, kind: str, base: presets.Layout) -> dict[str, Any]:
         and takes[name].default is inspect.Parameter.empty
         and name not in base.arguments | changes
     ]
+    if "tdc_deg" in takes and not {"tdc_deg", "pin_deg", "places"} & {*base.arguments, *changes}:
+        needed.append("--tdc or --pins")
     if needed:
         raise InputError(f"new {kind} needs {', '.join(needed)}; see {PROG} new --help")
     return changes
