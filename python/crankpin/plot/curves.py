@@ -20,7 +20,7 @@ from crankpin.plot.style import (
     MARKERS,
     SERIES,
     cycle,
-    entry,
+    entries_of,
     foreground,
     muted,
     ring,
@@ -195,9 +195,8 @@ def curves(
     bundle = _draw(made.axes, sweep, name, along, rows, style)
     what = rows.columns[0] if made.single else rows.note
     made.set_title(words.title, words.subtitle(name), what)
-    marks = [entry_of(made.axes, text) for text in (ZERO, LEAST)]
     made.add_legend(
-        [*bundle.handles, *filter(None, marks)],
+        [*bundle.handles, *entries_of(made.axes, ZERO, LEAST)],
         words.common if bundle.handles or made.single else "",
     )
     return made.drawn
@@ -312,8 +311,3 @@ def mark(
         value = float(peaks.min())
         ring(ax, np.array([place]), np.array([value]), foreground(ax), "D", LEAST)
         write_at_mark(ax, place, value, at(along, place))
-
-
-def entry_of(panels: NDArray[Any], text: str) -> Line2D | None:
-    """Return the legend's entry for marks that some panel has."""
-    return next(filter(None, (entry(panel, text) for panel in panels.flat)), None)

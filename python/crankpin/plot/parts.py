@@ -13,10 +13,10 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.curves import ZERO, Curve, entry_of, lines, mark
+from crankpin.plot.curves import ZERO, Curve, lines, mark
 from crankpin.plot.layout import Panels, label_x, label_y, make_panels, set_panel_title, width_for
 from crankpin.plot.rows import MOST, along_x, dimension, given_orders, largest, values_of, words_of
-from crankpin.plot.style import DISTINCT, series
+from crankpin.plot.style import DISTINCT, entries_of, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import drawn_quantity, nonzero_in
 
@@ -78,7 +78,7 @@ def parts(
     what = f"order {chosen[0]}" if made.single else note
     made.set_title(words.title, words.subtitle(name), what)
     both = panels[0, 0].get_legend_handles_labels()[0][:2]
-    made.add_legend([*both, *filter(None, [entry_of(panels, ZERO)])])
+    made.add_legend([*both, *entries_of(panels, ZERO)])
     return made.drawn if made.single else panels
 
 

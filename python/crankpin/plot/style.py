@@ -199,11 +199,12 @@ def write_at_mark(ax: Axes, x: float, y: float, text: str, *, beside: bool = Fal
     write(ax, text, complex(x, y), aside, color=foreground(ax), zorder=5, **look)
 
 
-def entry(ax: Axes, label: str) -> Line2D | None:
-    """Return an entry of a legend for marks on axes, if there are any."""
-    for line in ax.lines:
-        if line.get_label() == label:
-            handle = Line2D([], [], linestyle="", marker=line.get_marker(), label=label)
-            handle.set(markeredgecolor=foreground(ax), markerfacecolor="none")
-            return handle
-    return None
+def entries_of(panels: NDArray[Any], *labels: str) -> list[Line2D]:
+    """Return entries of a legend for the marks that some panel has."""
+    drawn = {line.get_label(): line for panel in panels.flat for line in panel.lines}
+    look = {"markeredgecolor": foreground(panels.flat[0]), "markerfacecolor": "none"}
+    return [
+        Line2D([], [], linestyle="", marker=drawn[label].get_marker(), label=label, **look)
+        for label in labels
+        if label in drawn
+    ]

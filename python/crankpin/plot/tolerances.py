@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.patches import Rectangle
 
 from crankpin._support import inputs, labels
 from crankpin.analysis.ranking import objectives
@@ -134,7 +132,7 @@ def _shares(result: Tolerances, ax: Axes, by: str | None, style: dict[str, Any])
         "sums differ from 100 % where tolerances interact" if interact else "",
     )
     left = np.zeros(len(rows))
-    looks = series(ax, len(parts), mpl.cbook.normalize_kwargs(style, Rectangle))
+    looks = series(ax, len(parts), style)
     for part, look in zip(parts, looks, strict=True):
         values = np.array(part.values)
         seen = bool((values >= LEAST_SHARE).any())
