@@ -75,16 +75,16 @@ def test_grids_closed_open_shifted_and_uneven_give_one_torque() -> None:
         np.testing.assert_allclose(cycle.torque_harmonics(CYLINDER, ORDERS), phasors, atol=2e-3)
 
 
-def test_the_error_bound_of_a_table_holds_and_follows_its_resolution() -> None:
+def test_the_error_estimate_of_a_table_holds_and_follows_its_resolution() -> None:
     _, phasors = expected(CYLINDER, ORDERS)
     before = np.inf
     for count in (90, 180, 360, 720):
         cycle = sampled(np.linspace(0, 720, count, endpoint=False))
-        bound = cycle.resolution_error(CYLINDER, ORDERS)
+        estimate = cycle.resolution_error(CYLINDER, ORDERS)
         error = abs(cycle.torque_harmonics(CYLINDER, ORDERS) - phasors)
-        assert (error <= bound).all()
-        assert bound.max() < before
-        before = float(bound.max())
+        assert (error <= estimate).all()
+        assert estimate.max() < before
+        before = float(estimate.max())
     # From 180 points to 720: twice a factor of 16, and room for the limited slopes.
     assert before < 0.0466 / 100
 

@@ -72,10 +72,10 @@ pub struct FittedWeights {
 /// Vectors in the cross-section, a row for each plane or for each equation.
 pub(super) type Vectors = DMatrix<f64>;
 
-/// Part of the target that solvers may miss, to be made up by weights with room for it; part of a
-/// minimum that may be missing.
+/// Part of the target that the nearest weights may miss; part of a minimum that may be missing.
 pub(super) const REACHED: f64 = 1e-9;
-/// Part that the least largest weights may miss where a plane hardly sees what is missing.
+/// Part of the target that is made up by weights with room for it: the least largest weights miss so much
+/// where a plane hardly sees what is missing.
 const EDGE: f64 = 1e-7;
 /// Room of such weights, relative to the target and to their bounds.
 const ROOM: f64 = 1e-6;
