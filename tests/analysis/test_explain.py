@@ -498,6 +498,11 @@ SENTENCES: list[tuple[cp.Engine, float | None, str]] = [
         "crank: it changes from 1.91 kN to 955 N."),
     ),
     (
+        cp.Engine.preset("i4").with_shafts([cp.Shaft(-2, [cp.Unbalance(1e-4, 0.0)])]),
+        None,
+        "Two more balance shafts at twice crank speed, one with the crank and one against it",
+    ),
+    (
         cp.Engine.preset("i2-180"),
         None,
         "The shaking force of order 1 is exactly zero: the pistons are opposite.",

@@ -27,6 +27,7 @@ CYLINDER = cp.Cylinder(0.043, 0.145, 0.45)
 I4 = cp.Engine.inline(
     CYLINDER, throws_deg=[0, 180, 180, 0], spacing=0.1, firing_order="1-3-4-2", name="four"
 )
+SEARCH = cp.search_arrangements(14, alternating=True)
 TWO_STROKE = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
 V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 240, 120], spacing=0.1)
 
@@ -130,6 +131,22 @@ def test_the_firing_order_begins_with_cylinder_1() -> None:
     assert I4.replace(firing_order=(k for k in (1, 3, 4, 2))) == I4
     made = cp.Engine.from_firing_order(CYLINDER, (k for k in (3, 4, 2, 1)), spacing=0.1)
     assert made.firing_order == "1-3-4-2"
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda spacing: cp.Engine.inline(CYLINDER, throws_deg=[0, 180], spacing=spacing),
+        lambda spacing: vee(spacing=spacing),
+        lambda spacing: cp.Engine.boxer(CYLINDER, throws_deg=[0, 180], spacing=spacing),
+        lambda spacing: cp.Engine.from_firing_order(CYLINDER, "1-3-4-2", spacing=spacing),
+        lambda spacing: cp.Engine.radial(CYLINDER, cylinders=14, rows=2, spacing=spacing),
+        lambda spacing: SEARCH.at(9.13)[0].engine(CYLINDER, spacing=spacing),
+    ],
+)
+def test_spacing_is_a_distance(build: Callable[[float], cp.Engine]) -> None:
+    with pytest.raises(cp.InputError, match=r"spacing = -0.1: give a number that is zero or more"):
+        build(-0.1)
 
 
 def test_a_firing_order_that_the_crank_does_not_allow_is_rejected() -> None:

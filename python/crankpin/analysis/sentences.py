@@ -145,13 +145,15 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
         return f"{other} could remove all of {what}"
     senses = ["with" if ratio > 0 else "against" for ratio in ratios]
     speed = SPEEDS[finding.orders[0]]
-    shaft = f"a balance shaft at {speed}, {senses[0]} the crank"
+    fitted = any(shaft.ratio in ratios for shaft in whole.engine.shafts)
+    one, two = ("another", "two more") if fitted else ("a", "two")
+    shaft = f"{one} balance shaft at {speed}, {senses[0]} the crank"
     if len(ratios) > 1:
         both = f"one {senses[0]} the crank and one {senses[1]} it"
-        shaft = f"two balance shafts at {speed}, {both}"
+        shaft = f"{two} balance shafts at {speed}, {both}"
     if finding.reason:
         left = size(kept, finding.quantity, whole)
-        rest = "the rest turns against the crank, and takes a balance shaft that does so"
+        rest = f"the rest turns against the crank, and takes {one} balance shaft that does so"
         return f"{other} could bring {what} down to {left}; {rest} at {speed}"
     if finding.orders == (1,):
         return f"no counterweight reaches {what}: it takes {shaft}"

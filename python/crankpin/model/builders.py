@@ -352,6 +352,8 @@ class Builders(EngineData):
         if spacing is None and banks == 2:
             raise InputError("spacing = None: give the distance between the two rows, m")
         distance = inputs.number("spacing", 0.0 if spacing is None else spacing)
+        if distance < 0.0:
+            raise inputs.rejected("spacing", spacing, "give a number that is zero or more")
         pins = [place % banks * 180 for place in range(count)]
         around = [360 * place for place in range(count)]
         core = core_of_lists(
