@@ -15,6 +15,7 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
+THREADS = 4
 PARTS = ("forward", "backward", "peak", "peak_xy", "xy", "zero_bound")
 
 
@@ -33,7 +34,7 @@ def test_several_python_threads_at_once_find_the_same_bits() -> None:
     names = list(long_calls.CALLS)
     alone = {name: long_calls.digest(long_calls.CALLS[name]()) for name in names}
     found: list[tuple[str, str]] = []
-    together = threading.Barrier(8)
+    together = threading.Barrier(THREADS)
 
     def work(first: int) -> None:
         together.wait()
@@ -41,12 +42,12 @@ def test_several_python_threads_at_once_find_the_same_bits() -> None:
         order = names[first:] + names[:first]
         found.extend((name, long_calls.digest(long_calls.CALLS[name]())) for name in order)
 
-    threads = [threading.Thread(target=work, args=(2 * k,)) for k in range(8)]
+    threads = [threading.Thread(target=work, args=(4 * k,)) for k in range(THREADS)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(found) == 8 * len(names)
+    assert len(found) == THREADS * len(names)
     assert all(alone[name] == hashed for name, hashed in found)
 
 
@@ -87,7 +88,7 @@ def test_results_are_read_from_many_threads() -> None:
         for _ in range(150):
             result = v6.balance(5000, orders=range(1, 9))
             failures: list[BaseException] = []
-            together = threading.Barrier(8)
+            together = threading.Barrier(THREADS)
 
             def read(first: int) -> None:
                 together.wait()  # noqa: B023 - joined below
