@@ -151,6 +151,16 @@ except MemoryError as error:
         (0, "found = cp.search_arrangements(22)", "for each in found: pass"),
         (0, "several = v6.balance(5000, orders=range(1, 10_001))", "several.total.force.peak"),
         (
+            3.5,
+            "many = cp.Engine.inline(v6.cylinders[0], throws_deg=range(1000), spacing=0.1)",
+            "many.balance(5000, orders=range(1, 10_001)).total.force.peak",
+        ),
+        (
+            10,
+            "given = {'planes': np.linspace(0, 1, 60), 'angles_deg': range(0, 360, 4)}",
+            "cp.counterweights(v6, **given, bound=0.01)",
+        ),
+        (
             0.5,
             "ratios = np.linspace(0.1, 0.5, 20_000)",
             "cp.sweep(v6, rpm=3000, rod_ratio=ratios, orders=[1, 2, 4]).total.moment.peak",

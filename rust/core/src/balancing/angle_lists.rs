@@ -6,6 +6,7 @@ use super::least_squares::{Minimum, PENALTIES, minimum, stack};
 use super::weights::{PlacedWeight, Problem, REACHED, ROUNDING, Vectors};
 use crate::Complex64;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 
 /// Unit vectors allowed in each plane.
 type Directions = [Vec<Complex64>];
@@ -17,7 +18,7 @@ pub(super) fn nearest(
     target: &Vectors,
     bounds: &[f64],
 ) -> Result<Option<Vec<PlacedWeight>>> {
-    let columns = AngleColumns::new(problem, directions, bounds);
+    let columns = AngleColumns::new(problem, directions, bounds)?;
     let room = DVector::from_vec(finite(bounds).map(|p| bounds[p]).collect());
     let start = columns.variables(&[], bounds);
     let goal = DVector::from_column_slice(target.as_slice());
@@ -79,7 +80,7 @@ fn squares(
     found: &[PlacedWeight],
 ) -> Result<Option<Vec<PlacedWeight>>> {
     let (bounds, equations) = (&problem.bounds, problem.target.len());
-    let columns = AngleColumns::new(problem, directions, bounds);
+    let columns = AngleColumns::new(problem, directions, bounds)?;
     let mut sums = DMatrix::zeros(bounds.len(), columns.made.ncols());
     for (j, &(plane, _)) in columns.places.iter().enumerate() {
         sums[(plane, j)] = 1.0;
@@ -127,7 +128,7 @@ struct AngleColumns {
 }
 
 impl AngleColumns {
-    fn new(problem: &Problem, directions: &Directions, bounds: &[f64]) -> Self {
+    fn new(problem: &Problem, directions: &Directions, bounds: &[f64]) -> Result<Self> {
         let places: Vec<(usize, usize)> = directions
             .iter()
             .enumerate()
@@ -136,12 +137,15 @@ impl AngleColumns {
         let units: Vec<_> = places.iter().map(|&(p, k)| (p, directions[p][k])).collect();
         let bounded: Vec<usize> = finite(bounds).collect();
         let (amounts, room) = (places.len(), bounded.len());
+        // As much as these matrices, sums by plane and stacks of them take: nalgebra would abort.
+        let rows = 2 * problem.rows.nrows() + room + bounds.len();
+        memory::room::<f64>(4 * rows * (amounts + room))?;
         let made = made_by(&problem.rows, &units).resize_horizontally(amounts + room, 0.0);
         let filled = DMatrix::from_fn(room, amounts + room, |row, j| {
             let is_own = if j < amounts { places[j].0 == bounded[row] } else { j - amounts == row };
             f64::from(is_own)
         });
-        Self { places, units, made, filled }
+        Ok(Self { places, units, made, filled })
     }
 
     fn weights(&self, x: &DVector<f64>) -> Vec<PlacedWeight> {

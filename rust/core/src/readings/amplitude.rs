@@ -5,6 +5,7 @@ use crate::gear::harmonics::rod::TorqueHarmonics;
 use crate::load::{Harmonic, Loads, Scale, Source, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
+use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::pressure::GasTorque;
 use crate::wrench::{Planar, Wrench, rounding, snapped};
@@ -53,7 +54,10 @@ pub(crate) fn wrenches(
         }
         Ok(wrench)
     };
-    let wrenches = orders.iter().enumerate().map(wrench).collect::<Result<_>>()?;
+    let mut wrenches = memory::room(orders.len())?;
+    for each in orders.iter().enumerate() {
+        wrenches.push(wrench(each)?);
+    }
     Ok((wrenches, gears.mean(loads)))
 }
 

@@ -12,6 +12,7 @@ use crate::load::{Loads, Source};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
+use crate::numbers::memory;
 use crate::numbers::order::Order;
 use crate::pressure::GasTorque;
 use crate::readings::amplitude::wrenches;
@@ -78,7 +79,7 @@ pub(crate) fn within(
     for (((order, wrench), size), kept) in orders.into_iter().zip(all).zip(sizes).zip(kept) {
         if kept {
             chosen.orders.push(order);
-            chosen.wrenches.push(wrench);
+            memory::push(&mut chosen.wrenches, wrench)?;
         } else if size.iter().any(|&size| size > 0.0) {
             chosen.omitted.push(order);
         }
