@@ -109,7 +109,7 @@ def test_another_point_takes_the_moment_of_the_force_off() -> None:
     # Sampled at half degrees: within half the square of half a step at order 12.
     assert there.total.torque.peak == pytest.approx(np.abs(w).max(), rel=0.5 * 0.06**2)
     assert there.total.torque.peak == s.about((x, y, z)).total.torque.peak[1]
-    for point in ("x", (1, 2), np.nan, [1, 2, np.inf]):
+    for point in ("x", (1, 2), np.nan, [1, 2, np.inf], range(10**12)):
         with pytest.raises(cp.InputError, match="point"):
             here.about(point)
 

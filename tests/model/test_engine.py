@@ -362,6 +362,32 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: I4.with_shafts([cp.Shaft(2, [cp.Unbalance(3100, 0.15)])]),
         "^amount = 3100 kg·m",
     ),
+    "a point in mm": (lambda: I4.balance(3000).about(150), "^point = 150 m at a crank radius of"),
+    "a point beside the crank in mm": (
+        lambda: cp.sweep(I4, rpm=3000).about((0, 80, 0.15)),
+        "^point = 80 m at",
+    ),
+    "the plane of proofs in mm": (
+        lambda: I4.vanishing_orders(reference_z=150),
+        "^reference_z = 150 m",
+    ),
+    "that of closed forms": (lambda: I4.closed_form(2, reference_z=150), "^reference_z = 150 m"),
+    "planes in mm": (lambda: cp.counterweights(I4, planes=[0, 300]), "^planes = 300 m"),
+    "an axis in mm": (lambda: cp.balance_shafts(I4, [2, -2], x=[80, -80]), "^x = 80 m"),
+    "planes of a shaft in mm": (
+        lambda: cp.balance_shafts(I4, [2, -2], planes=[0, 300]),
+        "^planes = 300 m",
+    ),
+    "bearings of a shaft in mm": (
+        lambda: cp.balance_shafts(I4, -2, bearings=[0, 300]),
+        "^bearings = 300 m",
+    ),
+    "crankcase in bar": (
+        lambda: I4.replace(cylinder=CYLINDER.replace(bore=0.086)).with_cycle(
+            cp.Cycle.example(), crankcase=1.01
+        ),
+        "^crankcase = 1.01 Pa: was it given in bar",
+    ),
     "oil in g": (lambda: cp.bob_weight(I4, oil=4), "^oil = 4 kg .*: was it given in grams"),
     "pistons in g": (
         lambda: cp.match_parts(I4, [402, 398, 405, 401]),

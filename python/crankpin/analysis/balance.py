@@ -140,6 +140,10 @@ class Balance(ByOrder, Tabled):
         """Attributes of a dataset: name of the engine, speed, and the plane of moments."""
         return {"engine": self.engine.name, "rpm": self.rpm, "reference_z": self.reference_z}
 
+    @property
+    def _engines(self) -> tuple[Engine, ...]:
+        return (self.engine,)
+
     def _with_request(self, request: Request) -> Self:
         """Return the same balance by another request."""
         check_request(request, "Engine.balance")

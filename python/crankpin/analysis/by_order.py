@@ -13,6 +13,8 @@ from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import AbsentError, read_only
 from crankpin.analysis import export
 from crankpin.analysis.quantity import ALL, Keyed, OrderBalance, Quantities, Quantity, order_key
+from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order, Spectrum
     from crankpin.analysis.request import Request
+    from crankpin.model.engine import Engine
 
 
 class ByOrder(Keyed, Quantities):
@@ -110,7 +113,11 @@ class ByOrder(Keyed, Quantities):
         >>> b[2].moment.peak, round(b.about(0.0)[2].moment.peak, 1)
         (np.float64(0.0), np.float64(1390.4))
         """
-        return self._with_request(self.request.about(point))
+        request = self.request.about(point)
+        for engine in self._engines:
+            checks.place(engine_core(engine), "point", request.reference_z)
+            checks.place(engine_core(engine), "point", *request.aside, middle=0.0)
+        return self._with_request(request)
 
     # --- arrays ---------------------------------------------------------------------------------
 
@@ -173,6 +180,11 @@ class ByOrder(Keyed, Quantities):
         if found is None:
             found = self._kept.setdefault(order, self._at_orders((order,)))
         return found
+
+    @property
+    def _engines(self) -> tuple[Engine, ...]:
+        """Engines of which this is a result."""
+        raise NotImplementedError
 
     def _with_request(self, request: Request) -> Self:
         """Return the same result by another request."""

@@ -12,6 +12,7 @@ from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.record import Record
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Engine
@@ -31,6 +32,7 @@ def closed_form(
     word = inputs.one_of("quantity", quantity, ["force", "moment"])
     plane = inputs.optional_number("reference_z", reference_z)
     (single,) = inputs.explicit_orders([inputs.whole("order", order)], "order")
+    checks.place(engine_core(engine), "reference_z", plane)
     return ClosedForm(engine, single, word, plane)
 
 

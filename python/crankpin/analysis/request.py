@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from types import MappingProxyType
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from crankpin import _core
 from crankpin._support import inputs
@@ -13,7 +12,7 @@ from crankpin._support.quantities import KINDS, PARTS, QUANTITIES
 from crankpin._support.record import AbsentError, Record
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from crankpin._support.inputs import Order, Orders, Spectrum
 
@@ -62,7 +61,7 @@ class Request(Record):
     def about(self, point: object) -> Request:
         """Return the same request with moments about a point: z, or (x, y, z), m."""
         hint = "point is a position z along the crank, or (x, y, z), m"
-        if np.ndim(point) == 0:  # type: ignore[arg-type] # of any object
+        if not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
             return self.replace(reference_z=inputs.finite("point", point), aside=(0.0, 0.0))
         listed = [inputs.finite("point", each) for each in inputs.items("point", point, hint)]
         if len(listed) != 3:

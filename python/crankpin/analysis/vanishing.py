@@ -15,6 +15,7 @@ from crankpin._support.tables import Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,7 +45,9 @@ def vanishing_orders(
 ) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
     listed = tuple(inputs.explicit_half_orders(orders))
-    return VanishingOrders(engine, listed, inputs.optional_number("reference_z", reference_z))
+    plane = inputs.optional_number("reference_z", reference_z)
+    checks.place(engine_core(engine), "reference_z", plane)
+    return VanishingOrders(engine, listed, plane)
 
 
 class Verdicts(Keyed, Record):

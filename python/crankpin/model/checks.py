@@ -139,9 +139,13 @@ def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[
     _report(list(dict.fromkeys(found))[:4])
 
 
-def place(core: _core.Engine, name: str, z: float) -> None:
-    """Warn of a place along the crank, such as a reference plane, that is in millimetres."""
-    _report(_far(core, name, z))
+def place(core: _core.Engine, name: str, *at: float | None, middle: float | None = None) -> None:
+    """Warn of places along the crank, such as a reference plane, that are in millimetres.
+
+    With ``middle`` 0 they are places beside the crank or above it. None is no place.
+    """
+    given = (each for each in at if each is not None)
+    _report(next(filter(None, (_far(core, name, each, middle) for each in given)), []))
 
 
 def masses(engine: Engine, **given: float) -> None:
@@ -174,6 +178,12 @@ def pressure(values: NDArray[np.float64]) -> None:
         )
 
 
+def crankcase(pressure: float) -> None:
+    """Warn of the pressure below the pistons in bar or kPa; 0 is a vacuum."""
+    if 0.0 < pressure < LARGEST_IN_BAR:
+        warn(f"crankcase = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
+
+
 def _at(radius: float) -> str:
     return f" at a crank radius of {radius:g} m"
 
@@ -190,7 +200,8 @@ def _far(core: _core.Engine, name: str, at: float, middle: float | None = None) 
     """Return what to say of a place that is too far from the engine, if it is."""
     radius, z = core.largest_crank_radius, core.z
     distance = abs(at - (core.middle if middle is None else middle)) - float(np.ptp(z))
-    return [f"{name} = {at:g} m{_at(radius)}{MILLIMETRES}"] if distance > FARTHEST * radius else []
+    is_far = FARTHEST * radius < distance < math.inf
+    return [f"{name} = {at:g} m{_at(radius)}{MILLIMETRES}"] if is_far else []
 
 
 def _report(found: list[str]) -> None:

@@ -479,7 +479,9 @@ class EngineData:
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
         cores = [None if one is None else one.core for one in each]
-        (fired,) = self._core.with_cycles([cores], inputs.number("crankcase", crankcase))
+        below = inputs.number("crankcase", crankcase)
+        (fired,) = self._core.with_cycles([cores], below)
+        checks.crankcase(below)
         return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
@@ -636,8 +638,7 @@ def core_of_lists(
     core = core.keeping([one._details for one in each], bearings, plane)
     checks.units(core)
     checks.angles(tdc_deg=tdc_deg, pin_deg=pin_deg, bank_deg=bank_deg)
-    if plane is not None:
-        checks.place(core, "reference_z", plane)
+    checks.place(core, "reference_z", plane)
     return core
 
 

@@ -253,6 +253,7 @@ def test_table_shows_the_front_and_whether_it_reaches_the_target() -> None:
     assert last == "Target: order-1 rocking moment ≤ 0 N·m; least counterweights + shaft −1."
     assert f"{len(OPTIONS.front)} of {len(OPTIONS)} sets" in repr(OPTIONS).splitlines()[0]
     assert OPTIONS._repr_html_().startswith("<table>")
+    assert "\n" not in repr(OPTIONS[0])
     assert "no set reaches it" in repr(
         cp.balancer_options(I4, rpm=RPM, target={"[4].force.peak": 0.0})
     )

@@ -418,6 +418,8 @@ def test_errors_name_the_argument(changes: dict[str, Any], message: str) -> None
 
 def test_errors_of_results() -> None:
     t = tolerances(samples=3)
+    with pytest.raises(cp.InputError, match=r"^point: moments of samples .* engine\.replace"):
+        t.about(0.1)
     with pytest.raises(cp.InputError, match="sample = 3: give a number from 0 to 2"):
         t.engine_of(3)
     with pytest.raises(cp.InputError, match=r"name = 'mass': give \"reciprocating_mass\""):

@@ -13,6 +13,7 @@ from crankpin._support.warnings import warn
 from crankpin.analysis.balancing.fitted_shafts import BalanceShafts
 from crankpin.analysis.balancing.planes import Turning, ends
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 from crankpin.model.shafts import Shaft, unbalance_of
 
 if TYPE_CHECKING:
@@ -114,13 +115,15 @@ def balance_shafts(
     >>> float(round(second.force.peak, 6)), float(round(second.torque.peak, 6))
     (0.0, 0.0)
     """
-    engine_core(engine)
+    core = engine_core(engine)
     asked = _shaft_requests(ratios, x=x, y=y, planes=planes, bearings=bearings, remove=remove)
+    checks.place(core, "x", *(each.x for each in asked), middle=0.0)
+    checks.place(core, "y", *(each.y for each in asked), middle=0.0)
+    checks.place(core, "planes", *(z for each in asked for z in each.planes or ()))
+    checks.place(core, "bearings", *(z for each in asked for z in each.bearings or ()))
     speed = inputs.optional_number("rpm", rpm)
     found, beyond = _core.fit_shafts(
-        engine_core(engine),
-        [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked],
-        speed,
+        core, [(each.ratio, (each.x, each.y), each.planes, each.remove) for each in asked], speed
     )
     if beyond is not None:
         warn(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,7 @@ class BalancerOption(Record):
     """Counterweights that were added."""
     shafts: tuple[Shaft, ...]
     """Shafts that were added."""
-    fitted: Engine
+    fitted: Engine = field(repr=False)
     """The engine with them."""
     values: tuple[float, ...] = ()
     """Residual: the value of each objective, in its unit."""

@@ -11,6 +11,7 @@ from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ def named(engine: Engine, given: Planes) -> dict[str, float]:
         places = {f"plane {k}": _place(k - 1, z) for k, z in enumerate(listed, start=1)}
     if not 1 <= len(places) <= MOST:
         raise InputError(f"planes has {len(places)} places: give 1 to {MOST}")
+    checks.place(engine_core(engine), "planes", *places.values())
     return places
 
 

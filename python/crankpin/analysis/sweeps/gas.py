@@ -9,6 +9,7 @@ import numpy as np
 from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.record import Record
+from crankpin.model import checks
 from crankpin.model.cycle_map import CycleMap
 
 if TYPE_CHECKING:
@@ -48,7 +49,9 @@ class GasMap(Record):
         for engine in engines:
             if not alone and len(maps) != len(engine):
                 raise InputError(f"cycle has {len(maps)} entries, the engine has {len(engine)}")
-        return cls(tuple(maps), inputs.number("crankcase", crankcase))
+        below = inputs.number("crankcase", crankcase)
+        checks.crankcase(below)
+        return cls(tuple(maps), below)
 
     @property
     def first(self) -> CycleMap:

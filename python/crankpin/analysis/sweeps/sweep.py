@@ -288,6 +288,10 @@ class Sweep(ByOrder, Tabled):
         """The request of parts of the sweep: orders chosen for the whole serve them."""
         return self.request.at_orders(self.orders) if self.orders else self.request
 
+    @property
+    def _engines(self) -> tuple[Engine, ...]:
+        return self.engines
+
     def _with_request(self, request: Request) -> Self:
         """Return the same sweep by another request."""
         return self.replace(request=check_request(request, "crankpin.sweep"))

@@ -153,9 +153,16 @@ class Tolerances(ByOrder, Tabled):
             "spreads": self.figures.text,
         }  # fmt: skip
 
+    @property
+    def _engines(self) -> tuple[Engine, ...]:
+        return (self.engine,)
+
     def _with_request(self, request: Request) -> Tolerances:
         """Raise an InputError: samples have the orders and the plane that were given."""
         orders = check_request(request, "crankpin.tolerances").orders
+        if orders == self.request.orders:
+            hint = "give the tolerances of engine.replace(reference_z=…)"
+            raise InputError(f"point: moments of samples are about the engine's plane; {hint}")
         known = labels.orders_text(self.orders)
         raise InputError(f"orders = {orders}: is not among those of the samples ({known})")
 
