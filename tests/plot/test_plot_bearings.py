@@ -5,19 +5,44 @@ from __future__ import annotations
 import crankpin as cp
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 from plot.pictures import LOADED
 from plot.reading import heights, legend_texts, series, title_of
 
 
 def test_polar_diagrams_trace_the_loads_once() -> None:
-    ax = LOADED.plot(numbers=[3, 1])
+    ax = LOADED.plot(plt.figure().subplots(), numbers=[3, 1])
     assert legend_texts(ax) == ["main bearing 3", "main bearing 1"]
     for line, expected in zip(series(ax), LOADED.main[[2, 0]], strict=True):
         # Without gas a turn is all there is.
         np.testing.assert_array_equal(line.get_xydata(), expected[:361])
     assert title_of(ax) == "Inline-4\nmain bearing loads, 6000 rpm"
     assert ax.get_aspect() == 1.0
+
+
+@pytest.mark.parametrize("numbers", [None, [5, 2, 3, 4]])
+def test_each_bearing_has_a_panel_of_the_same_scale(numbers: list[int] | None) -> None:
+    figure = None if numbers is None else plt.figure()
+    drawn = LOADED.plot(numbers=numbers, figure=figure)
+    panels = [panel for panel in drawn.flat if panel.get_visible()]
+    named = numbers or [1, 2, 3, 4, 5]
+    assert [title_of(panel) for panel in panels] == [f"main bearing {k}" for k in named]
+    drawn.flat[0].figure.canvas.draw()
+    for panel, number in zip(panels, named, strict=True):
+        (line,) = series(panel)
+        np.testing.assert_array_equal(line.get_xydata(), LOADED.main[number - 1][:361])
+        assert panel.get_aspect() == 1.0
+        assert panel.get_xlim() == panels[0].get_xlim()
+        assert panel.get_ylim() == panels[0].get_ylim()
+        ends = panel.transData.inverted().transform(panel.bbox.get_points())
+        assert (ends[0] < LOADED.main.min(axis=(0, 1))).all()
+        assert (ends[1] > LOADED.main.max(axis=(0, 1))).all()
+    # Below each column and beside each row there are numbers.
+    columns = drawn.shape[1]
+    assert [panel.xaxis.get_tick_params()["labelbottom"] for panel in panels] == [
+        k + columns >= len(panels) for k in range(len(panels))
+    ]
 
 
 @pytest.mark.parametrize(
@@ -47,11 +72,11 @@ def test_polar_diagrams_go_no_further_than_the_loads_and_the_origin() -> None:
     assert along.min() < -8 * along.max()
     assert low == pytest.approx(along.min() - 0.2 * np.ptp(along), abs=0.05 * np.ptp(along))
     assert high == pytest.approx(along.max() + 0.2 * np.ptp(along), abs=0.05 * np.ptp(along))
-    # Angles stand above and below a level line, and of many at a point the ends.
+    # Angles stand above and below a level line, and those at one point together.
     texts = {text.get_text(): text for text in ax.texts if text.get_text()}
     offsets = [float(text.xyann[1]) for text in texts.values()]  # type: ignore[attr-defined]
     assert offsets == [11.0, -11.0] * (len(offsets) // 2) + [11.0] * (len(offsets) % 2)
-    assert any(" … " in text for text in texts)
+    assert "180°, 360°, 540°" in texts
 
 
 def test_curves_are_magnitudes_of_vectors_and_values_of_others() -> None:
@@ -78,8 +103,9 @@ def test_bending_is_drawn_along_z_with_the_main_bearings() -> None:
 
 def test_an_engine_at_rest_says_so() -> None:
     for kind in ("polar", "curves", "bending"):
-        texts = LOADED.replace(rpm=0.0).plot(kind=kind).texts
-        assert "zero throughout" in {text.get_text() for text in texts}
+        for panel in np.ravel(LOADED.replace(rpm=0.0).plot(kind=kind)):
+            texts = {text.get_text() for text in panel.texts}
+            assert not panel.get_visible() or "zero throughout" in texts
 
 
 @pytest.mark.parametrize(
@@ -93,6 +119,10 @@ def test_an_engine_at_rest_says_so() -> None:
         ({"kind": "curves", "load": "moment"}, "load = 'moment': "),
         ({"kind": "bending", "part": "head"}, "part = 'head': "),
         ({"axes": "rod"}, "axes = "),
+        ({"kind": "curves", "figure": 1}, "figure = 1: kind='curves' has one panel; give ax"),
+        ({"kind": "bending", "figure": 1}, "figure = 1: kind='bending' has one panel; give ax"),
+        ({"figure": 1}, "figure = 1: give a matplotlib Figure"),
+        ({"figure": 1, "ax": 1}, "ax and figure cannot be combined"),
     ],
 )
 def test_errors_name_the_option(options: dict[str, object], message: str) -> None:

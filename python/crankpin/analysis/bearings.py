@@ -20,6 +20,8 @@ from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin.model.engine import Engine
@@ -322,16 +324,26 @@ class BearingLoads(Tabled):
         }
         return optional.dataset(arrays, coords, {"engine": self.engine.name, "rpm": self.rpm})
 
-    def plot(self, ax: Any = None, *, kind: str = "polar", **options: Any) -> Any:  # noqa: ANN401
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        figure: Figure | SubFigure | None = None,
+        kind: str = "polar",
+        **options: Any,  # noqa: ANN401 - as below
+    ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw loads; return the axes.
 
         Parameters
         ----------
         ax
             Axes to draw on; by default new ones.
+        figure
+            Figure or SubFigure for the panels of ``"polar"``; by default a new one.
         kind
-            ``"polar"``: the tip of a load, with crank angles. ``"curves"``: magnitudes over crank
-            angle. ``"bending"``: largest bending moment along z.
+            ``"polar"``: the tip of a load, with crank angles, a panel for each bearing, or with
+            ``ax`` all of them there. ``"curves"``: magnitudes over crank angle. ``"bending"``:
+            largest bending moment along z.
         **options
             Of ``"polar"`` and ``"curves"``: ``load``, as in :meth:`read`, by default the main
             bearings, and ``numbers`` of bearings or cylinders, from 1, by default all; of
@@ -339,14 +351,21 @@ class BearingLoads(Tabled):
             default both. Of all: ``label``, for a legend of several results on the same axes;
             colour, line width and other properties of matplotlib lines.
 
+        Returns
+        -------
+        matplotlib.axes.Axes, or numpy.ndarray of them
+            The panels of several bearings, (n_rows, n_columns).
+
         Examples
         --------
         >>> import crankpin as cp
         >>> loads = cp.bearing_loads(cp.Engine.preset("i4"), rpm=6000)
+        >>> loads.plot().shape
+        (2, 3)
         >>> ax = loads.plot(load="crankpin", numbers=[1], axes="crank")
         >>> ax = loads.plot(kind="bending", part="crankcase")
         """
-        return draw(self, ax, kind=kind, **options)
+        return draw(self, ax, figure=figure, kind=kind, **options)
 
     @property
     def table(self) -> Table:

@@ -17,15 +17,20 @@ from crankpin.plot.layout import (
     check_one_place,
     label_x,
     label_y,
-    make_panels,
     note_zero,
     reject_figure,
-    set_figure_title,
     set_panel_title,
     set_title,
 )
 from crankpin.plot.phasors import phasors
-from crankpin.plot.plane import arrow_at, label_plane, plane_vector, scale_plane
+from crankpin.plot.plane import (
+    arrow_at,
+    label_panels,
+    label_plane,
+    make_plane_panels,
+    plane_vector,
+    scale_plane,
+)
 from crankpin.plot.rows import largest
 from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, numeric
@@ -146,7 +151,6 @@ def _scale(ax: Axes, *, logarithmic: bool) -> None:
 
 # --- ellipses ------------------------------------------------------------------------------------
 
-COLUMNS = 2
 PHASES = np.linspace(0.0, 2.0 * np.pi, 181)
 
 
@@ -173,8 +177,7 @@ def ellipses(
         label_plane(ax, name)
         add_legend(ax)
         return ax
-    rows = max(1, -(-len(shown) // COLUMNS))
-    made = make_panels(None, figure, rows, min(COLUMNS, max(1, len(shown))), row_height=0.6)
+    made = make_plane_panels(figure, len(shown))
     panels = made.axes.ravel()
     for panel, order in zip(panels, shown, strict=False):
         curve = result[order]
@@ -183,13 +186,10 @@ def ellipses(
         scale_plane(panel)
     if not shown:
         scale_plane(panels[0])
-    for panel in panels[max(1, len(shown)) :]:
-        panel.set_visible(False)
     along_x, along_y = QUANTITIES[name].components
-    made.figure.supxlabel(f"{along_x}, {QUANTITIES[name].unit}", fontsize="medium")
-    made.figure.supylabel(f"{along_y}, {QUANTITIES[name].unit}", fontsize="medium")
+    label_panels(made, along_x, along_y, QUANTITIES[name].unit)
     scales = "each panel to its own scale; dot: θ = 0"
-    set_figure_title(made.figure, labels.name_of(result.engine), where, scales, note)
+    made.set_title(labels.name_of(result.engine), where, scales, note)
     return made.axes
 
 

@@ -10,8 +10,18 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import PARTS, BearingLoads
 from crankpin.plot.dispatch import picture
-from crankpin.plot.layout import add_legend, axes_or_new, label_x, label_y, note_zero, set_title
-from crankpin.plot.plane import trace
+from crankpin.plot.layout import (
+    add_legend,
+    axes_or_new,
+    check_one_place,
+    label_x,
+    label_y,
+    note_zero,
+    reject_figure,
+    set_panel_title,
+    set_title,
+)
+from crankpin.plot.plane import label_panels, make_plane_panels, share_scale, trace
 from crankpin.plot.style import SERIES, count_series, muted, series
 from crankpin.plot.ticks import degrees, from_zero, numeric, span
 from crankpin.plot.words import number
@@ -32,31 +42,44 @@ ALONG = {
 def polar(
     result: BearingLoads,
     ax: Axes | None = None,
+    figure: object = None,
     *,
     load: str = "main",
     numbers: Iterable[int] | None = None,
     axes: str = "engine",
     label: str | None = None,
     **style: Any,  # noqa: ANN401 - of lines
-) -> Axes:
-    """Draw the tips of the loads of bearings."""
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    """Draw the tips of loads: a panel for each bearing, or all of them on given axes."""
     vectors = result.turned(load, axes)
     places = _places(numbers, len(vectors))
-    ax = axes_or_new(ax)
-    _entitle(result, ax, f"{LOADS[load].words} loads")
     names = _names(load, places, label)
     period = 180.0 * result.engine.strokes if result.gas_force.any() else 360.0
-    trace(ax, result.theta_deg, [vectors[k] for k in places], names, style, period, centred=False)
-    along, across = ALONG[axes]
-    label_x(ax, f"{along}, N")
-    label_y(ax, f"{across}, N")
-    add_legend(ax)
-    return ax
+    what = f"{LOADS[load].words} loads"
+    if ax is not None or (figure is None and len(places) == 1):
+        ax = axes_or_new(ax)
+        set_title(ax, *_titles(result, what))
+        drawn = [vectors[k] for k in places]
+        trace(ax, result.theta_deg, drawn, names, style, period, centred=False)
+        label_x(ax, f"{ALONG[axes][0]}, N")
+        label_y(ax, f"{ALONG[axes][1]}, N")
+        add_legend(ax)
+        return ax
+    wide, high = np.ptp([*vectors[places].reshape(-1, 2), (0.0, 0.0)], axis=0).tolist()
+    made = make_plane_panels(figure, len(places), high / wide if wide else 1.0)
+    for panel, place, name in zip(made.axes.flat, places, names, strict=False):
+        trace(panel, result.theta_deg, [vectors[place]], [name], style, period, centred=False)
+        set_panel_title(panel, name)
+    share_scale(made)
+    label_panels(made, *ALONG[axes], "N")
+    made.set_title(*_titles(result, what))
+    return made.axes
 
 
 def curves(
     result: BearingLoads,
     ax: Axes | None = None,
+    figure: object = None,
     *,
     load: str = "main",
     numbers: Iterable[int] | None = None,
@@ -67,9 +90,10 @@ def curves(
     kind = LOADS[inputs.one_of("load", load, LOADS)]
     values = result.magnitude(load) if kind.planar else result.read(load)
     places = _places(numbers, len(values))
+    reject_figure(figure, "curves")
     ax = axes_or_new(ax)
     where = kind.components[0] if not kind.planar else "magnitude"
-    _entitle(result, ax, f"{kind.words}, {where}")
+    set_title(ax, *_titles(result, f"{kind.words}, {where}"))
     looks = series(ax, len(places), style)
     for k, look, name in zip(places, looks, _names(load, places, label), strict=True):
         ax.plot(result.theta_deg, values[k], gid=SERIES, label=name, **look)
@@ -88,6 +112,7 @@ def curves(
 def bending(
     result: BearingLoads,
     ax: Axes | None = None,
+    figure: object = None,
     *,
     part: str | None = None,
     label: str | None = None,
@@ -95,9 +120,11 @@ def bending(
 ) -> Axes:
     """Draw the largest bending moments along z, with the main bearings."""
     parts = PARTS if part is None else (inputs.one_of("part", part, PARTS),)
+    reject_figure(figure, "bending")
     ax = axes_or_new(ax)
     first = not count_series(ax)
-    _entitle(result, ax, f"largest bending moment at {len(result.theta_deg)} crank angles")
+    what = f"largest bending moment at {len(result.theta_deg)} crank angles"
+    set_title(ax, *_titles(result, what))
     for each, look in zip(parts, series(ax, len(parts), style), strict=True):
         moments = result.bending(each)
         largest = np.hypot(moments[..., 0], moments[..., 1]).max(axis=1, initial=0.0)
@@ -119,8 +146,8 @@ def bending(
     return ax
 
 
-def _entitle(result: BearingLoads, ax: Axes, what: str) -> None:
-    set_title(ax, labels.name_of(result.engine), f"{what}, {number(result.rpm)} rpm")
+def _titles(result: BearingLoads, what: str) -> tuple[str, str]:
+    return labels.name_of(result.engine), f"{what}, {number(result.rpm)} rpm"
 
 
 def _places(numbers: Iterable[int] | None, count: int) -> list[int]:
@@ -148,9 +175,11 @@ KINDS = {"polar": polar, "curves": curves, "bending": bending}
 @picture.register(BearingLoads)
 def _bearing_loads(
     result: BearingLoads,
-    ax: Axes | None = None,
+    ax: Any = None,  # noqa: ANN401 - checked
     *,
+    figure: Any = None,  # noqa: ANN401 - checked
     kind: str = "polar",
     **options: Any,  # noqa: ANN401 - of the kind
-) -> Axes:
-    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, **options)
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    return KINDS[inputs.one_of("kind", kind, KINDS)](result, ax, figure, **options)

@@ -8,7 +8,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
-from crankpin.plot.layout import label_x, label_y, note_zero
+from crankpin.plot.layout import Panels, label_x, label_y, make_panels, note_zero, width_for
 from crankpin.plot.style import SERIES, count_series, foreground, muted, series, write
 from crankpin.plot.ticks import numeric
 from crankpin.plot.words import drawn_quantity, in_degrees, nonzero_in
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from crankpin.analysis.waveform import Waveform
 
 
-DOTS, LABELS = 30.0, 90.0
-"""Degrees between dots, and between dots with their angle."""
+DOTS = 30.0
+"""Degrees between dots."""
+LABELS = 4
+"""Dots of a period with their angle."""
 SAME = 0.08
 """Part of the orbit's radius within which dots share one label."""
-MOST_ANGLES = 3
-"""Most angles at one point that its label lists; of more, the first and the last."""
 LEVEL = 1e-9
 """Height over width below which a curve is a level line: rounding."""
 ARROWS = (15.0, 135.0, 255.0)
@@ -111,12 +111,10 @@ def _labelled(
 ) -> Iterator[tuple[complex, str]]:
     """Yield points and the crank angles at which the curve passes them."""
     near = SAME * float(abs(curve).max(initial=0.0))
-    rest = list(_places(theta, LABELS, period)) if near else []
+    rest = list(_places(theta, period / LABELS, period)) if near else []
     while rest:
         here = [place for place in rest if abs(curve[place] - curve[rest[0]]) <= near]
-        listed = [in_degrees(float(theta[k])) for k in here]
-        ends = f"{listed[0]} … {listed[-1]}"
-        yield complex(curve[rest[0]]), ", ".join(listed) if len(here) <= MOST_ANGLES else ends
+        yield complex(curve[rest[0]]), ", ".join(in_degrees(float(theta[k])) for k in here)
         rest = [place for place in rest if place not in here]
 
 
@@ -126,6 +124,39 @@ def _annotate(ax: Axes, point: complex, text: str, direction: complex) -> None:
     ha = "center" if abs(outward.real) < 0.5 else "left" if outward.real > 0.0 else "right"
     va = "center" if abs(outward.imag) < 0.5 else "bottom" if outward.imag > 0.0 else "top"
     write(ax, text, point, 11.0 * outward, ha=ha, va=va, color=foreground(ax))
+
+
+def make_plane_panels(figure: object, count: int, height: float = 1.0) -> Panels:
+    """Make a panel for each of some curves, two beside each other, of many three if there is room.
+
+    ``height`` is that of the curves over their width; panels are low where it is below 1.
+    """
+    columns, row_height = (3, 0.5) if count > 4 and width_for(figure) > 6.0 else (2, 0.6)
+    columns, rows = min(columns, max(1, count)), max(1, -(-count // columns))
+    row_height *= min(1.0, max(0.5, height))
+    made = make_panels(None, figure, rows, columns, row_height=row_height)
+    for panel in made.axes.flat[max(1, count) :]:
+        panel.set_visible(False)
+    return made
+
+
+def share_scale(panels: Panels) -> None:
+    """Give all panels one scale; its numbers stand beside the outer ones."""
+    shown = [panel for panel in panels.axes.flat if panel.get_visible()]
+    ends = np.array([panel.dataLim.get_points() for panel in shown])
+    limits = np.stack([ends.min(axis=(0, 1)), ends.max(axis=(0, 1))], axis=-1)
+    columns = panels.axes.shape[1]
+    for place, panel in enumerate(shown):
+        panel.set(xlim=limits[0], ylim=limits[1])
+        panel.set_aspect("equal", adjustable="box")
+        lowest = place + columns >= len(shown)
+        panel.tick_params(labelleft=place % columns == 0, labelbottom=lowest)
+
+
+def label_panels(panels: Panels, along: str, across: str, unit: str) -> None:
+    """Label the axes of all panels together."""
+    panels.figure.supxlabel(f"{along}, {unit}", fontsize="medium")
+    panels.figure.supylabel(f"{across}, {unit}", fontsize="medium")
 
 
 def label_plane(ax: Axes, quantity: str, unit: str = "") -> None:
