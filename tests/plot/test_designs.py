@@ -52,6 +52,11 @@ def test_curves_are_the_objective_over_bank_angle(found: cp.types.Designs) -> No
     assert ax.get_title(loc="left").startswith("V6, 3" if found is V6 else "V10, 3 of 8")
 
 
+def test_a_single_design_is_one_design() -> None:
+    alone = design(6, "vee", "total.moment.peak", bank_angle_deg=(28, 146))
+    assert alone.plot().get_title(loc="left").startswith("V6, 1 design\n")
+
+
 def test_designs_without_banks_stand_below_each_other() -> None:
     ax = I5.plot(Figure().subplots(), count=8, color="red")
     (dots,) = of(ax, SERIES)

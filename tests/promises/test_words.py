@@ -21,7 +21,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = {"python/crankpin": ("*.py", "strings.mjs"), "docs": ("*.md", "*.ipynb"), ".": ("*.md",)}
+FOLDERS = {
+    "python/crankpin": ("*.py", "strings.mjs"), "docs": ("*.md", "*.ipynb"),
+    "rust/core/src": ("*.rs",), "rust/py/src": ("*.rs",), ".": ("*.md",),
+}  # fmt: skip
 """Folder → names of the files whose prose is checked, in it and, but for the root, below it."""
 LISTS = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
 WORDS = {pattern: instead for each in LISTS.values() for pattern, instead in each.items()}
@@ -64,9 +67,15 @@ def joined(lines: list[tuple[int, str]]) -> Iterator[Piece]:
             yield Piece(first, "\n".join(texts))
             texts = []
         first = first if texts else number
-        texts.append(text.lstrip("#"))
+        texts.append(text.lstrip("#/!"))
     if texts:
         yield Piece(first, "\n".join(texts))
+
+
+def of_rust(source: str) -> Iterator[Piece]:
+    """Yield comments, of the library and not of its tests."""
+    lines = enumerate((line.strip() for line in source.splitlines()), 1)
+    yield from joined([(number, line) for number, line in lines if line.startswith("//")])
 
 
 def of_notebook(source: str) -> Iterator[Piece]:
@@ -81,7 +90,7 @@ def of_text(source: str) -> Iterator[Piece]:
 
 
 PROSE = {
-    ".py": of_python, ".ipynb": of_notebook, ".md": of_text, ".mjs": of_text,
+    ".py": of_python, ".rs": of_rust, ".ipynb": of_notebook, ".md": of_text, ".mjs": of_text,
 }  # fmt: skip
 
 
@@ -118,6 +127,7 @@ def test_prose_has_the_words_of_the_list(folder: str) -> None:
         (".py", 'def f():\n    """Return the\n    imbalance of a shaft."""\n', 3),
         (".py", 'x = 1\nerror = f"{x} {y}: no imbalance is known"\n', 2),
         (".py", "x = 1\n# A comment that goes on to the\n# the next line.\n", 2),
+        (".rs", "//! Shafts.\n\n/// An imbalance\nfn f() {}\n", 3),
         (".md", "# Title\n\n```sh\nimbalance\n```\n\nThe imbalance.\n", 7),
         (".ipynb", '{"cells": [{"cell_type": "markdown", "source": ["a", "\\nimbalance"]}]}', 2),
         (".mjs", 'export const shaft = "imbalance of the shaft";\n', 1),

@@ -104,7 +104,7 @@ def test_any_setting(open_engine: Open, name: str) -> None:
     for (bank_angle, hold, ratio), rpm in zip(settings, itertools.cycle([777.7, 6000.0])):
         for field, value in [("bank-angle", bank_angle), ("rod-ratio", ratio), ("rpm", rpm)]:
             page.locator(f"[data-name={field}]").fill(f"{value}")
-        page.get_by_label("held as the banks turn").select_option(hold)
+        page.get_by_label("held as the bank angle changes").select_option(hold)
         assert_agree(page, moved(engine, bank_angle, hold, ratio), rpm, 97.25)
 
 
@@ -263,7 +263,7 @@ def test_gas_at_any_bank_angle(open_engine: Open) -> None:
     page = open_engine(engine)
     page.get_by_label("crank angle").fill("-77.7")
     for hold in ("pins", "firing"):
-        page.get_by_label("held as the banks turn").select_option(hold)
+        page.get_by_label("held as the bank angle changes").select_option(hold)
         page.locator("[data-name=bank-angle]").fill("75")
         # The same cylinders fire in the same turns, though the order may not be one of even names.
         wave = engine.with_bank_angle(75, hold=hold).waveform(3000, theta_deg=[-77.7])  # type: ignore[arg-type]

@@ -365,7 +365,7 @@ def test_engine_follows_its_settings(open_engine: Open) -> None:
     assert intervals.text_content() == f"(intervals {held.intervals_text}°)"
     order = page.locator("[data-name=firing-order]")
     assert order.text_content() == held.firing_order == V8.firing_order
-    page.get_by_label("held as the banks turn").select_option("firing")
+    page.get_by_label("held as the bank angle changes").select_option("firing")
     assert intervals.text_content() == "(every 90°)"
     page.get_by_label("engine speed").fill("6000")
     page.get_by_label("bank angle", exact=True).fill("90")

@@ -165,7 +165,7 @@ def test_page_moves_python(shown: Any) -> None:  # noqa: ANN401 - a fixture
     page = shown(V8.view())
     page.get_by_label("crank angle").fill("-12.5")
     page.locator("[data-name=rod-ratio]").fill("0.25")
-    page.get_by_label("held as the banks turn").select_option("firing")
+    page.get_by_label("held as the bank angle changes").select_option("firing")
     saved = page.evaluate("host.saved")
     assert saved == [["angle_deg", -12.5], ["rod_ratio", 0.25], ["hold", "firing"]]
 

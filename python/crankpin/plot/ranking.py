@@ -150,7 +150,8 @@ def _designs(
 def _title(designs: Designs, shown: int) -> str:
     question = designs.question
     counted = f"{shown} of {designs.optima}" if shown < designs.optima else f"{shown}"
-    return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} designs"
+    noun = "design" if designs.optima == 1 else "designs"
+    return f"{'IV'[question.banks - 1]}{question.cylinders}, {counted} {noun}"
 
 
 def _crank_text(design: Design) -> str:

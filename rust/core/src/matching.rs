@@ -101,7 +101,7 @@ fn add(to: &mut [f64], sign: f64, vector: &[f64]) {
 }
 
 impl Matching {
-    /// So many sets of parts of each kind.
+    /// A number of sets of parts of each kind.
     pub fn new(start: Vec<f64>, kinds: Vec<PartKind>, sets: usize) -> Result<Self> {
         let places = kinds.first().map_or(0, |kind| shape(&kind.influences).0);
         let fits = |kind: &PartKind| {

@@ -191,7 +191,7 @@ impl Sweep {
         })
     }
 
-    /// Shape of [`Self::waveform`] at so many angles, if there is room for it.
+    /// Shape of [`Self::waveform`] at a number of angles, if there is room for it.
     fn waveform_shape(&self, name: &str, angles: usize) -> PyResult<Vec<usize>> {
         let shape = self.sweep.waveform_shape(quantity(name)?, angles).or_raise()?;
         Ok(self.dimensions(&shape))

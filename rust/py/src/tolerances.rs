@@ -12,7 +12,7 @@ use crate::convert::{self, OrRaise, OrderNumber, frozen};
 use crate::engine::{Engine, choice};
 use crate::interrupt;
 
-/// An engine, the spreads of its figures, and what is asked of its samples.
+/// An engine, the spreads of its figures, and the request for its samples.
 #[pyclass(frozen, module = "crankpin._core")]
 pub struct Tolerances {
     plan: core::tolerances::Tolerances,

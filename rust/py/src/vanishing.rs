@@ -24,7 +24,7 @@ type Star<'py> = (
     Column<'py>,
 );
 
-/// Orders of so many halves.
+/// Orders of these numbers of halves.
 fn orders(halves: Vec<u32>) -> PyResult<Vec<Order>> {
     halves.into_iter().map(Order::from_halves).collect::<core::Result<_>>().or_raise()
 }

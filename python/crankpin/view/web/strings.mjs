@@ -29,7 +29,7 @@ export const STRINGS = {
   side: { left: "Seen from the left", right: "Seen from the right", above: "Seen from above" },
   space: { isometric: "Isometric", oblique: "Oblique, from the flywheel end" },
   choices: {
-    hold: "held as the banks turn",
+    hold: "held as the bank angle changes",
     dial: "vector shown",
     side: "side of the engine",
     space: "direction from which the engine is seen rocking",

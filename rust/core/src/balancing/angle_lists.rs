@@ -1,4 +1,4 @@
-//! Weights of planes with bounds and lists of angles: the nearest to a target, and the least of these.
+//! Weights of planes with bounds and lists of angles: the nearest to a target and, of these, the least.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, SVD};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 
-/// Singular values below this part of the largest count as zero: the columns that they tell apart
+/// Singular values below this part of the largest count as zero: the columns that they distinguish
 /// differ by no more than the rounding of ill-conditioned fits before (planes a millionth of the
 /// engine's length apart leave 1e-10), and a solution would magnify that difference 1e9-fold.
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
@@ -40,8 +40,8 @@ pub(super) fn least_squares(
 }
 
 /// Weights of the equations beside the squares, one after another until the minimum is good enough.
-/// Each round gains about as many digits, unless the variables that are left barely tell the equations
-/// apart; a great weight finds their multipliers then, and costs digits of the squares.
+/// Each round gains about as many digits, unless the variables that are left barely distinguish the
+/// equations; a great weight finds their multipliers then, and costs digits of the squares.
 pub(super) const PENALTIES: [f64; 5] = [1e4, 1e6, 1e8, 1e6, 1e4];
 /// What may be missing from an equation; figures are of order 1.
 const EXACT: f64 = 1e-13;

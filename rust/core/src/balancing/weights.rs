@@ -86,7 +86,7 @@ const NOTHING: f64 = 1e-200;
 /// Bounds above this multiple of the target bind nowhere; those below its inverse leave nothing.
 const UNBOUNDED: f64 = 1e9;
 
-/// The least of the weights that come nearest to the target.
+/// The least weights among those that come nearest to the target.
 pub fn least(request: &WeightRequest, cancel: &Cancel) -> Result<FittedWeights> {
     let moment = request.moment.map(|moment| -Complex64::i() * moment / request.length);
     let target: Vec<Complex64> = [request.force, moment].into_iter().flatten().collect();
@@ -216,7 +216,7 @@ impl Problem<'_> {
         (0..seen.nrows()).map(|plane| vector(&seen, plane)).enumerate().map(along).collect()
     }
 
-    /// Weights within bounds that come nearest to a target; at any angle, the least of them.
+    /// Weights within bounds that come nearest to a target; at any angle, the least such weights.
     fn nearest(&self, target: &Vectors, bounds: &[f64]) -> Result<Vec<PlacedWeight>> {
         let found = match &self.directions {
             None => discs::nearest(&self.rows, target, bounds, self.cancel)?.map(|u| each(&u)),

@@ -111,7 +111,7 @@ struct Place {
     z: f64,
     #[serde(default)]
     rotating_mass: f64,
-    /// Number of the bank, where directions alone do not tell which is which.
+    /// Number of the bank, where directions alone leave open which is which.
     #[serde(default, skip_serializing_if = "is_default")]
     bank: Option<usize>,
     /// Number of the crank: 0 is the main one, from 1 those of the list.

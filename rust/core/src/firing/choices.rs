@@ -141,7 +141,7 @@ fn most_even_first(firings: &mut [Firing]) {
     });
 }
 
-/// To a millionth of a degree, so that rounding does not order what is equally even.
+/// Unevenness in millionths of a degree: equally even choices tie in spite of rounding.
 fn unevenness(firing: &Firing) -> u64 {
     (firing.unevenness() * 1e6).round() as u64
 }

@@ -1,4 +1,4 @@
-//! The connecting rod: what stands in for it, how it swings, and the torques of its own inertia.
+//! The connecting rod: what replaces it, how it swings, and the torques of its own inertia.
 //!
 //! A rigid rod moves as two masses at its ends and a massless flywheel of inertia J, J = I − m·a·b,
 //! that swings with it: by −φ about +z, sin φ = (r sin θ − e)/l. To swing the flywheel takes a couple

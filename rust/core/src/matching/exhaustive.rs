@@ -19,8 +19,8 @@ const MOST_SETS: usize = 10_000_000;
 const MOST_MASKED: usize = 28;
 
 impl Matching {
-    /// Number of arrangements of halves of the places that [`Matching::arranged`] visits where so many
-    /// parts of each kind are available.
+    /// Number of arrangements of halves of the places that [`Matching::arranged`] visits, by the number
+    /// of available parts of each kind.
     fn half_arrangements(&self, available: &[usize]) -> f64 {
         let (first, second) = (self.places / 2, self.places - self.places / 2);
         let orders = |count: usize| -> f64 { (1..=count).map(|k| k as f64).product() };
@@ -280,7 +280,7 @@ struct Partitions<'a> {
 }
 
 impl Partitions<'_> {
-    /// Least sum of so many sets of the parts that are left; None after too many comparisons.
+    /// Least sum of `sets` sets of the parts that are left; None after too many comparisons.
     fn least(&mut self, left: Masks, sets: usize) -> Result<Option<f64>> {
         if sets == 0 {
             return Ok(Some(0.0));
@@ -333,7 +333,7 @@ impl Partitions<'_> {
     }
 }
 
-/// All subsets of so many bits.
+/// All subsets of `count` bits.
 fn subsets(bits: u32, count: usize) -> impl Iterator<Item = u32> {
     let places: Vec<usize> = bits_of(bits).collect();
     let end = 1u64 << places.len();
@@ -358,7 +358,7 @@ fn number_of_choices(of: usize, count: usize) -> f64 {
     (0..count).map(|k| (of - k) as f64 / (k + 1) as f64).product()
 }
 
-/// All choices of so many parts of every kind.
+/// All choices of `count` parts of every kind.
 fn choices(available: &[Vec<usize>], count: usize) -> Vec<Vec<Vec<usize>>> {
     let mut found = vec![Vec::new()];
     for parts in available {

@@ -117,7 +117,7 @@ impl Cancel {
         self.check()
     }
 
-    /// Count so many more steps as done.
+    /// Count some more steps as done.
     pub fn advance(&self, steps: usize) {
         self.done.fetch_add(steps, Ordering::Relaxed);
     }

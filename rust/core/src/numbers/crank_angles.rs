@@ -84,7 +84,7 @@ impl CrankAngles {
 
 /// Rejects crank angles that are not finite, or so large that doubles no longer resolve a turn.
 pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
-    /// Angles looked at between two looks at cancellation.
+    /// Angles between two checks for cancellation.
     const PIECE: usize = 1 << 16;
     let taken = |θ: f64| θ.is_finite() && θ.abs() <= LARGEST_ANGLE;
     for piece in theta_deg.chunks(PIECE) {
@@ -97,7 +97,7 @@ pub fn check(theta_deg: &[f64], cancel: &Cancel) -> Result<()> {
     Ok(())
 }
 
-/// A range in parts of at most so many.
+/// A range in parts of a largest length.
 pub(crate) fn parts(
     range: Range<usize>,
     length: usize,

@@ -11,7 +11,7 @@ use crate::numbers::rational::nearest;
 const MOST_DIGITS: usize = 12;
 /// Most digits before or behind the point.
 const MOST_PLACES: u32 = 18;
-/// A double is right within so many units in its last place.
+/// Units in its last place within which a double is right.
 pub const WITHIN_ULP: f64 = 4.0;
 
 /// The decimal that a double stands for, if there is one: numerator and denominator.

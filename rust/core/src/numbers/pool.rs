@@ -35,7 +35,7 @@ thread_local! {
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// True if so many numbers, each the result of some ten operations, are worth waking other threads for:
+/// True if this number of values, each the result of some ten operations, are worth waking other threads for:
 /// that takes 30 µs, as long as one thread takes for these.
 #[must_use]
 pub const fn worth(numbers: usize) -> bool {
@@ -88,7 +88,7 @@ pub fn map<I: Send, T: Send>(
     run(cancel, || items.into_par_iter().map(function).collect())
 }
 
-/// Do some work for each item, in parallel where so many numbers, counted as for [`worth`], are worth it.
+/// Do some work for each item, in parallel where the `numbers`, counted as for [`worth`], are worth it.
 pub fn each<I: Send>(
     cancel: &Cancel,
     items: Vec<I>,

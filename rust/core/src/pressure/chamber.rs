@@ -99,7 +99,7 @@ impl Chamber {
         self.area() * self.stroke() / (self.compression_ratio - 1.0)
     }
 
-    /// Angle between the piston's highest and lowest point at which the volume is so many clearances.
+    /// Angle between the piston's highest and lowest point at which the volume is `ratio` clearances.
     pub(super) fn angle_of(&self, ratio: f64) -> f64 {
         let (mut low, mut high) = (self.top, self.bottom);
         for _ in 0..100 {

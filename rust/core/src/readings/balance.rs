@@ -57,7 +57,7 @@ pub struct Balance {
     /// Mean torques on the block and on the crank, of pressure alone.
     pub mean: [f64; 2],
     /// Bounds of what the orders left out add to force, moment and either torque at any crank
-    /// angle; 0 for orders that were asked for by number.
+    /// angle; 0 for orders that were given.
     pub error_bound: [f64; 3],
     /// Whether torque is known: it was wanted, and the engine has no given spectrum of forces.
     pub has_torque: bool,

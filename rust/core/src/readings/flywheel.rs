@@ -19,9 +19,9 @@ use crate::readings::kinematics::{BLOCK, Kinematics};
 const STEP: f64 = 0.5;
 /// Gauss-Legendre points of a cell, in halves of its width from its middle, beside the middle itself.
 const GAUSS: f64 = 0.774_596_669_241_483_4;
-/// Most cells of a period, and most knots: sorting so many takes a tenth of a second.
+/// Most cells of a period, and most knots: sorting them takes a tenth of a second.
 const MOST_CELLS: usize = 1_000_000;
-/// Cells evaluated between two looks at cancellation.
+/// Cells evaluated between two checks for cancellation.
 const PIECE: usize = 1 << 12;
 /// Lowest square of a speed, over its mean, at which an engine runs.
 const SLOWEST: f64 = 1e-4;

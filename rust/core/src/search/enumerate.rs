@@ -24,7 +24,7 @@ const RANGE: u128 = 4096;
 const MOST_RANGES: u128 = 512;
 /// Tasks that share the walk, at least, where it is long.
 const TASKS: usize = 32;
-/// Pairs of throws below which nobody looks at cancellation.
+/// Pairs of throws below which cancellation is not checked.
 const UNINTERRUPTED: usize = 3;
 
 /// An arrangement and the number of its images, below the key of its |Z|²: the order is by key.
@@ -204,7 +204,7 @@ impl<'a> Walk<'a> {
         walk
     }
 
-    /// Nodes from which the whole walk goes on, at least so many unless it ends there.
+    /// Nodes from which the whole walk goes on, at least `least` unless it ends there.
     fn tasks(&self, least: usize, bank: &Bank) -> Vec<Node> {
         let others = Image::OTHERS.iter().filter(|&&image| self.images.has(image));
         let root = |pool| Node {

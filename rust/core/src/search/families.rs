@@ -45,7 +45,7 @@ impl Families<'_> {
         self.in_ranges(ranges, per_radian, wanted, cancel)
     }
 
-    /// The same, shared out among so many ranges of folded angles.
+    /// The same, divided among ranges of folded angles.
     fn in_ranges(
         self,
         ranges: usize,

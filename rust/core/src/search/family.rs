@@ -43,7 +43,7 @@ impl Family {
     }
 }
 
-/// All arrangements and what their angles are worked out from.
+/// All arrangements and what their angles are computed from.
 #[derive(Clone, Copy)]
 pub(super) struct Families<'a> {
     pub moments: &'a Moments,
@@ -145,7 +145,7 @@ impl<'a> Same<'a> {
             moments.ring.times_conjugate(&self.of_b.numerator, &self.of_a.denominator, of_b);
             (x, y) = (of_a, of_b);
         }
-        // The turn between them is known from the angles; which it is exactly is what is asked.
+        // The turn between them is known from the angles; its exact value is wanted.
         let (angle_a, angle_b) = (self.families.angle(a), self.families.angle(b));
         let parts = x.len();
         [(false, angle_a - angle_b), (true, angle_a + angle_b)].into_iter().any(|(mirrored, by)| {

@@ -41,7 +41,7 @@ impl Magnitude {
         distances.sort_unstable();
         distances.dedup();
         // The weights sum to nothing, hence so does the autocorrelation; and where no phase comes
-        // twice, what stands at distance 0 is the same for all. Only differences tell.
+        // twice, what stands at distance 0 is the same for all. Only differences count.
         let same = column(distances.first().copied().unwrap_or(0));
         let less_same = |column: &Vec<i64>| column.iter().zip(&same).map(|(a, b)| a - b).collect();
         let mut columns: Vec<Vec<i64>> = distances.iter().map(|&d| column(d)).collect();

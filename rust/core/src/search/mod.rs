@@ -186,8 +186,8 @@ impl Search {
         Some(Solution { hold, bank_angle, banks, parts, counterweight: forward, second_order })
     }
 
-    /// Phases of both banks: those of the family, the second turned by so many least turns that the
-    /// angle is the one asked for.
+    /// Phases of both banks: those of the family, the second turned by as many least turns as
+    /// give the angle.
     fn banks(&self, origin: Origin) -> [Arrangement; 2] {
         let Moments { bank, images, turn, .. } = &self.moments;
         let family = origin.family;

@@ -20,7 +20,7 @@ pub(super) fn near(size: f64) -> f64 {
     NEAR / size.min(1.0)
 }
 
-/// What Z of a bank's arrangements is worked out from.
+/// What Z of a bank's arrangements is computed from.
 #[derive(Debug)]
 pub(super) struct Moments {
     pub bank: Bank,

@@ -12,7 +12,7 @@ pub(super) struct Packing {
 }
 
 impl Packing {
-    /// Of each vector the rows that tell combinations of the vectors `telling` apart, where no entry
+    /// Of each vector the rows that distinguish combinations of the vectors `telling`, where no entry
     /// of a combination is larger than `bound` of its row.
     pub(super) fn new(
         vectors: &[Vec<i64>],
@@ -41,8 +41,8 @@ impl Packing {
 
 /// Rows from which all other rows follow, by elimination in whole numbers.
 ///
-/// A row whose elimination overflows counts as independent: it tells no more than the others, and
-/// takes bits.
+/// A row whose elimination overflows counts as independent: it distinguishes no more than the others,
+/// and takes bits.
 fn independent_rows(columns: &[Vec<i64>]) -> Vec<usize> {
     let mut basis: Vec<(usize, Vec<i128>)> = Vec::new();
     let mut rows = Vec::new();

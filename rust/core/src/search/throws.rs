@@ -58,7 +58,7 @@ impl Bank {
         Ok(Self::of(multiples, parts as u32, false))
     }
 
-    /// Ascending phases, and what leaves them as they are: both are asked for each arrangement.
+    /// Ascending phases, and what leaves them as they are: both are read for each arrangement.
     fn of(phases: Vec<u32>, parts: u32, alternating: bool) -> Self {
         let same = |image: &dyn Fn(u32) -> u32| {
             let mut images: Vec<u32> = phases.iter().map(|&phase| image(phase) % parts).collect();

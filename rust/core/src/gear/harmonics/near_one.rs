@@ -31,7 +31,7 @@ pub(super) fn is_near(rod_ratio: f64) -> bool {
     rod_ratio > LARGEST_PLAIN_RATIO
 }
 
-/// True if order n needs so many `terms` of a series that [`force`] and [`swing`] replace it.
+/// True if order n needs this number of `terms` of a series, so that [`force`] and [`swing`] replace it.
 pub(super) fn is_by_quadrature(n: u32, terms: f64) -> bool {
     terms > LONGEST_SERIES && terms > SERIES_TERMS_PER_ORDER * f64::from(n)
 }
@@ -71,7 +71,7 @@ pub(super) fn swing(sides: &Sides, n: u32) -> f64 {
 }
 
 /// `1 − Σⱼ |b_j| b_{j+m}/b_m p^{4j}` of the terms above `last`, n = 2m, in numbers of twice the
-/// digits, if there are so many `terms` that the sum nears 1 and their roundings add up.
+/// digits, if `terms` are enough for the sum to near 1 and their roundings to add up.
 pub(super) fn long_series(fourth: Double, n: u32, terms: f64, last: f64) -> Option<f64> {
     if terms <= LONGEST_PLAIN_SERIES {
         return None;

@@ -14,7 +14,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
 
-/// Harmonics of the torques of one cylinder, as peak phasors; over what, the maker says.
+/// Harmonics of the torques of one cylinder, as peak phasors; the function that makes them gives the unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueHarmonics {
     /// Roll torque on the block about +z; of masses `x''·(x' + e)` in crank radii.

@@ -191,7 +191,7 @@ fn angles_are_in_order_only_with_their_like_or_where_they_differ() {
     let odd = |degrees| Angle(Degrees(degrees));
     assert_eq!(odd(49.541_234_567_89).partial_cmp(&odd(49.541_234_567_89)), Some(Ordering::Equal));
     assert_eq!(part.partial_cmp(&odd(89.9)), Some(Ordering::Greater));
-    // Too near a double to be told from it, and yet a fraction.
+    // Too near a double to be distinguished from it, and yet a fraction.
     let (double, fraction) = (float(49.541_234_567_89), typed("4954123456789/100000000000"));
     assert_eq!(double.degrees(), fraction.degrees());
     assert_eq!(double.partial_cmp(&fraction), None);

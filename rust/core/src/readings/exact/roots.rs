@@ -84,7 +84,7 @@ impl UnityRoot {
     }
 }
 
-/// A load's part of a sum: so many halves of its weight times a root.
+/// A load's part of a sum: a number of halves of its weight times a root.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Share {
     pub load: usize,

@@ -15,7 +15,7 @@
 //! which two sums of order 1 that are left have one size, decided in integers, and cancel. Doubles of
 //! it stand for it, as those of 360/7° do for that.
 //!
-//! Gas is a load of its own, whose harmonics nobody knows here: its torque vanishes where the phase
+//! Gas is a load of its own, whose harmonics are not known here: its torque vanishes where the phase
 //! vectors of the firing do ([`super::star`]). Of an engine with cycles it remains where its value is
 //! beyond any error of its evaluation.
 //!
@@ -361,7 +361,7 @@ fn roots(terms: &[&SymbolTerm]) -> Result<Vec<(i128, i128, i128)>> {
 /// between the first and the last cylinder).
 ///
 /// Half orders are those of gas, and need `firing` unless the engine has cycles; at whole ones gas
-/// does not tell the turns apart.
+/// does not distinguish the turns.
 pub fn vanishing(
     engine: &Engine,
     orders: &[Order],

@@ -33,7 +33,7 @@ const MOST_SHARE: f64 = 1e6;
 /// An engine at a speed, for the loads inside it.
 pub struct Internal {
     rods: Vec<DrivenRod>,
-    /// On the crank besides what rods bring to its pins.
+    /// On the crank besides the forces of rods on its pins.
     on_crank: Vec<Turning>,
     on_shafts: Vec<Turning>,
     /// Places of the main bearings, ascending, m.
@@ -255,7 +255,7 @@ impl Internal {
     }
 
     /// Ranges of crank angles in which each rod is in tension at its wrist pin, [from, to] in degrees
-    /// of a cycle of so many; [0, cycle] where it always is.
+    /// of a cycle; [0, cycle] where it always is.
     pub fn tension(&self, cycle_deg: u32, cancel: &Cancel) -> Result<Vec<Vec<[f64; 2]>>> {
         /// Steps in a degree, between which a rod changes sign once at most.
         const STEPS: u32 = 4;
@@ -316,7 +316,7 @@ fn slice<D: Dimension>(row: ArrayViewMut<'_, f64, D>) -> &mut [f64] {
     row.into_slice().unwrap_or_default()
 }
 
-/// Rejects crank angles, or results of so many numbers an angle.
+/// Rejects crank angles, or results of too many numbers for each angle.
 fn check_angles(theta_deg: &[f64], numbers: usize, cancel: &Cancel) -> Result<()> {
     let hint = "split theta_deg into parts";
     limits::result_size("theta_deg", &[theta_deg.len(), numbers], size_of::<f64>(), hint)?;

@@ -110,7 +110,7 @@ fn ends(values: Option<&[f64]>, cancel: &Cancel) -> Result<[Option<f64>; 2]> {
 
 /// Applies a check to each value, looking at `cancel` between pieces.
 fn each(values: &[f64], cancel: &Cancel, mut check: impl FnMut(f64) -> Result<()>) -> Result<()> {
-    /// Values between two looks.
+    /// Values between two checks for cancellation.
     const PIECE: usize = 1 << 14;
     for piece in values.chunks(PIECE) {
         cancel.check()?;

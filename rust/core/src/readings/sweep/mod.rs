@@ -63,7 +63,7 @@ pub enum Figure {
     Mean,
 }
 
-/// Engines and axes, checked; values are evaluated when they are asked for.
+/// Engines and axes, checked; values are evaluated when they are read.
 #[derive(Debug)]
 pub struct Sweep {
     /// Each as often as a map has cycles, with one of them after the other.

@@ -33,7 +33,7 @@ struct Tile {
 }
 
 impl OrderWave {
-    /// The terms of some rows of phasors of so many components.
+    /// The terms of some rows of phasors of a number of components.
     ///
     /// What a layout cancels is not summed, nor a part that in every row is less than half a unit in
     /// the last place of the whole phasor.
@@ -75,8 +75,8 @@ impl Tiles {
         Self(tiles.collect())
     }
 
-    /// Write the sum of a row's terms, of so many components, at the angles of some tiles, the first
-    /// of which has this place.
+    /// Write the sum of a row's terms, of each component, at the angles of some tiles, the first of
+    /// which has this place.
     #[inline(always)]
     pub fn sum<const COMPONENTS: usize>(
         &self,

@@ -98,7 +98,7 @@ impl Distribution {
     }
 }
 
-/// An engine whose figures may deviate, and what is asked of its samples; checked.
+/// An engine whose figures may deviate, and the request for its samples; checked.
 pub struct Tolerances {
     terms: Terms,
     nominal: Balance,

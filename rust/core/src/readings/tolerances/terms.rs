@@ -310,7 +310,7 @@ impl Arithmetic for Samples<'_> {
     }
 }
 
-/// Columns of the samples from `first` on, of rows of so many values; zero where nothing deviates.
+/// Columns of the samples from `first` on, of rows of `width` values; zero where nothing deviates.
 fn columns(values: &[f64], width: usize, first: usize) -> Vec<Reals> {
     let mut columns = vec![[0.0; CHUNK]; width];
     let rows = values.get(first * width..).unwrap_or_default();

@@ -39,7 +39,7 @@ fn cancellation_stops_at_the_next_stretch() {
             let axes = Axes { bank_angle, rod_ratio, rpm, ..Axes::default() };
             let orders = vec![Order::whole(2).unwrap()];
             let sweep = Sweep::new(engines.clone(), axes, orders, None, &Cancel::new()).unwrap();
-            // Raises the flag once so many rows are done.
+            // Raises the flag once a number of rows are done.
             let run = |after: usize| {
                 let (cancel, done) = (Cancel::new(), AtomicUsize::new(0));
                 let shape = sweep.result_shape(Quantity::Force, Figure::Length);
