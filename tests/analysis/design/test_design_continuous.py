@@ -206,6 +206,17 @@ def test_a_continuum_is_named() -> None:
     assert all(each.isolated for each in others)
 
 
+def test_a_continuum_of_one_crank_leaves_those_of_others() -> None:
+    # No second-order couple: 0-90-270-180, and the three orders of two throws a half turn from two
+    # others, all in phase at order 2. That holds at any bank angle.
+    by = "[2].moment.peak"
+    fixed = [each for each in design(8, bank_angle_deg=90, by=by) if each.place == 1]
+    free = [each for each in design(8, bank_angle_deg=(40, 140), by=by) if each.place == 1]
+    assert {each.throws_deg for each in fixed} == {each.throws_deg for each in free}
+    assert len(free) == 4
+    assert not any(each.isolated for each in free)
+
+
 def test_later_objectives_decide_where_the_first_leaves_a_choice() -> None:
     by = "[1].moment.peak,[2].moment.peak,[2].force.peak"
     found = design(8, bank_angle_deg=(30, 150), throws_deg=[0, 180, 180, 0], by=by)

@@ -143,6 +143,10 @@ class Symmetries:
         images = (image for _, image in self.images(crank, exchange=exchange))
         return min((crank, *images), key=_size)
 
+    def key(self, crank: Crank) -> tuple[float, ...]:
+        """Return the rounded angles that equivalent cranks at one bank angle have in common."""
+        return min(_size(each) for each in (crank, *(image for _, image in self.images(crank))))
+
 
 def _size(crank: Crank) -> tuple[float, ...]:
     """Return the sort key of a crank, rounded to the accuracy of an optimiser's angles."""

@@ -87,16 +87,28 @@ def of_one_angle(
         brackets += [(*bracket, k) for bracket in _brackets(family, merit_of(family))]
         told(k + 1, len(families) + len(brackets))
     found: list[Optimum] = []
+    of_family: list[list[Optimum]] = [[] for _ in families]
+    at_ends: set[tuple[float, ...]] = set()
     heights: list[float] = []
     for k, (bound, low, high, which) in enumerate(sorted(brackets), start=1):
-        if len(found) >= count and bound > heapq.nsmallest(count, heights)[-1]:
+        merit, own = merit_of(families[which]), of_family[which]
+        # No objective is below zero.
+        least = max(bound, FLAT * merit.weights[-1])
+        if len(found) >= count and least > heapq.nsmallest(count, heights)[-1]:
             break
-        merit = merit_of(families[which])
         optimum = _between(families[which], merit, low, high)
-        if _new(found, optimum, symmetries):
-            found.append(optimum)
-            heights.append(float(np.array(optimum.values) @ merit.weights))
         told(len(families) + k, len(families) + len(brackets))
+        if not _new(own, optimum, symmetries) or _of_a_continuum(own, optimum):
+            continue
+        if optimum.crank.bank_angle in (0, HALF):
+            # Where banks can be exchanged, the crank of another family may be equivalent.
+            key = (float(optimum.crank.bank_angle), *symmetries.key(optimum.crank))
+            if key in at_ends:
+                continue
+            at_ends.add(key)
+        found.append(optimum)
+        own.append(optimum)
+        heights.append(float(np.array(optimum.values) @ merit.weights))
     return found
 
 
@@ -167,7 +179,7 @@ def of_several_angles(
         starts, needed = 0, FEWEST_STARTS
         while starts < needed:
             optimum = _optimum(family, merit, random.uniform(low, high))
-            if _new(found, optimum, symmetries):
+            if _new(found, optimum, symmetries) and not _of_a_continuum(found, optimum):
                 found.append(optimum)
             starts, steps = starts + 1, steps + 1
             needed = min(MOST_STARTS, max(FEWEST_STARTS, STARTS_EACH * len(found)))
@@ -288,15 +300,17 @@ def _near(degrees: float, family: Family, digits: int | None) -> Exact:
 
 
 def _new(found: Sequence[Optimum], optimum: Optimum, symmetries: Symmetries) -> bool:
-    """Return whether none of those found is equivalent at the same angles, or nearby."""
+    """Return whether none of those found is equivalent at the same angles."""
     images = [optimum.crank, *(image for _, image in symmetries.images(optimum.crank))]
-    for each in found:
-        if any(_alike(image, each.crank) for image in images):
-            return False
-        levels = np.abs(np.subtract(each.values, optimum.values)).max()
-        if not each.isolated and not optimum.isolated and levels < NEARLY_LEVEL:
-            return False
-    return True
+    return not any(_alike(image, each.crank) for each in found for image in images)
+
+
+def _of_a_continuum(found: Sequence[Optimum], optimum: Optimum) -> bool:
+    """Return whether one of a family's optima stands for this one, which others nearby equal."""
+    if optimum.isolated:
+        return False
+    levels = (np.subtract(each.values, optimum.values) for each in found if not each.isolated)
+    return any(np.abs(each).max() < NEARLY_LEVEL for each in levels)
 
 
 def _alike(one: Crank, other: Crank) -> bool:
