@@ -426,6 +426,16 @@ def test_bank_angle_of_an_arrangement_is_the_one_listed(
 
 
 @pytest.mark.parametrize("hold", ["firing", "pins"])
+def test_an_engine_at_0_or_180_degrees_has_two_banks(hold: Literal["firing", "pins"]) -> None:
+    search = cp.search_arrangements(6, hold=hold)
+    for angle in (0.0, 180.0):
+        (found,) = search.at(angle)
+        engine = found.engine(CYLINDER, spacing=0.1)
+        assert engine.bank_angle_deg == angle
+        assert engine.banks == {"right": (1, 3, 5), "left": (2, 4, 6)}
+
+
+@pytest.mark.parametrize("hold", ["firing", "pins"])
 @pytest.mark.parametrize("throws", [3, 4, 5, 6, 7, 9])
 def test_bank_angles_that_are_rational_parts_of_a_turn_are_correctly_rounded(
     throws: int, hold: Literal["firing", "pins"]

@@ -174,8 +174,8 @@ def search_arrangements(
 class ArrangementSearch(Record):
     """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
-    A sequence of :class:`Arrangement`, one for each bank angle, ascending. Made by
-    :func:`crankpin.search_arrangements`.
+    A sequence of :class:`Arrangement`, one for each bank angle, ascending: any of those that have
+    the angle. Made by :func:`crankpin.search_arrangements`.
 
     Examples
     --------
@@ -279,7 +279,10 @@ class ArrangementSearch(Record):
         within: tuple[float, float] = (0.0, 180.0),
         count: int = 1,
     ) -> tuple[Arrangement, ...]:
-        """Return the arrangements that minimise an objective, the best first.
+        """Return the arrangements listed that minimise an objective, the best first.
+
+        Others with the same bank angle as one listed can have less: :func:`crankpin.design`
+        compares all cranks at an angle.
 
         Parameters
         ----------

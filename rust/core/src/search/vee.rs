@@ -37,5 +37,7 @@ pub fn vee(
         }
     });
     let name = format!("V{} {bank_angle:.2}°", 2 * throws);
-    Engine::new(name, "crankpin's search of arrangements", stations.collect())
+    // At 0° the bores have one direction, and the banks are two all the same.
+    let banks: Vec<usize> = (0..2 * throws).map(|i| i % 2).collect();
+    Engine::in_banks(name, "crankpin's search of arrangements", stations.collect(), &banks)
 }
