@@ -13,6 +13,7 @@ import io
 import itertools
 import math
 import pickle
+import warnings
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -382,6 +383,22 @@ def test_pins_of_an_even_v6_are_split_by_bank_angle_less_120(bank_angle: int, sp
     assert engine.firing("1-2-3-4-5-6").even
 
 
+@pytest.mark.parametrize(
+    ("order", "intervals", "taken"),
+    [
+        ("1-2", [630, 90], "270-450"),
+        ("2-1", [170, 550], "190-530"),  # from 1 to 2
+        ("1-2", [540, 180], "180-540"),  # as even
+    ],
+)
+def test_intervals_that_a_more_even_way_replaces_are_warned_of(
+    order: str, intervals: list[int], taken: str
+) -> None:
+    with pytest.warns(UserWarning, match=r"^intervals_deg = .* too, which is as even or more"):
+        engine = cp.Engine.from_firing_order(CYLINDER, order, intervals_deg=intervals, spacing=0.1)
+    assert engine.firing().intervals_text == taken
+
+
 def test_odd_fire_needs_no_split() -> None:
     _, splits = cp.throws(
         "1-6-5-4-3-2", bank_angle_deg=90, odd_bank="left", intervals_deg=[150, 90] * 3
@@ -421,6 +438,21 @@ def interval_lists(draw: st.DrawFn, count: int, cycle: int = 720) -> list[int]:
     return [after - before for before, after in itertools.pairwise(stops)]
 
 
+def made_for(order: list[int], wanted: list[int], **options: Any) -> cp.Engine:  # noqa: ANN401
+    """Return the engine of an order that can fire at these intervals, and warns if it does not."""
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        engine = cp.Engine.from_firing_order(
+            CYLINDER, order, spacing=0.1, intervals_deg=wanted, **options
+        )
+    # Rotated to cylinder 1, as the result has it.
+    first = order.index(1)
+    rotated = wanted[first:] + wanted[:first]
+    assert rotated in [way.intervals_deg.tolist() for way in engine.firings()]
+    assert bool(warned) == (engine.firing().intervals_deg.tolist() != rotated)
+    return engine
+
+
 @settings(deadline=None)
 @given(
     st.data(),
@@ -441,15 +473,9 @@ def test_a_crank_made_for_an_order_fires_in_it(
         "bank_angle_deg": bank_angle,
         "odd_bank": odd_bank,
         "numbering": numbering,
-        "intervals_deg": wanted,
     }
-    engine = cp.Engine.from_firing_order(CYLINDER, order, spacing=0.1, **options)
-    # Rotated to cylinder 1, as the result has it.
-    first = order.index(1)
-    rotated = wanted[first:] + wanted[:first]
-    ways = engine.firings(order)
-    assert rotated in [way.intervals_deg.tolist() for way in ways]
-    throws, splits = cp.throws(order, **options)
+    engine = made_for(order, wanted, **options)
+    throws, splits = cp.throws(order, intervals_deg=wanted, **options)
     text = "-".join(map(str, order))
     expected = firing.pins(text, wanted, bank_angle, odd_bank, numbering)
     assert [throws.tolist(), splits.tolist()] == [list(map(float, each)) for each in expected]
@@ -469,13 +495,8 @@ def test_an_inline_crank_made_for_an_order_fires_in_it(
     data: st.DataObject, order: list[int], strokes: int
 ) -> None:
     wanted = data.draw(interval_lists(5, 180 * strokes))
-    given_: dict[str, Any] = {"intervals_deg": wanted, "strokes": strokes}
-    engine = cp.Engine.from_firing_order(CYLINDER, order, spacing=0.1, **given_)
-    first = order.index(1)
-    rotated = wanted[first:] + wanted[:first]
-    ways = engine.firings(order, strokes=strokes)
-    assert rotated in [way.intervals_deg.tolist() for way in ways]
-    throws, _ = cp.throws(order, **given_)
+    engine = made_for(order, wanted, strokes=strokes)
+    throws, _ = cp.throws(order, intervals_deg=wanted, strokes=strokes)
     known = {"firing_order": engine.firing_order, "strokes": strokes}
     assert engine == cp.Engine.inline(CYLINDER, throws_deg=throws, spacing=0.1, **known)
 

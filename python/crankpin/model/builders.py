@@ -407,7 +407,8 @@ class Builders(EngineData):
             parts of a turn (0°, 120°, 240° in a V6) from the same crank angle in both banks.
         intervals_deg
             With ``rule="even"``: crank angles from each cylinder of the order to the next, and from
-            the last to the first, in place of equal ones.
+            the last to the first, in place of equal ones. Where one is above 360 the crank can fire
+            in this order in other ways too; the engine takes the most even, with a warning.
         strokes
             4 or 2: intervals add up to 720 or 360.
         numbering, odd_bank
@@ -455,6 +456,9 @@ class Builders(EngineData):
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
         )
+        if fired[1] is not None:
+            taken = _core.Firing.named(core, order, strokes)
+            checks.intervals(order, [inputs.degrees(each) for each in fired[1]], taken)
         return cls(core, name, source, allowed(core, order, strokes), strokes)
 
 

@@ -37,6 +37,9 @@ LARGEST_SPACING = 100.0
 Cars have 2 to 3, large two-strokes 1.3; a Formula 1 V10 of 40 mm stroke has less than 6.
 """
 
+ROUNDING = 1e-6
+"""Degrees by which rounding alone does not part two firing intervals."""
+
 LARGEST_DENSITY = 1e6
 """Mass over the cube of the crank radius, kg/m³, above which masses are not in kilograms.
 
@@ -294,6 +297,30 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
         f'odd_bank = "{given}": this firing order needs pins split by {largest:.6g}°; with '
         f'odd_bank="{other_bank(given)}" pins are {how}. Makers differ in the side of cylinder 1'
     )
+
+
+def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> None:
+    """Warn of firing intervals that an engine does not take, since its order allows more even ones.
+
+    Parameters
+    ----------
+    order
+        Firing order as given.
+    given_deg
+        Crank angles from each cylinder of the order to the next, degrees.
+    firing
+        The firing that the engine takes.
+    """
+    first = firing.order.index(int(order.partition("-")[0]))
+    taken = np.roll(firing.intervals_deg, -first)
+    if np.abs(taken - given_deg).max() > ROUNDING:
+        asked, even = (
+            "-".join(f"{each:.6g}" for each in degrees) for degrees in (given_deg, taken)
+        )
+        warn(
+            f"intervals_deg = {asked}: the crank fires {order} at {even} too, which is as even or "
+            "more: firing and gas torque of the engine are of that. Engine.firings has all ways"
+        )
 
 
 def fires_evenly(tdc_deg: NDArray[np.float64]) -> bool:
