@@ -10,6 +10,7 @@ from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+import crankpin as cp
 import numpy as np
 import pytest
 from crankpin._support.record import Listed, Record
@@ -112,3 +113,19 @@ def test_tables_of_no_rows_are_tables_and_tables_stack() -> None:
     both = stacked(TABLE, empty)
     assert both.text() == f"{TABLE.text()}\n\n{empty.text()}"
     assert both.html() == TABLE.html() + empty.html()
+
+
+def test_numbers_too_small_to_matter_are_marked_but_kept() -> None:
+    fired = cp.Engine.preset("v6-60").with_cycle(cp.Cycle.example())
+    table = fired.balance(rpm=3000).table
+    column = table["|F_y|"]
+    assert column.cells().count("~0") == 3
+    exact = [value == 0.0 for value in column.values[1:]]  # below the mean, which forces lack
+    assert [text == "0" for text in column.cells()[1:]] == exact
+    for text in (str(table), table.html()):
+        assert "~0: not zero, but too small to matter." in text
+    assert "~" not in table.csv()
+    # Of orders that are asked for the numbers are.
+    asked = fired.balance(rpm=3000, orders=[6, 30]).table
+    assert "~0" not in str(asked)
+    assert 0.0 < min(each for each in asked["|F_y|"].values[1:] if each) < 1e-15

@@ -27,6 +27,8 @@ SHOWN = 30
 """Rows of a long table in text: a screen."""
 SHOWN_IN_NOTEBOOKS = 60
 """Rows of a long table in a notebook."""
+TINY = "~0"
+"""What stands for a number that is not zero, but too small to matter."""
 
 
 class Column(Record):
@@ -42,6 +44,8 @@ class Column(Record):
     """Significant digits of numbers in text; integers are shown whole."""
     decimals: int | None = None
     """Digits after the decimal point instead, so that the points of a column are aligned."""
+    least: float = 0.0
+    """Magnitude below which numbers that are not zero are shown as :data:`TINY`."""
 
     @property
     def header(self) -> str:
@@ -57,6 +61,8 @@ class Column(Record):
             return "–"
         if not value or isinstance(value, (int, np.integer)):
             return str(value) if value else "0"
+        if abs(value) < self.least:
+            return TINY
         return f"{value:.{self.digits}g}" if self.decimals is None else f"{value:.{self.decimals}f}"
 
     @property
@@ -131,7 +137,7 @@ class Table(Record):
             ).rstrip()
             for line in lines
         )
-        text = "\n".join(filter(None, [self.title, *body, self._rest(rows), self.note]))
+        text = "\n".join(filter(None, [self.title, *body, *self._notes(rows)]))
         return f"{text}\n\n{self.below.text(rows)}" if self.below is not None else text
 
     def __repr__(self) -> str:
@@ -148,18 +154,21 @@ class Table(Record):
             for row in self.cells()[:rows]
         )
         caption = f"<caption>{html.escape(self.title)}</caption>"
-        notes = "".join(
-            f"<p>{html.escape(note)}</p>" for note in (self._rest(rows), self.note) if note
-        )
+        notes = "".join(f"<p>{html.escape(note)}</p>" for note in self._notes(rows))
         below = self.below.html(rows) if self.below is not None else ""
         return (
             f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
             f"{notes}{below}"
         )
 
-    def _rest(self, rows: int | None) -> str:
-        shown = len(self) if rows is None else rows
-        return f"{shown} of {len(self)} rows" if shown < len(self) else ""
+    def _notes(self, rows: int | None) -> Iterable[str]:
+        """Yield the lines under the table."""
+        if rows is not None and rows < len(self):
+            yield f"{rows} of {len(self)} rows"
+        if self.note:
+            yield self.note
+        if any(TINY in row for row in self.cells()[:rows]):
+            yield f"{TINY}: not zero, but too small to matter."
 
     def csv(self) -> str:
         """Return the table as CSV, numbers in full: they read back unchanged."""

@@ -271,8 +271,9 @@ class Balance(ByOrder, Tabled):
             means: tuple[float | None, ...] = ()
             if self.fired:
                 means = (None if kind.planar else getattr(self, name).mean,)
+            least = self._least_shown(rows)
             columns += [
-                Column(symbol, (*means, *values), kind.unit)
+                Column(symbol, (*means, *values), kind.unit, least=least)
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
         given = " of the orders given" if self.request.orders is not None else ""

@@ -228,6 +228,11 @@ class ByOrder(Keyed, Quantities):
         shown = tuple(place for place in places if kept[place])
         return shown, tuple(self.orders[place] for place in places if not kept[place])
 
+    def _least_shown(self, peaks: NDArray[np.float64]) -> float:
+        """Return the least peak that tables write as a number, of a quantity with these."""
+        chosen = self.request.orders is None
+        return labels.NEGLIGIBLE * float(peaks.max(initial=0.0)) if chosen else 0.0
+
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, order, quantity and component (needs pandas).
 

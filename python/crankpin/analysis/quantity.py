@@ -342,6 +342,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
         """Return mean, peaks and phases of a torque and of its parts."""
         columns = [Column("order", ("mean", *(self.orders[k] for k in shown), ALL))]
         parts = [self] if self.name in PARTS else [self, self.gas, self.inertia]
+        least = self.result._least_shown(self.peak)
         for each in parts:
             phasors, peaks = each.phasor[shown], each.peak[shown]
             phases = np.angle(phasors, deg=True)
@@ -352,6 +353,7 @@ class Quantity(Keyed, NDArrayOperatorsMixin, Record):
                     part or self.kind.symbols[0],
                     (each.mean, *peaks.tolist(), each[ALL].peak),
                     self.unit,
+                    least=least,
                 ),
                 Column(f"{part} phase".strip(), (None, *angles, None), "°", digits=4),
             ]
