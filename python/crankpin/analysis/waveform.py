@@ -70,6 +70,15 @@ class OverAngle:
     """Crank angles, degrees: (n_theta,)."""
 
     @property
+    def orders(self) -> tuple[Order, ...] | None:
+        """Orders that are summed; None for exact kinematics."""
+        raise NotImplementedError
+
+    @property
+    def _how(self) -> str:
+        return "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
+
+    @property
     def force(self) -> NDArray[np.float64]:
         """Shaking force along x and y, N: (…, n_theta, 2)."""
         return self.read("force")
@@ -302,7 +311,6 @@ class Waveform(OverAngle, Tabled):
                     found.append((np.nan,) * 4)
         heads = ["quantity", "component", "unit", "least", "at °", "largest", "at °"]
         rows = np.array(found).reshape(-1, 4)
-        how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
-        title = f"{where}, {len(self.theta_deg)} crank angles, {how}"
+        title = f"{where}, {len(self.theta_deg)} crank angles, {self._how}"
         return Table.from_rows(title, heads, names, rows)

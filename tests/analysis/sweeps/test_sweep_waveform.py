@@ -9,6 +9,7 @@ import long_calls
 import numpy as np
 import pytest
 from conftest import OFFSET
+from crankpin._support import labels
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rederivation import time_domain
@@ -245,6 +246,15 @@ def test_labels() -> None:
     assert dataset.attrs["rod_ratio"] == 0.3
     one = single(UNLIKE, rod_ratio=0.3)
     expected = one.waveform(2e3, theta_deg=[0.0, 90.0], orders=s.orders).moment
+    table = s.waveform([0.0, 90.0]).table
+    assert table.title.endswith(
+        f"Peaks at 2 crank angles, {labels.orders_text(s.orders)}, rod ratio 0.3"
+    )
+    assert table.header == ["engine", "rpm", "|F| N", "|M| N·m", "|M_z| N·m"]
+    assert (table["engine"].values[4], table["rpm"].values[4]) == ("b", 2e3)
+    # a sum of squares may round in two ways
+    largest = np.linalg.norm(expected, axis=-1).max()
+    assert table["|M|"].values[4] == pytest.approx(largest, rel=10 * ROUNDING)
     apart = np.abs(dataset.moment.sel(engine="b", rpm=2e3).to_numpy() - expected).max()
     assert apart <= ROUNDING * size(UNLIKE, 2e3, "moment")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from types import MappingProxyType
@@ -584,6 +584,10 @@ class Sweep(ByOrder, Tabled):
     @property
     def table(self) -> Table:
         """Table that is shown: peaks of all orders together at each point."""
+        return self._by_point(self._title(), lambda name: self.read(name, "total_peak"))
+
+    def _by_point(self, title: str, peaks: Callable[[str], NDArray[np.float64]]) -> Table:
+        """Return a table of the points, with a peak of each quantity."""
         points = list(itertools.product(*self.coords.values()))
         columns = [
             Column(name, tuple(each[k] for each in points), "", digits=10)
@@ -592,24 +596,24 @@ class Sweep(ByOrder, Tabled):
         for name in self.request.quantities:
             if name != "crank_torque":
                 kind = QUANTITIES[name]
-                peaks = self.read(name, "total_peak").ravel().tolist()
-                columns.append(Column(kind.vector_symbol, tuple(peaks), kind.unit))
-        return Table(self._title, tuple(columns))
+                values = tuple(peaks(name).ravel().tolist())
+                columns.append(Column(kind.vector_symbol, values, kind.unit))
+        return Table(title, tuple(columns))
 
-    @property
-    def _title(self) -> str:
+    def _title(self, of: str = "") -> str:
         given = " of the orders given" if self.request.orders is not None else ""
         fixed = [labels.value_text(name, value) for name, value in self.fixed.items()]
         held = [labels.HELD[self.hold]] if self.hold else []
         engine = f"{engine_titles(self)[0]}: " if self.names is None else ""
-        text = ", ".join([f"{engine}peaks{given or ' of all orders together'}", *fixed, *held])
+        of = of or given or " of all orders together"
+        text = ", ".join([f"{engine}peaks{of}", *fixed, *held])
         return f"{text[0].upper()}{text[1:]}"
 
     def __repr__(self) -> str:
         if math.prod(len(values) for values in self.coords.values()) <= MOST_SHOWN:
             return repr(self.table)
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        return f"<Sweep over ({swept})> {self._title}"
+        return f"<Sweep over ({swept})> {self._title()}"
 
     def _repr_html_(self) -> str | None:
         points = math.prod(len(values) for values in self.coords.values())

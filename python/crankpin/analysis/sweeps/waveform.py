@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin import _core
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import inputs
 from crankpin._support import progress as progress_bar
 from crankpin._support.quantities import KINDS
 from crankpin._support.record import Record, read_only
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin._support.progress import Progress
+    from crankpin._support.tables import Table
     from crankpin.analysis.request import Request
     from crankpin.analysis.sweeps.sweep import Sweep
 
@@ -162,6 +163,17 @@ class SweepWaveform(OverAngle, Record):
         """Attributes of a dataset: those of the sweep."""
         return self.sweep._attributes
 
+    @property
+    def table(self) -> Table:
+        """Table of the points: the largest magnitudes over crank angle."""
+        title = self.sweep._title(f" at {len(self.theta_deg)} crank angles, {self._how}")
+        return self.sweep._by_point(title, self._largest)
+
+    def _largest(self, quantity: str) -> NDArray[np.float64]:
+        values = self.read(quantity)
+        sizes = np.hypot(*np.moveaxis(values, -1, 0)) if KINDS[quantity].planar else abs(values)
+        return np.asarray(sizes.max(axis=-1, initial=0.0))
+
     # --- pictures -------------------------------------------------------------------------------
 
     def plot(
@@ -212,6 +224,5 @@ class SweepWaveform(OverAngle, Record):
         return draw(self, ax, figure=figure, kind=kind, quantity=quantity, **options)
 
     def __repr__(self) -> str:
-        how = "exact kinematics" if self.orders is None else labels.orders_text(self.orders)
         swept = ", ".join(f"{name}: {len(values)}" for name, values in self.coords.items())
-        return f"<SweepWaveform over ({swept}), {how}>"
+        return f"<SweepWaveform over ({swept}), {self._how}>"
