@@ -99,7 +99,7 @@ pub struct Inline {
 impl Inline {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
-        limits::not_negative("spacing", self.spacing)?;
+        limits::distance("spacing", self.spacing)?;
         let upright = Angle::QUARTER_TURN;
         let masses = per_cylinder(&self.rotating_mass, self.throws.len())?;
         let stations = self.throws.iter().zip(masses).enumerate().map(|(i, (&throw, mass))| {
@@ -154,7 +154,7 @@ impl Vee {
 
     /// Where each cylinder sits, by number; `throws` is ignored.
     pub(crate) fn seats(&self, cylinders: usize) -> Result<Vec<Seat>> {
-        limits::not_negative("spacing", self.spacing)?;
+        limits::distance("spacing", self.spacing)?;
         limits::finite("bank_stagger", self.bank_stagger)?;
         bank_angle_in_range(self.bank_angle.degrees())?;
         let (upright, half) = (Angle::QUARTER_TURN, self.bank_angle.half());

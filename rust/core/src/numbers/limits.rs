@@ -42,6 +42,11 @@ pub fn not_negative(argument: &str, value: f64) -> Result<f64> {
         let hint = format!("give zero, or a number from {SMALLEST:e} to {LARGEST:e}");
         return Err(Error::figure(argument, value, hint));
     }
+    distance(argument, value)
+}
+
+/// A distance between places: zero or more, however small, since it is added to others.
+pub fn distance(argument: &str, value: f64) -> Result<f64> {
     if value >= 0.0 {
         return finite(argument, value);
     }

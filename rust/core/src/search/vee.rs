@@ -15,7 +15,7 @@ pub fn vee(
     cylinder: Cylinder,
     spacing: f64,
 ) -> Result<Engine> {
-    limits::not_negative("spacing", spacing)?;
+    limits::distance("spacing", spacing)?;
     limits::finite("bank_angle_deg", bank_angle)?;
     let throws = banks[0].len();
     limits::same_length("second_deg", banks[1].len(), "first_deg", throws, "throw")?;
