@@ -218,6 +218,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ("new v6 --bank-angle 60/x", "--bank-angle = 60/x: give degrees"),
         ("new v6 -o v6.txt", "--out = 'v6.txt': an engine file ends in .toml or .json"),
         ("new", "the following arguments are required: KIND"),
+        ("new harley", "no such preset; builders are inline, vee, flat, boxer, radial, "),
         ("new i4 --firing-order 1-2-3-3", "--firing-order = 1-2-3-3: 3 is there twice"),
     ],
 )

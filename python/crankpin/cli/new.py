@@ -172,7 +172,8 @@ def _layout(kind: str) -> presets.Layout:
     if name not in presets.Presets():
         if meant := inputs.nearest(kind.lower(), [*presets.aliases(), *BUILDERS]):
             raise InputError(f"KIND = {labels.cut(kind)}: no such layout{meant}")
-        raise InputError(f"KIND = {presets.suggestion(kind, typed=True)}")
+        own = f"builders are {', '.join(BUILDERS)}"
+        raise InputError(f"KIND = {presets.suggestion(kind, typed=True, own=own)}")
     return presets.layout(name)
 
 

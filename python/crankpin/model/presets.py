@@ -191,7 +191,7 @@ def family(name: str) -> list[str]:
     return [each for each in members if not each.endswith(OWN_PARTS)] or [name]
 
 
-def suggestion(name: str, *, typed: bool = False) -> str:
+def suggestion(name: str, *, typed: bool = False, own: str = "") -> str:
     """Return what to say of a name that is no preset's: the nearest ones, and what builds it.
 
     Parameters
@@ -200,6 +200,8 @@ def suggestion(name: str, *, typed: bool = False) -> str:
         What was given.
     typed
         True for words of the command line, False for those of Python.
+    own
+        What makes engines of one's own, where nothing is near; by default commands or functions.
     """
     plain = re.sub(r"[\s_]+", "-", name[:80].strip().lower())
     plain = plain if family(plain) != [plain] else named(plain)
@@ -215,7 +217,7 @@ def suggestion(name: str, *, typed: bool = False) -> str:
         built = _recipe(plain, typed=typed)
     if not (near or built):
         more = "crankpin new makes" if typed else "Engine.inline, vee and the like make"
-        built = f"{more} engines of your own; "
+        built = f"{own or f'{more} engines of your own'}; "
     quoted = " or ".join(f'"{each}"' for each in dict.fromkeys(near))
     question = f"did you mean {quoted}? " if near else ""
     listing = (
