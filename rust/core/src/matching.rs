@@ -67,7 +67,7 @@ impl PartKind {
         let alike = deviations.iter().all(|of| of.len() == parts)
             && influences.iter().all(|of| shape(std::slice::from_ref(of)) == (places, dimensions))
             && influences.iter().flatten().all(|of| of.len() == dimensions);
-        if parts == 0 || places == 0 || deviations.len() != influences.len() || !alike {
+        if parts * places * dimensions == 0 || deviations.len() != influences.len() || !alike {
             let found = format!("{} figures of {parts} parts", deviations.len());
             let hint =
                 "give each figure a deviation of every part, and its influence in every place";
@@ -235,6 +235,7 @@ impl Matching {
                 for i in 0..used {
                     cancel.check()?;
                     for j in i + 1..parts.len() {
+                        *compared += 1;
                         let (slots, moved) = ([i, j], [parts[i], parts[j]]);
                         let sets = slots.map(|slot| slot / self.places);
                         let changed = if j < used && sets[0] != sets[1] { 2 } else { 1 };
@@ -258,7 +259,6 @@ impl Matching {
                             better = true;
                         }
                     }
-                    *compared += parts.len() - i - 1;
                 }
             }
             if !better {
@@ -276,7 +276,7 @@ mod tests {
     use super::*;
 
     /// Numbers between -1 and 1 that repeat after 2^31 (a linear congruential generator).
-    fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
+    pub fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
         move || {
             seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
             seed as f64 / f64::from(1 << 30) - 1.0
@@ -292,33 +292,53 @@ mod tests {
         shorter.flat_map(inserted).collect()
     }
 
+    /// Parts of each kind, the first with one figure, the second with two, and a start of this size.
+    pub fn problem(
+        [sets, places, dimensions]: [usize; 3],
+        parts: &[usize],
+        distance: f64,
+        mut number: impl FnMut() -> f64,
+    ) -> Matching {
+        let mut some = |count: usize| -> Vec<f64> { (0..count).map(|_| number()).collect() };
+        let kinds = parts.iter().enumerate().map(|(figures, &parts)| {
+            let deviations = (0..=figures).map(|_| some(parts)).collect();
+            let places = |_| (0..places).map(|_| some(dimensions)).collect();
+            PartKind::new(deviations, (0..=figures).map(places).collect()).unwrap()
+        });
+        let kinds = kinds.collect();
+        Matching::new(some(dimensions).iter().map(|x| x * distance).collect(), kinds, sets).unwrap()
+    }
+
+    /// [`Matching::value`], where every place has one part and no part has two places.
+    fn valid(problem: &Matching, chosen: &Partition) -> f64 {
+        assert_eq!(chosen.len(), problem.kinds.len());
+        for (parts, kind) in chosen.iter().zip(&problem.kinds) {
+            let mut distinct = parts.clone();
+            distinct.sort_unstable();
+            distinct.dedup();
+            assert_eq!([parts.len(), distinct.len()], [problem.sets * problem.places; 2]);
+            assert!(parts.iter().all(|&part| part < kind.parts));
+        }
+        problem.value(chosen)
+    }
+
     #[test]
     fn the_best_of_all_matchings_is_found_and_none_is_below_the_bound() {
         let mut number = numbers(7);
-        for (sets, places, parts, dimensions) in [
-            (1, 3, &[4][..], 2),
-            (1, 1, &[3], 1),
-            (1, 2, &[3, 2], 2),
-            (2, 2, &[5], 2),
-            (2, 2, &[4, 5], 1),
-            (3, 2, &[7], 3),
-            (2, 1, &[2, 2], 2),
-            (2, 3, &[6], 0),
+        for (sizes, parts) in [
+            ([1, 3, 2], &[4][..]),
+            ([1, 1, 1], &[3]),
+            ([1, 2, 2], &[3, 2]),
+            ([1, 3, 2], &[4, 3]),
+            ([1, 5, 3], &[5]),
+            ([2, 2, 2], &[5]),
+            ([2, 2, 1], &[4, 5]),
+            ([3, 2, 3], &[7]),
+            ([2, 1, 2], &[2, 2]),
+            ([2, 3, 1], &[6]),
         ] {
             for distance in [0.0, 0.5, 20.0] {
-                let mut some =
-                    |count: usize| -> Vec<f64> { (0..count).map(|_| number()).collect() };
-                let kinds: Vec<PartKind> = parts
-                    .iter()
-                    .enumerate()
-                    .map(|(figures, &parts)| {
-                        let deviations = (0..=figures).map(|_| some(parts)).collect();
-                        let places = |_| (0..places).map(|_| some(dimensions)).collect();
-                        PartKind::new(deviations, (0..=figures).map(places).collect()).unwrap()
-                    })
-                    .collect();
-                let start = some(dimensions).iter().map(|x| x * distance).collect();
-                let problem = Matching::new(start, kinds, sets).unwrap();
+                let problem = problem(sizes, parts, distance, &mut number);
                 let all: Vec<Vec<Vec<usize>>> =
                     parts.iter().map(|&parts| sequences(parts)).collect();
                 let both: Vec<Partition> = match &all[..] {
@@ -332,12 +352,22 @@ mod tests {
                 let least =
                     both.iter().map(|each| problem.value(each)).fold(f64::INFINITY, f64::min);
                 let rounding = 1e-12 * (1.0 + distance);
-                let found = problem.solve(&both[..1], &Cancel::new()).unwrap();
+                let cancel = Cancel::new();
+                let found = problem.solve(&both[..1], &cancel).unwrap();
                 assert!(found.exact && found.bound <= found.value);
+                assert_eq!(found.value, valid(&problem, &found.chosen));
                 assert!((found.value - least).abs() <= rounding, "{found:?} for {least}");
                 assert!(problem.bound() <= least + rounding);
-                let exchanged = problem.exchanged(both[0].clone(), &mut 0, &Cancel::new()).unwrap();
-                assert!(problem.value(&exchanged) >= least - rounding);
+                // Where no exchange has found it before.
+                let nothing = (f64::INFINITY, Partition::new());
+                let compared = match problem.sets {
+                    1 => problem.of_all(&nothing, &cancel),
+                    _ => problem.partitioned(&nothing, &cancel),
+                };
+                let compared = valid(&problem, &compared.unwrap().unwrap());
+                assert!((compared - least).abs() <= rounding, "{compared} for {least}");
+                let exchanged = problem.exchanged(both[0].clone(), &mut 0, &cancel).unwrap();
+                assert!(valid(&problem, &exchanged) >= least - rounding);
                 assert!(problem.value(&exchanged) <= problem.value(&both[0]) + rounding);
             }
         }
@@ -345,17 +375,51 @@ mod tests {
 
     #[test]
     fn many_parts_are_exchanged_and_a_cancelled_search_stops() {
-        let mut number = numbers(3);
-        let deviations = vec![(0..40).map(|_| number()).collect()];
-        let influences = vec![(0..6).map(|_| vec![number(), number()]).collect()];
-        let kind = PartKind::new(deviations, influences).unwrap();
-        let problem = Matching::new(vec![0.0; 2], vec![kind], 6).unwrap();
-        let start = vec![vec![(0..40).collect::<Vec<usize>>()]];
-        let found = problem.solve(&start, &Cancel::new()).unwrap();
-        assert!(!found.exact && found.value < 0.1 * problem.value(&start[0]));
+        let problem = problem([6, 6, 2], &[40], 0.0, numbers(3));
+        let rising: Vec<usize> = (0..40).collect();
+        let starts = [vec![rising.clone()], vec![rising.into_iter().rev().collect()]];
+        let found = problem.solve(&starts, &Cancel::new()).unwrap();
+        assert!(!found.exact && found.value < 0.1 * problem.value(&starts[0]));
+        assert_eq!(found.value, valid(&problem, &found.chosen));
+        let values = starts
+            .clone()
+            .map(|start| problem.value(&problem.exchanged(start, &mut 0, &Cancel::new()).unwrap()));
+        assert_eq!(found.value, values[0].min(values[1]));
+        assert_ne!(values[0], values[1]);
+        // No exchange is left that is better, of spare parts either.
+        let used = &found.chosen[0];
+        let spare = (0..40).filter(|part| !used.contains(part));
+        let all: Vec<usize> = used.iter().copied().chain(spare).collect();
+        for (i, j) in (0..40).flat_map(|j| (0..j).map(move |i| (i, j))) {
+            let mut other = all.clone();
+            other.swap(i, j);
+            assert!(problem.value(&[other]) >= found.value * (1.0 - 1e-11), "{i} {j}");
+        }
         let cancel = Cancel::new();
         cancel.raise();
-        assert_eq!(problem.solve(&start, &cancel), Err(crate::Error::Cancelled));
+        assert_eq!(problem.solve(&starts, &cancel), Err(crate::Error::Cancelled));
+    }
+
+    #[test]
+    fn parts_that_are_alike_are_not_exchanged() {
+        let kind = PartKind::new(vec![vec![0.0; 3]], vec![vec![vec![1.0]; 2]]).unwrap();
+        let problem = Matching::new(vec![0.0], vec![kind], 1).unwrap();
+        let found = problem.solve(&[vec![vec![2, 1, 0]]], &Cancel::new()).unwrap();
+        assert_eq!((found.chosen, found.value), (vec![vec![2, 1]], 0.0));
+    }
+
+    #[test]
+    fn the_bound_is_met_where_one_figure_has_one_dimension() {
+        let bound = |start: f64, influences: &[f64], sets: usize| {
+            let influences = influences.iter().map(|&x| vec![x]).collect();
+            let kind = PartKind::new(vec![vec![-1.0, 2.0, 3.0]], vec![influences]).unwrap();
+            Matching::new(vec![start], vec![kind], sets).unwrap().bound()
+        };
+        // The least sum is −1·2 + 2·1, the largest 3·2 + 2·1.
+        assert_eq!([bound(10.0, &[1.0, 2.0], 1), bound(-10.0, &[1.0, 2.0], 1)], [10.0, 2.0]);
+        assert_eq!(bound(-4.0, &[1.0, 2.0], 1), 0.0);
+        // Of two sets with one part each: 2·10 − 1 + 2, and 2·10 − 2 − 3.
+        assert_eq!([bound(10.0, &[1.0], 2), bound(-10.0, &[1.0], 2)], [21.0, 15.0]);
     }
 
     #[test]

@@ -323,7 +323,7 @@ def _reduced(
     dimensions = len(start)
     stacked = np.concatenate([kind.influences.reshape(-1, dimensions) for kind in kinds])
     _, sizes, axes = np.linalg.svd(stacked, full_matrices=False)
-    axes = axes[sizes > 1e-13 * sizes.max(initial=0.0)]
+    axes = axes[: max(1, np.count_nonzero(sizes > 1e-13 * sizes[0]))]
     rest = start
     for _ in range(2):
         # Twice: what rounding left of the first projection is not orthogonal.
@@ -333,7 +333,7 @@ def _reduced(
         axes = np.vstack([axes, rest / length])
     along = axes @ start
     largest = max(float(np.abs(kind.parts).max()) for kind in kinds)
-    if np.linalg.norm(along) > largest * sizes.max(initial=0.0):
+    if np.linalg.norm(along) > largest * sizes[0]:
         turned, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
         axes, along = turned.T @ axes, turned.T @ along
     return along, tuple(kind._replace(influences=kind.influences @ axes.T) for kind in kinds)

@@ -90,7 +90,7 @@ impl Matching {
             cancel.check()?;
             let second = self.arrangements(half..self.places, &theirs, &zero)?;
             let least = best.as_ref().map_or(known, |(value, _)| *value);
-            if let Some((value, a, b)) = first.closest(&second, least, cancel)? {
+            if let Some((value, a, b)) = first.closest(&second, least) {
                 let joined = (0..self.kinds.len())
                     .map(|kind| [first.parts(a, kind), second.parts(b, kind)].concat());
                 best = Some((value, joined.collect()));
@@ -201,12 +201,9 @@ struct Arrangements {
 }
 
 impl Arrangements {
-    fn len(&self) -> usize {
-        self.sums.len().checked_div(self.dimensions).unwrap_or(1)
-    }
-
-    fn sum(&self, k: usize) -> &[f64] {
-        &self.sums[k * self.dimensions..(k + 1) * self.dimensions]
+    /// Number of each arrangement, and what it adds.
+    fn numbered(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        self.sums.chunks_exact(self.dimensions).enumerate()
     }
 
     fn parts(&self, k: usize, kind: usize) -> &[usize] {
@@ -214,38 +211,15 @@ impl Arrangements {
     }
 
     /// The pair with the shortest sum, if it is shorter than `known`: its length, and the two.
-    fn closest(
-        &self,
-        other: &Self,
-        known: f64,
-        cancel: &Cancel,
-    ) -> Result<Option<(f64, usize, usize)>> {
-        if self.dimensions == 0 {
-            return Ok((known > 0.0).then_some((0.0, 0, 0)));
-        }
-        // Least square of the components but the first.
-        let rest: f64 = (1..self.dimensions)
-            .map(|k| {
-                let ([low, high], [from, to]) = (self.range(k), other.range(k));
-                (low + from).max(-high - to).max(0.0).powi(2)
-            })
-            .sum();
+    fn closest(&self, other: &Self, known: f64) -> Option<(f64, usize, usize)> {
         let mut square = known * known;
         let mut found = None;
-        let mut sorted: Vec<usize> = (0..other.len()).collect();
-        sorted.sort_by(|&i, &j| other.sum(i)[0].total_cmp(&other.sum(j)[0]));
-        for i in 0..self.len() {
-            if i % 256 == 0 {
-                cancel.check()?;
-            }
-            if square <= rest {
-                break;
-            }
-            let ours = self.sum(i);
-            let reach = (square - rest).sqrt();
-            let begin = sorted.partition_point(|&j| other.sum(j)[0] < -ours[0] - reach);
-            for &j in &sorted[begin..] {
-                let theirs = other.sum(j);
+        let mut sorted: Vec<(usize, &[f64])> = other.numbered().collect();
+        sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+        for (i, ours) in self.numbered() {
+            let reach = square.sqrt();
+            let begin = sorted.partition_point(|(_, theirs)| theirs[0] < -ours[0] - reach);
+            for &(j, theirs) in &sorted[begin..] {
                 if ours[0] + theirs[0] > reach {
                     break;
                 }
@@ -256,12 +230,7 @@ impl Arrangements {
                 }
             }
         }
-        Ok(found)
-    }
-
-    fn range(&self, component: usize) -> [f64; 2] {
-        let of_all = (0..self.len()).map(|k| self.sum(k)[component]);
-        of_all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        found
     }
 }
 
@@ -385,4 +354,43 @@ fn combinations(parts: &[usize], count: usize) -> Vec<Vec<usize>> {
                 .map(move |rest| [&[parts[k]][..], &rest].concat())
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::PartKind;
+    use super::super::tests::{numbers, problem};
+    use super::*;
+
+    #[test]
+    fn too_many_matchings_are_not_compared() {
+        let none = (f64::INFINITY, Partition::new());
+        let of = |sizes, parts| problem(sizes, parts, 1.0, numbers(5));
+        // Choices of three pistons of six, and the orders of either half.
+        assert_eq!(of([1, 6, 1], &[6]).half_arrangements(&[6]), 20.0 * (6.0 + 6.0));
+        // Two and three of six and five: (6·5/2)(4) pistons, (5·4/2)(1) rods.
+        let both = of([1, 5, 1], &[6, 5]).half_arrangements(&[6, 5]);
+        assert_eq!(both, 15.0 * 4.0 * 10.0 * (2.0 * 2.0 + 6.0 * 6.0));
+        // 3.5e7 half arrangements.
+        assert_eq!(of([1, 14, 1], &[14]).of_all(&none, &Cancel::new()), Ok(None));
+        // 134 596 possible sets of six, each of 240 half arrangements; and more bits than a mask has.
+        assert_eq!(of([4, 6, 1], &[24]).partitioned(&none, &Cancel::new()), Ok(None));
+        assert_eq!(of([2, 1, 1], &[33]).partitioned(&none, &Cancel::new()), Ok(None));
+    }
+
+    #[test]
+    fn partitions_are_given_up_after_so_many_comparisons() {
+        let kind = PartKind::new(vec![vec![1.0, 2.0, 4.0]], vec![vec![vec![1.0]]]).unwrap();
+        let problem = Matching::new(vec![-2.0], vec![kind], 3).unwrap();
+        let cancel = Cancel::new();
+        let least = |compared: usize| {
+            let (best, values) = (HashMap::new(), HashMap::new());
+            let mut search =
+                Partitions { problem: &problem, cancel: &cancel, best, values, compared };
+            search.least([0b111, 0], 3)
+        };
+        // One part for each of three sets: three comparisons.
+        assert_eq!(least(MOST_SETS - 3), Ok(Some(1.0 + 0.0 + 2.0)));
+        assert_eq!([least(MOST_SETS - 2), least(MOST_SETS)], [Ok(None), Ok(None)]);
+    }
 }
