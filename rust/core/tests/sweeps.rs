@@ -1020,6 +1020,25 @@ fn sweeps_with_no_order_needed_are_zero_everywhere() {
 }
 
 #[test]
+fn a_sweep_of_rod_ratios_leaves_out_what_the_largest_does() {
+    let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
+    let bank = Angle::QUARTER_TURN;
+    let upright = Station { cylinder, tdc: Angle::ZERO, bank, z: REFERENCE, rotating_mass: 0.0 };
+    let upright = Arc::new(Engine::new("", "", vec![upright]).unwrap());
+    let chosen = |ratios: &[f64]| {
+        let (rod_ratio, rpm) = (Some(ratios.to_vec()), vec![3000.0]);
+        let axes = Axes { rod_ratio, rpm, ..Axes::default() };
+        Sweep::within(1e-5, vec![Arc::clone(&upright)], axes, None, true, &Cancel::new()).unwrap()
+    };
+    let (many, one) = (chosen(&[0.2, 0.25, 0.3]), chosen(&[0.3]));
+    assert_eq!((many.orders(), many.omitted()), (one.orders(), one.omitted()));
+    // Each order of a centred piston is largest there: the same sums.
+    for (many, one) in many.error_bound().into_iter().zip(one.error_bound()) {
+        assert!((many - one).abs() <= 1e-14 * one, "{many} {one}");
+    }
+}
+
+#[test]
 fn few_orders_of_a_spectrum_are_chosen() {
     let terms = [(1, 0.02), (3, 1e-5), (4, 2e-5), (6, 0.01)];
     let terms = terms.map(|(n, size)| (n, Complex64::new(0.0, size)));

@@ -99,14 +99,14 @@ impl Gear {
             let zero = vec![Complex64::default(); orders.len()];
             return Ok((TorqueHarmonics { roll: zero.clone(), crank: zero }, [0.0; 2]));
         };
-        let [on_block, on_crank] = self.senses();
+        // Pressure counts on cranks that turn as fast as the main one.
+        let [on_block, _] = self.senses();
         let GasTorque { mean, phasors } = match known.and_then(|known| known.at(orders)) {
             Some(found) => found,
             None => cycle.torque_of(proportions, *crankcase, orders, cancel)?,
         };
         let roll = phasors.iter().map(|phasor| phasor * -on_block).collect();
-        let crank = phasors.iter().map(|phasor| phasor * on_crank).collect();
-        Ok((TorqueHarmonics { roll, crank }, [-on_block * mean, on_crank * mean]))
+        Ok((TorqueHarmonics { roll, crank: phasors }, [-on_block * mean, mean]))
     }
 
     /// Harmonics ½, 1, 1½ … of the torque of the pressure on a crank, and bounds of the sum of all above
@@ -207,12 +207,42 @@ impl Gear {
         let ratio = self.ratio.unsigned_abs();
         let own = |order: &Order| order.as_whole().filter(|n| n % ratio == 0).map(|n| n / ratio);
         let whole: Vec<u32> = orders.iter().filter_map(own).collect();
-        let mut values = of(&whole)?;
-        if whole.len() < orders.len() {
-            let mut found = values.into_iter();
-            let value = |order: &Order| own(order).and_then(|_| found.next());
-            values = orders.iter().map(value).map(Option::unwrap_or_default).collect();
+        let mut found = of(&whole)?.into_iter();
+        let value = |order: &Order| own(order).and_then(|_| found.next()).unwrap_or_default();
+        Ok(orders.iter().map(value).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pressure::Given;
+
+    #[test]
+    fn the_tail_bounds_what_is_above_an_order_of_the_main_crank() {
+        let cylinder = Cylinder::new(0.05, 0.12, 0.5, 0.01).unwrap();
+        let orders: Vec<Order> = (1..100).map(|n| Order::whole(n).unwrap()).collect();
+        for ratio in [1, -1, 2, -3] {
+            let gear = Gear::of(cylinder, ratio);
+            let sizes = gear.force(&orders, &Cancel::new()).unwrap();
+            for highest in 1..20_usize {
+                let above: f64 = sizes[highest..].iter().map(|size| size.norm()).sum();
+                assert!(above <= gear.tail(highest as u32, false)[0], "{ratio} {highest}");
+            }
         }
-        Ok(values)
+    }
+
+    #[test]
+    fn the_largest_torque_of_pressure_on_a_long_rod_is_at_a_quarter_turn() {
+        let theta_deg: Vec<f64> = (0..720).map(f64::from).collect();
+        let pressure = vec![3e5; 720];
+        let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+        let cycle = Arc::new(Cycle::new(given).unwrap());
+        let mut gear = Gear::of(Cylinder::new(0.05, 5e3, 0.5, 0.0).unwrap(), 1);
+        assert_eq!(gear.largest_gas(), None);
+        gear.pressure = Some(Pressure { cycle, crankcase: 1e5 });
+        // There the piston moves by a crank radius, whatever the rod; a degree away by 1.5e-4 less.
+        let largest = gear.largest_gas().unwrap();
+        assert!((largest / 2e5 - 1.0).abs() < 1e-12, "{largest}");
     }
 }

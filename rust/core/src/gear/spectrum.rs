@@ -51,3 +51,14 @@ impl Spectrum {
         self.0.values().map(|amplitude| amplitude.norm()).fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_amplitude_is_the_longest() {
+        let terms = [(1, Complex64::new(3.0, -4.0)), (4, Complex64::new(-4.5, 0.0))];
+        assert_eq!(Spectrum::new(terms).unwrap().largest(), 5.0);
+    }
+}

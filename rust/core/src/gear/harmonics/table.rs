@@ -271,12 +271,12 @@ pub fn write_centred_roll(
             }
             continue;
         }
-        let place = |order: u32| forces.partition_point(|&other| other < order);
-        let (below, above) = (place(n - 1), place(n + 1));
+        // Of even orders n + 1 is the first above n, and n − 1 the last below.
+        let above = forces.partition_point(|&order| order < n);
         for (value, row) in values.zip(table.chunks_exact(forces.len())) {
             // h'ₙ = i·aₙ/n, and none of order 0.
-            let slope = |n: u32, place: usize| if n == 0 { 0.0 } else { row[place] / f64::from(n) };
-            *value = half * (slope(n + 1, above) - slope(n - 1, below));
+            let below = if n == 1 { 0.0 } else { row[above - 1] / f64::from(n - 1) };
+            *value = half * (row[above] / f64::from(n + 1) - below);
         }
     }
     Ok(())
@@ -307,6 +307,8 @@ mod tests {
     #[test]
     fn rows_are_the_harmonics_of_each_slider_crank() {
         check(&[7, 1, 2, 3, 4, 5, 6, 8, 9, 12]);
+        // Each odd order needs two of the forces, that no other asks for.
+        check(&[1, 7]);
         // Even orders need no forces.
         check(&[2]);
         check(&[2, 4]);
