@@ -281,8 +281,7 @@ fn at([re, im]: &[[f64; CHUNK]; 2], sample: usize) -> Complex64 {
 fn check_pins(engine: &Engine, pin_of: &[usize]) -> Result<()> {
     let count = engine.stations().len();
     limits::same_length("pins", pin_of.len(), "the engine", count, "cylinder")?;
-    let pins = pins(pin_of);
-    if pins > count || (0..pins).any(|pin| !pin_of.contains(&pin)) {
+    if (0..pins(pin_of)).any(|pin| !pin_of.contains(&pin)) {
         let hint = "count the pins from 0, each with a cylinder";
         return Err(Error::value("pins", format!("{pin_of:?}"), hint));
     }
@@ -339,7 +338,7 @@ fn check_reach(
         let smallest = cylinder.crank_radius() - largest * radius;
         let slack = cylinder.rod_length() - cylinder.pin_offset().abs() - cylinder.crank_radius();
         let shrunk = largest * (radius + rod);
-        if (radius > 0.0 && smallest < limits::SMALLEST) || (shrunk > 0.0 && shrunk >= slack) {
+        if smallest < limits::SMALLEST || shrunk >= slack {
             let figure = if radius >= rod { Parameter::CrankRadius } else { Parameter::RodLength };
             let hint =
                 format!("a draw may keep the crank of cylinder {number} from turning; give less");

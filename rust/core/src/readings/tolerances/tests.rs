@@ -221,6 +221,20 @@ fn a_sample_is_the_same_whichever_others_are_evaluated_with_it() {
 }
 
 #[test]
+fn a_figure_that_does_not_deviate_may_be_left_out() {
+    let tolerances = made(&spreads(), Distribution::Uniform).unwrap();
+    let all = deviations(&spreads(), 20);
+    for k in 0..FIGURES {
+        let (mut alone, mut beside_zeros) = (NONE, all.clone().map(|each| vec![0.0; each.len()]));
+        alone[k].clone_from(&all[k]);
+        beside_zeros[k].clone_from(&all[k]);
+        let [alone, beside_zeros] =
+            [alone, beside_zeros].map(|deviations| sample(&tolerances, 20, &deviations));
+        assert_eq!(alone, beside_zeros, "{}", Parameter::ALL[k].name());
+    }
+}
+
+#[test]
 fn spreads_that_leave_no_engine_are_rejected() {
     let error = |figure: Parameter, values: Vec<f64>, distribution| {
         let mut spreads = NONE;
@@ -231,11 +245,22 @@ fn spreads_that_leave_no_engine_are_rejected() {
     let uniform = Distribution::Uniform;
     let masses = error(Parameter::ReciprocatingMass, vec![0.0, 0.0, 0.4 / 8.0, 0.0], normal);
     assert!(masses.starts_with("reciprocating_mass = 0.05: a draw may take more than"), "{masses}");
+    // 0.4 kg over 12.3
+    assert!(masses.ends_with("give 3.252e-2 at most"), "{masses}");
+    assert_eq!(error(Parameter::ReciprocatingMass, vec![0.0, 0.0, 3.252e-2, 0.0], normal), "");
     assert_eq!(error(Parameter::ReciprocatingMass, vec![0.4; 4], uniform), "");
     // The longest crank on the shortest rod: 0.05 and 0.15 m.
     assert_eq!(error(Parameter::CrankRadius, vec![0.0499, 0.0, 0.0], uniform), "");
-    assert!(error(Parameter::CrankRadius, vec![0.0, 0.0, 0.051], uniform).contains("turning"));
-    assert!(error(Parameter::RodLength, vec![0.0, 0.1, 0.0, 0.0], uniform).contains("cylinder 2"));
+    let radii = error(Parameter::CrankRadius, vec![0.0, 0.0, 0.051], uniform);
+    assert!(radii.starts_with("crank_radius = 0.051: a draw may keep the crank"), "{radii}");
+    let rods = error(Parameter::RodLength, vec![0.0, 0.1, 0.0, 0.0], uniform);
+    assert!(
+        rods.starts_with("rod_length = 0.1: a draw may keep the crank of cylinder 2"),
+        "{rods}"
+    );
+    // 0.16 m less the offset of 0.003 and the radius of 0.045
+    assert_eq!(error(Parameter::RodLength, vec![0.0, 0.0, 0.111, 0.0], uniform), "");
+    assert!(error(Parameter::RodLength, vec![0.0, 0.0, 0.113, 0.0], uniform).contains("turning"));
     assert!(error(Parameter::Pin, vec![30.0, 0.0, 0.0], normal).contains("half a turn"));
     assert!(error(Parameter::Pin, vec![1.0; 4], normal).contains("one for each crankpin"));
     assert!(error(Parameter::Z, vec![1.0, 1.0], normal).contains("one for each cylinder"));
@@ -248,6 +273,8 @@ fn spreads_that_leave_no_engine_are_rejected() {
         let made = Tolerances::new(&engine(), &REQUEST, &orders, none, pins, &Cancel::new());
         assert!(made.is_err(), "{pins:?}");
     }
+    let none = made(&NONE, normal).unwrap();
+    assert!(none.check_size(1000).is_ok() && none.check_size(1 << 40).is_err());
 }
 
 #[test]
