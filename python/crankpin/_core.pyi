@@ -401,6 +401,7 @@ class Merit:
     ) -> tuple[float, list[float]]: ...
 
 def matched(
+    spread: bool,
     start: Sequence[float],
     kinds: Sequence[tuple[Sequence[Sequence[float]], Sequence[Sequence[Sequence[float]]]]],
     sets: int,

@@ -2,8 +2,9 @@
 //!
 //! A set of parts fills all places of one engine. With part p of each kind in place j the remainder of
 //! an engine is `start + Σⱼ added(j, p)`; the sum of the lengths of the remainders over all sets is
-//! minimised. Few parts are compared exhaustively: the arrangements of one half of the places against
-//! those of the other, and all partitions into sets. Of many, two are exchanged as long as that helps.
+//! minimised, or that of their spreads, where each place is a dimension. Few parts are compared
+//! exhaustively for the least lengths: the arrangements of one half of the places against those of the
+//! other, and all partitions into sets. Of many, two are exchanged as long as that helps.
 
 mod exhaustive;
 
@@ -17,7 +18,7 @@ use crate::numbers::memory;
 const MOST_EXCHANGES: usize = 100_000_000;
 /// Kinds of parts: pistons and rods.
 const KINDS: usize = 2;
-/// An exchange counts as better if it shortens the remainders by more than this part of them.
+/// An exchange counts as better if it lessens the remainders by more than this part of them.
 const BETTER: f64 = 1e-12;
 
 /// Parts of one kind, such as pistons or rods, and their effects.
@@ -36,9 +37,33 @@ pub struct PartKind {
 /// A chosen part of each place of each set, by kind: set after set.
 pub type Partition = Vec<Vec<usize>>;
 
+/// What a remainder counts as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Root of the sum of the squares of its components.
+    Length,
+    /// Largest component less the smallest.
+    Spread,
+}
+
+impl Measure {
+    fn of(self, vector: &[f64]) -> f64 {
+        match self {
+            Self::Length => length(vector),
+            Self::Spread => {
+                let ends = [f64::INFINITY, f64::NEG_INFINITY];
+                let [low, high] =
+                    vector.iter().fold(ends, |[low, high], x| [low.min(*x), high.max(*x)]);
+                high - low
+            }
+        }
+    }
+}
+
 /// Parts to match, and what they are matched to.
 #[derive(Debug, Clone)]
 pub struct Matching {
+    measure: Measure,
     start: Vec<f64>,
     kinds: Vec<PartKind>,
     places: usize,
@@ -50,7 +75,7 @@ pub struct Matching {
 pub struct Match {
     /// The part in each place.
     pub chosen: Partition,
-    /// Sum of the lengths of the remainders.
+    /// Sum of the measures of the remainders.
     pub value: f64,
     /// A sum below which no matching comes.
     pub bound: f64,
@@ -102,7 +127,12 @@ fn add(to: &mut [f64], sign: f64, vector: &[f64]) {
 
 impl Matching {
     /// A number of sets of parts of each kind.
-    pub fn new(start: Vec<f64>, kinds: Vec<PartKind>, sets: usize) -> Result<Self> {
+    pub fn new(
+        measure: Measure,
+        start: Vec<f64>,
+        kinds: Vec<PartKind>,
+        sets: usize,
+    ) -> Result<Self> {
         let places = kinds.first().map_or(0, |kind| shape(&kind.influences).0);
         let fits = |kind: &PartKind| {
             let enough = sets.checked_mul(places).is_some_and(|used| used <= kind.parts);
@@ -113,7 +143,7 @@ impl Matching {
             let hint = "give one or two kinds, with parts for every place of all sets";
             return Err(Error::value("parts", found, hint));
         }
-        Ok(Self { start, kinds, places, sets })
+        Ok(Self { measure, start, kinds, places, sets })
     }
 
     /// Whether these are sequences of all parts, one for each kind.
@@ -147,7 +177,9 @@ impl Matching {
             }
             cancel.step()?;
         }
-        let found = if self.sets == 1 {
+        let found = if self.measure == Measure::Spread {
+            None
+        } else if self.sets == 1 {
             self.of_all(&best, cancel)?
         } else {
             self.partitioned(&best, cancel)?
@@ -155,7 +187,11 @@ impl Matching {
         let exact = found.is_some();
         let chosen = found.unwrap_or(best.1);
         let value = self.value(&chosen);
-        let bound = if exact { value } else { self.bound().min(value) };
+        let bound = match self.measure {
+            Measure::Length if !exact => self.bound().min(value),
+            Measure::Spread => 0.0,
+            Measure::Length => value,
+        };
         Ok(Match { chosen, value, bound, exact })
     }
 
@@ -177,10 +213,10 @@ impl Matching {
         found
     }
 
-    /// Sum of the lengths of the remainders.
+    /// Sum of the measures of the remainders.
     #[must_use]
     pub fn value(&self, chosen: &[Vec<usize>]) -> f64 {
-        self.remainders(chosen).iter().map(|each| length(each)).sum()
+        self.remainders(chosen).iter().map(|each| self.measure.of(each)).sum()
     }
 
     /// A sum of lengths below which no matching comes.
@@ -227,8 +263,8 @@ impl Matching {
     ) -> Result<Partition> {
         let used = self.sets * self.places;
         let mut trials = [Vec::new(), Vec::new()];
+        let mut last = self.value(&sequences);
         loop {
-            let mut better = false;
             // Anew in each round: rounding of sums that are updated grows.
             let mut remainders = self.remainders(&sequences);
             for (kind, parts) in sequences.iter_mut().enumerate() {
@@ -242,7 +278,7 @@ impl Matching {
                         let mut before = 0.0;
                         for (trial, &set) in trials.iter_mut().zip(&sets[..changed]) {
                             trial.clone_from(&remainders[set]);
-                            before += length(trial);
+                            before += self.measure.of(trial);
                         }
                         for k in (0..2).filter(|&k| slots[k] < used) {
                             let (trial, place) =
@@ -250,23 +286,26 @@ impl Matching {
                             add(trial, -1.0, self.added(kind, place, moved[k]));
                             add(trial, 1.0, self.added(kind, place, moved[1 - k]));
                         }
-                        let after: f64 = trials[..changed].iter().map(|each| length(each)).sum();
+                        let after: f64 =
+                            trials[..changed].iter().map(|each| self.measure.of(each)).sum();
                         if after < before * (1.0 - BETTER) {
                             parts.swap(i, j);
                             for (trial, set) in trials.iter_mut().zip(sets).take(changed) {
                                 mem::swap(&mut remainders[set], trial);
                             }
-                            better = true;
                         }
                     }
                 }
             }
-            if !better {
+            // Of the updated sums, rounding alone could be better for ever.
+            let value = self.value(&sequences);
+            if value >= last * (1.0 - BETTER) {
                 for parts in &mut sequences {
                     parts.truncate(used);
                 }
                 return Ok(sequences);
             }
+            last = value;
         }
     }
 }
@@ -306,7 +345,8 @@ mod tests {
             PartKind::new(deviations, (0..=figures).map(places).collect()).unwrap()
         });
         let kinds = kinds.collect();
-        Matching::new(some(dimensions).iter().map(|x| x * distance).collect(), kinds, sets).unwrap()
+        let start = some(dimensions).iter().map(|x| x * distance).collect();
+        Matching::new(Measure::Length, start, kinds, sets).unwrap()
     }
 
     /// [`Matching::value`], where every place has one part and no part has two places.
@@ -403,7 +443,7 @@ mod tests {
     #[test]
     fn parts_that_are_alike_are_not_exchanged() {
         let kind = PartKind::new(vec![vec![0.0; 3]], vec![vec![vec![1.0]; 2]]).unwrap();
-        let problem = Matching::new(vec![0.0], vec![kind], 1).unwrap();
+        let problem = Matching::new(Measure::Length, vec![0.0], vec![kind], 1).unwrap();
         let found = problem.solve(&[vec![vec![2, 1, 0]]], &Cancel::new()).unwrap();
         assert_eq!((found.chosen, found.value), (vec![vec![2, 1]], 0.0));
     }
@@ -413,13 +453,37 @@ mod tests {
         let bound = |start: f64, influences: &[f64], sets: usize| {
             let influences = influences.iter().map(|&x| vec![x]).collect();
             let kind = PartKind::new(vec![vec![-1.0, 2.0, 3.0]], vec![influences]).unwrap();
-            Matching::new(vec![start], vec![kind], sets).unwrap().bound()
+            Matching::new(Measure::Length, vec![start], vec![kind], sets).unwrap().bound()
         };
         // The least sum is −1·2 + 2·1, the largest 3·2 + 2·1.
         assert_eq!([bound(10.0, &[1.0, 2.0], 1), bound(-10.0, &[1.0, 2.0], 1)], [10.0, 2.0]);
         assert_eq!(bound(-4.0, &[1.0, 2.0], 1), 0.0);
         // Of two sets with one part each: 2·10 − 1 + 2, and 2·10 − 2 − 3.
         assert_eq!([bound(10.0, &[1.0], 2), bound(-10.0, &[1.0], 2)], [21.0, 15.0]);
+    }
+
+    #[test]
+    fn spreads_are_exchanged_too() {
+        let mut number = numbers(5);
+        // Each place is a dimension.
+        let unit = |k: usize| (0..3).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
+        let mut kind = |parts: usize| {
+            let deviations = vec![(0..parts).map(|_| number()).collect()];
+            PartKind::new(deviations, vec![(0..3).map(unit).collect()]).unwrap()
+        };
+        let kinds = vec![kind(4), kind(3)];
+        let problem = Matching::new(Measure::Spread, vec![0.0; 3], kinds, 1).unwrap();
+        let least = sequences(4)
+            .into_iter()
+            .flat_map(|a| sequences(3).into_iter().map(move |b| vec![a.clone(), b]))
+            .map(|chosen| problem.value(&chosen))
+            .fold(f64::INFINITY, f64::min);
+        let starts: Vec<_> = sequences(4).into_iter().map(|a| vec![a, (0..3).collect()]).collect();
+        let found = problem.solve(&starts, &Cancel::new()).unwrap();
+        assert!(!found.exact && found.bound == 0.0);
+        // Sums of two numbers below 1.
+        assert!((found.value - least).abs() < 1e-15, "{found:?} for {least}");
+        assert!(least > 0.01 && found.value == problem.value(&found.chosen));
     }
 
     #[test]
@@ -431,7 +495,7 @@ mod tests {
         let uneven = vec![vec![vec![1.0], vec![1.0, 2.0]]];
         assert!(error(PartKind::new(vec![vec![1.0]], uneven)).starts_with("parts"));
         let many = |start: usize, kinds: Vec<PartKind>, sets: usize| {
-            Matching::new(vec![0.0; start], kinds, sets)
+            Matching::new(Measure::Length, vec![0.0; start], kinds, sets)
         };
         let two = || kind(2).unwrap();
         for (start, kinds, sets) in [

@@ -1,6 +1,6 @@
 //! Matching of measured parts.
 
-use crankpin_core::matching::{Matching, PartKind};
+use crankpin_core::matching::{Matching, Measure, PartKind};
 use pyo3::prelude::*;
 
 use crate::convert::OrRaise;
@@ -13,10 +13,12 @@ type Found = (Vec<Vec<usize>>, f64, f64, bool);
 type Parts = (Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>);
 
 /// The best matching of kinds of parts, each with its deviations (figures, parts) and influences
-/// (figures, places, dimensions), from the sequences of parts of each start.
+/// (figures, places, dimensions), from the sequences of parts of each start; remainders count by their
+/// spread over the dimensions, or by their length.
 #[pyfunction]
 pub fn matched(
     py: Python<'_>,
+    spread: bool,
     start: Vec<f64>,
     kinds: Vec<Parts>,
     sets: usize,
@@ -27,7 +29,8 @@ pub fn matched(
         .into_iter()
         .map(|(deviations, influences)| PartKind::new(deviations, influences))
         .collect();
-    let problem = Matching::new(start, kinds.or_raise()?, sets).or_raise()?;
+    let measure = if spread { Measure::Spread } else { Measure::Length };
+    let problem = Matching::new(measure, start, kinds.or_raise()?, sets).or_raise()?;
     let found = interrupt::watched(py, progress.as_ref(), |cancel| problem.solve(&starts, cancel))?;
     Ok((found.chosen, found.value, found.bound, found.exact))
 }

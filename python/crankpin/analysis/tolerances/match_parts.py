@@ -19,6 +19,8 @@ from crankpin.analysis.tolerances.spreads import deviating
 from crankpin.model import checks
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Orders
@@ -36,6 +38,10 @@ UNITS = {"balance": "kg·m", "spread": "kg"}
 MOST_PARTS = 1000
 STARTS = 24
 """Random starts of the search by exchanges."""
+SPREAD_STARTS = 4000
+"""Of that for the least spread, over the number of pistons: few parts are searched thoroughly."""
+MOST_EXCHANGED = 64
+"""Cylinders of an engine up to which parts are exchanged for the least spread."""
 
 
 class Kind(NamedTuple):
@@ -176,7 +182,7 @@ def match_parts(
     objective
         ``"balance"``: what remains of ``orders`` in the engine, forward and backward parts of force
         and moment, in kg·m (over ω²), moments over half the distance from the first to the last
-        cylinder; the root of the sum of squares is minimised.
+        cylinder (none where that is zero); the root of the sum of squares is minimised.
         ``"spread"``: the difference between the heaviest and the lightest piston with small end.
     sets
         Number of engines to be filled; by default as many as the parts suffice for. Of several
@@ -200,7 +206,7 @@ def match_parts(
     two parts are exchanged, within an engine, between engines or with a spare one, as long as that
     helps, from many starts; ``bound`` is a value below which no assignment comes then, 0 where the
     parts might make up for everything. ``"spread"`` is exact for pistons alone, and for pistons and
-    rods of one engine without spare ones.
+    rods of one engine without spare ones; other pistons and rods are exchanged in the same way.
 
     Examples
     --------
@@ -239,7 +245,7 @@ def match_parts(
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
     if objective == "spread":
-        chosen, exact = _by_spread(measured, wanted)
+        chosen, exact = _by_spread(measured, wanted, start, asked)
         # Rods might make up for any difference of pistons.
         bound = sum(measured.value(objective, each) for each in chosen) if exact else 0.0
     else:
@@ -264,30 +270,36 @@ def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
 # --- the search -----------------------------------------------------------------------------------
 
 
-def _by_spread(parts: MeasuredParts, sets: int) -> tuple[list[Assignment], bool]:
+def _by_spread(
+    parts: MeasuredParts, sets: int, seed: int, progress: Progress
+) -> tuple[list[Assignment], bool]:
     """Return sets of pistons, and of rods, whose sums are most alike, and whether that is proved.
 
     Sorted against each other, pistons and rods of one engine have the least largest and the largest
     least sum: exchanging any two rods of another order makes the larger sum larger or none smaller.
     """
-    count = len(parts.engine)
-    pistons = windows(parts.pistons, count, sets)
+    count, masses = len(parts.engine), parts.pistons
+    pistons = windows(masses, count, sets)
     if parts.rods is None:
         return [assignment_of(each) for each in pistons], True
     small = parts.rods[:, 0]
+    rising, falling = np.argsort(masses, kind="stable"), np.argsort(-small, kind="stable")
+    if len(masses) == len(small) == count:
+        return [assignment_of(rising, falling)], True
     # The lightest pistons with the heaviest rods.
-    rods = windows(small, count, sets)[::-1]
-    found = [assignment_of(ours, theirs[::-1]) for ours, theirs in zip(pistons, rods, strict=True)]
-    everything = len(parts.pistons) == len(small) == count * sets
-    if everything:
-        rising = np.argsort(parts.pistons, kind="stable")
-        falling = np.argsort(-small, kind="stable")
-        together = windows(parts.pistons[rising] + small[falling], count, sets)
-        others = [assignment_of(rising[each], falling[each]) for each in together]
-        found = min(
-            [found, others], key=lambda those: sum(parts.value("spread", each) for each in those)
-        )
-    return found, everything and sets == 1
+    rods = [each[::-1] for each in windows(small, count, sets)[::-1]]
+    if count > MOST_EXCHANGED:
+        return [assignment_of(*both) for both in zip(pistons, rods, strict=True)], False
+    starts = [[_sequence(pistons, len(masses)), _sequence(rods, len(small))]]
+    if len(masses) == len(small):
+        # Or pairs of these that are alike.
+        pairs = windows(masses[rising] + small[falling], count, sets)
+        starts.append([_sequence([of[k] for k in pairs], len(of)) for of in (rising, falling)])
+    starts += _random_starts(parts.kinds, seed, max(STARTS, SPREAD_STARTS // len(masses)))
+    places = [np.eye(count).tolist()]
+    listed = [([each.tolist()], places) for each in (masses, small)]
+    found, _, _ = _matched("spread", [0.0] * count, listed, sets, starts, progress)
+    return found, False
 
 
 def _by_balance(
@@ -295,21 +307,43 @@ def _by_balance(
 ) -> tuple[list[Assignment], bool, float]:
     """Return assignments that leave little, whether that is proved the least, and a lower bound."""
     start, kinds = _reduced(parts.start, parts.kinds)
-    random = np.random.default_rng(seed)
     # Parts of similar mass in one engine, then any.
     starts = [[np.argsort(kind.parts.sum(axis=1)).tolist() for kind in kinds]]
-    starts += [
-        [random.permutation(len(kind.parts)).tolist() for kind in kinds] for _ in range(STARTS)
-    ]
+    starts += _random_starts(kinds, seed, STARTS)
     listed = [
         (kind.parts.T.tolist(), np.swapaxes(kind.influences, 0, 1).tolist()) for kind in kinds
     ]
-    with progress_bar.shown(progress, "assignments") as report:
-        chosen, _, bound, exact = _core.matched(start.tolist(), listed, sets, starts, report)
-    of_sets = np.array(chosen).reshape(len(kinds), sets, -1)
-    assignments = [assignment_of(*of_sets[:, k]) for k in range(sets)]
+    assignments, exact, bound = _matched("balance", start.tolist(), listed, sets, starts, progress)
     value = sum(parts.value("balance", each) for each in assignments)
     return assignments, exact, value if exact else min(bound, value)
+
+
+def _sequence(sets: Sequence[NDArray[np.intp]], parts: int) -> list[int]:
+    """Return the parts of all sets, then those that are left."""
+    used = np.concatenate(sets)
+    return [*used.tolist(), *np.setdiff1d(np.arange(parts), used).tolist()]
+
+
+def _random_starts(kinds: Sequence[Kind], seed: int, number: int) -> list[list[list[int]]]:
+    random = np.random.default_rng(seed)
+    sizes = [len(kind.parts) for kind in kinds]
+    return [[random.permutation(size).tolist() for size in sizes] for _ in range(number)]
+
+
+def _matched(
+    objective: Objective,
+    start: list[float],
+    listed: list[tuple[list[list[float]], list[list[list[float]]]]],
+    sets: int,
+    starts: list[list[list[int]]],
+    progress: Progress,
+) -> tuple[list[Assignment], bool, float]:
+    """Return the assignments that are found, whether they are proved the best, and a bound."""
+    spread = objective == "spread"
+    with progress_bar.shown(progress, "assignments") as report:
+        chosen, _, bound, exact = _core.matched(spread, start, listed, sets, starts, report)
+    of_sets = np.array(chosen).reshape(len(listed), sets, -1)
+    return [assignment_of(*of_sets[:, k]) for k in range(sets)], exact, bound
 
 
 def _reduced(

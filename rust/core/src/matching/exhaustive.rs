@@ -358,8 +358,8 @@ fn combinations(parts: &[usize], count: usize) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::PartKind;
     use super::super::tests::{numbers, problem};
+    use super::super::{Measure, PartKind};
     use super::*;
 
     #[test]
@@ -381,7 +381,7 @@ mod tests {
     #[test]
     fn partitions_are_given_up_after_so_many_comparisons() {
         let kind = PartKind::new(vec![vec![1.0, 2.0, 4.0]], vec![vec![vec![1.0]]]).unwrap();
-        let problem = Matching::new(vec![-2.0], vec![kind], 3).unwrap();
+        let problem = Matching::new(Measure::Length, vec![-2.0], vec![kind], 3).unwrap();
         let cancel = Cancel::new();
         let least = |compared: usize| {
             let (best, values) = (HashMap::new(), HashMap::new());
