@@ -15,6 +15,7 @@ from crankpin._core import InputError
 from crankpin._support import inputs, optional
 from crankpin._support import progress as progress_bar
 from crankpin._support.record import Record
+from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
 from crankpin.model.data import parts
 from crankpin.model.engine import Engine
@@ -318,6 +319,23 @@ class ArrangementSearch(Record):
             properties of matplotlib lines.
         """
         return draw(self, ax, **options)  # type: ignore[no-any-return]
+
+    @property
+    def table(self) -> Table:
+        """Table of the bank angles, with an arrangement for each."""
+        found = list(self)
+        banks = [
+            [
+                "-".join(f"{angle:.6g}" for angle in bank)
+                for bank in (each.first_deg, each.second_deg)
+            ]
+            for each in found
+        ]
+        heads = ["right bank °", "left bank °", "bank angle °", "counterweight"]
+        heads += ["order 2 about x", "order 2 about y"]
+        rows = [(each.bank_angle_deg, each.counterweight, *each.second_order) for each in found]
+        title = f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too"
+        return Table.from_rows(title, heads, banks, np.array(rows).reshape(-1, 4))
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
