@@ -377,6 +377,14 @@ def test_table_has_every_bank_angle() -> None:
     assert len(table.csv().splitlines()) == len(search) + 1
 
 
+def test_moments_that_cancel_are_zero() -> None:
+    for search in (cp.search_arrangements(6), cp.search_arrangements(14, alternating=True)):
+        moments = np.array([(each.counterweight, *each.second_order) for each in search])
+        assert (moments == 0.0).any()
+        # Sums of a few sevenths of a turn that do not cancel are not small; rounding leaves 1e-16.
+        assert moments[moments > 0.0].min() > 1e-6
+
+
 def test_objects() -> None:
     search = cp.search_arrangements(6)
     for other in (copy.copy(search), copy.deepcopy(search), pickle.loads(pickle.dumps(search))):  # noqa: S301

@@ -40,6 +40,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 use crate::numbers::pool;
+use crate::wrench::rounding;
 
 /// All arrangements of one bank, grouped by |Z|.
 #[derive(Debug)]
@@ -179,11 +180,19 @@ impl Search {
                 let turned = if hold == Hold::Pins { n * half } else { 0.0 };
                 [a * Complex64::cis(turned), b * Complex64::cis(-turned)]
             });
+        // A bank has half of each weight.
+        let weights = self.bank().weights();
+        let size: f64 = weights.iter().map(|&w| (w as f64).abs()).sum();
+        let left = |moment: f64, order: f64| {
+            if moment <= rounding(2 * weights.len(), order) * size { 0.0 } else { moment }
+        };
         // F_y with cos α/2, F_x with ± sin α/2.
-        let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin()];
+        let second_order = [(z1 + z2).norm() * half.cos(), (z1 - z2).norm() * half.sin()]
+            .map(|moment| left(moment, 2.0));
         // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
-        Some(Solution { hold, bank_angle, banks, parts, counterweight: forward, second_order })
+        let counterweight = left(forward, 1.0);
+        Some(Solution { hold, bank_angle, banks, parts, counterweight, second_order })
     }
 
     /// Phases of both banks: those of the family, the second turned by as many least turns as
