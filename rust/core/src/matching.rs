@@ -14,7 +14,7 @@ use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::memory;
 
-/// Exchanges that are tried before no further start is made; some two seconds.
+/// Exchanges that are tried before no further start is made: some seconds.
 const MOST_EXCHANGES: usize = 100_000_000;
 /// Kinds of parts: pistons and rods.
 const KINDS: usize = 2;
