@@ -338,7 +338,7 @@ mod tests {
         distance: f64,
         mut number: impl FnMut() -> f64,
     ) -> Matching {
-        let mut some = |count: usize| -> Vec<f64> { (0..count).map(|_| number()).collect() };
+        let mut some = |count: usize| -> Vec<f64> { (0..count).map(|_| 4.0 * number()).collect() };
         let kinds = parts.iter().enumerate().map(|(figures, &parts)| {
             let deviations = (0..=figures).map(|_| some(parts)).collect();
             let places = |_| (0..places).map(|_| some(dimensions)).collect();
@@ -360,6 +360,21 @@ mod tests {
             assert!(parts.iter().all(|&part| part < kind.parts));
         }
         problem.value(chosen)
+    }
+
+    /// Of two parts of a kind, spare ones included.
+    fn no_exchange_is_better(problem: &Matching, chosen: &Partition) {
+        let value = problem.value(chosen);
+        for (k, (used, kind)) in chosen.iter().zip(&problem.kinds).enumerate() {
+            let spare = (0..kind.parts).filter(|part| !used.contains(part));
+            let mut other = chosen.clone();
+            other[k].extend(spare);
+            for (i, j) in (0..kind.parts).flat_map(|j| (0..j).map(move |i| (i, j))) {
+                other[k].swap(i, j);
+                assert!(problem.value(&other) >= value * (1.0 - 1e-11), "{i} {j}");
+                other[k].swap(i, j);
+            }
+        }
     }
 
     #[test]
@@ -406,9 +421,12 @@ mod tests {
                 };
                 let compared = valid(&problem, &compared.unwrap().unwrap());
                 assert!((compared - least).abs() <= rounding, "{compared} for {least}");
-                let exchanged = problem.exchanged(both[0].clone(), &mut 0, &cancel).unwrap();
-                assert!(valid(&problem, &exchanged) >= least - rounding);
-                assert!(problem.value(&exchanged) <= problem.value(&both[0]) + rounding);
+                for start in both.iter().step_by(1 + both.len() / 20) {
+                    let exchanged = problem.exchanged(start.clone(), &mut 0, &cancel).unwrap();
+                    assert!(valid(&problem, &exchanged) >= least - rounding);
+                    assert!(problem.value(&exchanged) <= problem.value(start) + rounding);
+                    no_exchange_is_better(&problem, &exchanged);
+                }
             }
         }
     }
@@ -426,15 +444,7 @@ mod tests {
             .map(|start| problem.value(&problem.exchanged(start, &mut 0, &Cancel::new()).unwrap()));
         assert_eq!(found.value, values[0].min(values[1]));
         assert_ne!(values[0], values[1]);
-        // No exchange is left that is better, of spare parts either.
-        let used = &found.chosen[0];
-        let spare = (0..40).filter(|part| !used.contains(part));
-        let all: Vec<usize> = used.iter().copied().chain(spare).collect();
-        for (i, j) in (0..40).flat_map(|j| (0..j).map(move |i| (i, j))) {
-            let mut other = all.clone();
-            other.swap(i, j);
-            assert!(problem.value(&[other]) >= found.value * (1.0 - 1e-11), "{i} {j}");
-        }
+        no_exchange_is_better(&problem, &found.chosen);
         let cancel = Cancel::new();
         cancel.raise();
         assert_eq!(problem.solve(&starts, &cancel), Err(crate::Error::Cancelled));

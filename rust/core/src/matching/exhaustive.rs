@@ -371,6 +371,8 @@ mod tests {
         // Two and three of six and five: (6·5/2)(4) pistons, (5·4/2)(1) rods.
         let both = of([1, 5, 1], &[6, 5]).half_arrangements(&[6, 5]);
         assert_eq!(both, 15.0 * 4.0 * 10.0 * (2.0 * 2.0 + 6.0 * 6.0));
+        // Every two of four, with the only two of two.
+        assert_eq!(choices(&[vec![0, 1, 2, 3], vec![0, 1]], 2).len(), 6);
         // 3.5e7 half arrangements.
         assert_eq!(of([1, 14, 1], &[14]).of_all(&none, &Cancel::new()), Ok(None));
         // 134 596 possible sets of six, each of 240 half arrangements; and more bits than a mask has.
