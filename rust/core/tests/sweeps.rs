@@ -1039,6 +1039,23 @@ fn a_sweep_of_rod_ratios_leaves_out_what_the_largest_does() {
 }
 
 #[test]
+fn a_sweep_of_offsets_has_the_orders_that_the_farthest_needs() {
+    let chosen = |offsets: &[f64]| {
+        let axes =
+            Axes { pin_offset: Some(offsets.to_vec()), rpm: vec![3000.0], ..Axes::default() };
+        few_orders_are_chosen(&[plain()], &axes, 1e-8, true).orders().to_vec()
+    };
+    for sign in [1.0, -1.0] {
+        let farthest = [0.07 * sign];
+        let others = [0.01 * sign, -0.02 * sign, 0.0];
+        let (alone, beside) = (chosen(&farthest), chosen(&[&others[..], &farthest].concat()));
+        assert!(alone.iter().all(|order| beside.contains(order)), "{alone:?} {beside:?}");
+        // The others alone need fewer.
+        assert!(chosen(&others).len() < alone.len());
+    }
+}
+
+#[test]
 fn few_orders_of_a_spectrum_are_chosen() {
     let terms = [(1, 0.02), (3, 1e-5), (4, 2e-5), (6, 0.01)];
     let terms = terms.map(|(n, size)| (n, Complex64::new(0.0, size)));
