@@ -5,13 +5,14 @@ mod common;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use common::angle;
+use common::{InArrays, angle};
 use crankpin_core::balance::{Balance, Orders, Request, TorquePart, balance};
 use crankpin_core::engine::layout::Strokes;
 use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
+use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Station, waveform,
+    Angle, Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Station, Sweep, waveform,
 };
 
 const BORE: f64 = 0.08;
@@ -166,4 +167,108 @@ fn pressure_that_makes_no_torque_known_is_refused() {
     assert_eq!(twin([1, 1]).with_gas(gas(vec![cycle(4)], [None; 2])).unwrap(), twin([1, 1]));
     assert!(engine.firing_as("", Strokes::Two).is_err());
     assert!(engine.firing_as("1-2", Strokes::Four).is_ok());
+}
+
+/// Gas torque is linear in pressure: between the cycles of a map it is between theirs, at any speed; what
+/// the moving parts make does not know the load.
+#[test]
+fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
+    let (speeds, loads) = ([1000.0, 2000.0, 3500.0], [0.2, 1.0]);
+    let factor = |speed: usize, load: usize| 0.3 + 0.2 * speed as f64 + 0.5 * load as f64;
+    let made = |stroke: f64, ratio: f64, factor: f64| {
+        let theta_deg: Vec<f64> = (0..720).map(f64::from).collect();
+        let above = |θ: &f64| CRANKCASE + factor * (pressure(*θ) - CRANKCASE);
+        let pressure = theta_deg.iter().map(above).collect();
+        let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
+        let cylinder = Cylinder::new(stroke / 2.0, stroke / 2.0 / ratio, 0.5, 0.0).unwrap();
+        let place = Station {
+            cylinder,
+            tdc: angle(30.0),
+            bank: Angle::QUARTER_TURN,
+            z: 0.0,
+            rotating_mass: 0.0,
+        };
+        let known = Details { bore: Some(BORE), ..Details::default() };
+        let places = Engine::new("", "", vec![place; 2]).unwrap();
+        let fired = places.with_details(vec![known; 2]).unwrap();
+        let cycle = Arc::new(Cycle::new(given).unwrap());
+        Arc::new(fired.with_gas(gas(vec![cycle], [Some(0), None])).unwrap())
+    };
+    let (strokes, ratios) = ([0.08, 0.1], [0.25, 0.3]);
+    let nodes = || (0..3).flat_map(|speed| [0, 1].map(|load| (speed, load)));
+    let swept = |strokes: &[f64], ratios: &[f64]| {
+        let engines = strokes.iter().flat_map(|&stroke| {
+            nodes().map(move |(speed, load)| made(stroke, 0.2, factor(speed, load)))
+        });
+        let map = MapAxes { rpm: speeds.to_vec(), loads: loads.to_vec(), load: vec![1.0, 0.4] };
+        let axes = Axes {
+            rod_ratio: Some(ratios.to_vec()),
+            rpm: vec![1000.0, 1250.0, 3500.0],
+            map: Some(map),
+            ..Axes::default()
+        };
+        let orders = common::whole(&[1, 2, 4]);
+        Sweep::new(engines.collect(), axes, orders, None, &Cancel::new()).unwrap()
+    };
+    let (orders, cancel) = (common::whole(&[1, 2, 4]), Cancel::new());
+    let sweep = swept(&strokes, &ratios);
+    assert_eq!(sweep.shape(), [2, 1, 2, 1, 3, 2]);
+    // The share of the upper speed and load.
+    let weights = [0.0, 0.25, 2.0];
+    let of_load = [1.0, 0.25];
+    let orders = Orders::Given(orders);
+    let parts = [TorquePart::Whole, TorquePart::Gas, TorquePart::Inertia];
+    for (on_crank, part) in [false, true].into_iter().flat_map(|c| parts.map(|part| (c, part))) {
+        let quantity = if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
+        let phasors = sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
+        let [peaks, sums, means] = [Figure::Amplitude, Figure::Sum, Figure::Mean]
+            .map(|figure| sweep.peaks(quantity, figure, &cancel).unwrap());
+        for (place, &mean) in means.indexed_iter() {
+            let (e, r, s, l) = (place[0], place[2], place[4], place[5]);
+            let lower = (weights[s] as usize).min(1);
+            let share = weights[s] - lower as f64;
+            let (mut expected, mut expected_mean) = (vec![Complex64::default(); 3], 0.0);
+            let sides = [(0, 0), (0, 1), (1, 0), (1, 1)];
+            for (upper, load) in sides {
+                let of_speed = if upper == 1 { share } else { 1.0 - share };
+                let weight = of_speed * if load == 1 { of_load[l] } else { 1.0 - of_load[l] };
+                let engine = made(strokes[e], ratios[r], factor(lower + upper, load));
+                let rpm = [1000.0, 1250.0, 3500.0][s];
+                let request = Request { rpm, reference_z: None, torque: true };
+                let balance = balance(&engine, &request, &orders, &cancel).unwrap();
+                for (k, sum) in expected.iter_mut().enumerate() {
+                    let torque = balance.torque(part, k);
+                    *sum += weight * if on_crank { torque.crank } else { torque.roll };
+                }
+                expected_mean += weight * balance.mean(part)[usize::from(on_crank)];
+            }
+            // Roundings of some 100 N·m.
+            assert!((mean - expected_mean).abs() < 1e-10, "{quantity:?} {place:?}");
+            let at = |k: usize| [e, 0, r, 0, s, l, k];
+            for (k, phasor) in expected.iter().enumerate() {
+                let found = phasors[&at(k)[..]];
+                assert!((found - phasor).norm() < 1e-10, "{quantity:?} {place:?} {k}");
+                assert!((peaks[&at(k)[..]] - phasor.norm()).abs() < 1e-10);
+            }
+            let sampled = (0..3600).map(|k| TAU * f64::from(k) / 3600.0).map(|θ| {
+                let numbers = [1.0, 2.0, 4.0];
+                let turned = |(n, p): (f64, &Complex64)| (p * Complex64::from_polar(1.0, n * θ)).re;
+                (expected_mean + numbers.into_iter().zip(&expected).map(turned).sum::<f64>()).abs()
+            });
+            let largest = sampled.fold(0.0, f64::max);
+            // Between two samples cos 4θ falls by (4·0.00087)²/2 at most.
+            let sum = sums[place];
+            assert!(sum > largest - 1e-9 && sum < largest * (1.0 + 1e-5) + 1e-9, "{sum} {largest}");
+        }
+    } // Rows of several tasks are those of one.
+    let quantity = Quantity::CrankTorque(TorquePart::Whole);
+    let many: Vec<f64> = (0..40).map(|k| 0.2 + 0.003 * f64::from(k)).collect();
+    let sums = |ratios: &[f64]| {
+        let found = swept(&strokes[..1], ratios).peaks(quantity, Figure::Sum, &cancel);
+        found.unwrap().into_raw_vec_and_offset().0
+    };
+    let all = sums(&many);
+    for (k, of_ratio) in all.chunks_exact(6).enumerate().filter(|(k, _)| k % 13 == 0) {
+        assert_eq!(of_ratio, sums(&many[k..=k]), "{k}");
+    }
 }
