@@ -167,7 +167,7 @@ class Table(Record):
             yield f"{rows} of {len(self)} rows"
         if self.note:
             yield self.note
-        if any(TINY in row for row in self.cells()[:rows]):
+        if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
 
     def csv(self) -> str:

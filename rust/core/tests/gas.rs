@@ -25,15 +25,18 @@ fn pressure(degrees: f64) -> f64 {
 }
 
 fn cycle(strokes: u32) -> Arc<Cycle> {
+    cycle_of(strokes, pressure)
+}
+
+fn cycle_of(strokes: u32, pressure: impl Fn(f64) -> f64) -> Arc<Cycle> {
     let theta_deg: Vec<f64> = (0..180 * strokes).map(f64::from).collect();
     let pressure = theta_deg.iter().map(|&θ| pressure(θ)).collect();
     let given = Given { name: String::new(), strokes, theta_deg, pressure, degree: None };
     Arc::new(Cycle::new(given).unwrap())
 }
 
-/// Two upright cylinders on cranks of these ratios, 0.2 m apart.
-fn twin(ratios: [i32; 2]) -> Engine {
-    let cylinder = Cylinder::new(RADIUS, ROD, 0.5, 0.0).unwrap();
+/// Two upright cylinders in one plane.
+fn pair(cylinder: Cylinder) -> Engine {
     let place = Station {
         cylinder,
         tdc: angle(30.0),
@@ -41,9 +44,14 @@ fn twin(ratios: [i32; 2]) -> Engine {
         z: 0.0,
         rotating_mass: 0.0,
     };
-    let cranks = ratios.map(|ratio| Crank { axis: [0.2 * f64::from(1 - ratio), 0.0], ratio });
     let known = Details { bore: Some(BORE), ..Details::default() };
-    let engine = Engine::new("", "", vec![place; 2]).unwrap().with_details(vec![known; 2]).unwrap();
+    Engine::new("", "", vec![place; 2]).unwrap().with_details(vec![known; 2]).unwrap()
+}
+
+/// Two upright cylinders on cranks of these ratios, 0.2 m apart.
+fn twin(ratios: [i32; 2]) -> Engine {
+    let engine = pair(Cylinder::new(RADIUS, ROD, 0.5, 0.0).unwrap());
+    let cranks = ratios.map(|ratio| Crank { axis: [0.2 * f64::from(1 - ratio), 0.0], ratio });
     if ratios == [1, 1] {
         return engine;
     }
@@ -174,25 +182,12 @@ fn pressure_that_makes_no_torque_known_is_refused() {
 #[test]
 fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let (speeds, loads) = ([1000.0, 2000.0, 3500.0], [0.2, 1.0]);
+    let swept_rpm = [1000.0, 1250.0, 3500.0];
     let factor = |speed: usize, load: usize| 0.3 + 0.2 * speed as f64 + 0.5 * load as f64;
     let made = |stroke: f64, ratio: f64, factor: f64| {
-        let theta_deg: Vec<f64> = (0..720).map(f64::from).collect();
-        let above = |θ: &f64| CRANKCASE + factor * (pressure(*θ) - CRANKCASE);
-        let pressure = theta_deg.iter().map(above).collect();
-        let given = Given { name: String::new(), strokes: 4, theta_deg, pressure, degree: None };
         let cylinder = Cylinder::new(stroke / 2.0, stroke / 2.0 / ratio, 0.5, 0.0).unwrap();
-        let place = Station {
-            cylinder,
-            tdc: angle(30.0),
-            bank: Angle::QUARTER_TURN,
-            z: 0.0,
-            rotating_mass: 0.0,
-        };
-        let known = Details { bore: Some(BORE), ..Details::default() };
-        let places = Engine::new("", "", vec![place; 2]).unwrap();
-        let fired = places.with_details(vec![known; 2]).unwrap();
-        let cycle = Arc::new(Cycle::new(given).unwrap());
-        Arc::new(fired.with_gas(gas(vec![cycle], [Some(0), None])).unwrap())
+        let cycle = cycle_of(4, |θ| CRANKCASE + factor * (pressure(θ) - CRANKCASE));
+        Arc::new(pair(cylinder).with_gas(gas(vec![cycle], [Some(0), None])).unwrap())
     };
     let (strokes, ratios) = ([0.08, 0.1], [0.25, 0.3]);
     let nodes = || (0..3).flat_map(|speed| [0, 1].map(|load| (speed, load)));
@@ -203,7 +198,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
         let map = MapAxes { rpm: speeds.to_vec(), loads: loads.to_vec(), load: vec![1.0, 0.4] };
         let axes = Axes {
             rod_ratio: Some(ratios.to_vec()),
-            rpm: vec![1000.0, 1250.0, 3500.0],
+            rpm: swept_rpm.to_vec(),
             map: Some(map),
             ..Axes::default()
         };
@@ -233,8 +228,7 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
                 let of_speed = if upper == 1 { share } else { 1.0 - share };
                 let weight = of_speed * if load == 1 { of_load[l] } else { 1.0 - of_load[l] };
                 let engine = made(strokes[e], ratios[r], factor(lower + upper, load));
-                let rpm = [1000.0, 1250.0, 3500.0][s];
-                let request = Request { rpm, reference_z: None, torque: true };
+                let request = Request { rpm: swept_rpm[s], reference_z: None, torque: true };
                 let balance = balance(&engine, &request, &orders, &cancel).unwrap();
                 for (k, sum) in expected.iter_mut().enumerate() {
                     let torque = balance.torque(part, k);

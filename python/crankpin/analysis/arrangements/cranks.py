@@ -145,7 +145,7 @@ class Symmetries:
 
     def key(self, crank: Crank) -> tuple[float, ...]:
         """Return the rounded angles that equivalent cranks at one bank angle have in common."""
-        return min(_size(each) for each in (crank, *(image for _, image in self.images(crank))))
+        return _size(self.first(crank))
 
 
 def _size(crank: Crank) -> tuple[float, ...]:
