@@ -64,6 +64,10 @@ CALLS = {
     "proofs, 1000 cylinders": "long.vanishing_orders([1])",
     "closed forms, 1000 cylinders": "long.closed_form(1)",
     "firing orders of a V16": "v16.firing_orders()",
+    "counterweights, 200 planes of 50 angles": (
+        "cp.counterweights(v6, planes=list(np.linspace(-0.2, 0.5, 200)), bound=1e-3, "
+        "angles_deg=list(range(0, 350, 7)))"
+    ),
     "matching of 24 pistons": (
         "cp.match_parts(v12, np.linspace(0.39, 0.41, 24), sets=2, orders=[1, 2])"
     ),

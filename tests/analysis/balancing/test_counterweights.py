@@ -799,6 +799,10 @@ def test_results_are_frozen_and_copied() -> None:
         ({"bound": -1}, "bound = -1.0: give a mass·radius"),
         ({"bound": {"x": 1}}, r"bound\['x'\]: is not a plane; choose from: \['front', 'rear'\]"),
         ({"angles_deg": []}, "angles_deg has 0 angles: give 1 to 360"),
+        (
+            {"planes": [0.0] * 101, "angles_deg": list(range(100))},
+            "angles_deg has 10100 angles in all: give at most 10000",
+        ),
         ({"angles_deg": {"front": [1]}}, 'angles_deg has none for "rear"'),
         ({"angles_deg": ["x"]}, r"angles_deg\[0\] = x: give degrees"),
         ({"length": 0.0}, "length = 0.0: give a length in metres"),

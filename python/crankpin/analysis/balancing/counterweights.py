@@ -75,8 +75,8 @@ def counterweights(
         that have one.
     angles_deg
         Angles at which a plane can have weights, degrees from +x at θ = 0: a list for all planes,
-        or a mapping name → list; any angle by default. The mass·radius of a plane is
-        then the sum of its weights'.
+        or a mapping name → list, at most 10 000 in all; any angle by default. The mass·radius of
+        a plane is then the sum of its weights'.
     length
         Where weights cannot remove both, they leave the least ``|force|² + |moment/length|²``, m.
         By default the longest lever of a plane or cylinder, or, for internal targets, half of the

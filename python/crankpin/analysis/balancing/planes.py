@@ -21,6 +21,8 @@ Planes: TypeAlias = "str | Sequence[float] | Mapping[str, float]"
 HINT = 'give "ends", "webs", a list of places or a mapping name → place in metres'
 MOST = 200
 """Largest number of planes."""
+MOST_ANGLES = 10_000
+"""Largest number of angles of all planes together: a step of the fit takes 40 ms then."""
 
 
 def named(engine: Engine, given: Planes) -> dict[str, float]:
@@ -77,6 +79,9 @@ def angles(names: Sequence[str], given: object) -> dict[str, tuple[str, ...]] | 
         if not 1 <= len(listed) <= 360:
             raise InputError(f"angles_deg has {len(listed)} angles: give 1 to 360")
         found[name] = tuple(dict.fromkeys(listed))
+    count = sum(map(len, found.values()))
+    if count > MOST_ANGLES:
+        raise InputError(f"angles_deg has {count} angles in all: give at most {MOST_ANGLES}")
     return found
 
 
