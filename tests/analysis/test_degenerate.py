@@ -46,3 +46,33 @@ def test_every_choice_is_made(engine: cp.Engine) -> None:
         assert result.table.csv()
         values = [each for column in result.table.columns for each in column.values]
         assert np.isfinite([each for each in values if isinstance(each, float)]).all()
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize("name", cp.presets())
+def test_what_cancels_in_every_order_cancels_at_every_crank_angle(name: str) -> None:
+    engine = cp.Engine.preset(name)
+    # Orders above 30 are below rounding: of λ = 0.3 they have 1e-18.
+    balance = engine.balance(rpm=3000, orders=range(1, 31))
+    exact = engine.waveform(rpm=3000)
+    swept = cp.sweep(engine, rpm=[3000, 6000], orders=[1]).waveform(exact.theta_deg, exact=True)
+    for quantity in ("force", "moment"):
+        values = getattr(balance, quantity)
+        # The v10-90 has some 1e-13 of order 20: less than the rounding of what cancels in order 1.
+        remains = (np.array(values["all"].peak_xy) > values[1].zero_bound).tolist()
+        assert exact.read(quantity).any(axis=0).tolist() == remains
+        assert swept.read(quantity).any(axis=(0, 1)).tolist() == remains
+
+
+@pytest.mark.parametrize("heavier", [1e-12, 1e-9])
+def test_a_waveform_keeps_what_is_more_than_rounding(heavier: float) -> None:
+    i6 = cp.Engine.preset("i6")
+    assert not i6.waveform(rpm=3000).moment.any()
+    first, *others = i6.cylinders
+    larger = first.replace(reciprocating_mass=first.reciprocating_mass * (1 + heavier))
+    moment = i6.replace(cylinder=[larger, *others]).waveform(rpm=3000).moment[:, 0]
+    alone = cp.Engine.inline(first, throws_deg=[0], spacing=0.1).waveform(rpm=3000).force[:, 1]
+    lever = i6.z[0] - i6.reference_z
+    # The bound of what counts as zero: (6 + 24)ε times Σ(|z| + |z₀|), twelve times the lever.
+    bound = 30 * 12 * 2.3e-16
+    assert moment == pytest.approx(-lever * heavier * alone, abs=bound * abs(lever * alone).max())

@@ -200,6 +200,8 @@ class Engine(Builders):
     ) -> Waveform:
         """Return force, moment and torque at given crank angles.
 
+        Forces and moments within the bound of their rounding error are exactly zero.
+
         Parameters
         ----------
         rpm

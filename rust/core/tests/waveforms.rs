@@ -6,8 +6,8 @@ mod common;
 use std::sync::Arc;
 
 use common::{
-    InArrays, alone, by_orders, in_line, kinematics, mixed, places, plain, there, weighted, whole,
-    xy,
+    InArrays, alone, angle, by_orders, in_line, kinematics, mixed, places, plain, there, weighted,
+    whole, xy,
 };
 use crankpin_core::balance::TorquePart;
 use crankpin_core::balance::{Vector, balance};
@@ -66,6 +66,30 @@ fn kinematics_are_those_of_each_cylinder() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn kinematics_that_cancel_are_zero() {
+    // Two pistons as far in front of the plane as behind it, but for the rounding of 0.14 − 0.07.
+    let pair = |heavier: f64| {
+        let at = |z, mass| Station {
+            cylinder: Cylinder::new(0.05, 0.15, mass, 0.0).unwrap(),
+            tdc: angle(20.0),
+            bank: angle(77.0),
+            z,
+            rotating_mass: mass,
+        };
+        let stations = vec![at(0.14 / 3.0, 0.5), at(0.14 - 0.14 / 3.0, 0.5 * (1.0 + heavier))];
+        Arc::new(Engine::new("", "", stations).unwrap())
+    };
+    for (heavier, vanishes) in [(0.0, true), (1e-15, true), (1e-12, false)] {
+        let engine = pair(heavier);
+        let wave = waveform::exact(&engine, &REQUEST, &thetas(300), &Cancel::new()).unwrap();
+        assert_eq!(wave.moment.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
+        let swept = sweep(&[engine], &Axes { rpm: vec![RPM], ..Axes::default() }, &[1]);
+        let moments = waveforms(&swept, Quantity::Moment, &thetas(300), true);
+        assert_eq!(moments.iter().all(|moment| *moment == 0.0), vanishes, "{heavier}");
     }
 }
 

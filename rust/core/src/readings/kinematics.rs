@@ -11,6 +11,7 @@ use crate::load::{Loads, Source, found_or};
 use crate::numbers::angle::Angle;
 use crate::numbers::crank_angles::CrankAngles;
 use crate::numbers::order::Order;
+use crate::wrench::rounding;
 
 /// Crank angles evaluated side by side.
 pub(crate) const BLOCK: usize = 256;
@@ -45,6 +46,8 @@ pub(crate) struct Kinematics {
     pub pistons: Vec<Pistons>,
     pub unbalances: Vec<Unbalances>,
     pub pressures: Vec<Pressures>,
+    /// Bounds of the rounding errors of force and moment that cancel.
+    pub zero_bounds: [f64; 2],
 }
 
 /// Pistons of one gear and top dead centre.
@@ -111,6 +114,7 @@ impl Kinematics {
     pub fn new(loads: &Loads) -> Self {
         let (mut pistons, mut unbalances) = (Vec::<Pistons>::new(), Vec::<Unbalances>::new());
         let mut pressures = Vec::<Pressures>::new();
+        let mut zero_bounds = [0.0; 2];
         let cylinders = loads.cylinders();
         for load in &loads.list {
             let ratio = load.ratio;
@@ -118,6 +122,13 @@ impl Kinematics {
             let force = load.unit() * (load.weight * square);
             // A moment is its levered force turned by a quarter.
             let lever = Complex64::new(0.0, load.z - loads.reference);
+            if !matches!(load.source, Source::Pressure { .. }) {
+                // At a top dead centre a piston exerts its mass·radius and more. Rounding of a lever
+                // is relative to what it is the difference of.
+                let size = rounding(loads.list.len(), f64::from(ratio.abs())) * force.norm();
+                zero_bounds[0] += size;
+                zero_bounds[1] += size * (load.z.abs() + loads.reference.abs());
+            }
             match load.source {
                 Source::Piston { gear, second_moment, rod_inertia } => {
                     let same = |p: &Pistons| p.gear == gear && p.tdc == load.phase;
@@ -166,7 +177,7 @@ impl Kinematics {
                 }
             }
         }
-        Self { pistons, unbalances, pressures }
+        Self { pistons, unbalances, pressures, zero_bounds }
     }
 
     /// Adds the moment of inertia of pistons and rods as seen from the crank at a block of angles, kg·m²,

@@ -51,10 +51,15 @@ pub fn exact(
     let reference = engine.reference(request.reference_z)?;
     let loads = Loads::new(engine, reference);
     let kinematics = Kinematics::new(&loads);
-    in_blocks(theta_deg, torques(engine, request.torque), cancel, |angles, rows| {
+    let square = omega * omega;
+    let shape = Shape {
+        torques: torques(engine, request.torque),
+        zero_bounds: kinematics.zero_bounds.map(|bound| bound * square),
+    };
+    in_blocks(theta_deg, &shape, cancel, |angles, rows| {
         vectorised(
             #[inline(always)]
-            || rows.add_kinematics(&kinematics, angles, request.torque, omega * omega),
+            || rows.add_kinematics(&kinematics, angles, request.torque, square),
         );
         Ok(())
     })
@@ -69,15 +74,24 @@ pub fn from_orders(
     cancel: &Cancel,
 ) -> Result<Waveform> {
     let balance = balance::balance(engine, request, orders, cancel)?;
-    let waveform =
-        in_blocks(theta_deg, torques(engine, balance.has_torque), cancel, |angles, rows| {
-            vectorised(
-                #[inline(always)]
-                || rows.add_orders(&balance, angles),
-            );
-            Ok(())
-        })?;
+    // Phasors that cancel are zero already.
+    let shape = Shape { torques: torques(engine, balance.has_torque), zero_bounds: [0.0; 2] };
+    let waveform = in_blocks(theta_deg, &shape, cancel, |angles, rows| {
+        vectorised(
+            #[inline(always)]
+            || rows.add_orders(&balance, angles),
+        );
+        Ok(())
+    })?;
     Ok(Waveform { balance: Some(balance), ..waveform })
+}
+
+/// What a waveform has.
+struct Shape {
+    /// Number of torques.
+    torques: usize,
+    /// Forces and moments that are rounding.
+    zero_bounds: [f64; 2],
 }
 
 /// Number of torques: on the block and on the crank, and what pressure adds to them.
@@ -231,7 +245,7 @@ const NUMBERS: usize = 24;
 /// Run over the crank angles in blocks, in parallel.
 fn in_blocks(
     theta_deg: &[f64],
-    torques: usize,
+    shape: &Shape,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Send + Sync,
 ) -> Result<Waveform> {
@@ -239,23 +253,23 @@ fn in_blocks(
     limits::result_size("theta_deg", &[theta_deg.len(), 16], size_of::<f64>(), hint)?;
     check(theta_deg, cancel)?;
     if !pool::worth(NUMBERS * theta_deg.len()) {
-        return fill_blocks(theta_deg, torques, cancel, add);
+        return fill_blocks(theta_deg, shape, cancel, add);
     }
     // Results are allocated there too: an allocator that keeps an arena for each thread then reuses
     // their memory, which halves the time of a hundred thousand angles.
-    pool::run(cancel, || fill_blocks(theta_deg, torques, cancel, add))
+    pool::run(cancel, || fill_blocks(theta_deg, shape, cancel, add))
 }
 
 fn fill_blocks(
     theta_deg: &[f64],
-    torques: usize,
+    shape: &Shape,
     cancel: &Cancel,
     add: impl Fn(&CrankAngles, &mut WaveformRows) -> Result<()> + Sync,
 ) -> Result<Waveform> {
     let angles = theta_deg.len();
     let mut planar: [Vec<f64>; 2] = [memory::zeros(2 * angles)?, memory::zeros(2 * angles)?];
     let mut torques: Vec<Vec<f64>> =
-        (0..torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?;
+        (0..shape.torques).map(|_| memory::zeros(angles)).collect::<Result<_>>()?;
     let mut pairs = planar.each_mut().map(|values| values.chunks_mut(2 * BLOCK));
     let mut columns: Vec<_> = torques.iter_mut().map(|values| values.chunks_mut(BLOCK)).collect();
     let tasks = theta_deg.chunks(BLOCK).map(|thetas| {
@@ -274,9 +288,11 @@ fn fill_blocks(
         let mut rows = WaveformRows::ZERO;
         add(&CrankAngles::of_checked(thetas), &mut rows)?;
         let [force_x, force_y, moment_x, moment_y, torque_columns @ ..] = &rows.columns;
-        for (out, [x, y]) in pairs.into_iter().zip([[force_x, force_y], [moment_x, moment_y]]) {
-            for (pair, (x, y)) in out.chunks_exact_mut(2).zip(x.iter().zip(&y[..])) {
-                pair.copy_from_slice(&[*x, *y]);
+        let columns = [[force_x, force_y], [moment_x, moment_y]];
+        for ((out, [x, y]), bound) in pairs.into_iter().zip(columns).zip(shape.zero_bounds) {
+            let snapped = |value: f64| if value.abs() <= bound { 0.0 } else { value };
+            for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
+                *pair = [snapped(*x), snapped(*y)];
             }
         }
         for (out, column) in torques.into_iter().zip(torque_columns) {
@@ -344,7 +360,8 @@ mod tests {
                 }
                 Ok(())
             };
-            let result = in_blocks(&thetas, 2, &cancel, add).map(drop);
+            let shape = Shape { torques: 2, zero_bounds: [0.0; 2] };
+            let result = in_blocks(&thetas, &shape, &cancel, add).map(drop);
             (result, blocks.into_inner())
         };
         assert_eq!(run(0), (Ok(()), 4));

@@ -94,19 +94,21 @@ impl Placed {
                 }
             }
             let [force_x, force_y, moment_x, moment_y, roll, crank, ..] = &rows.columns;
-            let (x, y) = match quantity {
-                Quantity::Force => (force_x, force_y),
-                Quantity::Moment => (moment_x, moment_y),
-                Quantity::Torque(_) => (roll, roll),
-                Quantity::CrankTorque(_) => (crank, crank),
+            let [of_force, of_moment] = self.kinematics.zero_bounds;
+            let (x, y, bound) = match quantity {
+                Quantity::Force => (force_x, force_y, of_force),
+                Quantity::Moment => (moment_x, moment_y, of_moment),
+                Quantity::Torque(_) => (roll, roll, 0.0),
+                Quantity::CrankTorque(_) => (crank, crank, 0.0),
             };
             // Last, as where rows are multiplied for several speeds: a row has the same bits in any sweep.
             if torque {
                 out.iter_mut().zip(&x[..]).for_each(|(out, x)| *out = factor * x);
                 continue;
             }
+            let snapped = |value: f64| if value.abs() <= bound { 0.0 } else { value };
             for (pair, (x, y)) in out.as_chunks_mut().0.iter_mut().zip(x.iter().zip(&y[..])) {
-                *pair = [factor * x, factor * y];
+                *pair = [factor * snapped(*x), factor * snapped(*y)];
             }
         }
     }
