@@ -11,6 +11,7 @@ import numpy as np
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
+from crankpin.analysis.contributions import contributions
 from crankpin.analysis.request import engine_core
 
 if TYPE_CHECKING:
@@ -23,10 +24,6 @@ if TYPE_CHECKING:
 
 HIGHEST = 12
 """Highest order by default, as in the tables of classification societies."""
-
-
-ROUNDING = 1e-9
-"""Part of the largest torque up to which sums over cylinders are that of the engine."""
 
 
 class TorsionalExcitation(Tabled):
@@ -101,7 +98,7 @@ def torsional_excitation(
     Parameters
     ----------
     engine
-        Engine of one crank, with or without cycles.
+        The engine, with or without cycles.
     rpm
         Crank speed.
     orders
@@ -116,7 +113,7 @@ def torsional_excitation(
     Raises
     ------
     InputError
-        If the engine has a crank besides the main one.
+        If an argument is out of range.
 
     Examples
     --------
@@ -128,37 +125,19 @@ def torsional_excitation(
     array([99.2, 99.2, 99.2, 99.2])
     """
     engine_core(engine)
-    speed = inputs.angular_speed(rpm)
     cycles = engine.cycles
     listed = orders
     if listed is None:
         step = 1 if cycles is None or engine.strokes == 2 else 0.5
         listed = [step * k for k in range(1, round(HIGHEST / step) + 1)]
-    chosen = inputs.explicit_half_orders(listed)
-    whole = [int(each) for each in chosen if each % 1 == 0]
-    exponents = np.array(chosen, dtype=np.float64)
-    torque = np.zeros((len(engine), len(chosen)), dtype=np.complex128)
-    mean = np.zeros(len(engine))
-    for k, cylinder in enumerate(engine.cylinders):
-        if whole and cylinder.reciprocating_mass:
-            scale = cylinder.reciprocating_mass * (cylinder.crank_radius * speed) ** 2
-            _, on_crank = cylinder.torque_harmonics(whole)
-            tdc = np.exp(-1j * np.radians(engine.tdc_deg[k]) * np.array(whole))
-            torque[k, exponents % 1 == 0] += scale * on_crank * tdc
-        cycle = None if cycles is None else cycles[k]
-        if cycle is not None and engine.crankcase is not None:
-            gas = cycle.torque_harmonics(cylinder, chosen, crankcase=engine.crankcase)
-            torque[k] += gas * np.exp(-1j * np.radians(engine.firing_deg[k]) * exponents)
-            mean[k] = cycle.mean_torque(cylinder)
-    total = engine.balance(rpm, orders=chosen).crank_torque.phasor
-    largest = float(np.abs(torque).sum(axis=0).max(initial=0.0))
-    if (np.abs(torque.sum(axis=0) - total) > ROUNDING * largest).any():
-        hint = "its torque is no sum over cylinders of one crank; give an engine of one crank"
-        raise inputs.rejected("engine", labels.name_of(engine), hint)
+    balance = engine.balance(rpm, orders=inputs.explicit_half_orders(listed))
+    parts = contributions(balance, "crank_torque")[: len(engine)]
+    of_cylinders = zip(cycles or (), engine.cylinders, strict=False)
+    means = [cycle.mean_torque(cylinder) if cycle else 0.0 for cycle, cylinder in of_cylinders]
     return TorsionalExcitation(
         engine,
-        inputs.number("rpm", rpm),
-        tuple(inputs.order(each) for each in chosen),
-        torque,
-        mean,
+        balance.rpm,
+        balance.orders,
+        np.concatenate([part.phasors for part in parts]),
+        np.array(means or [0.0] * len(parts)),
     )
