@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crankpin_core::balance::{Vector, balance};
-use crankpin_core::search::{Bank, Search, Solution, bank};
+use crankpin_core::search::{Angles, Bank, Criterion, Search, Solution, bank};
 use crankpin_core::{Angle, Cancel, Complex64, Cylinder, Engine, Error, Hold, Orders, Request};
 
 /// Sums of at most seven terms of at most 3, and their arguments, are good to 1e-14; different |Z|
@@ -28,6 +28,11 @@ fn banks() -> Vec<Bank> {
         given(&[0.0, 30.0, 30.0, 90.0, 240.0]),
         given(&[0.0, 72.0, 216.0]),
         given(&[10.0, 50.0, 190.0, 230.0]),
+        given(&[0.0, 0.0, 90.0, 180.0, 180.0, 270.0]),
+        given(&[0.0, 0.0, 0.0, 90.0, 180.0, 180.0, 180.0, 270.0]),
+        given(&[0.0, 30.0, 90.0, 180.0, 210.0, 270.0]),
+        given(&[0.0, 0.0, 90.0, 270.0]),
+        given(&[0.0, 0.0, 0.0, 90.0, 180.0]),
     ]);
     // Of which some Z nearly vanish, 0 < |2Z| < 0.1, also in classes of several; without and with a
     // mirror.
@@ -99,34 +104,93 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= NEAR
 }
 
-/// Pairs of equal |Z|, pairs without Z, and the angles of the others, degrees.
-fn by_brute_force(bank: &Bank, hold: Hold) -> (usize, usize, Vec<f64>) {
-    let mut moments: Vec<Complex64> =
-        arrangements(bank).iter().map(|a| first_moment(bank, a)).collect();
-    moments.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let (mut qualifying, mut balanced, mut angles) = (0, 0, Vec::new());
-    for class in moments.chunk_by(|a, b| near(a.norm(), b.norm())) {
+/// Moment of both banks at an order, over m·r·ω²·spacing·aₙ: forward, about x and about y.
+fn moments(
+    bank: &Bank,
+    hold: Hold,
+    order: i32,
+    angle: f64,
+    pair: [&[u32]; 2],
+) -> (Complex64, [f64; 2]) {
+    let mut sums = [Complex64::default(); 3];
+    for (phases, side) in pair.into_iter().zip([-0.5, 0.5]) {
+        let bore = Complex64::cis(0.5 * PI + side * angle);
+        for (i, &phase) in phases.iter().enumerate() {
+            let lever = 0.5 * (phases.len() as f64 - 1.0) - i as f64;
+            // e^{−i·tdc}; a pin stands at bore − tdc.
+            let tdc = match hold {
+                Hold::Firing => unit(bank, phase),
+                Hold::Pins => unit(bank, phase) * bore.conj(),
+            };
+            let pressed = tdc.powi(order) * lever;
+            let parts = [0.5 * pressed * bore, pressed * bore.im, pressed * bore.re];
+            for (sum, part) in sums.iter_mut().zip(parts) {
+                *sum += part;
+            }
+        }
+    }
+    (sums[0], [sums[1].norm(), sums[2].norm()])
+}
+
+/// A bank angle, degrees, and of the pairs that have it the larger second-order moment and the
+/// counterweight's moment: those of the pair of which the one is least, and of which the other is.
+#[derive(Debug, Clone, Copy)]
+struct Brute {
+    degrees: f64,
+    least: [[f64; 2]; 2],
+}
+
+/// Pairs of equal |Z|, pairs without Z, and the angles of the others.
+fn by_brute_force(bank: &Bank, hold: Hold) -> (usize, usize, Vec<Brute>) {
+    let mut all: Vec<(Complex64, Vec<u32>)> =
+        arrangements(bank).into_iter().map(|a| (first_moment(bank, &a), a)).collect();
+    all.sort_by(|(a, _), (b, _)| a.norm().total_cmp(&b.norm()));
+    let (mut qualifying, mut balanced) = (0, 0);
+    let mut angles: Vec<(f64, [f64; 2])> = Vec::new();
+    for class in all.chunk_by(|(a, _), (b, _)| near(a.norm(), b.norm())) {
         qualifying += class.len() * class.len();
-        if near(class[0].norm(), 0.0) {
+        if near(class[0].0.norm(), 0.0) {
             balanced += class.len() * class.len();
             continue;
         }
-        for first in class {
-            for second in class {
-                let condition = (-second / first).arg().abs();
-                match hold {
-                    Hold::Firing => angles.push(condition.to_degrees()),
-                    Hold::Pins => {
-                        angles.push((0.5 * condition).to_degrees());
-                        angles.push((PI - 0.5 * condition).to_degrees());
-                    }
+        for (z1, first) in class {
+            for (z2, second) in class {
+                let condition = (-z2 / z1).arg();
+                // A half that is half a circle on is the same in the other direction.
+                let beyond = 0.5 * condition - PI.copysign(condition);
+                let found = match hold {
+                    Hold::Firing => vec![condition],
+                    Hold::Pins => vec![0.5 * condition, beyond],
+                };
+                for angle in found {
+                    let pair: [&[u32]; 2] =
+                        if angle < 0.0 { [second, first] } else { [first, second] };
+                    let angle = angle.abs();
+                    let (forward, _) = moments(bank, hold, 1, angle, pair);
+                    let (_, [x, y]) = moments(bank, hold, 2, angle, pair);
+                    angles.push((angle.to_degrees(), [x.max(y), forward.norm()]));
                 }
             }
         }
     }
-    angles.sort_by(f64::total_cmp);
-    angles.dedup_by(|next, last| near(*next, *last));
+    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let least = |found: &[(f64, [f64; 2])]| {
+        let by = |k: usize| {
+            let better = |a: &[f64; 2], b: &[f64; 2]| {
+                a[k] < b[k] - NEAR || (near(a[k], b[k]) && a[1 - k] < b[1 - k])
+            };
+            let pairs = found.iter().map(|found| found.1);
+            pairs.reduce(|least, pair| if better(&pair, &least) { pair } else { least }).unwrap()
+        };
+        Brute { degrees: found[0].0, least: [by(0), by(1)] }
+    };
+    let angles = angles.chunk_by(|last, next| near(last.0, next.0)).map(least).collect();
     (qualifying, balanced, angles)
+}
+
+/// The pair listed for an angle.
+fn listed(search: &Search, angles: &Angles, k: usize, by: Criterion) -> Option<Solution> {
+    search.solution(angles, k, by, &Cancel::new()).unwrap()
 }
 
 fn search(bank: &Bank, hold: Hold) -> Search {
@@ -157,7 +221,17 @@ fn every_pair_is_found_and_no_other() {
             let (done, total) = cancel.progress();
             assert!(done == total && done > 0);
             assert_eq!(found.count(), found.degrees(&Cancel::new()).unwrap().len());
-            same(&found.degrees(&Cancel::new()).unwrap(), &angles, &(&bank, hold));
+            let degrees: Vec<f64> = angles.iter().map(|angle| angle.degrees).collect();
+            same(&found.degrees(&Cancel::new()).unwrap(), &degrees, &(&bank, hold));
+            for (k, angle) in angles.iter().enumerate() {
+                for (by, least) in
+                    [Criterion::SecondOrder, Criterion::Counterweight].into_iter().zip(angle.least)
+                {
+                    let solution = listed(&search, &found, k, by).unwrap();
+                    let [x, y] = solution.second_order;
+                    same(&[x.max(y), solution.counterweight], &least, &(&bank, hold, angle, by));
+                }
+            }
         }
     }
 }
@@ -187,7 +261,7 @@ fn a_window_has_the_angles_within_it() {
                 let within = |angle: &f64| (window[0]..=window[1]).contains(angle);
                 let expected: Vec<f64> = all.iter().copied().filter(within).collect();
                 same(&found.degrees(&Cancel::new()).unwrap(), &expected, &(&bank, hold, window));
-                assert!(search.solution(&found, expected.len()).is_none());
+                assert!(listed(&search, &found, expected.len(), Criterion::SecondOrder).is_none());
             }
         }
     }
@@ -222,7 +296,7 @@ fn a_solution_is_the_balance_of_its_engine() {
             let search = search(&bank, hold);
             let angles = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
             for (k, degrees) in angles.degrees(&Cancel::new()).unwrap().into_iter().enumerate() {
-                let solution = search.solution(&angles, k).unwrap();
+                let solution = listed(&search, &angles, k, Criterion::SecondOrder).unwrap();
                 assert!(near(solution.bank_angle, degrees));
                 assert!(0.0 <= solution.bank_angle && solution.bank_angle <= 180.0);
                 for phases in &solution.banks {

@@ -1,13 +1,13 @@
 //! The search of arrangements.
 
 use crankpin_core as core;
-use crankpin_core::search::{self, Angles};
-use crankpin_core::{Error, memory};
+use crankpin_core::search::{self, Angles, Criterion};
+use crankpin_core::{Cancel, Error, memory};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::convert::{Angle, OrRaise, Parts, angles, cylinder, frozen};
-use crate::engine::{Engine, hold};
+use crate::engine::{Engine, choice, hold};
 use crate::interrupt;
 
 /// All arrangements of one bank, grouped by |Z|.
@@ -113,8 +113,11 @@ impl BankAngles {
         Ok(frozen(py, degrees.into()))
     }
 
-    fn solution(&self, py: Python<'_>, k: usize) -> PyResult<Solution> {
-        let found = interrupt::run(py, |_| self.found(k))?;
+    fn solution(&self, py: Python<'_>, k: usize, by: &str) -> PyResult<Solution> {
+        let measures =
+            [("second_order", Criterion::SecondOrder), ("counterweight", Criterion::Counterweight)];
+        let by = choice("by", by, &measures)?;
+        let found = interrupt::run(py, |cancel| self.found(k, by, cancel))?;
         let degrees = |phases: &[u32]| -> core::Result<Vec<f64>> {
             let angle = |&p: &u32| core::Angle::from_turns(p.into(), found.parts.into());
             phases.iter().map(|phase| angle(phase).map(core::Angle::degrees)).collect()
@@ -127,11 +130,11 @@ impl BankAngles {
 }
 
 impl BankAngles {
-    fn found(&self, k: usize) -> core::Result<search::Solution> {
+    fn found(&self, k: usize, by: Criterion, cancel: &Cancel) -> core::Result<search::Solution> {
         let missing = || Error::value("index", k, "there are fewer bank angles than that");
         let core = &self.search.get().core;
         let found = match &self.listed {
-            Listed::Angles(angles) => core.solution(angles, k),
+            Listed::Angles(angles) => core.solution(angles, k, by, cancel)?,
             Listed::Shared(places) => places.get(k).and_then(|&place| core.shared_solution(place)),
         };
         found.ok_or_else(missing)

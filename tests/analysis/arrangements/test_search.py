@@ -21,6 +21,8 @@ from rederivation import search as numpy_search
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
 MOMENT = 0.5 * 0.045 * (2 * np.pi * 3000 / 60) ** 2
 """m·r·ω² at 3000 rpm; with a spacing of 1 m moments are in units of it."""
 
@@ -80,6 +82,89 @@ def test_counts_are_those_of_brute_force(
     np.testing.assert_allclose(search.bank_angles_deg, np.array(sorted(angles)) / 1e7, atol=2e-6)
     if printed:
         assert (pairs, zeros, len(angles)) == printed
+
+
+def pairs_by_angle(
+    arrangements: NDArray[np.int64], parts: int, hold: str
+) -> dict[int, NDArray[np.float64]]:
+    """All pairs with Z, by the bank angle in units of 1e-6 degrees.
+
+    Of each the larger second-order moment and the forward one of first order, over m·r·ω²·spacing
+    and over a₂: of levers, bores and top dead centres, cylinder by cylinder.
+    """
+    levers = (arrangements.shape[1] - 1) / 2 - np.arange(arrangements.shape[1])
+    turned = np.exp(2j * np.pi * arrangements / parts)
+    moments = [(levers * turned**n).sum(axis=1) for n in (1, 2)]
+    sizes = np.abs(moments[0])
+    found = []
+    for k in np.flatnonzero(sizes > 1e-9):
+        equal = np.abs(sizes - sizes[k]) < 1e-9
+        condition = np.angle(-moments[0][equal] / moments[0][k])
+        halves = (0.5 * condition, 0.5 * condition - np.copysign(np.pi, condition))
+        for angle in (condition,) if hold == "firing" else halves:
+            # A left bank at a negative angle is the right one.
+            bores = [np.exp(1j * (0.5 * np.pi + side * angle)) for side in (-0.5, 0.5)]
+            banks = [[moment[k], moment[equal]] for moment in moments]
+            if hold == "pins":  # a top dead centre is a bore less a pin
+                banks = [
+                    [sum_ / bore**n for sum_, bore in zip(bank, bores, strict=True)]
+                    for n, bank in enumerate(banks, 1)
+                ]
+            one, two = (list(zip(bank, bores, strict=True)) for bank in banks)
+            forward = abs(sum(0.5 * bore * sum_ for sum_, bore in one))
+            about = [
+                abs(sum(part(bore) * sum_ for sum_, bore in two)) for part in (np.real, np.imag)
+            ]
+            columns = np.abs(np.degrees(angle)), np.maximum(*about), forward
+            found.append(np.stack(columns, axis=1))
+    rows = np.concatenate(found)
+    rows = rows[np.argsort(rows[:, 0])]
+    ends = np.flatnonzero(np.diff(rows[:, 0]) > 1e-6) + 1
+    groups = np.split(rows, ends)
+    return {round(group[0, 0] * 1e6): group[:, 1:] for group in groups}
+
+
+@pytest.mark.parametrize("hold", ["firing", "pins"])
+@pytest.mark.parametrize(
+    ("cylinders", "phases", "parts"),
+    [
+        (4, [0, 1], 2),
+        (6, [0, 1, 2], 3),
+        (8, [0, 0, 1, 1], 2),
+        (8, [0, 1, 2, 3], 4),  # two-stroke
+        (10, [0, 1, 2, 3, 4], 5),
+        (12, [0, 0, 1, 1, 2, 2], 3),
+        (12, [0, 1, 2, 3, 4, 5], 6),  # two-stroke
+        (8, [0, 1, 3, 7], 12),
+        (12, [0, 0, 1, 2, 2, 3], 4),
+        (14, None, 7),  # alternating
+    ],
+)
+def test_the_arrangement_of_an_angle_is_the_least_of_all_pairs(
+    cylinders: int, phases: list[int] | None, parts: int, hold: Literal["firing", "pins"]
+) -> None:
+    """Listed is the least second order, of these the least counterweight; or inversely."""
+    degrees = None if phases is None else [f"{360 * k}/{parts}" for k in phases]
+    search = cp.search_arrangements(
+        cylinders, phases_deg=degrees, alternating=phases is None, hold=hold
+    )
+    permuted = sorted(set(itertools.permutations(phases or [])))
+    arrangements = ito.arrangements() if phases is None else np.array(permuted)
+    brute = pairs_by_angle(arrangements, parts, hold)
+    for by in ("second_order", "counterweight"):
+        found = search.best(by, count=len(search))
+        assert len(found) == len(search) == len(brute)
+        found = tuple(sorted(found, key=lambda each: each.bank_angle_deg))
+        if by == "second_order":
+            assert found == tuple(search)
+        for each, pairs in zip(found, brute.values(), strict=True):
+            first = 0 if by == "second_order" else 1
+            least = pairs[:, first].min()
+            # sums of at most 14 terms of at most 3
+            alike = pairs[pairs[:, first] < least + 1e-11]
+            second, forward = max(each.second_order), each.counterweight
+            assert (second, forward)[first] == pytest.approx(least, abs=1e-11)
+            assert (forward, second)[first] == pytest.approx(alike[:, 1 - first].min(), abs=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -355,8 +440,11 @@ def test_best_and_windows() -> None:
     assert all(40 <= found.bank_angle_deg <= 70 for found in window)
     weights = [found.counterweight for found in window]
     assert weights == sorted(weights)
+    # All pairs of an angle are compared by it; by a function those listed are.
     inside = [f.counterweight for f in search if 40 <= f.bank_angle_deg <= 70]
-    assert weights == sorted(inside)[:5]
+    assert weights[0] < min(inside)
+    by_function = search.best(lambda found: found.counterweight, within=(40, 70), count=5)
+    assert [found.counterweight for found in by_function] == sorted(inside)[:5]
     assert search.at(33.0) == ()
     assert search[-1] == search[217]
     table = search.to_pandas(within=(0, 30))

@@ -82,9 +82,11 @@ PROGRAM = """
 import hashlib
 import crankpin as cp
 found = hashlib.sha256()
-for search in (cp.search_arrangements(18), cp.search_arrangements(22).within(59, 61)):
+two_stroke = cp.search_arrangements(16, phases_deg=range(0, 360, 45))
+for search in (cp.search_arrangements(18), cp.search_arrangements(22).within(59, 61), two_stroke):
     found.update(search.bank_angles_deg.tobytes())
     found.update(repr([search[k] for k in range(0, len(search), 997)]).encode())
+    found.update(repr(search.best(within=(59.9, 60.1), count=50)).encode())
     found.update(repr(search).encode())
 print(found.hexdigest())
 """

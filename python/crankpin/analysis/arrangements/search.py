@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from crankpin.model.cylinder import Cylinder
     from crankpin.model.engine import Hold
 
+_LISTED = "second_order"
+"""Measure that is least in the arrangement listed."""
 _WHOLE = (0.0, 180.0)
 _LARGE = 1 << 21
 """Distinct arrangements beyond which bank angles are computed window by window."""
@@ -111,7 +113,8 @@ def search_arrangements(
     With every top dead centre held and Z = Σ s exp(i·phase) over a bank's throws, s the distance
     from the middle, first-order moment is all forward at α = arg(−Z₂/Z₁), which exists where
     ``|Z₁| = |Z₂|`` (Ito and Hattori, V-14). Equality is decided in whole numbers: ``|Z|²`` is a
-    whole combination of roots of unity. Angles are distinguished exactly too.
+    whole combination of roots of unity. Angles are distinguished exactly too. Of the pairs with one
+    bank angle the one that shakes least, once a counterweight is fitted, is listed.
 
     Parameters
     ----------
@@ -175,8 +178,11 @@ def search_arrangements(
 class ArrangementSearch(Record):
     """Result of a search: counts, and the balanced bank angles with an arrangement for each.
 
-    A sequence of :class:`Arrangement`, one for each bank angle, ascending: any of those that have
-    the angle. Made by :func:`crankpin.search_arrangements`.
+    A sequence of :class:`Arrangement`, one for each bank angle, ascending: of all pairs that have
+    the angle the one whose second-order moment, the larger of those about x and about y, is least;
+    of pairs alike in that, the one with the least counterweight. Pairs without any first-order
+    moment (:attr:`balanced`) have every angle, and are left out. Made by
+    :func:`crankpin.search_arrangements`.
 
     Examples
     --------
@@ -257,9 +263,11 @@ class ArrangementSearch(Record):
         return len(self._angles)
 
     def __getitem__(self, index: int) -> Arrangement:
-        angle, first, second, counterweight, second_order = self._angles.solution(
-            self._index(index)
-        )
+        return self._least(self._index(index))
+
+    def _least(self, index: int, by: str = _LISTED) -> Arrangement:
+        """Return the arrangement at a bank angle of which this measure is least."""
+        angle, first, second, counterweight, second_order = self._angles.solution(index, by)
         return Arrangement(
             angle, tuple(first), tuple(second), counterweight, second_order, self.hold
         )
@@ -268,7 +276,7 @@ class ArrangementSearch(Record):
         return (self[k] for k in range(len(self)))
 
     def at(self, bank_angle_deg: float, *, tolerance_deg: float = 0.005) -> tuple[Arrangement, ...]:
-        """Return the arrangements within a tolerance of a bank angle; empty if there are none."""
+        """Return the arrangements listed within a tolerance of a bank angle; empty if none is."""
         angle = inputs.number("bank_angle_deg", bank_angle_deg)
         tolerance = inputs.number("tolerance_deg", tolerance_deg)
         return tuple(self._from(angle - tolerance, angle + tolerance))
@@ -280,17 +288,15 @@ class ArrangementSearch(Record):
         within: tuple[float, float] = (0.0, 180.0),
         count: int = 1,
     ) -> tuple[Arrangement, ...]:
-        """Return the arrangements listed that minimise an objective, the best first.
-
-        Others with the same bank angle as one listed can have less: :func:`crankpin.design`
-        compares all cranks at an angle.
+        """Return the arrangements that minimise an objective, one a bank angle, the best first.
 
         Parameters
         ----------
         by
             ``"second_order"``: the larger of the two second-order moments;
-            ``"counterweight"``: the first-order moment that a counterweight has to take away;
-            or any function of an :class:`Arrangement`.
+            ``"counterweight"``: the first-order moment that a counterweight has to take away; of
+            either, all pairs are compared. Or any function of an :class:`Arrangement`, for which
+            those listed are.
         within
             Range of bank angles, degrees.
         count
@@ -305,7 +311,8 @@ class ArrangementSearch(Record):
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
         wanted = inputs.whole("count", count, 0)
-        return tuple(heapq.nsmallest(wanted, self._from(*_window(within)), key=measure))
+        least = _LISTED if callable(by) else by
+        return tuple(heapq.nsmallest(wanted, self._from(*_window(within), least), key=measure))
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
         """Draw the second-order moment that remains over the bank angles; return the axes.
@@ -352,14 +359,15 @@ class ArrangementSearch(Record):
         index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
         return optional.data_frame(columns, index=index)
 
-    def _from(self, low: float, high: float) -> Iterator[Arrangement]:
+    def _from(self, low: float, high: float, by: str = _LISTED) -> Iterator[Arrangement]:
         """Yield the arrangements in a window; of a large search nothing else is computed."""
         if self.core.distinct > _LARGE and "_angles" not in self.__dict__:
-            yield from self.within(low, high)
+            part = self.within(low, high)
+            yield from (part._least(k, by) for k in range(len(part)))
             return
         first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
         stop = int(np.searchsorted(self.bank_angles_deg, high, side="right"))
-        yield from (self[k] for k in range(first, stop))
+        yield from (self._least(k, by) for k in range(first, stop))
 
     def _index(self, index: int) -> int:
         position = inputs.whole("index", index)

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use super::families::Distinct;
 use super::family::{Families, Family};
 use crate::engine::Hold;
 use crate::numbers::cancel::Cancel;
@@ -19,6 +20,8 @@ const SLACK: f64 = 1e-6;
 #[derive(Debug)]
 pub struct Angles {
     families: Vec<Family>,
+    /// Families whose angle is one of these.
+    others: Vec<Family>,
     /// Least turns in a whole one, and parts of it.
     turns: u32,
     parts: u32,
@@ -51,7 +54,7 @@ impl Angles {
     /// Of families that have at least the angles in the window, degrees.
     pub(super) fn new(
         context: Families<'_>,
-        families: Vec<Family>,
+        Distinct { families, others }: Distinct,
         hold: Hold,
         window: [f64; 2],
     ) -> Result<Self> {
@@ -59,6 +62,7 @@ impl Angles {
         let (turns, parts) = (bank.turns(), bank.parts);
         let mut angles = Self {
             families,
+            others,
             turns,
             parts,
             rational: Vec::new(),
@@ -133,6 +137,11 @@ impl Angles {
     /// Where the k-th angle comes from.
     pub(super) fn get(&self, k: usize) -> Option<Origin> {
         (k < self.count()).then(|| self.origin(self.within.start + k))
+    }
+
+    /// The families that have an angle.
+    pub(super) fn alike(&self, origin: Origin, context: Families<'_>) -> Result<Vec<Family>> {
+        context.alike(origin.family, &self.others)
     }
 
     /// How many angles all families have.

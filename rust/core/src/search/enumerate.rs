@@ -62,14 +62,7 @@ impl Entries {
     ) -> Result<Self> {
         let arrangements = bank.count() / u128::from(bank.turns() * images.count());
         let bytes = arrangements * size_of::<Entry>() as u128;
-        if bytes > LARGEST_SEARCH {
-            return Err(Error::TooLarge {
-                argument: "cylinders".into(),
-                bytes,
-                limit: LARGEST_SEARCH,
-                hint: "ask for fewer cylinders",
-            });
-        }
+        refuse_too_large("cylinders", bytes, "ask for fewer cylinders")?;
         let walk = Walk::new(bank, magnitude, images);
         let tasks = walk.tasks(if arrangements > RANGE { TASKS } else { 1 }, bank);
         let ranges = (arrangements / RANGE).clamp(1, MOST_RANGES).next_power_of_two() as usize;
@@ -100,6 +93,14 @@ impl Entries {
     pub(super) fn ranges(&self) -> Vec<(usize, &[Entry])> {
         self.starts.windows(2).map(|ends| (ends[0], &self.all[ends[0]..ends[1]])).collect()
     }
+}
+
+/// Refuse what takes more memory than a search may.
+pub(super) fn refuse_too_large(argument: &str, bytes: u128, hint: &'static str) -> Result<()> {
+    if bytes <= LARGEST_SEARCH {
+        return Ok(());
+    }
+    Err(Error::TooLarge { argument: argument.into(), bytes, limit: LARGEST_SEARCH, hint })
 }
 
 /// Each task puts its arrangements where they belong; it has a place in each range.

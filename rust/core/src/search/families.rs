@@ -7,13 +7,13 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::enumerate::{Entry, LARGEST_SEARCH, classes, packed};
+use super::enumerate::{Entry, classes, packed, refuse_too_large};
 use super::family::{Families, Family, Same};
 use super::images::Image;
 use super::moments::{NEAR, fold, near};
 use super::window::WindowTarget;
 use crate::numbers::cancel::Cancel;
-use crate::numbers::error::{Error, Result};
+use crate::numbers::error::Result;
 use crate::numbers::memory;
 use crate::numbers::pool;
 
@@ -25,19 +25,27 @@ const CLOSE: f64 = NEAR / SMALL;
 const RANGE: usize = 4096;
 const MOST_RANGES: usize = 512;
 
+/// Families ascending by their folded angles, each angle once; and those whose angle is one of these,
+/// [`CLOSE`] to it.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Distinct {
+    pub families: Vec<Family>,
+    pub others: Vec<Family>,
+}
+
 /// An arrangement of a class.
 #[derive(Clone, Copy)]
-struct Member {
-    place: usize,
+pub(super) struct Member {
+    pub place: usize,
     /// Of Z.
-    argument: f64,
+    pub argument: f64,
     /// What turns and images leave of it.
     folded: f64,
 }
 
 impl Families<'_> {
-    /// Those whose folded angle is wanted, ascending, each once.
-    pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<Vec<Family>> {
+    /// Those whose folded angle is wanted.
+    pub(super) fn all(self, wanted: &WindowTarget, cancel: &Cancel) -> Result<Distinct> {
         let entries = self.entries.all.len();
         refuse_too_many(least(entries, self.moments.images.mirror.is_some(), wanted), entries)?;
         let ranges = (entries / RANGE).clamp(1, MOST_RANGES);
@@ -52,7 +60,7 @@ impl Families<'_> {
         per_radian: f64,
         wanted: &WindowTarget,
         cancel: &Cancel,
-    ) -> Result<Vec<Family>> {
+    ) -> Result<Distinct> {
         cancel.expect(self.entries.ranges().len() + ranges);
         let count = AtomicUsize::new(0);
         let mut found = pool::map(cancel, self.entries.ranges(), |(start, range)| {
@@ -91,42 +99,51 @@ impl Families<'_> {
                 }
                 !family.is_small()
             });
-            let mut distinct = memory::room(families.len())?;
-            join(&mut distinct, &families, &mut Same::new(self));
-            Ok([distinct, small])
+            let room = memory::room(families.len())?;
+            let mut distinct = Distinct { families: room, others: Vec::new() };
+            distinct.join(&families, &mut Same::new(self))?;
+            Ok((distinct, small))
         })?;
-        let mut all: Vec<Family> = memory::room(parts.iter().map(|part| part[0].len()).sum())?;
+        let count = |of: fn(&Distinct) -> usize| parts.iter().map(|(part, _)| of(part)).sum();
+        let mut all = Distinct {
+            families: memory::room(count(|part| part.families.len()))?,
+            others: memory::room(count(|part| part.others.len()))?,
+        };
         let mut small = Vec::new();
         let mut same = Same::new(self);
-        for [distinct, of_small] in parts {
+        for (part, of_small) in parts {
             // Only what is close to the joint can be there already.
             let close = |family: &Family| {
-                all.last().is_some_and(|last| family.folded() - last.folded() <= CLOSE)
+                let last = all.families.last();
+                last.is_some_and(|last| family.folded() - last.folded() <= CLOSE)
             };
-            let joint = distinct.partition_point(close);
-            join(&mut all, &distinct[..joint], &mut same);
-            all.extend(&distinct[joint..]);
+            let (joint, rest) = part.families.split_at(part.families.partition_point(close));
+            all.join(joint, &mut same)?;
+            all.families.extend(rest);
+            memory::extend(&mut all.others, part.others.into_iter())?;
             small.extend(of_small); // bounded: few families have a small |Z|
         }
         self.insert(&mut all, &small, &mut same)?;
+        all.others.sort_unstable();
         Ok(all)
     }
 
     /// Insert families of small |Z|, of which there are few: rounding may have put them anywhere near.
-    fn insert(self, to: &mut Vec<Family>, families: &[Family], same: &mut Same<'_>) -> Result<()> {
+    fn insert(self, to: &mut Distinct, families: &[Family], same: &mut Same<'_>) -> Result<()> {
         let mut new: Vec<Family> = Vec::new();
         for &family in families {
             let size = self.moments.twice(packed(self.entries.all[family.first()])).norm();
             let (low, high) = (family.folded() - near(size), family.folded() + near(size));
-            let start = to.partition_point(|other| other.folded() < low);
-            let close = to[start..].iter().take_while(|other| other.folded() <= high);
-            if !close.chain(&new).any(|&other| same.angle(family, other)) {
-                new.push(family);
+            let start = to.families.partition_point(|other| other.folded() < low);
+            let close = to.families[start..].iter().take_while(|other| other.folded() <= high);
+            match close.chain(&new).find(|&&other| same.angle(family, other)) {
+                Some(&other) => memory::push(&mut to.others, family.at(other))?,
+                None => new.push(family),
             }
         }
         if !new.is_empty() {
-            memory::extend(to, new.into_iter())?;
-            to.sort_unstable();
+            memory::extend(&mut to.families, new.into_iter())?;
+            to.families.sort_unstable();
         }
         Ok(())
     }
@@ -134,6 +151,17 @@ impl Families<'_> {
     /// One arrangement for each Z of a class, where turned, reversed and mirrored ones count once;
     /// none of the class of Z = 0.
     fn members(self, start: usize, class: &[Entry], members: &mut Vec<Member>) {
+        self.sorted_out(start, class, members, |_, _| ());
+    }
+
+    /// The same, and `each` arrangement of the class after the one that counts for it.
+    pub(super) fn sorted_out(
+        self,
+        start: usize,
+        class: &[Entry],
+        members: &mut Vec<Member>,
+        mut each: impl FnMut(Member, Member),
+    ) {
         members.clear();
         // Rows of a remainder that is zero are zero: the key is 0, and the class is the first.
         if start == 0 && self.moments.vanishes(packed(class[0])) {
@@ -143,7 +171,8 @@ impl Families<'_> {
             let argument = self.moments.twice(packed(entry)).arg();
             members.push(Member { place: start + i, argument, folded: 0.0 });
         }
-        if class.len() == 1 {
+        if let &mut [only] = members.as_mut_slice() {
+            each(only, only);
             return;
         }
         for member in &mut *members {
@@ -158,8 +187,11 @@ impl Families<'_> {
             let close = members[..distinct].iter().rev();
             let same = close
                 .take_while(|other| member.folded - other.folded <= near)
-                .any(|other| self.moments.same(known(&member), known(other), near));
-            if !same {
+                .find(|other| self.moments.same(known(&member), known(other), near));
+            if let Some(&same) = same {
+                each(same, member);
+            } else {
+                each(member, member);
                 members[distinct] = member;
                 distinct += 1;
             }
@@ -189,6 +221,27 @@ impl Families<'_> {
         }
     }
 
+    /// Those with the angle of a family among others, and itself.
+    pub(super) fn alike(self, family: Family, others: &[Family]) -> Result<Vec<Family>> {
+        let folded = family.folded();
+        let start = others.partition_point(|other| other.folded() < folded - CLOSE);
+        let close = others[start..].iter().take_while(|other| other.folded() <= folded + CLOSE);
+        let mut same = Same::new(self);
+        let mut alike = memory::collected([family].into_iter())?;
+        for &other in close {
+            if same.angle(family, other) {
+                memory::push(&mut alike, other)?;
+            }
+        }
+        // One sequence, whichever of them is listed.
+        let rank = |family: &Family| {
+            let (second, image) = family.second();
+            (family.first(), second, image.bits())
+        };
+        alike.sort_unstable_by_key(rank);
+        Ok(alike)
+    }
+
     /// What every class has: a bank with itself, at half a circle, and with itself reversed, at 0.
     fn common(self) -> Vec<Family> {
         let entries = self.entries.all.iter();
@@ -202,17 +255,19 @@ impl Families<'_> {
     }
 }
 
-/// Append ascending families that are not there yet.
-fn join<'a>(
-    to: &mut Vec<Family>,
-    families: impl IntoIterator<Item = &'a Family>,
-    same: &mut Same<'_>,
-) {
-    for &family in families {
-        let mut close = to.iter().rev().take_while(|o| family.folded() - o.folded() <= CLOSE);
-        if !close.any(|&other| same.angle(family, other)) {
-            to.push(family);
+impl Distinct {
+    /// Append ascending families.
+    fn join(&mut self, families: &[Family], same: &mut Same<'_>) -> Result<()> {
+        for &family in families {
+            let last = self.families.iter().rev();
+            let mut close = last.take_while(|other| family.folded() - other.folded() <= CLOSE);
+            if close.any(|&other| same.angle(family, other)) {
+                memory::push(&mut self.others, family)?;
+            } else {
+                self.families.push(family);
+            }
         }
+        Ok(())
     }
 }
 
@@ -257,20 +312,13 @@ fn least(entries: usize, mirrored: bool, wanted: &WindowTarget) -> usize {
 /// Families and entries are of one size; families are grouped, gathered, sorted and joined.
 fn refuse_too_many(families: usize, entries: usize) -> Result<()> {
     let bytes = (4 * families as u128 + entries as u128) * size_of::<Family>() as u128;
-    if bytes <= LARGEST_SEARCH {
-        return Ok(());
-    }
-    Err(Error::TooLarge {
-        argument: "bank angles".into(),
-        bytes,
-        limit: LARGEST_SEARCH,
-        hint: "ask for those within a narrower window, or for the counts alone",
-    })
+    let hint = "ask for those within a narrower window, or for the counts alone";
+    refuse_too_large("bank angles", bytes, hint)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::enumerate::Entries;
+    use super::super::enumerate::{Entries, LARGEST_SEARCH};
     use super::super::magnitude::Magnitude;
     use super::super::moments::Moments;
     use super::super::throws::Bank;
@@ -458,10 +506,13 @@ mod tests {
                     .take(200)
                     .collect();
                 found.sort();
-                let mut joined = Vec::new();
-                join(&mut joined, &found, &mut Same::new(families));
+                let mut joined = Distinct::default();
+                joined.join(&found, &mut Same::new(families)).unwrap();
+                let mut both = [joined.families.clone(), joined.others].concat();
+                both.sort();
+                assert_eq!(both, found);
                 found.dedup_by(|a, b| a.folded() - b.folded() < APART);
-                assert_eq!(joined, found);
+                assert_eq!(joined.families, found);
             });
         }
     }
@@ -476,10 +527,18 @@ mod tests {
                     .filter(|family| family.is_small())
                     .collect();
                 assert!(!small.is_empty());
-                let inserted = |to: &[Family], family: &[Family]| {
-                    let mut to = to.to_vec();
-                    families.insert(&mut to, family, &mut Same::new(families)).unwrap();
-                    to
+                let inserted = |to: &[Family], new: &[Family]| {
+                    let mut to = Distinct { families: to.to_vec(), others: Vec::new() };
+                    let count = to.families.len() + new.len();
+                    families.insert(&mut to, new, &mut Same::new(families)).unwrap();
+                    assert_eq!(to.families.len() + to.others.len(), count);
+                    // Beside the one whose angle they have, wherever rounding put them.
+                    for other in &to.others {
+                        let same = |family: &&Family| family.folded() == other.folded();
+                        let family = *to.families.iter().find(same).unwrap();
+                        assert!(families.alike(family, &[*other]).unwrap().contains(other));
+                    }
+                    to.families
                 };
                 let all = inserted(&[], &small);
                 assert!(all.windows(2).all(|pair| pair[1].folded() - pair[0].folded() > APART));

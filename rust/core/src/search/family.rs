@@ -38,6 +38,17 @@ impl Family {
         ((second >> 3) as usize, Image::of_bits(second >> 1 & 3))
     }
 
+    /// Whether its arrangements are one, or one and its reverse: others have the same angle then.
+    pub(super) fn is_common(self) -> bool {
+        let (second, image) = self.second();
+        self.first() == second && !image.mirrored
+    }
+
+    /// Its arrangements, with the folded angle of another that is the same.
+    pub(super) fn at(self, other: Self) -> Self {
+        Self((other.0 >> 64 << 64) | u128::from(self.0 as u64))
+    }
+
     pub(super) fn is_small(self) -> bool {
         self.0 & 1 == 1
     }

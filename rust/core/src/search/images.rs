@@ -33,6 +33,12 @@ impl Image {
         Self { reversed: true, mirrored: true },
     ];
 
+    /// The image of this one.
+    pub(super) const fn then(self, image: Self) -> Self {
+        let Self { reversed, mirrored } = image;
+        Self { reversed: self.reversed != reversed, mirrored: self.mirrored != mirrored }
+    }
+
     /// In two bits.
     pub(super) const fn bits(self) -> u32 {
         self.reversed as u32 | (self.mirrored as u32) << 1

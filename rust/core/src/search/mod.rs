@@ -7,6 +7,7 @@
 //! arrangements are sorted by it, and each class of k arrangements gives k² pairs.
 
 mod angles;
+mod best;
 mod enumerate;
 mod families;
 mod family;
@@ -20,13 +21,14 @@ mod vee;
 mod window;
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 pub use self::angles::Angles;
-use self::angles::Origin;
+pub use self::best::Criterion;
+use self::best::Equals;
 pub use self::enumerate::LARGEST_SEARCH;
 use self::enumerate::{Entries, Entry, classes, image_count, packed};
 use self::family::Families;
-use self::images::Image;
 use self::magnitude::Magnitude;
 use self::moments::Moments;
 pub use self::throws::{Arrangement, Bank};
@@ -50,6 +52,7 @@ pub struct Search {
     qualifying: u128,
     balanced: u128,
     hold: Hold,
+    equals: OnceLock<Equals>,
 }
 
 /// A pair of banks and the angle between them.
@@ -85,7 +88,8 @@ impl Search {
         })?
         .into_iter()
         .sum::<u128>();
-        let mut search = Self { moments, entries, qualifying, balanced: 0, hold };
+        let mut search =
+            Self { moments, entries, qualifying, balanced: 0, hold, equals: OnceLock::new() };
         search.balanced = pairs(search.zero_class());
         Ok(search)
     }
@@ -138,13 +142,22 @@ impl Search {
         Angles::new(self.families(), families, self.hold, window)
     }
 
-    /// What the k-th angle is of.
-    #[must_use]
-    pub fn solution(&self, angles: &Angles, k: usize) -> Option<Solution> {
-        let origin = angles.get(k)?;
+    /// The best of the pairs that have the k-th angle.
+    pub fn solution(
+        &self,
+        angles: &Angles,
+        k: usize,
+        by: Criterion,
+        cancel: &Cancel,
+    ) -> Result<Option<Solution>> {
+        let Some(origin) = angles.get(k) else { return Ok(None) };
+        let bank_angle = angles.degrees_at(k);
+        let Some(pair) = self.best_pair(angles, origin, bank_angle, by, cancel)? else {
+            return Ok(None);
+        };
         let parts = self.bank().parts;
-        let part = Angle::from_turns(1, parts.into()).ok()?;
-        let mut banks = self.banks(origin);
+        let part = Angle::from_turns(1, parts.into())?;
+        let mut banks = pair.map(|bank| bank.phases(self.families()));
         let [z1, z2] = banks.each_ref().map(|phases| self.moment(part, phases, 1));
         let condition = (-z2 / z1).arg();
         let angle = match self.hold {
@@ -157,7 +170,7 @@ impl Search {
         if angle < 0.0 {
             banks.swap(0, 1);
         }
-        self.evaluated(self.hold, banks, angles.degrees_at(k))
+        Ok(self.evaluated(self.hold, banks, bank_angle))
     }
 
     /// Z of a bank at an order, `part` being one part of a turn.
@@ -194,28 +207,6 @@ impl Search {
         let counterweight = left(forward, 1.0);
         Some(Solution { hold, bank_angle, banks, parts, counterweight, second_order })
     }
-
-    /// Phases of both banks: those of the family, the second turned by as many least turns as
-    /// give the angle.
-    fn banks(&self, origin: Origin) -> [Arrangement; 2] {
-        let Moments { bank, images, turn, .. } = &self.moments;
-        let family = origin.family;
-        let (second, image) = family.second();
-        let phases =
-            |place: usize, image: Image| images.phases(packed(self.entries.all[place]), image);
-        let mut banks = [phases(family.first(), Image::ITSELF), phases(second, image)];
-        // The family's own angle is σ·f + j·turn; α = ε|α| with ε = σ·sign has the same f.
-        let angle = self.families().angle(family);
-        let sigma = if angle.rem_euclid(*turn) <= 0.5 * turn { 1 } else { -1 };
-        let own = (angle - sigma as f64 * family.folded()) / turn;
-        let middle = if sigma == origin.sign { origin.middle } else { -origin.middle };
-        let ahead = middle - own.round() as i64;
-        let ahead = ahead.rem_euclid(i64::from(bank.turns())) as u32 * (bank.parts / bank.turns());
-        for phase in &mut banks[1] {
-            *phase = (*phase + ahead) % bank.parts;
-        }
-        banks
-    }
 }
 
 impl Solution {
@@ -245,6 +236,7 @@ pub fn bank(cylinders: usize, alternating: bool, phases: Option<&[Angle]>) -> Re
 #[cfg(test)]
 mod tests {
     use super::enumerate::key;
+    use super::images::Image;
     use super::*;
     use crate::load::{Loads, Wanted};
     use crate::numbers::order::Order;
@@ -317,7 +309,10 @@ mod tests {
         let search = search(14, true, None);
         let angles = search.angles([0.0, 180.0], &Cancel::new()).unwrap();
         for (k, degrees) in angles.degrees(&Cancel::new()).unwrap().into_iter().enumerate() {
-            let solution = search.solution(&angles, k).unwrap();
+            let solution = search
+                .solution(&angles, k, Criterion::SecondOrder, &Cancel::new())
+                .unwrap()
+                .unwrap();
             assert_eq!(solution.bank_angle, degrees);
             let engine = solution.engine(cylinder, 0.1).unwrap();
             let request = Request { rpm: 3000.0, reference_z: None, torque: false };

@@ -29,8 +29,11 @@ pub(super) struct Moments {
     /// The least turn that leaves the bank's phases as they are, radians.
     pub turn: f64,
     weights: Vec<i64>,
-    /// `e^{i·phase}` of the distinct phases.
+    /// `e^{i·phase}` of the distinct phases, and its square.
     units: Vec<Complex64>,
+    squares: Vec<Complex64>,
+    /// One part of a turn.
+    part: Angle,
     /// The same as remainders, packed.
     exact: Vec<u128>,
     /// Index among the distinct phases of each part of a turn.
@@ -43,7 +46,8 @@ impl Moments {
         let images = Images::new(&bank);
         let parts = i64::from(bank.parts);
         let part = Angle::from_turns(1, parts)?;
-        let units = images.distinct.iter().map(|&k| part.cis(k.into())).collect();
+        let [units, squares] =
+            [1, 2].map(|n| images.distinct.iter().map(|&k| part.cis(n * i64::from(k))).collect());
         let remainder = |&phase: &u32| {
             let mut combination = vec![0; bank.parts as usize];
             combination[phase as usize] = 1;
@@ -63,14 +67,37 @@ impl Moments {
             index_of[phase as usize] = index;
         }
         let turn = TAU / f64::from(bank.turns());
-        Ok(Self { bank, ring, images, turn, weights, units, exact: packing.columns, index_of })
+        let exact = packing.columns;
+        Ok(Self { bank, ring, images, turn, weights, units, squares, part, exact, index_of })
     }
 
     /// Twice Z = Σ s e^{i·phase}.
     #[inline]
     pub(super) fn twice(&self, packed: Packed) -> Complex64 {
+        self.summed(&self.units, packed)
+    }
+
+    /// Twice the second-order moment, Σ s e^{2i·phase}.
+    #[inline]
+    pub(super) fn twice_second(&self, packed: Packed) -> Complex64 {
+        self.summed(&self.squares, packed)
+    }
+
+    #[inline]
+    fn summed(&self, units: &[Complex64], packed: Packed) -> Complex64 {
         let terms = self.weights.iter().enumerate();
-        terms.map(|(throw, &weight)| self.units[index(packed, throw)] * weight as f64).sum()
+        terms.map(|(throw, &weight)| units[index(packed, throw)] * weight as f64).sum()
+    }
+
+    /// Second-order moment of an image, turned by parts of a turn, from the arrangement's own.
+    pub(super) fn second_seen(&self, second: Complex64, image: Image, turned: u32) -> Complex64 {
+        let second = if image.reversed { -second } else { second };
+        match self.images.mirror {
+            Some(sum) if image.mirrored => {
+                second.conj() * self.part.cis(2 * i64::from(sum + turned))
+            }
+            _ => second * self.part.cis(2 * i64::from(turned)),
+        }
     }
 
     /// Whether Z is exactly zero.
@@ -103,22 +130,30 @@ impl Moments {
     /// Whether Z of two arrangements is the same up to turns and images, where the arguments are
     /// known within `near`.
     pub(super) fn same(&self, a: (Packed, f64), b: (Packed, f64), near: f64) -> bool {
-        let mut wanted = None;
-        Image::ALL.into_iter().filter(|&image| self.images.has(image)).any(|image| {
-            let apart = a.1 - self.seen(b.1, image);
-            if fold(apart, self.turn) > near {
-                return false;
-            }
-            let wanted =
-                *wanted.get_or_insert_with(|| self.sum(|throw| self.exact[index(a.0, throw)]));
-            let turned = self.turns_in(apart) as u32;
-            let parts = self.bank.parts;
-            let found = self.sum(|throw| {
-                let phase = self.images.seen(self.images.distinct[index(b.0, throw)], image);
-                self.exact[self.index_of[((phase + turned) % parts) as usize]]
-            });
-            wanted == if image.reversed { found.wrapping_neg() } else { found }
-        })
+        let mut images = Image::ALL.into_iter().filter(|&image| self.images.has(image));
+        images.any(|image| self.turned_to(a, b, image, near).is_some())
+    }
+
+    /// By how many parts of a turn the image of b is turned to have the Z of a, if it can be.
+    pub(super) fn turned_to(
+        &self,
+        a: (Packed, f64),
+        b: (Packed, f64),
+        image: Image,
+        near: f64,
+    ) -> Option<u32> {
+        let apart = a.1 - self.seen(b.1, image);
+        if fold(apart, self.turn) > near {
+            return None;
+        }
+        let wanted = self.sum(|throw| self.exact[index(a.0, throw)]);
+        let turned = self.turns_in(apart) as u32;
+        let parts = self.bank.parts;
+        let found = self.sum(|throw| {
+            let phase = self.images.seen(self.images.distinct[index(b.0, throw)], image);
+            self.exact[self.index_of[((phase + turned) % parts) as usize]]
+        });
+        (wanted == if image.reversed { found.wrapping_neg() } else { found }).then_some(turned)
     }
 
     fn sum(&self, of: impl Fn(usize) -> u128) -> u128 {

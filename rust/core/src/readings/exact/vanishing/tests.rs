@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::*;
 use crate::engine::{Details, Gas, Hold, Shaft, Station, Unbalance};
 use crate::pressure::{Cycle, Given};
-use crate::search::{Bank, Search};
+use crate::search::{Bank, Criterion, Search};
 use crate::{Angle, Cylinder};
 
 fn engine(places: &[(f64, f64, f64, f64, f64)]) -> Engine {
@@ -113,7 +113,8 @@ fn bank_angles_without_backward_moment_are_proved() {
         let angles = search.angles([1.0, 180.0], &cancel).unwrap();
         let mut irrational = 0;
         for k in 0..angles.count() {
-            let found = search.solution(&angles, k).unwrap();
+            let found =
+                search.solution(&angles, k, Criterion::SecondOrder, &cancel).unwrap().unwrap();
             let cylinder = Cylinder::new(0.05, 0.15, 0.5, 0.0).unwrap();
             let engine = found.engine(cylinder, 0.1).unwrap();
             assert_eq!(verdicts(&engine, 1)[7], V, "{}", found.bank_angle);
