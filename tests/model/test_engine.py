@@ -405,6 +405,26 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         r"throws_deg = \[0\.0, 2\.0944, 4\.18879\]: was it given in radians.* 120°, 240°",
     ),
     "bank angle in radians": (lambda: vee(bank_angle_deg=math.pi / 3), "bank_angle_deg = 1.0472?"),
+    "a bank angle changed in radians": (
+        lambda: V6.with_bank_angle(math.pi / 3, hold="pins"),
+        "^bank_angle_deg = 1.0471.* degrees here: 60°",
+    ),
+    "swept in radians": (
+        lambda: cp.sweep(V6, rpm=3000, bank_angle_deg=np.radians(range(1, 181)), hold="pins"),
+        "^bank_angle_deg = .* degrees here: 180°",
+    ),
+    "designed in radians": (
+        lambda: cp.design(
+            2,
+            layout="vee",
+            cylinder=CYLINDER,
+            bank_angle_deg=(0.0, math.pi / 2),
+            spacing=0.1,
+            rpm=3000,
+            by="total.moment.peak",
+        ),
+        "^bank_angle_deg = .* degrees here: 90°",
+    ),
     "directions in radians in a file": (
         lambda: cp.Engine.from_toml(
             V6.to_toml()

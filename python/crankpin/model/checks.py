@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -220,12 +220,12 @@ def angles(**given: object) -> None:
         hints = filter(None, (_near_miss(value) for value in listed))
         if hint := next(hints, None):
             warn(f"{name} = {inputs.shorten(values)}: {hint}; if that is meant, give it as text")
-        radians(name, values, [float(value) for value in listed if isinstance(value, float)])
+        radians(name, values, listed)
 
 
-def radians(name: str, given: object, values: Sequence[float]) -> None:
-    """Warn of angles that are parts of a turn in radians; ``given`` is shown in their place."""
-    angles = [value for value in values if value]
+def radians(name: str, given: object, values: Iterable[Any]) -> None:
+    """Warn of doubles that are parts of a turn in radians; ``given`` is shown in their place."""
+    angles = [float(value) for value in values if isinstance(value, float) and value]
     if angles and all(map(_radians, angles)):
         degrees = ", ".join(f"{math.degrees(value):.6g}°" for value in angles[:4])
         warn(

@@ -508,6 +508,7 @@ class EngineData:
         if len(self.banks) != 2:
             self.bank_angle_deg  # noqa: B018 - raises
         core = self._core.with_bank_angle(inputs.angle("bank_angle_deg", bank_angle_deg), held)
+        checks.radians("bank_angle_deg", bank_angle_deg, [bank_angle_deg])
         order = allowed(core, self.firing_order, self.strokes)
         return type(self)(core if order else core.firing_as("", self.strokes))
 

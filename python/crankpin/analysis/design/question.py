@@ -20,6 +20,7 @@ from crankpin.analysis.arrangements.cranks import (
     exact,
     simple,
 )
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -226,6 +227,7 @@ def _range(name: str, given: Any, low: Exact, high: Exact) -> tuple[Exact, Exact
     first, last = (exact(inputs.angle(name, end)) for end in ends)
     if not low <= first <= last <= high:
         raise inputs.rejected(name, given, hint)
+    checks.radians(name, given, ends)
     return first, last
 
 

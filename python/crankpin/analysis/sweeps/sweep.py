@@ -26,6 +26,7 @@ from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engin
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
+from crankpin.model import checks
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -156,6 +157,10 @@ def sweep(
     maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
     whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
+    # Parts of a turn at the end alone tell radians: a sweep in degrees passes some.
+    angles = axes.get("bank_angle_deg")
+    last = angles[-1] if isinstance(angles, np.ndarray) else angles
+    checks.radians("bank_angle_deg", bank_angle_deg, [last])
     return whole
 
 
