@@ -538,6 +538,15 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
         assert name.split(maxsplit=1)[0].rstrip(",") in text
 
 
+@every_object
+def test_columns_have_their_units_apart(name: str) -> None:
+    table = getattr(OBJECTS[name], "table", None)
+    while table is not None:
+        for column in table.columns:
+            assert column.name.split()[-1:] not in [["°"], ["m"], ["kg"], ["g"], ["N"], ["N·m"]]
+        table = table.below
+
+
 def test_a_balance_is_shown_as_a_table() -> None:
     lines = repr(balance()).splitlines()
     assert "V6" in lines[0]

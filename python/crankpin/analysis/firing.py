@@ -287,11 +287,15 @@ class Firing(Record):
     def table(self) -> tables.Table:
         """Return a table of the cylinders in firing order."""
         name = labels.name_of(self.engine)
-        header = ["cylinder", "fires at °", "to the next °", "to the next of its bank °"]
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
         names = [f"{cylinder}" for cylinder in self.order]
-        return tables.Table.from_rows(f"{name}: {self.summary}", header, names, rows)
+        return tables.Table.from_rows(
+            f"{name}: {self.summary}",
+            ["cylinder", ("fires at", "°"), ("to the next", "°"), ("to the next of its bank", "°")],
+            names,
+            rows,
+        )
 
     @property
     def summary(self) -> str:

@@ -309,8 +309,12 @@ class Waveform(OverAngle, Tabled):
                     found.append((column[low], theta[low], column[high], theta[high]))
                 else:
                     found.append((np.nan,) * 4)
-        heads = ["quantity", "component", "unit", "least", "at °", "largest", "at °"]
         rows = np.array(found).reshape(-1, 4)
         where = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm"
         title = f"{where}, {len(self.theta_deg)} crank angles, {self._how}"
-        return Table.from_rows(title, heads, names, rows)
+        return Table.from_rows(
+            title,
+            ["quantity", "component", "unit", "least", ("at", "°"), "largest", ("at", "°")],
+            names,
+            rows,
+        )

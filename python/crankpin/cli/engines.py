@@ -68,9 +68,11 @@ def _firing_orders(engine: Engine, strokes: int | None, *, csv: bool) -> Shown:
     ]
     rows = np.array([[each.unevenness_deg] for each in shown])
     name = labels.name_of(engine)
-    header = ["firing order", "intervals °", "rms from even °"]
     table = Table.from_rows(
-        f"{name}: {firings[0].strokes}-stroke, most even first", header, listed, rows
+        f"{name}: {firings[0].strokes}-stroke, most even first",
+        ["firing order", ("intervals", "°"), ("rms from even", "°")],
+        listed,
+        rows,
     )
     rest = len(firings) - len(shown)
     return Shown(table, note=f"and {rest} more: --csv prints all\n" if rest else "")

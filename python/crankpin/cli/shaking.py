@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
 
 SWEPT = {
-    "bank_angle_deg": ("--bank-angle", "°", "bank angle °"),
-    "rod_ratio": ("--rod-ratio", "", "rod ratio"),
-    "pin_offset": ("--pin-offset", "m", "pin offset m"),
-    "rpm": ("--rpm", "rpm", "rpm"),
+    "bank_angle_deg": ("--bank-angle", "°"),
+    "rod_ratio": ("--rod-ratio", ""),
+    "pin_offset": ("--pin-offset", "m"),
+    "rpm": ("--rpm", "rpm"),
 }
-"""Swept dimension → its option, unit and head of its column."""
+"""Swept dimension → its option and unit."""
 
 
 HALF_ORDERS = (
@@ -90,14 +90,14 @@ def _explain(given: Given) -> str:
 )
 def _sweep(given: Given) -> Shown:
     engines = given.engines()
-    typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit, _) in SWEPT.items()}
+    typed: dict[str, Any] = {dim: given.range(flag, unit) for dim, (flag, unit) in SWEPT.items()}
     axes = {dim: values for dim, values in typed.items() if values is not None}
     if not any(np.ndim(values) for values in axes.values()):
         vees = all(len(engine.banks) == 2 for engine in engines.values())
         if "bank_angle_deg" not in axes and vees:
             axes["bank_angle_deg"] = np.arange(10.0, 171.0, 10.0)
         elif len(engines) == 1:
-            flags = ", ".join(flag for flag, *_ in SWEPT.values() if vees or "bank" not in flag)
+            flags = ", ".join(flag for flag, _ in SWEPT.values() if vees or "bank" not in flag)
             raise InputError(
                 f"nothing to sweep: all options have one value; give one of {flags} as "
                 "START:STOP:STEP or a,b,c"
@@ -137,9 +137,9 @@ def _tables_of(result: Sweep, given: Given) -> tuple[list[Table], str]:
     rows = rows.reshape(len(result.engines), -1, len(shown) * len(symbols))
     dims = [dim for dim in result.coords if dim != "engine"]
     swept = list(itertools.product(*(np.asarray(result.coords[dim]).tolist() for dim in dims)))
-    heads = [SWEPT[dim][-1] for dim in dims]
+    heads = [(name, unit.strip()) for name, unit in map(labels.SWEPT.__getitem__, dims)]
     heads += [
-        f"{symbol} order {order} {QUANTITIES[quantity].unit}"
+        (f"{symbol} order {order}", QUANTITIES[quantity].unit)
         for order in (result.orders[place] for place in shown)
         for symbol in symbols
     ]

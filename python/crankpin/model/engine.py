@@ -488,13 +488,13 @@ class Engine(Builders):
         """Table of the cylinders."""
         names = {number: name for name, numbers in self.banks.items() for number in numbers}
         columns = {
-            "bore °": self.bank_deg,
-            "TDC °": self.tdc_deg,
-            "crankpin °": self.pin_deg,
-            "z m": self.z,
+            ("bore", "°"): self.bank_deg,
+            ("TDC", "°"): self.tdc_deg,
+            ("crankpin", "°"): self.pin_deg,
+            ("z", "m"): self.z,
         }
         if self.rotating_mass.any():
-            columns["rotating mass kg"] = self.rotating_mass
+            columns["rotating mass", "kg"] = self.rotating_mass
         numbered = [(number, names[number]) for number in range(1, len(self) + 1)]
         rows = np.stack(list(columns.values()), axis=1)
         return Table.from_rows("", ["cylinder", "bank", *columns], numbered, rows)

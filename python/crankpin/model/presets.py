@@ -66,14 +66,18 @@ class Presets(Mapping[str, Engine]):
 
     def table(self, column: str = "source", longest: int = 1000) -> tables.Table:
         """Return a table of all presets with one of their texts, cut."""
-        header = ["name", "cylinders", "bank angle °", "firing order", column]
         rows = []
         for name, engine in self.items():
             text = labels.cut(_data()["engines"][name][column], longest)
             angle = getattr(engine, "bank_angle_deg", None)
             banks = "–" if angle is None else f"{angle:.6g}"
             rows.append((name, len(engine), banks, engine.firing_order or "–", text))
-        return tables.Table.from_rows("Presets", header, rows, np.empty((len(rows), 0)))
+        return tables.Table.from_rows(
+            "Presets",
+            ["name", "cylinders", ("bank angle", "°"), "firing order", column],
+            rows,
+            np.empty((len(rows), 0)),
+        )
 
 
 class UnknownPresetError(InputError, KeyError):

@@ -454,12 +454,12 @@ def test_best_and_windows() -> None:
 def test_table_has_every_bank_angle() -> None:
     search = cp.search_arrangements(6)
     table = search.table
-    assert list(table["bank angle °"].values) == search.bank_angles_deg.tolist()
+    assert list(table["bank angle"].values) == search.bank_angles_deg.tolist()
     last = search[-1]
     assert [column.values[-1] for column in table.columns[2:]] == [
         last.bank_angle_deg, last.counterweight, *last.second_order,
     ]  # fmt: skip
-    assert [float(angle) for angle in table["left bank °"].values[-1].split("-")] == [
+    assert [float(angle) for angle in table["left bank"].values[-1].split("-")] == [
         *last.second_deg
     ]
     assert len(table.csv().splitlines()) == len(search) + 1

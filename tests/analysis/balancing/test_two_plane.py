@@ -71,19 +71,8 @@ def test_table_and_copies() -> None:
     found = cp.two_plane_correction([1, 2], [3, 4], measured_z=[0, 1], correction_z=[0.2, 0.7])
     lines = repr(found).splitlines()
     assert lines[0] == "Two-plane correction"
-    assert lines[1].split() == [
-        "plane",
-        "z",
-        "m",
-        "g·mm",
-        "add",
-        "at",
-        "°",
-        "or",
-        "drill",
-        "at",
-        "°",
-    ]
+    assert found.table.header == ["plane", "z m", "unbalance g·mm", "add at °", "or drill at °"]
+    assert lines[1].split() == " ".join(found.table.header).split()
     assert "<table>" in found._repr_html_()
     assert list(found.to_pandas().columns) == found.table.header
     back = pickle.loads(pickle.dumps(found))  # noqa: S301 - its own

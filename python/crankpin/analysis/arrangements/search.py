@@ -338,11 +338,15 @@ class ArrangementSearch(Record):
             ]
             for each in found
         ]
-        heads = ["right bank °", "left bank °", "bank angle °", "counterweight"]
-        heads += ["order 2 about x", "order 2 about y"]
+        in_degrees = [(head, "°") for head in ("right bank", "left bank", "bank angle")]
         rows = [(each.bank_angle_deg, each.counterweight, *each.second_order) for each in found]
         title = f"V{self.cylinders}: moments over m·r·ω²·spacing, those of order 2 over a₂ too"
-        return Table.from_rows(title, heads, banks, np.array(rows).reshape(-1, 4))
+        return Table.from_rows(
+            title,
+            [*in_degrees, "counterweight", "order 2 about x", "order 2 about y"],
+            banks,
+            np.array(rows).reshape(-1, 4),
+        )
 
     def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""

@@ -270,17 +270,16 @@ class BobWeight(Tabled):
         name = labels.name_of(self.engine)
         title = f"{name}: bob weights, rotating + {100.0 * self.factor:.6g} % of reciprocating"
         title += " + oil" if self.oil else ""
-        header = [
-            "cylinders",
-            "crankpin °",
-            "rotating g",
-            "reciprocating g",
-            "oil g",
-            "bob weight g",
-        ]
         return Table.from_rows(
             title,
-            header,
+            [
+                "cylinders",
+                ("crankpin", "°"),
+                ("rotating", "g"),
+                ("reciprocating", "g"),
+                ("oil", "g"),
+                ("bob weight", "g"),
+            ],
             [(_numbers(pin),) for pin in self.crankpins],
             rows,
             decimals=1,

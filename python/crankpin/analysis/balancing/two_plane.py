@@ -152,7 +152,9 @@ class TwoPlaneCorrection(Tabled):
     def table(self) -> Table:
         """Table of the corrections."""
         columns = [np.array(self.correction_z), self.amount_g_mm, self.angle_deg, self.drill_deg]
-        header = ["plane", "z m", "g·mm", "add at °", "or drill at °"]
         return Table.from_rows(
-            "Two-plane correction", header, [[1], [2]], np.stack(columns, axis=1)
+            "Two-plane correction",
+            ["plane", ("z", "m"), ("unbalance", "g·mm"), ("add at", "°"), ("or drill at", "°")],
+            [[1], [2]],
+            np.stack(columns, axis=1),
         )

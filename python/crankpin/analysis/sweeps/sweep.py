@@ -157,7 +157,7 @@ def sweep(
     maps = None if cycle is None else GasMap.checked(cycle, listed, crankcase)
     whole = Sweep(tuple(listed), names, axes, held, request, maps, shown)
     inputs.warn_of_units(whole.mean_piston_speed)
-    # Parts of a turn at the end alone tell radians: a sweep in degrees passes some.
+    # The last value alone shows radians: a sweep in degrees passes parts of a turn in radians.
     angles = axes.get("bank_angle_deg")
     last = angles[-1] if isinstance(angles, np.ndarray) else angles
     checks.radians("bank_angle_deg", bank_angle_deg, [last])
