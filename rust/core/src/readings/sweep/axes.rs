@@ -73,9 +73,6 @@ impl Axes {
         cancel: &Cancel,
     ) -> Result<[Option<f64>; 2]> {
         let (ratios, offsets) = (self.rod_ratio.as_deref(), self.pin_offset.as_deref());
-        if ratios.is_none() && offsets.is_none() {
-            return Ok([None; 2]);
-        }
         let (extreme_ratios, extreme_offsets) = (ends(ratios, cancel)?, ends(offsets, cancel)?);
         for cylinder in engines.iter().flat_map(|engine| engine.gears()) {
             let at = |ratio, offset| cylinder.proportions_with(ratio, offset).map(drop);

@@ -87,8 +87,7 @@ impl Block {
         for i in 1..LANES {
             let ends = places[i - 1] + 1 == points;
             places[i] = if ends { 0 } else { places[i - 1] + 1 };
-            // Rows after the last one have no angle of their own.
-            angles[i] = (angles[i - 1] + usize::from(ends)).min(waves.angles - 1);
+            angles[i] = angles[i - 1] + usize::from(ends);
         }
         self.combine(waves, coefficients, &EachPlace(angles), &EachPlace(places));
     }

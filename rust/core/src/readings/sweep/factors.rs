@@ -38,8 +38,6 @@ pub(super) struct Waves {
     pub columns: Vec<Padded<2>>,
     /// Places of the waves of the forward part (or torque) and of the backward part, by order.
     pub of_order: Vec<[usize; 2]>,
-    /// Number of bank angles.
-    pub angles: usize,
 }
 
 impl Waves {
@@ -51,7 +49,8 @@ impl Waves {
     ) -> Result<Self> {
         let (mut columns, mut places) = (Vec::new(), BTreeMap::new());
         let mut of_order = memory::room(sweep.orders.len())?;
-        let mut degrees: Vec<f64> = memory::zeros(angles.len())?;
+        let bank_angles = &sweep.bank_angles()[angles];
+        let mut degrees: Vec<f64> = memory::zeros(bank_angles.len())?;
         for &order in &sweep.orders {
             cancel.check()?;
             // No bank turns by 0 times an angle.
@@ -63,28 +62,23 @@ impl Waves {
                 if *place < columns.len() {
                     continue;
                 }
-                let mut wave = Padded::zeros(angles.len())?;
+                let mut wave = Padded::zeros(degrees.len())?;
                 let (cos, sin) = wave.values.split_at_mut(wave.length);
-                if multiple == 0 {
-                    cos.fill(1.0);
-                } else {
-                    let (quarter, bank_angles) = (0.25 * multiple as f64, sweep.bank_angles());
-                    vectorised(
-                        #[inline(always)]
-                        || {
-                            for (out, angle) in degrees.iter_mut().zip(&bank_angles[angles.clone()])
-                            {
-                                *out = quarter * angle;
-                            }
-                            sin_cos_degrees(&degrees, sin, cos);
-                        },
-                    );
-                }
+                let quarter = 0.25 * multiple as f64;
+                vectorised(
+                    #[inline(always)]
+                    || {
+                        for (out, angle) in degrees.iter_mut().zip(bank_angles) {
+                            *out = quarter * angle;
+                        }
+                        sin_cos_degrees(&degrees, sin, cos);
+                    },
+                );
                 memory::push(&mut columns, wave)?;
             }
             of_order.push(place);
         }
-        Ok(Self { columns, of_order, angles: angles.len() })
+        Ok(Self { columns, of_order })
     }
 }
 

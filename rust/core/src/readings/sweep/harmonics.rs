@@ -96,14 +96,6 @@ impl Sweep {
             }
             return Ok(columns);
         }
-        if ratios.is_none() && offsets.is_none() {
-            let values = quantity.among(of(gear, harmonic, &self.orders, cancel)?);
-            for ([re, im], value) in columns.iter_mut().zip(values) {
-                re.fill(value.re);
-                im.fill(value.im);
-            }
-            return Ok(columns);
-        }
         for (row, point) in points.enumerate() {
             cancel.check()?;
             let gear = self.at_point(gear, point)?;

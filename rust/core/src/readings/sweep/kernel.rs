@@ -9,7 +9,6 @@
 use std::ops::{Add, Mul, Range};
 
 use bytemuck::Zeroable;
-use rayon::prelude::*;
 
 use super::block::{Block, LANES};
 use super::factors::{Coefficients, Waves};
@@ -66,7 +65,7 @@ impl Job<'_> {
         let piece = if self.slow { 8 } else { PIECE };
         let slab = (SLAB / sweep.orders.len().max(1)).clamp(STRETCH, 1 << 14);
         let slabs = |length: usize| (0..length).step_by(slab).map(move |k| k..length.min(k + slab));
-        let large = pool::worth(out.len() * if self.slow { 256 } else { 1 });
+        let numbers = out.len() * if self.slow { 256 } else { 1 };
         let layout = |k: usize| {
             self.cancel.check()?;
             let loads = sweep.loads(k);
@@ -75,7 +74,8 @@ impl Job<'_> {
         };
         // Harmonics of a cycle take as long as waking another thread.
         let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
-        let many = large || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
+        let many = pool::worth(numbers)
+            || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
         let layouts: Vec<(Loads, Layout)> = self.each(engines, many, layout)?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
@@ -115,33 +115,26 @@ impl Job<'_> {
                         }
                     }
                 }
-                let work =
-                    |block: &mut Block, (coefficients, first, out): (&Coefficients, usize, &mut [T])| {
-                        for (k, out) in out.chunks_mut(STRETCH * width).enumerate() {
-                            self.cancel.check()?;
-                            vectorised(
-                                #[inline(always)]
-                                || {
-                                    for (j, out) in out.chunks_mut(LANES * width).enumerate() {
-                                        let row = first + k * STRETCH + j * LANES;
-                                        block.evaluate(&waves, coefficients, row);
-                                        finish(block, factor, out)?;
-                                    }
-                                    Ok(())
-                                },
-                            )?;
-                        }
-                        self.cancel.advance(out.len() / width);
-                        Ok(())
-                    };
-                let block = || Block::new(sweep.orders.len());
-                if large {
-                    let tasks = tasks.into_par_iter();
-                    pool::run(self.cancel, || tasks.try_for_each_init(block, work))?;
-                } else {
-                    let mut block = block();
-                    tasks.into_iter().try_for_each(|task| work(&mut block, task))?;
-                }
+                let work = |(coefficients, first, out): (&Coefficients, usize, &mut [T])| {
+                    let mut block = Block::new(sweep.orders.len());
+                    for (k, out) in out.chunks_mut(STRETCH * width).enumerate() {
+                        self.cancel.check()?;
+                        vectorised(
+                            #[inline(always)]
+                            || {
+                                for (j, out) in out.chunks_mut(LANES * width).enumerate() {
+                                    let row = first + k * STRETCH + j * LANES;
+                                    block.evaluate(&waves, coefficients, row);
+                                    finish(&block, factor, out)?;
+                                }
+                                Ok(())
+                            },
+                        )?;
+                    }
+                    self.cancel.advance(out.len() / width);
+                    Ok(())
+                };
+                pool::each(self.cancel, tasks, numbers, work)?;
             }
         }
         Ok(())

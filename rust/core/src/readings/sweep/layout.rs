@@ -46,10 +46,9 @@ impl Sweep {
                 let banks = engine.banks()?;
                 let bisector = banks.bisector();
                 // The shorter way, half of it, by whole multiples of which half orders turn.
-                let half_turn = Angle::QUARTER_TURN + Angle::QUARTER_TURN;
-                let halves = banks
-                    .directions
-                    .map(|bore| ((bisector - bore + half_turn).reduced() - half_turn).half());
+                let halves = banks.directions.map(|bore| {
+                    ((bisector - bore + Angle::HALF_TURN).reduced() - Angle::HALF_TURN).half()
+                });
                 Some((banks.right, halves, *hold))
             }
             None => None,
@@ -77,9 +76,6 @@ impl Sweep {
                     let to_bisector = to_bisector[usize::from(!is_right)];
                     let multiples = quantity.turn(order, hold);
                     for ((sum, part), multiple) in sum.parts.iter_mut().zip(parts).zip(multiples) {
-                        if part.size == 0.0 {
-                            continue;
-                        }
                         let turned = part.value * to_bisector.cis(multiple);
                         // e^{−imγ/2} of the right bank, e^{imγ/2} of the left.
                         let sine = Complex64::i() * turned;

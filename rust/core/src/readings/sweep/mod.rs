@@ -200,10 +200,6 @@ impl Sweep {
         cancel: &Cancel,
     ) -> Result<()> {
         let width = self.checked_width(quantity, figure, out.len())?;
-        if width == 0 {
-            out.fill(Complex64::default());
-            return Ok(());
-        }
         self.spread(quantity, width, out, cancel, |quantity, out, factor| {
             self.phasor_rows(quantity, figure, out, factor, cancel)
         })
@@ -219,10 +215,6 @@ impl Sweep {
     ) -> Result<()> {
         let figure = if figure == Figure::Turning { Figure::Amplitude } else { figure };
         let width = self.checked_width(quantity, figure, out.len())?;
-        if width == 0 {
-            out.fill(0.0);
-            return Ok(());
-        }
         let has_gas = self.has_gas(quantity);
         let finder = figure.is_of_sum().then(|| {
             let orders = &self.orders;
@@ -346,15 +338,14 @@ impl Sweep {
         Err(Error::NoTorque(reason))
     }
 
-    /// Numbers of a row, after a check of a buffer for all rows; zero where the buffer then is zero.
+    /// Numbers of a row, after a check of a buffer for all rows.
     fn checked_width(&self, quantity: Quantity, figure: Figure, room: usize) -> Result<usize> {
         self.check_known(quantity)?;
         let shape = self.result_shape(quantity, figure);
         if room != shape.iter().product::<usize>() {
             return Err(Error::value("out", room, format!("give room for {shape:?}")));
         }
-        let known = !self.orders.is_empty() || self.has_gas(quantity);
-        Ok(if known { self.width(quantity, figure) } else { 0 })
+        Ok(self.width(quantity, figure))
     }
 
     /// Numbers of a row.

@@ -159,7 +159,7 @@ impl Sweep {
             let mut means = memory::room(points)?;
             for point in 0..points {
                 let mut mean = 0.0;
-                for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
+                for (gear, volume) in loads.gears.iter().zip(&volumes) {
                     let (_, of_gear) = self.at_point(gear, point)?.gas(&[], None, cancel)?;
                     mean += volume * of_gear[usize::from(on_crank)];
                 }

@@ -16,7 +16,7 @@ fn rows_combine_waves_of_their_angle_with_coefficients_of_their_point() {
     for (angles, points) in [(300, 1), (1, 300), (7, 40), (40, 7), (3, 128), (2, 129)] {
         let of_order = vec![[0, 1], [1, 2], [3, 1]];
         let columns_of = (0..4).map(|wave| columns(angles, 7 * wave)).collect();
-        let waves = Waves { columns: columns_of, of_order, angles };
+        let waves = Waves { columns: columns_of, of_order };
         let by_order = (0..orders).map(|order| columns(points, 100 * (order + 1))).collect();
         let coefficients = Coefficients { by_order, points };
         let mut block = Block::new(orders);
