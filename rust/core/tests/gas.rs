@@ -12,7 +12,8 @@ use crankpin_core::engine::{Details, Gas, file};
 use crankpin_core::pressure::Given;
 use crankpin_core::sweep::{Axes, Figure, MapAxes, Quantity};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Crank, Cycle, Cylinder, Engine, Order, Station, Sweep, waveform,
+    Angle, Cancel, Complex64, Crank, CrankAngles, Cycle, Cylinder, Engine, Hold, Order, Shaft,
+    Station, Sweep, Unbalance, waveform,
 };
 
 const BORE: f64 = 0.08;
@@ -203,7 +204,11 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
             ..Axes::default()
         };
         let orders = common::whole(&[1, 2, 4]);
-        Sweep::new(engines.collect(), axes, orders, None, &Cancel::new()).unwrap()
+        let engines: Vec<_> = engines.collect();
+        let one_missing = engines[1..].to_vec();
+        let refused = Sweep::new(one_missing, axes.clone(), orders.clone(), None, &Cancel::new());
+        assert!(refused.unwrap_err().to_string().starts_with("engines = "));
+        Sweep::new(engines, axes, orders, None, &Cancel::new()).unwrap()
     };
     let (orders, cancel) = (common::whole(&[1, 2, 4]), Cancel::new());
     let sweep = swept(&strokes, &ratios);
@@ -264,5 +269,156 @@ fn sweeps_of_a_map_weigh_the_torques_of_its_cycles() {
     let all = sums(&many);
     for (k, of_ratio) in all.chunks_exact(6).enumerate().filter(|(k, _)| k % 13 == 0) {
         assert_eq!(of_ratio, sums(&many[k..=k]), "{k}");
+    }
+}
+
+/// A leaning vee with a balance shaft, whose second bank alone is under pressure; the directions of its banks are on either side of
+/// that from which they are counted.
+fn fired_vee([ratio, offset]: [f64; 2]) -> Engine {
+    let place = |tdc: f64, bank: f64, z: f64| Station {
+        cylinder: Cylinder::new(RADIUS, RADIUS / ratio, 0.5, offset).unwrap(),
+        tdc: angle(tdc),
+        bank: angle(bank),
+        z,
+        rotating_mass: 0.0,
+    };
+    let known = Details { bore: Some(BORE), ..Details::default() };
+    let weight = Unbalance { amount: 0.005, angle: angle(33.0), z: 0.1, pin: None };
+    let (name, axis) = (String::new(), [0.1, -0.05]);
+    let beside = Shaft { name, ratio: 2, axis, unbalances: vec![weight] };
+    Engine::new("", "", vec![place(30.0, 350.0, 0.0), place(100.0, 50.0, 0.1)])
+        .and_then(|engine| engine.with_details(vec![known; 2]))
+        .and_then(|engine| engine.with_gas(gas(vec![cycle(4)], [None, Some(0)])))
+        .and_then(|engine| engine.with_shafts(vec![beside]))
+        .unwrap()
+}
+
+fn unfired(engine: Engine) -> Engine {
+    engine.with_gas(gas(vec![cycle(4)], [None; 2])).unwrap()
+}
+
+fn halves(orders: impl Iterator<Item = u32>) -> Vec<Order> {
+    orders.map(|halves| Order::from_halves(halves).unwrap()).collect()
+}
+
+const VEE: [f64; 2] = [0.3, 0.0];
+
+/// Half orders turn by quarters of the bank angle, and gas by each rod ratio and offset.
+#[test]
+fn each_point_of_a_sweep_of_a_fired_vee_is_a_balance() {
+    let (angles, ratios, offsets) = ([40.0, 170.0], [0.25, 0.3], [0.0, 0.004]);
+    let (orders, cancel) = (halves([1, 2, 3, 4, 9].into_iter()), Cancel::new());
+    let orders_given = Orders::Given(orders.clone());
+    for hold in [Hold::Pins, Hold::Firing] {
+        let axes = Axes {
+            bank_angle: Some((angles.to_vec(), hold)),
+            rod_ratio: Some(ratios.to_vec()),
+            pin_offset: Some(offsets.to_vec()),
+            rpm: vec![1000.0],
+            map: None,
+        };
+        let engines = vec![Arc::new(fired_vee(VEE)), Arc::new(unfired(fired_vee(VEE)))];
+        let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
+        for (part, on_crank) in [
+            (TorquePart::Gas, false),
+            (TorquePart::Gas, true),
+            (TorquePart::Whole, false),
+            (TorquePart::Whole, true),
+        ] {
+            let quantity =
+                if on_crank { Quantity::CrankTorque(part) } else { Quantity::Torque(part) };
+            let phasors = sweep.phasors(quantity, Figure::Amplitude, &cancel).unwrap();
+            let means = sweep.peaks(quantity, Figure::Mean, &cancel).unwrap();
+            for (place, &mean) in means.indexed_iter() {
+                let (e, a, r, o) = (place[0], place[1], place[2], place[3]);
+                let fired = fired_vee([ratios[r], offsets[o]]);
+                let engine = if e == 0 { fired } else { unfired(fired) };
+                let engine = engine.with_bank_angle(angle(angles[a]), hold).unwrap();
+                let request = Request { rpm: 1000.0, reference_z: None, torque: true };
+                let balance = balance(&engine, &request, &orders_given, &cancel).unwrap();
+                // Roundings of some 500 N·m.
+                let expected = balance.mean(part)[usize::from(on_crank)];
+                assert!((mean - expected).abs() < 1e-10, "{quantity:?} {hold:?} {place:?}");
+                for k in 0..orders.len() {
+                    let torque = balance.torque(part, k);
+                    let expected = if on_crank { torque.crank } else { torque.roll };
+                    let found = phasors[&[e, a, r, o, 0, 0, k][..]];
+                    assert!((found - expected).norm() < 1e-10, "{quantity:?} {hold:?} {place:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn few_orders_of_fired_sweeps_leave_out_no_more_than_their_bound() {
+    let (rtol, rpm) = (5e-3, 300.0);
+    let chosen = |engine: Engine, axes: &Axes, torque: bool| {
+        let engines = vec![Arc::new(engine)];
+        Sweep::within(rtol, engines, axes.clone(), None, torque, &Cancel::new()).unwrap()
+    };
+    let one = Axes { rpm: vec![rpm], ..Axes::default() };
+    let twice = Axes { pin_offset: Some(vec![0.0; 2]), ..one.clone() };
+    let ratios = Axes { rod_ratio: Some(vec![0.2, 0.3, 0.25]), ..one.clone() };
+    // Of one cylinder's torque, and of the scale of the torque of its masses over ω².
+    let largest = (0..720).map(|k| derived(f64::from(k)).abs()).fold(0.0, f64::max);
+    let square = (rpm * TAU / 60.0).powi(2);
+    let most = rtol * (largest + 0.5 * RADIUS * RADIUS * square);
+    for axes in [&one, &twice, &ratios] {
+        let sweep = chosen(fired_vee(VEE), axes, true);
+        let bound = sweep.error_bound()[2];
+        assert!(bound > 0.0 && bound < 1.05 * most, "{bound} of {most}");
+        let left_out: Vec<Order> =
+            halves(1..384).into_iter().filter(|order| !sweep.orders().contains(order)).collect();
+        for ratio in axes.rod_ratio.as_deref().unwrap_or(&VEE[..1]) {
+            let request = Request { rpm, reference_z: None, torque: true };
+            let engine = fired_vee([*ratio, 0.0]);
+            let orders = Orders::Given(left_out.clone());
+            let balance = balance(&engine, &request, &orders, &Cancel::new()).unwrap();
+            let lost = (0..left_out.len()).fold([0.0; 2], |[roll, crank], k| {
+                let torque = balance.torque(TorquePart::Whole, k);
+                [roll + torque.roll.norm(), crank + torque.crank.norm()]
+            });
+            assert!(lost[0].max(lost[1]) <= bound * (1.0 + 1e-9), "{lost:?} of {bound}");
+        }
+    }
+    // Without torque pressure does not count.
+    let [fired, other] = [fired_vee(VEE), unfired(fired_vee(VEE))]
+        .map(|engine| chosen(engine, &ratios, false).orders().to_vec());
+    assert_eq!(fired, other);
+}
+
+#[test]
+fn waveforms_of_a_fired_sweep_have_its_means() {
+    let (ratios, cancel) = ([0.25, 0.3], Cancel::new());
+    let degrees: Vec<f64> = (0..72).map(|k| 10.0 * f64::from(k)).collect();
+    let angles = CrankAngles::new(&degrees).unwrap();
+    let rod_ratio = Some(ratios.to_vec());
+    let axes = Axes { rod_ratio, rpm: vec![1000.0], ..Axes::default() };
+    let orders = halves([1, 2, 3, 4, 9].into_iter());
+    let sweep = Sweep::new(vec![Arc::new(fired_vee(VEE))], axes, orders, None, &cancel).unwrap();
+    for on_crank in [false, true] {
+        let whole = TorquePart::Whole;
+        let quantity =
+            if on_crank { Quantity::CrankTorque(whole) } else { Quantity::Torque(whole) };
+        let means = sweep.peaks(quantity, Figure::Mean, &cancel).unwrap();
+        let [by_orders, exact] = [false, true].map(|exact| {
+            let mut out = vec![f64::NAN; 2 * degrees.len()];
+            sweep.waveforms(quantity, &angles, exact, &mut out, &cancel).unwrap();
+            out
+        });
+        for (k, (mean, ratio)) in means.iter().zip(ratios).enumerate() {
+            let row = k * degrees.len()..(k + 1) * degrees.len();
+            // Over two turns every order of a few sums to nothing.
+            let average = by_orders[row.clone()].iter().sum::<f64>() / degrees.len() as f64;
+            assert!((average - mean).abs() < 1e-10 && mean.abs() > 1.0, "{average} {mean}");
+            let engine = fired_vee([ratio, 0.0]);
+            let request = Request { rpm: 1000.0, reference_z: None, torque: true };
+            let wave = waveform::exact(&engine, &request, &degrees, &cancel).unwrap();
+            let torque = if on_crank { wave.crank_torque } else { wave.torque }.unwrap();
+            for (found, expected) in exact[row].iter().zip(&torque) {
+                assert!((found - expected).abs() < 1e-10, "{found} {expected}");
+            }
+        }
     }
 }

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use crankpin_core::balance::{Balance, Vector, balance};
 use crankpin_core::sweep::{Axes, Figure, Quantity};
 use crankpin_core::{
-    Angle, Cancel, Complex64, Cylinder, Engine, Order, Orders, Request, Result, Shaft, Station,
-    Sweep, Unbalance,
+    Angle, Cancel, Complex64, Crank, Cylinder, Engine, Order, Orders, Request, Result, Shaft,
+    Station, Sweep, Unbalance,
 };
 use ndarray::ArrayD;
 
@@ -77,6 +77,12 @@ pub fn plain() -> Arc<Engine> {
     ])
 }
 
+/// The [`plain`] engine with cylinders on a second crank, which turns twice as fast the other way.
+pub fn geared() -> Arc<Engine> {
+    let cranks = vec![Crank::MAIN, Crank { axis: [0.2, 0.1], ratio: -2 }];
+    Arc::new(plain().with_cranks(cranks, vec![0, 1, 1]).unwrap())
+}
+
 /// Cylinders in line, with an offset of their own.
 pub fn in_line() -> Arc<Engine> {
     let [a, b] = [[0.04, 0.11, 0.5, 0.003, 1e-4], [0.04, 0.11, 0.3, 0.003, 0.0]];
@@ -127,9 +133,12 @@ pub fn there(engine: &Engine, axes: &Axes) -> Engine {
     changed(turned.as_ref().unwrap_or(engine), change)
 }
 
-/// An engine with its stations changed, its counterweights and shafts as they are.
+/// An engine with its stations changed, its cranks, counterweights and shafts as they are.
 pub fn changed(engine: &Engine, change: impl Fn(&Station) -> Station) -> Engine {
-    Engine::new("", "", engine.stations().iter().map(change).collect())
+    let stations = engine.stations();
+    let crank_of = (0..stations.len()).map(|i| engine.crank_of(i)).collect();
+    Engine::new("", "", stations.iter().map(change).collect())
+        .and_then(|changed| changed.with_cranks(engine.cranks().to_vec(), crank_of))
         .and_then(|changed| changed.with_counterweights(engine.counterweights().to_vec()))
         .and_then(|changed| changed.with_shafts(engine.shafts().to_vec()))
         .unwrap()

@@ -59,13 +59,14 @@ impl Sweep {
         let rtol = limits::tolerance(rtol)?;
         let mut sweep = Self::new(engines, axes, vec![Order::FIRST], reference_z, cancel)?;
         sweep.torque &= torque;
+        sweep.fired &= sweep.torque;
         let torque = sweep.torque;
         let mut quantities = vec![Quantity::Force, Quantity::Moment];
         if torque {
             quantities.extend([Torque(TorquePart::Inertia), CrankTorque(TorquePart::Inertia)]);
         }
         let of_gas = quantities.len();
-        if torque && sweep.fired {
+        if sweep.fired {
             quantities.extend([Torque(TorquePart::Gas), CrankTorque(TorquePart::Gas)]);
         }
         // Between the cycles of a map no sum is larger than the largest of theirs; their engines are
@@ -86,7 +87,7 @@ impl Sweep {
                 sweep.orders.extend(candidates(rtol, &scales, loads, &gears, torque)?);
             }
             let mut gas = GasOrders::default();
-            if torque && sweep.fired {
+            if sweep.fired {
                 gas = GasOrders::new(rtol, loads, &gears, FIRST_OF_GAS, cancel)?;
                 sweep.orders.extend(&gas.orders);
             }
@@ -144,7 +145,7 @@ impl Sweep {
         for point in 0..self.points() {
             cancel.check()?;
             let mut tail = 0.0;
-            for (gear, volume) in loads.gears.iter().zip(&volumes).filter(|(_, v)| **v > 0.0) {
+            for (gear, volume) in loads.gears.iter().zip(&volumes) {
                 let found = self.at_point(gear, point)?.gas_up_to(last, cancel)?;
                 tail += volume * found.and_then(|(_, tails)| tails.last().copied()).unwrap_or(0.0);
             }
@@ -309,6 +310,109 @@ impl Quantity {
             Self::Moment => 1,
             Torque(TorquePart::Gas) | CrankTorque(TorquePart::Gas) => 3,
             Torque(_) | CrankTorque(_) => 2,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Cylinder;
+    use crate::engine::{Crank, Station};
+    use crate::numbers::angle::Angle;
+
+    /// Bounds of a gear's harmonics over the axes, and the largest of those at any point.
+    fn bounds_and_largest(
+        ratio: i32,
+        [rod_ratio, pin_offset]: [Option<Vec<f64>>; 2],
+        harmonic: Harmonic,
+    ) -> [Vec<[f64; 2]>; 2] {
+        let (tdc, bank, cancel) = (Angle::ZERO, Angle::ZERO, Cancel::new());
+        let cylinder = Cylinder::new(0.05, 0.2, 0.5, 0.0).unwrap();
+        let place = Station { cylinder, tdc, bank, z: 0.0, rotating_mass: 0.0 };
+        let cranks = vec![Crank::MAIN, Crank { axis: [0.1, 0.0], ratio }];
+        let engine = Engine::new("", "", vec![place]).unwrap().with_cranks(cranks, vec![1]);
+        let axes = Axes { rod_ratio, pin_offset, rpm: vec![1000.0], ..Axes::default() };
+        let orders = Order::all_whole(&(1..=24).collect::<Vec<u32>>()).unwrap();
+        let engines = vec![Arc::new(engine.unwrap())];
+        let sweep = Sweep::new(engines, axes, orders.clone(), None, &cancel).unwrap();
+        let gear = &sweep.loads(0).gears[0];
+        let [most, farthest] = sweep.extremes;
+        let slowest = gear.replaced(most, farthest).unwrap();
+        let bounds = sweep.evaluated(Some(&slowest), harmonic, &cancel).unwrap();
+        let mut found = bounds.map(|bounds| {
+            let bound = |factor| match factor {
+                Factor::AtMost(bound) => [bound, 0.0],
+                Factor::Fixed(_) => unreachable!("there are many points"),
+            };
+            bounds.into_iter().map(bound).collect::<Vec<_>>()
+        });
+        for point in 0..sweep.points() {
+            let there = sweep.at_point(gear, point).unwrap();
+            let TorqueHarmonics { roll, crank } = of(&there, harmonic, &orders, &cancel).unwrap();
+            for (found, values) in found.iter_mut().zip([roll, crank]) {
+                found.iter_mut().zip(values).for_each(|([_, l], value)| *l = l.max(value.norm()));
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn a_span_is_the_largest_size_at_any_bank_angle() {
+        let complex = |re, im| Complex64::new(re, im);
+        let part =
+            Swung { cos: complex(1.0, 2.0), sin: complex(-0.5, 1.5), rest: complex(0.0, 0.0) };
+        let at = |angle: f64| (part.cos * angle.cos() + part.sin * angle.sin()).norm();
+        let largest = (0..3600).map(|k| at(f64::from(k).to_radians() / 10.0)).fold(0.0, f64::max);
+        let span = |rest: Complex64, rounding| {
+            super::span(&[Swung { rest, ..part }, Swung::default()], rounding)
+        };
+        let of_part = span(Complex64::default(), 0.0);
+        // Cosines within a twentieth of a degree of the largest.
+        assert!(of_part >= largest && of_part < largest * (1.0 + 1e-6), "{of_part} {largest}");
+        let with_rest = span(complex(3.0, 4.0), 0.0);
+        assert_eq!(with_rest, of_part + 5.0);
+        assert_eq!(
+            [span(complex(3.0, 4.0), with_rest), span(complex(3.0, 4.0), of_part)],
+            [0.0, with_rest]
+        );
+    }
+
+    #[test]
+    fn harmonics_count_as_no_less_than_at_any_point() {
+        let evenly = |from: f64, to: f64| -> Option<Vec<f64>> {
+            Some((0..=40).map(|k| from + (to - from) * f64::from(k) / 40.0).collect())
+        };
+        let (usual, both_sides) = (evenly(0.05, 0.4), evenly(-0.02, 0.01));
+        // Whether each order is largest at the largest rod ratio: force, torque of masses and of rods.
+        for (ratio, ratios, offsets, grows) in [
+            (1, usual.clone(), None, [true; 3]),
+            (1, evenly(0.8, 0.92), None, [true, true, false]),
+            (1, evenly(0.9, 0.99), None, [true, false, false]),
+            (-2, evenly(0.9, 0.99), None, [true, false, false]),
+            (1, None, both_sides.clone(), [false; 3]),
+            (1, usual.clone(), evenly(0.0, 0.02), [false; 3]),
+            (3, usual, both_sides, [false; 3]),
+        ] {
+            let kinds = [Harmonic::Force(0), Harmonic::Torque(0), Harmonic::Rod(0)];
+            for (harmonic, grows) in kinds.into_iter().zip(grows) {
+                for found in bounds_and_largest(ratio, [ratios.clone(), offsets.clone()], harmonic)
+                {
+                    let own = ratio.unsigned_abs() as usize;
+                    for (n, &[bound, largest]) in (1..).zip(&found) {
+                        let context = format!("{ratio} {harmonic:?} {n}: {bound} {largest}");
+                        assert!(largest <= bound * (1.0 + 1e-12), "{context}");
+                        if grows {
+                            assert!(bound <= largest * (1.0 + 1e-12), "{context}");
+                        } else if n < 3 * own && harmonic != Harmonic::Force(0) {
+                            // Of these no growth is known.
+                            assert_eq!(bound, f64::INFINITY, "{context}");
+                        } else if let Some([later, _]) = found.get(n + 2 * own - 1) {
+                            assert!(*later < 0.99 * bound, "{context}");
+                        }
+                    }
+                }
+            }
         }
     }
 }
