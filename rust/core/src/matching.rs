@@ -391,6 +391,7 @@ mod tests {
             ([3, 2, 3], &[7]),
             ([2, 1, 2], &[2, 2]),
             ([2, 3, 1], &[6]),
+            ([2, 2, 1], &[6]),
         ] {
             for distance in [0.0, 0.5, 20.0] {
                 let problem = problem(sizes, parts, distance, &mut number);
@@ -409,7 +410,7 @@ mod tests {
                 let rounding = 1e-12 * (1.0 + distance);
                 let cancel = Cancel::new();
                 let found = problem.solve(&both[..1], &cancel).unwrap();
-                assert!(found.exact && found.bound <= found.value);
+                assert!(found.exact && found.bound == found.value);
                 assert_eq!(found.value, valid(&problem, &found.chosen));
                 assert!((found.value - least).abs() <= rounding, "{found:?} for {least}");
                 assert!(problem.bound() <= least + rounding);
@@ -438,6 +439,11 @@ mod tests {
         let starts = [vec![rising.clone()], vec![rising.into_iter().rev().collect()]];
         let found = problem.solve(&starts, &Cancel::new()).unwrap();
         assert!(!found.exact && found.value < 0.1 * problem.value(&starts[0]));
+        // A bound that is above zero.
+        let far = self::problem([6, 6, 2], &[40], 100.0, numbers(3));
+        let of_far = far.solve(&starts[..1], &Cancel::new()).unwrap();
+        assert!(0.0 < of_far.bound && of_far.bound < of_far.value);
+        assert_eq!(of_far.bound, far.bound());
         assert_eq!(found.value, valid(&problem, &found.chosen));
         let values = starts
             .clone()
@@ -504,6 +510,10 @@ mod tests {
         assert!(error(kind(0)).starts_with("parts = 1 figures of 0 parts"));
         let uneven = vec![vec![vec![1.0], vec![1.0, 2.0]]];
         assert!(error(PartKind::new(vec![vec![1.0]], uneven)).starts_with("parts"));
+        let place = |count: usize| vec![vec![1.0]; count];
+        let fewer = PartKind::new(vec![vec![1.0; 2], vec![1.0]], vec![place(2), place(2)]);
+        let nearer = PartKind::new(vec![vec![1.0; 2]; 2], vec![place(2), place(1)]);
+        assert!(fewer.is_err() && nearer.is_err());
         let many = |start: usize, kinds: Vec<PartKind>, sets: usize| {
             Matching::new(Measure::Length, vec![0.0; start], kinds, sets)
         };
@@ -513,15 +523,25 @@ mod tests {
             (1, vec![two()], 0),
             (1, vec![two()], 2),
             (2, vec![two()], 1),
+            (1, vec![two(), kind(1).unwrap()], 1),
             (1, vec![two(), two(), two()], 1),
         ] {
             let error = many(start, kinds, sets).unwrap_err().to_string();
             assert!(error.contains("give one or two kinds"), "{error}");
         }
         let one = many(1, vec![two()], 1).unwrap();
-        for starts in [vec![], vec![vec![]], vec![vec![vec![0]]], vec![vec![vec![0, 2]]]] {
+        let good = vec![vec![1, 0]];
+        for starts in [
+            vec![],
+            vec![vec![]],
+            vec![vec![vec![0]]],
+            vec![vec![vec![0, 2]]],
+            vec![good.clone(), vec![vec![0]]],
+        ] {
             assert!(one.solve(&starts, &Cancel::new()).is_err());
         }
-        assert!(one.solve(&[vec![vec![1, 0]]], &Cancel::new()).is_ok());
+        assert!(one.solve(&[good], &Cancel::new()).is_ok());
+        let both = many(1, vec![two(), two()], 1).unwrap();
+        assert!(both.solve(&[vec![vec![0, 1], vec![0, 0]]], &Cancel::new()).is_err());
     }
 }
