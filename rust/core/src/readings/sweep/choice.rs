@@ -392,7 +392,7 @@ mod tests {
             (-2, evenly(0.9, 0.99), None, [true, false, false]),
             (1, None, both_sides.clone(), [false; 3]),
             (1, usual.clone(), evenly(0.0, 0.02), [false; 3]),
-            (3, usual, both_sides, [false; 3]),
+            (5, usual, both_sides, [false; 3]),
         ] {
             let kinds = [Harmonic::Force(0), Harmonic::Torque(0), Harmonic::Rod(0)];
             for (harmonic, grows) in kinds.into_iter().zip(grows) {
@@ -408,7 +408,7 @@ mod tests {
                             // Of these no growth is known.
                             assert_eq!(bound, f64::INFINITY, "{context}");
                         } else if let Some([later, _]) = found.get(n + 2 * own - 1) {
-                            assert!(*later < 0.99 * bound, "{context}");
+                            assert!(bound.is_finite() && *later < 0.99 * bound, "{context}");
                         }
                     }
                 }
