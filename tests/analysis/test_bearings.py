@@ -456,3 +456,14 @@ def test_the_independent_rod_has_the_core_s_motion() -> None:
     np.testing.assert_allclose(
         moving.piston[0][0], EACH[1].position(THETA - MIXED.tdc_deg[1]), rtol=1e-14
     )
+
+
+def test_a_main_bearing_whose_loads_cancel_carries_none() -> None:
+    # Opposed pistons on shared pins, half a turn apart, on both sides of the middle bearing.
+    flat = cp.Engine.preset("flat-4")
+    assert not cp.bearing_loads(flat, 5000).main[1].any()
+    heavier = [
+        each.replace(reciprocating_mass=each.reciprocating_mass * (1 + 1e-12 * (k == 0)))
+        for k, each in enumerate(flat.cylinders)
+    ]
+    assert cp.bearing_loads(flat.replace(cylinder=heavier), 5000).main[1].any()

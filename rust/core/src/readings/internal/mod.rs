@@ -26,6 +26,7 @@ use crate::numbers::simd::vectorised;
 use crate::numbers::{limits, memory, pool};
 use crate::readings::balance::angular_speed;
 use crate::readings::kinematics::{BLOCK, Units};
+use crate::wrench::rounding;
 
 /// Largest share of a load outside the end bearings that one carries: rounding is that times larger.
 const MOST_SHARE: f64 = 1e6;
@@ -196,7 +197,12 @@ impl Internal {
         pool::each(cancel, rows, mains * count, |(main, row)| {
             let share = |z: f64| self.levers(z).iter().find(|(j, _)| *j == main).map(|at| at.1);
             let turning = self.on_crank.iter().filter_map(|u| Some(u.at_start * share(u.z)?));
-            let turning: Complex64 = turning.sum();
+            let turning: Vec<Complex64> = turning.collect();
+            let of_rod = |rod: &DrivenRod| Some(share(rod.z)?.abs() * rod.size());
+            let sizes = self.rods.iter().filter_map(of_rod).chain(turning.iter().map(|u| u.norm()));
+            // What cancels leaves its rounding.
+            let bound = rounding(self.rods.len() + turning.len(), 1.0) * sizes.sum::<f64>();
+            let turning: Complex64 = turning.iter().sum();
             let carried = self.rods.iter().zip(found.crankpin.outer_iter());
             let carried =
                 carried.filter_map(|(rod, force)| Some((share(rod.z)?, force.to_slice()?)));
@@ -214,6 +220,9 @@ impl Internal {
                 for (pair, (cos, sin)) in row.chunks_exact_mut(2).zip(units) {
                     pair[0] += turning.re * cos - turning.im * sin;
                     pair[1] += turning.re * sin + turning.im * cos;
+                    for part in pair {
+                        *part = if part.abs() <= bound { 0.0 } else { *part };
+                    }
                 }
             }
             Ok(())

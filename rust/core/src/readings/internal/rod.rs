@@ -99,6 +99,11 @@ impl PistonGas {
 }
 
 impl DrivenRod {
+    /// m·r·ω² of all masses, N: less than the force on the crankpin at a top dead centre.
+    pub fn size(&self) -> f64 {
+        self.reciprocating + self.rotating
+    }
+
     /// Of a cylinder of an engine, by its load, at a square of angular speed.
     pub fn new(engine: &Engine, cylinder: usize, load: &Load, square: f64) -> Result<Self> {
         let (i, details) = (cylinder, &engine.details()[cylinder]);
