@@ -1,5 +1,7 @@
 //! Rows of a sweep evaluated side by side: waves of the bank angle times coefficients.
 
+use std::array::from_fn;
+
 use super::factors::{Coefficients, Padded, Waves};
 use crate::Complex64;
 use crate::wrench::snapped;
@@ -83,12 +85,8 @@ impl Block {
         if point + LANES <= points {
             return self.combine(waves, coefficients, &OnePlace(angle), &PlacesFrom(point));
         }
-        let (mut angles, mut places) = ([angle; LANES], [point; LANES]);
-        for i in 1..LANES {
-            let ends = places[i - 1] + 1 == points;
-            places[i] = if ends { 0 } else { places[i - 1] + 1 };
-            angles[i] = angles[i - 1] + usize::from(ends);
-        }
+        let angles = from_fn(|i| (row + i) / points);
+        let places = from_fn(|i| (row + i) % points);
         self.combine(waves, coefficients, &EachPlace(angles), &EachPlace(places));
     }
 
