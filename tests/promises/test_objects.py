@@ -203,6 +203,8 @@ def test_arrays_are_read_only(name: str) -> None:
         "ClosedForm",
         "Comparison",
         "Choice",
+        "Ranking",
+        "Waveform",
         "Counterweights",
         "Design",
     )
@@ -523,8 +525,10 @@ def test_repr_is_short_and_names_the_kind(name: str) -> None:
     text = repr(OBJECTS[name])
     assert text.isprintable() or "\n" in text
     assert len(text) < 1000
-    tables = ("Balance", "Comparison", "Engine", "Vanishing", "ClosedForm", "Ranking", "Waveform")
+    tables = ("Balance", "OrderBalance", "Comparison", "Engine", "Vanishing", "ClosedForm")
     tables += (
+        "Ranking",
+        "Waveform",
         "Counterweights",
         "BearingLoads",
         "BobWeight",

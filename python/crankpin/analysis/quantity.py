@@ -11,7 +11,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import KINDS, PARTS, Kind
-from crankpin._support.record import AbsentError, Record, read_only
+from crankpin._support.record import AbsentError, Record, Tabled, read_only
 from crankpin._support.tables import Column, Table
 
 if TYPE_CHECKING:
@@ -410,7 +410,7 @@ class Quantities:
         return self._quantity("crank_torque")  # type: ignore[no-any-return]
 
 
-class OrderBalance(Quantities, Record):
+class OrderBalance(Quantities, Tabled):
     """One order of a balance or sweep, or all orders together: the quantities without orders.
 
     Examples
@@ -421,6 +421,13 @@ class OrderBalance(Quantities, Record):
     (2, (2,), 0.0)
     >>> b["all"] == b.total
     True
+    >>> b[2]
+    Inline-4 at 6000 rpm: order 2
+    quantity        unit  x       y  largest  forward  backward  status
+    shaking force   N     0  9269.4   9269.4   4634.7    4634.7  summed
+    rocking moment  N·m   0       0        0        0         0  zero, proved
+    roll torque     N·m   –       –   657.31        –         –  summed
+    crank torque    N·m   –       –   657.31        –         –  summed
     """
 
     result: ByOrder
@@ -431,8 +438,48 @@ class OrderBalance(Quantities, Record):
     def _quantity(self, name: str) -> Quantity:
         return Quantity(self.result, name, self.order)
 
+    @property
+    def table(self) -> Table:
+        """Table of a balance's order: peaks along (about) x and y, the largest, and its parts.
+
+        The status is that of :attr:`Quantity.status`.
+        """
+        if self.result.dims:
+            raise AbsentError("table is that of a balance's order: use the table of the sweep")
+        parts = () if self.order == ALL else ("forward", "backward")
+        rows: list[tuple[str | float | None, ...]] = []
+        for each in self._each():
+            beside: list[float | None] = [None] * (2 + len(parts))
+            if each.kind.planar:
+                beside = [*each.peak_xy.tolist(), *(abs(getattr(each, part)) for part in parts)]
+            status = () if self.order == ALL else (each.status,)
+            row = (*beside[:2], each.peak, *beside[2:], *status)
+            rows.append((each.kind.words, each.unit, *row))
+        heads = ["quantity", "unit", "x", "y", "largest", *parts]
+        heads += [] if self.order == ALL else ["status"]
+        columns = zip(heads, zip(*rows, strict=True), strict=True)
+        of = self.result._attributes
+        where = f"{labels.name_of(self.result._engines[0])} at {of['rpm']:g} rpm"
+        title = f"{where}: {self._which}"
+        return Table(title, tuple(Column(head, values) for head, values in columns))
+
+    def _each(self) -> Iterator[Quantity]:
+        """Yield the quantities, and the parts of torques of a fired engine."""
+        for name in self.result.request.quantities:
+            whole: Quantity = getattr(self, name)
+            yield whole
+            if self.result.fired and not whole.kind.planar:
+                yield from (whole.gas, whole.inertia)
+
+    @property
+    def _which(self) -> str:
+        return "all orders" if self.order == ALL else f"order {self.order}"
+
     def __repr__(self) -> str:
-        names = self.result.request.quantities
-        lines = (f"  {getattr(self, name)!r}" for name in names)
-        what = "all orders" if self.order == ALL else f"order {self.order}"
-        return "\n".join([f"<OrderBalance of {what}>", *lines])
+        if not self.result.dims:
+            return repr(self.table)
+        lines = (f"  {getattr(self, name)!r}" for name in self.result.request.quantities)
+        return "\n".join([f"<OrderBalance of {self._which}>", *lines])
+
+    def _repr_html_(self) -> str | None:
+        return None if self.result.dims else self.table._repr_html_()
