@@ -48,6 +48,8 @@ if TYPE_CHECKING:
         (lambda: V6.balance(3000).plot(ax="left"), "give matplotlib axes"),
         (lambda: V6.balance(3000).plot(kind="ellipses", figure=3), "Figure or SubFigure"),
         (lambda: V6.balance(3000).plot(figure=Figure()), "one panel; give ax"),
+        (lambda: V6.waveform(3000).plot(figure=Figure()), "one panel; give ax"),
+        (lambda: V6.waveform(3000).plot(axes=Figure().subplots()), "axes = .*: .* no such option"),
         (
             lambda: over_bank_angle().plot(Figure().subplots(), figure=Figure()),
             "cannot be combined",

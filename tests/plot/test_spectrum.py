@@ -8,6 +8,7 @@ import crankpin as cp
 import numpy as np
 import pytest
 from conftest import I4, V6
+from matplotlib.figure import Figure
 
 from plot.pictures import UNNAMED
 from plot.reading import legend_texts, series, title_of, xtick_texts
@@ -72,6 +73,16 @@ def test_stems_of_an_order_stand_beside_each_other() -> None:
     steps = np.diff(places) / ax.figure.dpi * 72.0
     np.testing.assert_allclose(steps, 6.0)
     assert np.mean(places) == pytest.approx(ax.transData.transform((1.0, 0.0))[0])
+
+
+def test_stems_stand_beside_a_picture_of_another_kind() -> None:
+    ax = cp.sweep(V6, rpm=[0, 3000, 6000]).plot(Figure().subplots())
+    (curve,) = series(ax)
+    alone = V6.balance(3000, orders=(1, 2)).plot()
+    V6.balance(3000, orders=(1, 2)).plot(ax)
+    assert series(ax)[0] is curve
+    for drawn, other in zip(series(ax)[1:], series(alone), strict=True):
+        np.testing.assert_array_equal(drawn.get_ydata(), other.get_ydata())
 
 
 def test_torque_has_one_series_and_no_legend() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,7 +46,6 @@ from crankpin.plot.words import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
     from numpy.typing import NDArray
 
     from crankpin.analysis.quantity import OrderBalance
@@ -110,40 +110,38 @@ def _stems(ax: Axes, orders: Any, peaks: Any, text: str, style: dict[str, Any]) 
     hollow(ax, zeros, np.zeros_like(zeros), line.get_color(), label=name, **look)
 
 
-def _of(ax: Axes, gid: str) -> list[Line2D]:
-    return [line for line in ax.lines if line.get_gid() == gid]
-
-
 def _beside_each_other(ax: Axes) -> None:
     """Shift the stems of all series on the axes, so that those of an order stand about it."""
-    drawn, circles = _of(ax, SERIES), _of(ax, ZEROS)
+    # A picture of another kind on the same axes has series without circles of zeros.
+    pairs = [pair for pair in pairwise(ax.lines) if pair[1].get_gid() == ZEROS]
     figure: Any = ax.get_figure(root=False)
     to_inches = figure.dpi_scale_trans
     # Half orders stand closer than whole ones: the stems of one must not reach those of the next.
-    orders = np.unique(np.concatenate([line.get_xdata() for line in drawn]))
+    orders = np.unique(np.concatenate([line.get_xdata() for line, _ in pairs]))
     if not orders.size:
         return
     gap = np.diff(orders, prepend=0.0).min() / orders[-1]
     width = 72.0 * ax.get_window_extent().width / figure.dpi
-    beside = min(BESIDE, 0.9 * gap * width / len(drawn))
-    for k, (line, zeros) in enumerate(zip(drawn, circles, strict=True)):
-        points = beside * (k - 0.5 * (len(drawn) - 1))
+    beside = min(BESIDE, 0.9 * gap * width / len(pairs))
+    for k, (line, zeros) in enumerate(pairs):
+        points = beside * (k - 0.5 * (len(pairs) - 1))
         shift = ScaledTranslation(points / 72.0, 0.0, to_inches)
         line.set_transform(ax.transData + shift)
         zeros.set_transform(ax.get_xaxis_transform() + shift)
 
 
 def _scale(ax: Axes, *, logarithmic: bool) -> None:
-    along = np.concatenate([line.get_xdata() for line in _of(ax, SERIES)])
-    peaks = np.concatenate([np.asarray(line.get_ydata())[1::3] for line in _of(ax, SERIES)])
+    drawn = [line for line in ax.lines if line.get_gid() == SERIES]
+    along = np.concatenate([line.get_xdata() for line in drawn])
+    heights = np.concatenate([line.get_ydata() for line in drawn])
+    peaks = heights[heights > 0.0]
     ax.set_xlim(0.0, float(along.max(initial=0.0)) + 1.0)
     numeric(ax.xaxis, whole=True)
-    if not peaks.any():
+    if not peaks.size:
         note_zero(ax)
-    above = peaks[peaks > 0.0]
-    if logarithmic and above.size:
+    if logarithmic and peaks.size:
         ax.set_yscale("log", nonpositive="clip")
-        ax.set_ylim(0.3 * float(above.min()), 3.0 * float(above.max()))
+        ax.set_ylim(0.3 * float(peaks.min()), 3.0 * float(peaks.max()))
     else:
         numeric(ax.yaxis)
         from_zero(ax, float(peaks.max(initial=0.0)))

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import re
 from typing import Any
 
 from matplotlib import pyplot as plt
 
 from crankpin._support import inputs
+
+_UNKNOWN = re.compile(r"(?:unexpected keyword|multiple values for) argument '(\w+)'")
 
 
 def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401 - axes
@@ -17,13 +20,16 @@ def draw(result: object, ax: Any = None, **options: Any) -> Any:  # noqa: ANN401
     The options are those of the result's ``plot`` method. Nothing is shown: notebooks show the
     figure, scripts call ``matplotlib.pyplot.show()``. An error leaves no figure.
     """
+    takes_figure = "figure" in inspect.signature(picture.dispatch(type(result))).parameters
+    if "figure" in options and not takes_figure:  # a property of lines too, which is not to be set
+        raise inputs.rejected("figure", options["figure"], "this picture has one panel; give ax")
     before = plt.get_fignums()
     try:
         return picture(result, ax, **options)
     except Exception as error:
         for made in set(plt.get_fignums()).difference(before):
             plt.close(made)
-        unknown = re.search(r"unexpected keyword argument '(\w+)'", str(error))
+        unknown = _UNKNOWN.search(str(error))
         if unknown is None or not isinstance(error, (AttributeError, TypeError)):
             raise
         name = unknown[1]
