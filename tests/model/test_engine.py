@@ -29,6 +29,7 @@ I4 = cp.Engine.inline(
 )
 SEARCH = cp.search_arrangements(14, alternating=True)
 TWO_STROKE = cp.Engine.from_firing_order(CYLINDER, "1-3-2", strokes=2, spacing=0.1)
+FIRED = I4.replace(cylinder=CYLINDER.replace(bore=0.086)).with_cycle(cp.Cycle.example())
 V6 = cp.Engine.vee(CYLINDER, bank_angle_deg=90, throws_deg=[0, 240, 120], spacing=0.1)
 
 
@@ -372,6 +373,18 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         "^reference_z = 150 m",
     ),
     "that of closed forms": (lambda: I4.closed_form(2, reference_z=150), "^reference_z = 150 m"),
+    "a bound in g·mm": (
+        lambda: cp.counterweights(I4, planes="ends", bound={"rear": 20_000}),
+        r"^bound = 20000 kg·m at a crank radius of 0.043 m: was it given in g·mm or g·m",
+    ),
+    "a length in mm": (
+        lambda: cp.counterweights(I4, planes="ends", length=300),
+        "^length = 300 m at a crank radius of 0.043 m: was it given in millimetres",
+    ),
+    "a flywheel in kg·cm²": (
+        lambda: cp.flywheel(FIRED, 3000, inertia=1500),
+        "^inertia = 1500 kg·m² at a crank radius of 0.043 m: was it given in kg·cm²",
+    ),
     "planes in mm": (lambda: cp.counterweights(I4, planes=[0, 300]), "^planes = 300 m"),
     "an axis in mm": (lambda: cp.balance_shafts(I4, [2, -2], x=[80, -80]), "^x = 80 m"),
     "planes of a shaft in mm": (

@@ -15,6 +15,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
 from crankpin.analysis.waveform import Waveform, waveform
+from crankpin.model import checks
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
@@ -36,8 +37,8 @@ APPROXIMATIONS = ("gas torque alone", "gas and inertia torque")
 
 def flywheel(
     drive: Engine | Curve,
-    *,
     rpm: float,
+    *,
     inertia: float | None = None,
     irregularity: float | None = None,
     load: Curve | None = None,
@@ -122,6 +123,7 @@ def flywheel(
     engine = drive if isinstance(drive, Engine) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
+        checks.flywheel(engine.core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
         torque = _diagram("drive", drive, period_deg)
     against = None if load is None else _diagram("load", load, None)

@@ -54,6 +54,12 @@ The largest first-order couples, of two-strokes, are 3 MN·m at 80 rpm: 5.3e3 kg
 apart.
 """
 
+LARGEST_FLYWHEEL = 1e9
+"""Moment of inertia over the fifth power of the crank radius, kg/m³, above which it is not kg·m².
+
+Cars have 1e6, large two-strokes 1e5, a slow stationary engine with two flywheels (Lister CS) 1e7.
+"""
+
 LARGEST_IN_BAR, LARGEST_IN_KPA = 500.0, 5e4
 """Peak pressures, Pa, below which they are in bar or kPa: a motored cylinder reaches 1e6 Pa, a
 diesel 3e7."""
@@ -129,12 +135,9 @@ def unbalance(amount: float) -> None:
 
 def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[Shaft]) -> None:
     """Warn of counterweights and balance shafts whose amounts or places are in other units."""
-    radius = core.largest_crank_radius
     carried = [*weights, *(weight for shaft in shafts for weight in shaft.unbalances)]
     amount = max((weight.amount for weight in carried), default=0.0)
-    found = []
-    if LARGEST_DENSITY * radius**4 < amount <= LARGEST_UNBALANCE:
-        found.append(f"amount = {amount:g} kg·m{_at(radius)}{GRAMS_MILLIMETRES}")
+    found = _heavy(core, "amount", amount) if amount <= LARGEST_UNBALANCE else []
     for weight in carried:
         found += _far(core, "z", weight.z)
     for shaft in shafts:
@@ -142,10 +145,23 @@ def hardware(core: _core.Engine, weights: Sequence[Unbalance], shafts: Sequence[
     _report(list(dict.fromkeys(found))[:4])
 
 
+def bounds(core: _core.Engine, given: Iterable[float]) -> None:
+    """Warn of bounds of counterweights in other units, kg·m; an infinite one is none."""
+    largest = max((each for each in given if each < math.inf), default=0.0)
+    _report(_heavy(core, "bound", largest))
+
+
+def flywheel(core: _core.Engine, inertia: float) -> None:
+    """Warn of a moment of inertia that no flywheel of an engine has, kg·m²."""
+    radius = core.largest_crank_radius
+    if inertia > LARGEST_FLYWHEEL * radius**5:
+        _report([f"inertia = {inertia:g} kg·m²{_at(radius)}: was it given in kg·cm² or g·m²?"])
+
+
 def place(core: _core.Engine, name: str, *at: float | None, middle: float | None = None) -> None:
     """Warn of places along the crank, such as a reference plane, that are in millimetres.
 
-    With ``middle`` 0 they are places beside the crank or above it. None is no place.
+    With ``middle`` 0 they are places beside the crank or above it, or lengths. None is no place.
     """
     given = (each for each in at if each is not None)
     _report(next(filter(None, (_far(core, name, each, middle) for each in given)), []))
@@ -189,6 +205,13 @@ def crankcase(pressure: float) -> None:
 
 def _at(radius: float) -> str:
     return f" at a crank radius of {radius:g} m"
+
+
+def _heavy(core: _core.Engine, name: str, amount: float) -> list[str]:
+    """Return what to say of an unbalance that is too large for the engine, if it is."""
+    radius = core.largest_crank_radius
+    is_heavy = amount > LARGEST_DENSITY * radius**4
+    return [f"{name} = {amount:g} kg·m{_at(radius)}{GRAMS_MILLIMETRES}"] if is_heavy else []
 
 
 def _grams(radius: float, masses: Mapping[str, float]) -> list[str]:

@@ -14,6 +14,7 @@ from crankpin.analysis.balancing import planes as correction_planes
 from crankpin.analysis.balancing.fitting import Fit, bay_loads, external, internal, left_by
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 from crankpin.model.crankpins import bays
 
 if TYPE_CHECKING:
@@ -109,16 +110,15 @@ def counterweights(
     >>> float(v8.fitted.balance(rpm=6000)[1].moment.peak)
     0.0
     """
-    engine_core(engine)
+    core = engine_core(engine)
     places = correction_planes.named(engine, planes)
     names = list(places)
     fit = Fit.checked(target, factor, minimise, length)
+    limits = correction_planes.bounds(names, bound)
+    checks.bounds(core, limits.values())
+    checks.place(core, "length", fit.length, middle=0.0)
     found = (external if fit.target == "external" else internal)(
-        engine,
-        places,
-        correction_planes.bounds(names, bound),
-        correction_planes.angles(names, angles_deg),
-        fit,
+        engine, places, limits, correction_planes.angles(names, angles_deg), fit
     )
     return Counterweights(engine, tuple(places.items()), fit, *found)
 
