@@ -25,7 +25,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=gas_torque.FILE.parent)
     path = parser.parse_args().out / gas_torque.FILE.name
     table = gas_torque.compute()
-    path.write_text(LICENCE + table.csv(), encoding="utf-8")
+    path.write_text(LICENCE + table.to_csv(), encoding="utf-8")
     print(f"{len(table)} rows written to {path}")
 
 

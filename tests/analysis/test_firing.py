@@ -751,7 +751,7 @@ def printed(capsys: CAPTURE, *argv: str) -> str:
 
 
 def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
-    argv = ("firing", "v8-crossplane", "--order", firing.CROSSPLANE)
+    argv = ("firing", "v8-crossplane", "--firing-order", firing.CROSSPLANE)
     lines = printed(capsys, *argv).splitlines()
     assert lines[0] == "V8 90°, cross-plane: 4-stroke 1-8-4-3-6-5-7-2, even, 90°"
     assert [line.split() for line in lines[2:4]] == [
@@ -770,7 +770,7 @@ def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
 
 def test_command_of_an_order_in_several_turns(capsys: CAPTURE) -> None:
     name = "ijesc-v6-1-4-5-2-3-6"
-    lines = printed(capsys, "firing", name, "--order", "1-4-5-2-3-6").splitlines()
+    lines = printed(capsys, "firing", name, "--firing-order", "1-4-5-2-3-6").splitlines()
     ways = cp.Engine.preset(name).firings("1-4-5-2-3-6")
     told = ["  " + "-".join(f"{each:g}" for each in way.intervals_deg) for way in ways]
     assert lines[-5:] == told[1:]
@@ -797,9 +797,15 @@ def test_command_lists_orders(capsys: CAPTURE) -> None:
 @pytest.mark.parametrize(
     ("argv", "words"),
     [
-        (["i4", "--order", "1-2-3-4"], "--order = 1-2-3-4: this crank cannot fire in"),
-        (["i4", "--all", "--plot", "i4.png"], "--plot needs --order"),
-        (["i4", "--order", "1-3-4-2", "--plot", "i4.txt"], "--plot = i4.txt: a picture's name"),
+        (
+            ["i4", "--firing-order", "1-2-3-4"],
+            "--firing-order = 1-2-3-4: this crank cannot fire in",
+        ),
+        (["i4", "--all", "--plot", "i4.png"], "--plot needs --firing-order"),
+        (
+            ["i4", "--firing-order", "1-3-4-2", "--plot", "i4.txt"],
+            "--plot = i4.txt: a picture's name",
+        ),
         (["ijesc-v6"], "NAME = ijesc-v6: firing takes one engine of ijesc-v6-1-3-5-2-4-6"),
         (["i4", "--strokes", "3"], "--strokes"),
     ],

@@ -150,6 +150,17 @@ def test_sweep_auto_says_what_it_left_out(capsys: CAPTURE) -> None:
     assert "mitted" not in printed(capsys, *argv, "--csv")
 
 
+def test_rank_and_tolerances_take_a_tolerance_of_orders(capsys: CAPTURE) -> None:
+    i4, loose = cp.Engine.preset("i4"), ["i4", "--rtol", "1e-2", "--csv"]
+    ranking = cp.rank(i4, 3000, by="total.force.peak", rtol=1e-2)
+    out = printed(capsys, "rank", *loose, "--by", "total.force.peak")
+    assert out == ranking.table.to_csv()
+    assert ranking[0].value != cp.rank(i4, 3000, by="total.force.peak")[0].value
+    spread = cp.tolerances(i4, 3000, reciprocating_mass=0.001, samples=20, rtol=1e-2)
+    out = printed(capsys, "tolerances", *loose, "--reciprocating-mass", "1g", "--samples", "20")
+    assert out == spread.table.to_csv()
+
+
 def test_balance_takes_spectrum_and_reference_plane(capsys: CAPTURE) -> None:
     argv = ["balance", "i3-ebook", "--rpm", "10", "--orders", "1,2", "--csv"]
     argv += ["--spectrum", "1=9.0,2=3.75", "--reference-z", "-0.25"]
@@ -578,7 +589,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys: CAPTURE, tmp_path:
         ("sweep v6-60 --rod-ratio 0.25..0.3", "such as 0.25:0.3:0.01"),
         ("sweep v6-60 --rpm 1000-6000", "such as 1000:6000:1000"),
         ("counterweights i3 --planes -0.1,0.4", "begins with a minus as --planes=-"),
-        ("firing i4 --order 1-3-4", "--order = 1-3-4: 2 is missing"),
+        ("firing i4 --firing-order 1-3-4", "--firing-order = 1-3-4: 2 is missing"),
         ("view i4 -o i4.txt", "--out = 'i4.txt': a page ends in .html"),
         ("sweep v-twin-90 --bank-angle 45", "nothing to sweep: all options have one value; give"),
         ("bob-weight harley", 'NAME = "harley": no such preset; crankpin new makes engines'),
@@ -623,11 +634,12 @@ PLAIN = " plain numbers are metres and kilograms; type units, such as 86mm or 48
     ("argv", "said"),
     [
         (
-            "bob-weight v8-crossplane --reciprocating 620 --rotating 550",
-            "--reciprocating = 620 kg at a crank radius of 0.043 m: was it given in grams?" + PLAIN,
+            "bob-weight v8-crossplane --reciprocating-mass 620 --rotating-mass 550",
+            "--reciprocating-mass = 620 kg at a crank radius of 0.043 m: was it given in grams?"
+            + PLAIN,
         ),
         (
-            "new i4 --bore 86mm --stroke 86mm --rod 145mm --piston 400 --rod-mass 500g",
+            "new i4 --bore 86mm --stroke 86mm --rod-length 145mm --piston-mass 400 --rod-mass 500g",
             "reciprocating_mass = 400.167 kg at a crank radius of 0.043 m: was it given in grams?"
             + PLAIN,
         ),
@@ -883,7 +895,7 @@ def test_negligible_orders_are_left_out_of_tables_and_named(capsys: CAPTURE) -> 
 
 def test_firing_of_the_engine_s_own_order(capsys: CAPTURE) -> None:
     own = printed(capsys, "firing", "v8-crossplane")
-    assert own == printed(capsys, "firing", "v8-crossplane", "--order", "1-8-4-3-6-5-7-2")
+    assert own == printed(capsys, "firing", "v8-crossplane", "--firing-order", "1-8-4-3-6-5-7-2")
     assert "most even first" in printed(capsys, "firing", "flat-4")  # whose order is not known
 
 

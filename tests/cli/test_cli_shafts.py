@@ -28,13 +28,13 @@ def printed(capsys: CAPTURE, *argv: str) -> str:
 
 
 def test_prints_the_fit(capsys: CAPTURE) -> None:
-    out = printed(capsys, "i4", "--ratio", "2,-2", "--x", "0.08,-0.08")
+    out = printed(capsys, "i4", "--ratios", "2,-2", "--x", "0.08,-0.08")
     assert out == f"{cp.balance_shafts(I4, [2, -2], x=[0.08, -0.08])!r}\n"
 
 
 def test_every_option_of_a_fit(capsys: CAPTURE) -> None:
     out = printed(
-        capsys, "v6-90", "--ratio=-1,2", "--x", "0.1", "--y", "0.05,", "--planes", "0,0.3",
+        capsys, "v6-90", "--ratios=-1,2", "--x", "0.1", "--y", "0.05,", "--planes", "0,0.3",
         "--bearings", "0.1,0.2", "--remove", "moment", "--reference-z", "0.05",
     )  # fmt: skip
     fit = cp.balance_shafts(
@@ -45,7 +45,7 @@ def test_every_option_of_a_fit(capsys: CAPTURE) -> None:
 
 
 def test_csv_has_the_unbalances_in_full(capsys: CAPTURE) -> None:
-    head, *rows = csv.reader(io.StringIO(printed(capsys, "i3", "--ratio", "-1", "--csv")))
+    head, *rows = csv.reader(io.StringIO(printed(capsys, "i3", "--ratios", "-1", "--csv")))
     assert head == ["shaft", "ratio", "x m", "y m", "z m", "unbalance kg·m", "phase °"]
     weights = cp.balance_shafts(cp.Engine.preset("i3"), -1)[0].unbalances
     expected = [[0.0, 0.0, w.z, w.amount, w.angle_deg] for w in weights]
@@ -54,7 +54,7 @@ def test_csv_has_the_unbalances_in_full(capsys: CAPTURE) -> None:
 
 def test_saves_the_engine_with_the_shafts(capsys: CAPTURE, tmp_path: Path) -> None:
     file = tmp_path / "smooth.toml"
-    printed(capsys, "i4", "--ratio", "2,-2", "--save", str(file))
+    printed(capsys, "i4", "--ratios", "2,-2", "--save", str(file))
     assert cp.Engine.load(file) == cp.balance_shafts(I4, [2, -2]).fitted
 
 
@@ -76,7 +76,7 @@ def test_compares_hardware(capsys: CAPTURE, tmp_path: Path) -> None:
     assert out == f"{options!r}\n"
 
 
-@pytest.mark.parametrize("argv", [["i4", "--ratio", "2", "--quantity", "force"], ["i4"]])
+@pytest.mark.parametrize("argv", [["i4", "--ratios", "2", "--quantity", "force"], ["i4"]])
 def test_writes_a_picture(capsys: CAPTURE, tmp_path: Path, argv: list[str]) -> None:
     file, before = tmp_path / "picture.png", plt.get_fignums()
     printed(capsys, *argv, "--plot", str(file))
@@ -87,24 +87,24 @@ def test_writes_a_picture(capsys: CAPTURE, tmp_path: Path, argv: list[str]) -> N
 @pytest.mark.parametrize(
     ("argv", "words"),
     [
-        (["i4", "--x", "0.1"], "--x needs --ratio"),
-        (["i4", "--quantity", "force"], "--quantity needs --ratio"),
-        (["i4", "--ratio", "2", "--rpm", "3"], "--rpm is of the comparison without --ratio"),
-        (["i4", "--ratio", "2", "--target", "a=1"], "--target is of the comparison"),
-        (["i4", "--ratio", "half"], "--ratio = half: give whole numbers"),
-        (["i4", "--ratio", "0"], "ratios = [0]: give whole numbers other than 0"),
-        (["i4", "--ratio", "2", "--planes", "a"], "--planes = a: give a number"),
-        (["i4", "--ratio", "2", "--x", "1,2"], "x has 2 entries"),
+        (["i4", "--x", "0.1"], "--x needs --ratios"),
+        (["i4", "--quantity", "force"], "--quantity needs --ratios"),
+        (["i4", "--ratios", "2", "--rpm", "3"], "--rpm is of the comparison without --ratios"),
+        (["i4", "--ratios", "2", "--target", "a=1"], "--target is of the comparison"),
+        (["i4", "--ratios", "half"], "--ratios = half: give whole numbers"),
+        (["i4", "--ratios", "0"], "ratios = [0]: give whole numbers other than 0"),
+        (["i4", "--ratios", "2", "--planes", "a"], "--planes = a: give a number"),
+        (["i4", "--ratios", "2", "--x", "1,2"], "x has 2 entries"),
         (["i4", "--target", "total.force.peak"], "--target = total.force.peak: give OBJECTIVE"),
         (
             ["i4", "--target", "total.force.peak=1,total.moment.peak=5%"],
             "--target = total.force.peak=1,total.moment.peak=5%: give all values in %, or none",
         ),
         (["i4", "--target", "total.force.peak=x"], "--target = x: give a number"),
-        (["i4", "--save", "x.toml"], "--save needs --ratio or --target"),
+        (["i4", "--save", "x.toml"], "--save needs --ratios or --target"),
         (["i4", "--save", "x.toml", "--target", "[4].force.peak=0"], "no set reaches the target"),
-        (["ijesc-v6", "--ratio", "1"], "NAME = ijesc-v6: shafts takes one engine"),
-        (["i4", "--ratio", "2", "--plot", "x.gif"], "--plot = x.gif"),
+        (["ijesc-v6", "--ratios", "1"], "NAME = ijesc-v6: shafts takes one engine"),
+        (["i4", "--ratios", "2", "--plot", "x.gif"], "--plot = x.gif"),
     ],
 )
 def test_errors_name_the_option(capsys: CAPTURE, argv: list[str], words: str) -> None:

@@ -50,7 +50,7 @@ def test_two_strokes_take_the_example_of_a_two_stroke(capsys: CAPTURE) -> None:
 def test_bearings_are_those_of_the_library(capsys: CAPTURE) -> None:
     loads = cp.bearing_loads(cp.Engine.preset("v6-60"), rpm=4000)
     assert printed(capsys, "bearings v6-60 --rpm 4000") == f"{loads.table.text()}\n"
-    for load, peaks in (("main", loads.largest("main")), ("crankpin", loads.largest("crankpin"))):
+    for load, peaks in (("main", loads.peak("main")), ("crankpin", loads.peak("crankpin"))):
         typed = f"bearings v6-60 --rpm 4000 --load {load} --csv"
         head, *rows = csv.reader(io.StringIO(printed(capsys, typed)))
         column = head.index("largest N" if load == "main" else "crankpin N")

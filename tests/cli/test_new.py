@@ -15,9 +15,12 @@ from crankpin.cli.new import BUILDERS
 
 CAPTURE = pytest.CaptureFixture[str]
 HARLEY = (
-    "v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm --piston 480g --rod-mass 560g"
+    "v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod-length 189mm "
+    "--piston-mass 480g --rod-mass 560g"
 )
-PARTS = "--bore 100mm --stroke 90mm --rod 150mm --reciprocating 500g --rotating 400g"
+PARTS = (
+    "--bore 100mm --stroke 90mm --rod-length 150mm --reciprocating-mass 500g --rotating-mass 400g"
+)
 CYLINDER = cp.Cylinder(0.045, 0.15, 0.5, bore=0.1)
 
 
@@ -75,14 +78,14 @@ def test_figures_in_any_unit_are_the_same_engine(capsys: CAPTURE) -> None:
     metric = made(capsys, HARLEY)
     twin = "v-twin --bank-angle 45"
     for line in (
-        f"{twin} --units mm,g --bore 88.9 --stroke 96.8 --rod 189 --piston 480 --rod-mass 560",
-        f"{twin} --bore 3.5in --stroke 9.68cm --rod 0.189 --piston 0.48kg --rod-mass .56",
+        "--units mm,g --bore 88.9 --stroke 96.8 --rod-length 189 --piston-mass 480 --rod-mass 560",
+        "--bore 3.5in --stroke 9.68cm --rod-length 0.189 --piston-mass 0.48kg --rod-mass .56",
     ):
-        assert made(capsys, line) == metric
+        assert made(capsys, f"{twin} {line}") == metric
 
 
 def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) -> None:
-    parts = "single --bore 86mm --stroke 86mm --rod 145mm --piston 400g"
+    parts = "single --bore 86mm --stroke 86mm --rod-length 145mm --piston-mass 400g"
     ends = made(capsys, f"{parts} --small-end 150g --big-end 450g")
     centre = made(capsys, f"{parts} --rod-mass 600g --rod-centre 36.25mm")
     for engine in (ends, centre):
@@ -92,7 +95,7 @@ def test_a_rod_weighed_end_by_end_or_with_its_centre_of_mass(capsys: CAPTURE) ->
     tenths = made(capsys, f"{parts} --small-end 200g --big-end 555g")
     assert tenths.cylinders[0].rod is not None
     assert tenths.cylinders[0].rod.mass == 0.755
-    weighed = made(capsys, f"{parts} --rod-mass 600g --rotating 500g --pin-offset 1mm")
+    weighed = made(capsys, f"{parts} --rod-mass 600g --rotating-mass 500g --pin-offset 1mm")
     assert weighed.rotating_mass.tolist() == [0.5]
     assert weighed.cylinders[0].pin_offset == 0.001
 
@@ -194,7 +197,7 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
         ("new vee --bank-angle 75", "new vee needs --throws; see crankpin new --help"),
         ("new lists --banks 90 --z 0", "new lists needs --tdc or --pins; see crankpin new --help"),
         (
-            "new v6 --stroke 80mm --rod 150mm --piston 1 --rod-mass 1 --rod-centre 200mm",
+            "new v6 --stroke 80mm --rod-length 150mm --piston-mass 1 --rod-mass 1 --rod-centre .2",
             "--rod-centre = 0.2: give metres, 0 to length = 0.15",
         ),
         (
@@ -205,16 +208,28 @@ def test_a_firing_order_that_the_crank_does_not_allow_is_dropped(capsys: CAPTURE
             "new vr6 --throws 0",
             "--throws does not apply to vr6, which takes --spacing, --firing-order",
         ),
-        ("new v6 --stroke 80mm", "a cylinder of your own needs --rod"),
-        ("new v6 --stroke 80mm --rod 150mm", "a rod needs --rod-mass, or both --small-end and "),
-        ("new v6 --stroke 80mm --rod 150mm --rod-mass 1 --small-end 1", "a rod needs --rod-mass"),
-        ("new v6 --stroke 80mm --rod 150mm --rod-mass 500g", "needs --piston, or --reciprocating"),
+        ("new v6 --stroke 80mm", "a cylinder of your own needs --rod-length"),
         (
-            "new v6 --stroke 80mm --rod 150mm --reciprocating 1 --piston 1",
-            "--piston cannot be combined",
+            "new v6 --stroke 80mm --rod-length 150mm",
+            "a rod needs --rod-mass, or both --small-end and ",
         ),
-        ("new v6 --stroke 80lb --rod 150mm --reciprocating 1", "--stroke = 80lb: give a number"),
-        ("new v6 --stroke 300mm --rod 150mm --reciprocating 1", "rod_length = 0.15"),
+        (
+            "new v6 --stroke 80mm --rod-length 150mm --rod-mass 1 --small-end 1",
+            "a rod needs --rod-mass",
+        ),
+        (
+            "new v6 --stroke 80mm --rod-length 150mm --rod-mass 500g",
+            "needs --piston-mass, or --reciprocating-mass",
+        ),
+        (
+            "new v6 --stroke 80mm --rod-length 150mm --reciprocating-mass 1 --piston-mass 1",
+            "--piston-mass cannot be combined",
+        ),
+        (
+            "new v6 --stroke 80lb --rod-length 150mm --reciprocating-mass 1",
+            "--stroke = 80lb: give a number",
+        ),
+        ("new v6 --stroke 300mm --rod-length 150mm --reciprocating-mass 1", "rod_length = 0.15"),
         ("new v6 --bank-angle 60/x", "--bank-angle = 60/x: give degrees"),
         ("new v6 -o v6.txt", "--out = 'v6.txt': an engine file ends in .toml or .json"),
         ("new", "the following arguments are required: KIND"),
@@ -258,7 +273,7 @@ def test_the_design_of_a_place_is_saved(capsys: CAPTURE) -> None:
 
 
 def test_a_file_that_cannot_be_an_engine_s_is_rejected_first(capsys: CAPTURE) -> None:
-    commands = ["counterweights", "bob-weight", "rank", "design", "shafts --ratio=-1"]
+    commands = ["counterweights", "bob-weight", "rank", "design", "shafts --ratios=-1"]
     for command in commands:
         line = f"{command} v6-90 --save x.txt"
         assert "--save = 'x.txt': an engine file ends in" in refused(capsys, line)

@@ -80,7 +80,8 @@ def test_options_of_counterweights_are_those_of_the_library(capsys: CAPTURE) -> 
 
 
 def test_bob_weights_are_those_of_the_library(capsys: CAPTURE) -> None:
-    typed = ["--factor", "52%", "--rotating", "550g", "--reciprocating", "620g", "--oil", "4g"]
+    masses = ["--rotating-mass", "550g", "--reciprocating-mass", "620g"]
+    typed = ["--factor", "52%", *masses, "--oil", "4g"]
     engine = cp.Engine.preset("v8-crossplane", rotating_mass=0.55)
     cylinders = [each.replace(reciprocating_mass=0.62) for each in engine.cylinders]
     bob = cp.bob_weight(engine.replace(cylinder=cylinders), 0.52, oil=0.004)

@@ -17,6 +17,8 @@ from crankpin._support.record import Listed, Record
 from crankpin._support.tables import Column, Table, stacked
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
 
@@ -85,7 +87,7 @@ TABLE = Table(
 )
 
 
-def test_a_table_is_text_html_csv_and_data_frame() -> None:
+def test_a_table_is_text_html_csv_and_data_frame(tmp_path: Path) -> None:
     assert TABLE.text().splitlines() == [
         "A <title>",
         "order  name  |F_x| N  share %",
@@ -96,9 +98,14 @@ def test_a_table_is_text_html_csv_and_data_frame() -> None:
     ]
     assert TABLE.text(1).splitlines()[-2:] == ["1 of 3 rows", "A note."]
     assert "&lt;title&gt;" in TABLE.html()
-    head, *rows = csv.reader(io.StringIO(TABLE.csv()))
+    head, *rows = csv.reader(io.StringIO(TABLE.to_csv()))
     assert head == ["order", "name", "|F_x| N", "share %"]
     assert float(rows[0][2]) == 1234.5678
+    file = tmp_path / "table.csv"
+    TABLE.to_csv(file)
+    assert file.read_bytes() == TABLE.to_csv().encode()
+    with pytest.raises(cp.InputError, match=r"path = 'table.xlsx': name a .csv file"):
+        TABLE.to_csv("table.xlsx")
     assert TABLE.to_pandas()["|F_x| N"].tolist() == [1234.5678, 0.0, 0.0]
     dataset = TABLE.to_xarray()
     assert dataset["|F_x|"].attrs == {"units": "N"}
@@ -108,7 +115,7 @@ def test_a_table_is_text_html_csv_and_data_frame() -> None:
 def test_tables_of_no_rows_are_tables_and_tables_stack() -> None:
     empty = Table.from_rows("Nothing", ["a", ("b", "N")], [], np.empty((0, 1)))
     assert empty.text() == "Nothing\na  b N"
-    assert empty.csv() == "a,b N\n"
+    assert empty.to_csv() == "a,b N\n"
     assert len(empty.to_pandas()) == 0
     both = stacked(TABLE, empty)
     assert both.text() == f"{TABLE.text()}\n\n{empty.text()}"
@@ -124,7 +131,7 @@ def test_numbers_too_small_to_matter_are_marked_but_kept() -> None:
     assert [text == "0" for text in column.cells()[1:]] == exact
     for text in (str(table), table.html()):
         assert "~0: not zero, but too small to matter." in text
-    assert "~" not in table.csv()
+    assert "~" not in table.to_csv()
     # Of orders that are asked for the numbers are.
     asked = fired.balance(rpm=3000, orders=[6, 30]).table
     assert "~0" not in str(asked)

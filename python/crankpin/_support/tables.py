@@ -6,15 +6,16 @@ import csv
 import html
 import io
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from crankpin._support import optional
+from crankpin._support import inputs, optional
 from crankpin._support.record import Record
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from pathlib import Path
 
     import pandas as pd
     import xarray as xr
@@ -170,13 +171,31 @@ class Table(Record):
         if any(each.least and TINY in each.cells()[:rows] for each in self.columns):
             yield f"{TINY}: not zero, but too small to matter."
 
-    def csv(self) -> str:
-        """Return the table as CSV, numbers in full: they read back unchanged."""
+    @overload
+    def to_csv(self) -> str: ...
+
+    @overload
+    def to_csv(self, path: str | Path) -> None: ...
+
+    def to_csv(self, path: str | Path | None = None) -> str | None:
+        """Return the table as CSV, numbers in full: they read back unchanged; or write a file.
+
+        Tables below this one are not in it.
+
+        Parameters
+        ----------
+        path
+            A ``.csv`` file to write, in UTF-8; by default the text is returned.
+        """
         file = io.StringIO()
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.header)
         writer.writerows(zip(*(each.values for each in self.columns), strict=True))
-        return file.getvalue()
+        if path is None:
+            return file.getvalue()
+        named = inputs.file_path(path, (".csv",), "name a .csv file")
+        named.write_text(file.getvalue(), encoding="utf-8", newline="\n")
+        return None
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a DataFrame, names and units as the heads of its columns (needs pandas)."""

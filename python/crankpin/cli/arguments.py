@@ -170,7 +170,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
 """Options of several commands."""
 
 
-RENAMED = {"firing_order": "order", "path": "out", "to_crankpin": "rod_centre"}
+RENAMED = {"path": "out", "to_crankpin": "rod_centre"}
 """Argument of the library → the option of a command that has it under another name."""
 
 
@@ -237,7 +237,7 @@ def in_options(message: str, options: Iterable[str]) -> str:
         named = next((each for each in names if each in known), None)
         return f"--{named.replace('_', '-')}" if named else found[0]
 
-    said = re.sub(r"(?:(?<=^)|(?<=; ))(\w+?)(?:_deg|_mass)?(?=(?: =| is| has|\[))", option, message)
+    said = re.sub(r"(?:(?<=^)|(?<=; ))(\w+?)(?:_deg)?(?=(?: =| is| has|\[))", option, message)
     if said == message and "kind" not in known:  # a figure of an engine file, which has no units
         return message
     asked = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"

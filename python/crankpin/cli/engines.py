@@ -33,7 +33,7 @@ def _presets(_: Given) -> Shown:
     "intervals and exhaust gaps of a firing order, or all orders that a crank allows",
     "name",
     option(
-        "--order",
+        "--firing-order",
         help="such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
         "engine's own, if it is known)",
     ),
@@ -48,12 +48,12 @@ def _presets(_: Given) -> Shown:
 def _firing(given: Given) -> Shown:
     engine = given.engine("firing")
     strokes = None if given.text("--strokes") is None else int(given.text("--strokes"))
-    if given.text("--all") or (given.text("--order") is None and not engine.firing_order):
+    if given.text("--all") or (given.text("--firing-order") is None and not engine.firing_order):
         if given.text("--plot") is not None:
-            raise InputError("--plot needs --order")
+            raise InputError("--plot needs --firing-order")
         return _firing_orders(engine, strokes, csv=given.text("--csv"))
-    ways = engine.firings(given.text("--order"), strokes=strokes)
-    best = engine.firing(given.text("--order"), strokes=strokes)
+    ways = engine.firings(given.text("--firing-order"), strokes=strokes)
+    best = engine.firing(given.text("--firing-order"), strokes=strokes)
     others = "".join(f"  {way.intervals_text}\n" for way in ways[1:])
     note = f"The same order in other turns, intervals in degrees:\n{others}" if others else ""
     return Shown(best.table, best, note=note)

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from crankpin.model.engine import Engine
 
 OF_A_FIT = ("--x", "--y", "--planes", "--bearings", "--remove", "--quantity")
-"""Options that need ``--ratio``."""
+"""Options that need ``--ratios``."""
 OF_OPTIONS = ("--rpm", "--by", "--target")
-"""Options that ``--ratio`` has no use for."""
+"""Options that ``--ratios`` has no use for."""
 
 
 @command(
@@ -103,19 +103,19 @@ def _mass(flag: str, what: str) -> Option:
         default="0.5",
         help="part of the reciprocating mass, 0.5 or 50%% (default: %(default)s)",
     ),
-    _mass("--rotating", "big end, bolts and bearing shells"),
-    _mass("--reciprocating", "piston, pin, rings and small end"),
+    _mass("--rotating-mass", "big end, bolts and bearing shells"),
+    _mass("--reciprocating-mass", "piston, pin, rings and small end"),
     _mass("--oil", "oil of a crankpin (default: 0)"),
     "--units --csv --plot --save",
-    example="bob-weight v8-crossplane --rotating 550g --reciprocating 620g --oil 4g",
+    example="bob-weight v8-crossplane --rotating-mass 550g --reciprocating-mass 620g --oil 4g",
     note="Masses are those of one cylinder, by default the engine's.",
 )
 def _bob_weight(given: Given) -> Shown:
     engine = given.engine("bob-weight")
-    if (mass := given.optional("--reciprocating", "kg")) is not None:
+    if (mass := given.optional("--reciprocating-mass", "kg")) is not None:
         cylinders = [each.replace(reciprocating_mass=mass) for each in engine.cylinders]
         engine = engine.replace(cylinder=cylinders)
-    if (mass := given.optional("--rotating", "kg")) is not None:
+    if (mass := given.optional("--rotating-mass", "kg")) is not None:
         engine = engine.replace(rotating_mass=mass)
     bob = bob_weight(engine, given.number("--factor"), given.optional("--oil", "kg") or 0.0)
     return Shown(bob.table, bob, engine=bob.fitted)
@@ -134,7 +134,7 @@ def _axis(flag: str, where: str) -> Option:
     "shafts",
     "balance shafts fitted to an engine, or sets of hardware compared",
     "name",
-    option("--ratio", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"),
+    option("--ratios", metavar="N,…", help="speed of each shaft over crank speed: -1, or 2,-2"),
     _axis("--x", "to the right of"),
     _axis("--y", "above"),
     option("--planes", metavar="Z,…", help="places of the unbalances along the crank, m"),
@@ -157,27 +157,27 @@ def _axis(flag: str, where: str) -> Option:
     "--plot",
     option(
         "--save",
-        help="write the engine with what was found (.toml, .json); without --ratio the least "
+        help="write the engine with what was found (.toml, .json); without --ratios the least "
         "hardware that reaches --target",
     ),
-    example="shafts i4 --ratio 2,-2 --x 0.08,-0.08 --save smooth.toml",
-    note="Without --ratio, sets of counterweights and shafts are compared; with it, these\n"
-    "shafts are fitted. Write values that begin with a minus as --ratio=-2,2.",
+    example="shafts i4 --ratios 2,-2 --x 0.08,-0.08 --save smooth.toml",
+    note="Without --ratios, sets of counterweights and shafts are compared; with it, these\n"
+    "shafts are fitted. Write values that begin with a minus as --ratios=-2,2.",
 )
 def _shafts(given: Given) -> Shown:
     engine = given.engine("shafts")
-    fits = given.text("--ratio") is not None
+    fits = given.text("--ratios") is not None
     for name in OF_OPTIONS if fits else OF_A_FIT:
         if given.text(name) is not None:
             what = "is of the comparison without" if fits else "needs"
-            raise InputError(f"{name} {what} --ratio")
+            raise InputError(f"{name} {what} --ratios")
     return _fit(engine, given) if fits else _compare(engine, given)
 
 
 def _fit(engine: Engine, given: Given) -> Shown:
     fit = balance_shafts(
         engine,
-        given.whole_numbers("--ratio"),
+        given.whole_numbers("--ratios"),
         x=_coordinates(given, "--x"),
         y=_coordinates(given, "--y"),
         planes=given.numbers("--planes", "m"),
@@ -191,7 +191,7 @@ def _compare(engine: Engine, given: Given) -> Shown:
     targets, relative = _targets(given)
     saved = given.text("--save") is not None
     if saved and targets is None:
-        raise InputError("--save needs --ratio or --target")
+        raise InputError("--save needs --ratios or --target")
     options = balancer_options(
         engine,
         rpm=given.optional("--rpm", "rpm") or 3000.0,

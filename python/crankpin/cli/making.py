@@ -163,7 +163,7 @@ def _spread(figure: str) -> Option:
     option(
         "--shares", action="store_true", help="report the share of each tolerance in the variance"
     ),
-    "--orders --reference-z --units --csv --plot",
+    "--orders --rtol --reference-z --units --csv --plot",
     example="tolerances i6 --rpm 6000 --reciprocating-mass 2g --pin 0.1 --shares",
     note="Spreads are standard deviations, or half widths with --distribution uniform.",
 )
@@ -185,7 +185,7 @@ def _tolerances(given: Given) -> Shown:
         samples=samples,
         seed=given.whole("--seed"),
         by=given.text("--by"),
-        orders=given.orders(),
+        **given.chosen(),
     )
     if given.text("--shares"):
         return Shown(result.shares, result, {"kind": "shares"})

@@ -63,18 +63,18 @@ LAYOUT: dict[str, tuple[str, str, str]] = {
 LENGTHS = {
     "--bore": "diameter of the bore",
     "--stroke": "stroke",
-    "--rod": "rod length between the centres",
+    "--rod-length": "rod length between the centres",
     "--pin-offset": "offset of the piston pin's path from the crank axis (default: 0)",
     "--rod-centre": "from the big end's centre to the rod's centre of mass (default: a third of "
     "the rod, so that one third of its mass moves with the piston)",
 }
 MASSES = {
-    "--piston": "piston, pin, rings and clips",
+    "--piston-mass": "piston, pin, rings and clips",
     "--rod-mass": "rod with bolts and bearing shells",
     "--small-end": "small end of a rod weighed end by end, for --rod-mass",
     "--big-end": "its big end",
-    "--reciprocating": "all that moves with the piston, for --piston and the rod's share",
-    "--rotating": "all of one cylinder that turns with the crankpin (default: the rod's share)",
+    "--reciprocating-mass": "all that moves with the piston, the rod's share included",
+    "--rotating-mass": "all that turns with the crankpin, of one cylinder (default: rod's share)",
 }
 """Options of one cylinder's parts → their help."""
 
@@ -104,8 +104,8 @@ METAVARS = {"angles": "A,B,…", "metres": "Z,…", "whole": "N", "text": "TEXT"
     option(
         "-o", "--out", metavar="FILE", help="the engine file (.toml, .json); without it, print TOML"
     ),
-    example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod 189mm "
-    "--piston 480g --rod-mass 560g -o harley.toml",
+    example="new v-twin --bank-angle 45 --bore 88.9mm --stroke 96.8mm --rod-length 189mm "
+    "--piston-mass 480g --rod-mass 560g -o harley.toml",
     note="KIND is one of\n"
     f"{_wrapped(presets.aliases())}\n"
     f'or any preset ("{PROG} presets" lists them), whose layout is taken with other figures;\n'
@@ -241,28 +241,29 @@ def _parts(given: Given, notes: list[str]) -> tuple[Cylinder | None, float | Non
     """Return the cylinder of the options and what rotates with its pin; None for nominal ones."""
     lengths = {flag: given.optional(flag, "m") for flag in LENGTHS}
     masses = {flag: given.optional(flag, "kg") for flag in MASSES}
-    rotating = masses.pop("--rotating")
+    rotating = masses.pop("--rotating-mass")
     if all(value is None for value in (*lengths.values(), *masses.values())):
         notes.append(
-            "Moving parts are nominal: give --bore, --stroke, --rod, --piston, --rod-mass."
+            "Moving parts are nominal: give --bore, --stroke, --rod-length, --piston-mass and "
+            "--rod-mass."
         )
         return None, rotating
-    whole = [flag for flag in ("--stroke", "--rod") if lengths[flag] is None]
+    whole = [flag for flag in ("--stroke", "--rod-length") if lengths[flag] is None]
     if whole:
         raise InputError(f"a cylinder of your own needs {' and '.join(whole)}")
-    stroke, length = lengths["--stroke"] or 0.0, lengths["--rod"] or 0.0
+    stroke, length = lengths["--stroke"] or 0.0, lengths["--rod-length"] or 0.0
     common: dict[str, Any] = {"bore": lengths["--bore"]}
     common["pin_offset"] = lengths["--pin-offset"] or 0.0
-    if (moving := masses.pop("--reciprocating")) is not None:
+    if (moving := masses.pop("--reciprocating-mass")) is not None:
         if other := [flag for flag, mass in masses.items() if mass is not None]:
             raise InputError(
-                f"{other[0]} cannot be combined with --reciprocating, which includes it"
+                f"{other[0]} cannot be combined with --reciprocating-mass, which includes it"
             )
         return Cylinder(stroke / 2.0, length, moving, **common), rotating
     rod = _rod(length, lengths["--rod-centre"], masses, notes)
-    if masses["--piston"] is None:
-        raise InputError("a cylinder of your own needs --piston, or --reciprocating")
-    cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston"], **common)
+    if masses["--piston-mass"] is None:
+        raise InputError("a cylinder of your own needs --piston-mass, or --reciprocating-mass")
+    cylinder = Cylinder.from_rod(rod, stroke / 2.0, masses["--piston-mass"], **common)
     return cylinder, rod.rotating_mass if rotating is None else rotating
 
 
@@ -275,7 +276,7 @@ def _rod(
     if ends == (mass is not None) or (small is None) != (big is None):
         raise InputError(
             "a rod needs --rod-mass, or both --small-end and --big-end, or else give "
-            "--reciprocating and --rotating"
+            "--reciprocating-mass and --rotating-mass"
         )
     if small is not None and big is not None:
         # To the nanogram, which leaves 0.2 + 0.555 its decimals.

@@ -50,7 +50,7 @@ def shown(given: Given, run: Run) -> str:
     if picture is not None:
         _draw(found.drawn, picture, **found.options)
     # CSV is of one table, without those below it.
-    return found.table.csv() if given.text("--csv") else f"{found.table.text()}\n{found.note}"
+    return found.table.to_csv() if given.text("--csv") else f"{found.table.text()}\n{found.note}"
 
 
 def left_out(result: Balance | Sweep) -> str:

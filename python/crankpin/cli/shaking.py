@@ -183,7 +183,7 @@ def _how(result: Sweep, given: Given) -> str:
     ),
     "--hold",
     option("--refine", action="store_true", help="look between these angles too"),
-    "--rpm --orders --reference-z --spectrum --units --csv --plot",
+    "--rpm --orders --rtol --reference-z --spectrum --units --csv --plot",
     option("--save", help="write the best engine at its best bank angle (.toml, .json)"),
     example="rank ijesc-v6 --rpm 5000 --by [1].moment.backward,[2].moment.peak",
     note="Of several objectives the later ones break ties. They are total.moment.peak and\n"
@@ -209,6 +209,6 @@ def _rank(given: Given) -> Shown:
         by=given.text("--by"),
         spectrum=given.spectrum(),
         refine=given.text("--refine"),
-        orders=given.orders(),
+        **given.chosen(),
     )
-    return Shown(ranking.table, ranking, engine=ranking.best()[0].engine)
+    return Shown(ranking.table, ranking, engine=ranking[0].engine)

@@ -57,7 +57,7 @@ def _ranking(
         names = [f"{label}, {name}" if len(names) > 1 else label for name in names]
     quantity = objective_words(ranking.objectives[0])
     if ranking.bank_angles_deg is None:
-        best = ranking.best(min(len(ranking), MOST_ENGINES))
+        best = ranking.choices[:MOST_ENGINES]
         short = dict(zip(ranking.names, names, strict=True))
         _listed(ax, best, [short[choice.name] for choice in best], style)
         label_x(ax, quantity)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from crankpin._core import InputError
-from crankpin._support import inputs, labels
+from crankpin._support import labels
 from crankpin._support.record import Listed, Record, Tabled
 from crankpin._support.tables import Table
 from crankpin.analysis.drawing import draw
@@ -129,13 +129,6 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
             if objective.label not in columns:
                 columns[objective.label] = objective.values(self.sweep)
         return MappingProxyType(columns)
-
-    def best(self, count: int = 1) -> tuple[Choice, ...]:
-        """Return the ``count`` best engines, best first."""
-        wanted = inputs.number("count", count)
-        if not 0 <= wanted <= len(self) or wanted != int(wanted):
-            raise inputs.rejected("count", count, f"give a whole number, 0 to {len(self)}")
-        return self.choices[: int(wanted)]
 
     # --- tables and pictures --------------------------------------------------------------------
 
