@@ -251,7 +251,7 @@ def test_steps_of_a_degree_miss_less_than_a_thousandth_of_a_peak(fuel: str, rpm:
         cp.bearing_loads(fired, rpm, np.arange(0.0, 720.0, step)) for step in (1.0, 0.02)
     )
     for load in ("main", "crankpin", "wrist_pin", "side_thrust"):
-        missed = 1.0 - coarse.largest(load) / fine.largest(load)
+        missed = 1.0 - coarse.peak(load) / fine.peak(load)
         assert np.all((missed >= 0.0) & (missed < 1e-3))
 
 
@@ -380,7 +380,7 @@ def test_peaks_and_means_are_over_the_crank_angles() -> None:
     yoke = cp.Engine.inline(cylinder, throws_deg=[0], spacing=0.1)
     loads = cp.bearing_loads(yoke, RPM)
     force = 0.5 * 0.05 * OMEGA**2
-    np.testing.assert_allclose(loads.largest("crankpin"), force, rtol=1e-9)
+    np.testing.assert_allclose(loads.peak("crankpin"), force, rtol=1e-9)
     # Trapezoids of one degree leave (π/180)²/12 of it, and the rod 1e-10.
     np.testing.assert_allclose(loads.mean("crankpin"), 2.0 / np.pi * force, rtol=3e-5)
     one = cp.bearing_loads(yoke, RPM, [60.0])
@@ -396,7 +396,7 @@ def test_counterweights_relieve_bearings_and_leave_pins() -> None:
     np.testing.assert_array_equal(before.crankpin, after.crankpin)
     # Half the reciprocating and all of the rotating mass is gone from where two throws add up;
     # a bearing between opposite throws has their difference, which is the second order's alone.
-    relief = after.largest("main") / before.largest("main")
+    relief = after.peak("main") / before.peak("main")
     assert (relief[::2] < 0.3).all()
     np.testing.assert_allclose(relief[1::2], 1.0, rtol=1e-12)
     middle = i4.reference_z
@@ -443,7 +443,7 @@ def test_results_are_records_over_named_dimensions() -> None:
     np.testing.assert_array_equal(data.side_thrust.sel(cylinder=3), loads.side_thrust[2])
     assert not loads.main.flags.writeable
     assert dataclasses.is_dataclass(loads)
-    assert loads.table["crankpin"].values == tuple(loads.largest("crankpin"))
+    assert loads.table["crankpin"].values == tuple(loads.peak("crankpin"))
     below = loads.table.below
     assert below is not None
     assert below["mean"].values == tuple(loads.mean("main"))

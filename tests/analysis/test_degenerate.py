@@ -39,11 +39,11 @@ def test_every_choice_is_made(engine: cp.Engine) -> None:
         cp.tolerances(engine, rpm=3000, reciprocating_mass=spread, pin_deg=0.1, samples=20),
         cp.match_parts(engine, masses),
         cp.match_parts(engine, masses, np.full((len(masses), 2), 0.2), sets=1),
-        cp.match_parts(engine, masses, objective="spread"),
+        cp.match_parts(engine, masses, by="spread"),
     ]
     for result in results:
         assert repr(result)
-        assert result.table.csv()
+        assert result.table.to_csv()
         values = [each for column in result.table.columns for each in column.values]
         assert np.isfinite([each for each in values if isinstance(each, float)]).all()
 

@@ -124,7 +124,7 @@ def test_an_arrangement_hands_its_proof_on(hold: Hold) -> None:
     for k in range(0, len(found), 7):
         engine = found[k].engine(CYLINDER, spacing=0.13)
         assert engine.vanishing_orders([1]).moment.backward[1] == "vanishes", k
-    (ito,) = cp.search_arrangements(14).best(within=(60, 90))
+    (ito,) = cp.search_arrangements(14).within(60, 90).best()
     engine = ito.engine(CYLINDER, spacing=0.13)
     beside = engine.with_bank_angle(float(engine.bank_angle_deg) + 1e-11, hold="firing")
     assert beside.vanishing_orders([1]).moment.backward[1] == "undecided"

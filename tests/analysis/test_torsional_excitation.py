@@ -39,7 +39,7 @@ def test_a_cylinder_is_the_first_one_at_its_firing_angle() -> None:
 
 def test_the_table_and_the_dictionary_have_the_same_figures() -> None:
     found = cp.torsional_excitation(V6, rpm=3000, orders=[0.5, 1, 3])
-    rows = list(csv.reader(io.StringIO(found.table.csv())))
+    rows = list(csv.reader(io.StringIO(found.table.to_csv())))
     assert rows[0] == ["cylinder", "order", "frequency rad/s", "amplitude N·m", "phase rad"]
     assert len(rows) == 19
     given = found.to_dict()

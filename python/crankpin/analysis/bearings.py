@@ -72,7 +72,7 @@ def bearing_loads(engine: Engine, rpm: float, theta_deg: ArrayLike | None = None
 
     The middle main bearing of an inline four carries two throws that point the same way:
 
-    >>> (loads.largest("main") / 1e3).round(1)
+    >>> (loads.peak("main") / 1e3).round(1)
     array([5. , 2.4, 9.9, 2.4, 5. ])
     """
     found = BearingLoads(engine, rpm, inputs.crank_angles(theta_deg))
@@ -201,7 +201,7 @@ class BearingLoads(Tabled):
         sizes = np.hypot(values[..., 0], values[..., 1]) if load in _VECTORS else np.abs(values)
         return np.asarray(sizes)
 
-    def largest(self, load: str) -> NDArray[np.float64]:
+    def peak(self, load: str) -> NDArray[np.float64]:
         """Return the largest magnitude of a load at the crank angles, N: (n,).
 
         A peak between two angles exceeds that by up to an eighth of the square of their distance
@@ -374,14 +374,14 @@ class BearingLoads(Tabled):
         force = self.rod_force
         in_tension = [sum(to - begin for begin, to in each) for each in self.tension_deg]
         columns = {
-            "crankpin": self.largest("crankpin"),
+            "crankpin": self.peak("crankpin"),
             "mean": self.mean("crankpin"),
-            "wrist pin": self.largest("wrist_pin"),
-            "side thrust": self.largest("side_thrust"),
+            "wrist pin": self.peak("wrist_pin"),
+            "side thrust": self.peak("side_thrust"),
             "rod compressed": force.max(axis=-1, initial=0.0),
             "pulled": (-force).max(axis=-1, initial=0.0),
         }
-        of_mains = {"largest": self.largest("main"), "mean": self.mean("main")}
+        of_mains = {"largest": self.peak("main"), "mean": self.mean("main")}
         return Table(
             f"{where}, largest loads at {len(self.theta_deg)} crank angles",
             (

@@ -154,9 +154,9 @@ def _tidy(
 
 def waveforms_to_xarray(result: OverAngle, quantities: Sequence[str]) -> xr.Dataset:
     """Return values over coordinates, with named dimensions and units."""
-    arrays = {
-        name.replace(".", "_"): (result.dims(name), result.read(name), units(name))
-        for name in quantities
-    }
+    arrays = {}
+    for name in quantities:
+        dims = (*result.dims, "axis") if name in PLANE_VECTORS else result.dims
+        arrays[name.replace(".", "_")] = (dims, result.read(name), units(name))
     coords = _labelled(result.coords, quantities)
     return optional.dataset(arrays, coords, result._attributes)

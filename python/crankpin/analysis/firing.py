@@ -346,9 +346,9 @@ def throws(
     firing_order: str | Iterable[int],
     *,
     bank_angle_deg: Angle | None = None,
-    odd_bank: Side = "right",
-    numbering: Numbering = "alternating",
     intervals_deg: Angles | None = None,
+    numbering: Numbering = "alternating",
+    odd_bank: Side = "right",
     strokes: int = 4,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the crankpins that a firing order needs.

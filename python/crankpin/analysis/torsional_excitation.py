@@ -52,7 +52,7 @@ class TorsionalExcitation(Tabled):
 
     @property
     def table(self) -> Table:
-        """Amplitude and phase by cylinder and order; ``table.csv()`` is a file of it."""
+        """Amplitude and phase by cylinder and order; ``table.to_csv(path)`` writes a file."""
         frequency = self.angular_frequency.tolist()
         rows = [
             (number + 1, order, frequency[k], abs(phasor), math.atan2(phasor.imag, phasor.real))
@@ -91,7 +91,7 @@ class TorsionalExcitation(Tabled):
 
 
 def torsional_excitation(
-    engine: Engine, *, rpm: float, orders: Order | Iterable[Order] | None = None
+    engine: Engine, rpm: float, *, orders: Order | Iterable[Order] | None = None
 ) -> TorsionalExcitation:
     """Return the torque of each cylinder on the crank per order, of gas and masses.
 

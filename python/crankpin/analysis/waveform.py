@@ -10,7 +10,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
-from crankpin._support.quantities import KINDS, QUANTITIES
+from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Table
 from crankpin.analysis import export
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 def waveform(
     engine: Engine,
     rpm: float,
-    *,
     theta_deg: ArrayLike | None = None,
+    *,
     orders: Orders | None = None,
     rtol: float | None = None,
     spectrum: Spectrum | None = None,
@@ -128,6 +128,11 @@ class OverAngle:
         return False
 
     @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions of arrays before the axis: those of a sweep, ``theta_deg``."""
+        return tuple(self.coords)
+
+    @property
     def coords(self) -> Mapping[str, Any]:
         """Dimension → its values: those of a sweep, then ``theta_deg``."""
         return {"theta_deg": self.theta_deg}
@@ -136,11 +141,6 @@ class OverAngle:
     def _attributes(self) -> Mapping[str, Any]:
         """Attributes of a dataset of the result."""
         raise NotImplementedError
-
-    def dims(self, quantity: str = "moment") -> tuple[str, ...]:
-        """Return the names of a quantity's dimensions."""
-        name = inputs.one_of("quantity", quantity, KINDS)
-        return (*self.coords, "axis") if KINDS[name].planar else tuple(self.coords)
 
     def to_pandas(self, *quantities: str) -> pd.DataFrame:
         """Return a tidy table, one row a point, crank angle, quantity and component (needs pandas).

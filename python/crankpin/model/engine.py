@@ -191,8 +191,8 @@ class Engine(Builders):
     def waveform(
         self,
         rpm: float,
-        *,
         theta_deg: ArrayLike | None = None,
+        *,
         orders: Orders | None = None,
         rtol: float | None = None,
         spectrum: Spectrum | None = None,
@@ -455,8 +455,8 @@ class Engine(Builders):
     def save_html(
         self,
         path: str | Path,
-        *,
         rpm: float = 3000.0,
+        *,
         inertia: float | None = None,
         spectrum: Spectrum | None = None,
         compact: bool = False,

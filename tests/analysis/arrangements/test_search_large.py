@@ -65,7 +65,7 @@ def test_a_window_has_its_own_arrangements() -> None:
     engine = part[7].engine(cp.Cylinder(0.045, 0.158, 0.5), spacing=0.1)
     balance = engine.balance(rpm=3000, orders=[1])
     assert balance.moment.backward[0] == 0
-    best = V22.best(within=(60, 60.001), count=3)
+    best = V22.within(60, 60.001).best(count=3)
     assert best == part.best(count=3)
     assert len(best) == 3
 
@@ -86,7 +86,7 @@ two_stroke = cp.search_arrangements(16, phases_deg=range(0, 360, 45))
 for search in (cp.search_arrangements(18), cp.search_arrangements(22).within(59, 61), two_stroke):
     found.update(search.bank_angles_deg.tobytes())
     found.update(repr([search[k] for k in range(0, len(search), 997)]).encode())
-    found.update(repr(search.best(within=(59.9, 60.1), count=50)).encode())
+    found.update(repr(search.within(59.9, 60.1).best(count=50)).encode())
     found.update(repr(search).encode())
 print(found.hexdigest())
 """

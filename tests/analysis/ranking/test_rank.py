@@ -279,8 +279,7 @@ def test_a_choice_hands_back_its_engine() -> None:
         )
         again = (abs(b.moment.backward[0]), b.moment.peak[1])
         assert choice.values == pytest.approx(again, rel=ROUNDING)
-    assert ranking.best(2) == (ranking[0], ranking[1])
-    assert ranking.best(0) == ()
+    assert ranking[:2] == (ranking[0], ranking[1])
     assert list(ranking) == [ranking[k] for k in range(len(ranking))]
 
 
@@ -488,7 +487,7 @@ def _agg() -> Iterator[None]:
 
 def test_some_arrangements_of_a_search() -> None:
     cylinder = cp.Cylinder(0.045, 0.158, 0.5)
-    chosen = cp.search_arrangements(14, alternating=True).best(within=(30, 90), count=4)
+    chosen = cp.search_arrangements(14, alternating=True).within(30, 90).best(count=4)
     by_arrangement = cp.rank(chosen, cylinder=cylinder, spacing=0.1, rpm=3000, by="[2].moment.peak")
     engines = [one.engine(cylinder, spacing=0.1) for one in chosen]
     by_engine = cp.rank(engines, rpm=3000, by="[2].moment.peak")
@@ -498,6 +497,18 @@ def test_some_arrangements_of_a_search() -> None:
         cp.rank(chosen, cylinder=cylinder, rpm=3000, by="total.moment.peak")
     with pytest.raises(cp.InputError, match=r"spacing = 0\.1: is for arrangements"):
         cp.rank(engines, spacing=0.1, rpm=3000, by="total.moment.peak")
+
+
+def test_an_order_may_stand_after_its_quantity() -> None:
+    for name, other in [
+        ("moment[2].peak", "[2].moment.peak"),
+        ("force[1].backward", "[1].force.backward"),
+        ("torque[1.5].gas.peak", "[1.5].torque.gas.peak"),
+    ]:
+        first, second = cp.rank(V6, 3000, by=[name, other], orders=[1, 1.5, 2])[0].values
+        assert first == second
+    with pytest.raises(cp.InputError, match="by ="):
+        cp.rank(V6, 3000, by="moment.peak[2]")  # of a balance that is its third order
 
 
 def test_objectives_take_half_orders_and_parts_of_torque() -> None:

@@ -226,7 +226,7 @@ def test_what_is_refused() -> None:
     np.testing.assert_allclose(by_spectrum.waveform(THETA).force, one.force, rtol=0, atol=1e-9)
     with pytest.raises(cp.InputError, match="exact"):
         s.waveform(exact="yes")  # type: ignore[arg-type]
-    assert s.waveform([]).dims("torque") == ("rod_ratio", "theta_deg")
+    assert s.waveform([]).dims == ("rod_ratio", "theta_deg")
     assert cp.sweep(V6, rpm=1000).waveform([]).force.shape == (0, 2)
 
 

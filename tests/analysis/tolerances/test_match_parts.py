@@ -134,7 +134,7 @@ def test_sets_of_pistons_have_the_least_sum_of_ranges(parts: list[float], sets: 
 
 def test_spread_of_sets() -> None:
     pistons = masses(14)
-    match = cp.match_parts(I4, pistons, objective="spread")
+    match = cp.match_parts(I4, pistons, by="spread")
     assert (match.exact, len(match.assignment), len(match.unused[0])) == (True, 3, 2)
     assert match.bound == match.value == sum(match.values)
     chosen = [np.ptp(pistons[np.array(each.pistons) - 1]) for each in match.assignment]
@@ -144,11 +144,11 @@ def test_spread_of_sets() -> None:
 
 def test_heavy_pistons_go_with_light_rods() -> None:
     pistons, ends = masses(4), rods(4)
-    match = cp.match_parts(I4, pistons, ends, objective="spread")
+    match = cp.match_parts(I4, pistons, ends, by="spread")
     ranges = [np.ptp(pistons + ends[list(order), 0]) for order in itertools.permutations(range(4))]
     assert match.exact
     assert match.value == pytest.approx(min(ranges), rel=1e-12)
-    several = cp.match_parts(I4, masses(13), rods(12), objective="spread")
+    several = cp.match_parts(I4, masses(13), rods(12), by="spread")
     assert (several.exact, several.bound) == (False, 0.0)
     assert several.value < several.as_given
 
@@ -175,7 +175,7 @@ def test_spreads_of_pistons_and_rods_with_spare_ones_by_brute_force(sets: int, s
             for a in ({(a[0], *rest) for rest in itertools.permutations(a[1:])})
             for b in itertools.permutations(range(count), 2 * sets)
         )
-        match = cp.match_parts(engine, pistons, ends, objective="spread", sets=sets)
+        match = cp.match_parts(engine, pistons, ends, by="spread", sets=sets)
         assert match.value == pytest.approx(best, abs=1e-12)  # sums of masses below 1 kg
         assert not match.exact
 
@@ -257,7 +257,7 @@ def test_tables() -> None:
         ),
         ({"rods": [0.6] * 4}, r"rods has shape \(4,\): .*small end and big end of each rod"),
         ({"rods": [[0.2, 0.4]] * 3}, r"rods has 3 entries"),
-        ({"objective": "weight"}, r'objective = \'weight\': give "balance" or "spread"'),
+        ({"by": "weight"}, r'by = \'weight\': give "balance" or "spread"'),
         ({"orders": "auto"}, r"orders = \"auto\": give whole numbers"),
         ({"seed": -1}, r"seed = -1"),
         ({"pistons": [0.4] * 1001}, r"pistons has 1001 entries: give 1000 at most"),

@@ -76,7 +76,7 @@ def per_cylinder(t: cp.types.Tolerances, name: str) -> NDArray[np.float64]:
 def test_a_sample_is_an_engine(engine: cp.Engine, distribution: str) -> None:
     t = tolerances(engine, distribution=distribution, samples=20)
     for k in (0, 7, 19):
-        drawn = t.engine_of(k)
+        drawn = t.engine_at(k)
         known = drawn.replace(reference_z=engine.reference_z).balance(RPM, orders=t.orders)
         for name in QUANTITIES:
             found, expected = np.asarray(getattr(t, name))[k], np.asarray(getattr(known, name))
@@ -421,7 +421,7 @@ def test_errors_of_results() -> None:
     with pytest.raises(cp.InputError, match=r"^point: moments of samples .* engine\.replace"):
         t.about(0.1)
     with pytest.raises(cp.InputError, match="sample = 3: give a number from 0 to 2"):
-        t.engine_of(3)
+        t.engine_at(3)
     with pytest.raises(cp.InputError, match=r"name = 'mass': give \"reciprocating_mass\""):
         t.draws("mass")
     with pytest.raises(cp.InputError, match="q = 2: give numbers from 0 to 1"):

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 _LISTED = "second_order"
 """Measure that is least in the arrangement listed."""
 _WHOLE = (0.0, 180.0)
-_LARGE = 1 << 21
-"""Distinct arrangements beyond which bank angles are computed window by window."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,7 +82,7 @@ class Arrangement:
         Examples
         --------
         >>> import crankpin as cp
-        >>> (best,) = cp.search_arrangements(cylinders=14).best(within=(60, 90))
+        >>> (best,) = cp.search_arrangements(cylinders=14).within(60, 90).best()
         >>> engine = best.engine(cp.Cylinder(0.045, 0.15, 0.5), spacing=0.1)
         >>> abs(engine.balance(rpm=6000, orders=[1]).moment.backward)
         array([0.])
@@ -279,14 +277,10 @@ class ArrangementSearch(Record):
         """Return the arrangements listed within a tolerance of a bank angle; empty if none is."""
         angle = inputs.number("bank_angle_deg", bank_angle_deg)
         tolerance = inputs.number("tolerance_deg", tolerance_deg)
-        return tuple(self._from(angle - tolerance, angle + tolerance))
+        return tuple(self.within(angle - tolerance, angle + tolerance))
 
     def best(
-        self,
-        by: str | Callable[[Arrangement], float] = "second_order",
-        *,
-        within: tuple[float, float] = (0.0, 180.0),
-        count: int = 1,
+        self, by: str | Callable[[Arrangement], float] = "second_order", *, count: int = 1
     ) -> tuple[Arrangement, ...]:
         """Return the arrangements that minimise an objective, one a bank angle, the best first.
 
@@ -297,8 +291,6 @@ class ArrangementSearch(Record):
             ``"counterweight"``: the first-order moment that a counterweight has to take away; of
             either, all pairs are compared. Or any function of an :class:`Arrangement`, for which
             those listed are.
-        within
-            Range of bank angles, degrees.
         count
             Number of arrangements.
 
@@ -306,13 +298,14 @@ class ArrangementSearch(Record):
         --------
         >>> import crankpin as cp
         >>> search = cp.search_arrangements(cylinders=14, alternating=True)
-        >>> round(search.best(within=(5, 60))[0].bank_angle_deg, 2)
+        >>> round(search.within(5, 60).best()[0].bank_angle_deg, 2)
         9.13
         """
         measure = by if callable(by) else _MEASURES[inputs.one_of("by", by, _MEASURES)]
         wanted = inputs.whole("count", count, 0)
         least = _LISTED if callable(by) else by
-        return tuple(heapq.nsmallest(wanted, self._from(*_window(within), least), key=measure))
+        found = (self._least(k, least) for k in range(len(self)))
+        return tuple(heapq.nsmallest(wanted, found, key=measure))
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:  # noqa: ANN401 - as below
         """Draw the second-order moment that remains over the bank angles; return the axes.
@@ -348,10 +341,10 @@ class ArrangementSearch(Record):
             np.array(rows).reshape(-1, 4),
         )
 
-    def to_pandas(self, *, within: tuple[float, float] = (0.0, 180.0)) -> pd.DataFrame:
+    def to_pandas(self) -> pd.DataFrame:
         """Return the arrangements as a table, one row a bank angle (needs pandas)."""
         pandas = optional.library("pandas")
-        rows = list(self._from(*_window(within)))
+        rows = list(self)
         columns = {
             "first_deg": [row.first_deg for row in rows],
             "second_deg": [row.second_deg for row in rows],
@@ -362,16 +355,6 @@ class ArrangementSearch(Record):
         }
         index = pandas.Index([row.bank_angle_deg for row in rows], name="bank_angle_deg")
         return optional.data_frame(columns, index=index)
-
-    def _from(self, low: float, high: float, by: str = _LISTED) -> Iterator[Arrangement]:
-        """Yield the arrangements in a window; of a large search nothing else is computed."""
-        if self.core.distinct > _LARGE and "_angles" not in self.__dict__:
-            part = self.within(low, high)
-            yield from (part._least(k, by) for k in range(len(part)))
-            return
-        first = int(np.searchsorted(self.bank_angles_deg, low, side="left"))
-        stop = int(np.searchsorted(self.bank_angles_deg, high, side="right"))
-        yield from (self._least(k, by) for k in range(first, stop))
 
     def _index(self, index: int) -> int:
         position = inputs.whole("index", index)
@@ -405,15 +388,6 @@ def _again(
         cylinders, alternating=alternating, phases_deg=phases, hold=hold, shared_pins=shared_pins
     )
     return found.within(*window_deg)
-
-
-def _window(within: object) -> tuple[float, float]:
-    hint = "give two bank angles, such as (45, 90)"
-    ends = inputs.items("within", within, hint)
-    if len(ends) != 2:
-        raise inputs.rejected("within", within, hint)
-    low, high = (_bank_angle("within", end) for end in ends)
-    return low, high
 
 
 def _bank_angle(name: str, value: object) -> float:

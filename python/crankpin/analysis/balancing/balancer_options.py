@@ -47,8 +47,8 @@ DEFAULT = ("total.force.peak", "total.moment.peak")
 
 def balancer_options(
     engine: Engine,
-    *,
     rpm: float,
+    *,
     by: str | Measure | Sequence[str | Measure] = DEFAULT,
     target: float | Mapping[str, float] | None = None,
     relative: bool = False,

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs
-from crankpin._support.quantities import KINDS, PLANE_VECTORS
+from crankpin._support.quantities import KINDS, PLANE_VECTORS, QUANTITIES
 from crankpin.analysis.balance import Balance, balance
 
 if TYPE_CHECKING:
@@ -146,13 +146,16 @@ _PATH = re.compile(
     rf"|({'|'.join(name for name in KINDS if name not in PLANE_VECTORS)})\.(peak))"
 )
 
+_ORDER_LAST = re.compile(rf"({'|'.join(QUANTITIES)})(\[[^]]*\])(\..*)")
+
 
 def named(label: str) -> Objective:
     """Return the objective of this name."""
     if label == "unevenness_deg":
         words = "root mean square difference of the firing intervals from equal ones"
         return Objective(label, "firing unevenness", words, "°", of_balance=_unevenness)
-    found = _PATH.fullmatch(label)
+    # As of results, moment[1] is [1].moment.
+    found = _PATH.fullmatch(_ORDER_LAST.sub(r"\2.\1\3", label))
     if not found or (found[1] is None and found[3] in ("forward", "backward")):
         inputs.one_of("by", label, COMMON)
     assert found is not None  # noqa: S101 - else rejected above

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 def rank(
     engines: Engines | Arrangement | Sequence[Arrangement] | ArrangementSearch,
-    *,
     rpm: float,
+    *,
     by: str | Measure | Sequence[str | Measure] | None = None,
     bank_angle_deg: ArrayLike | None = None,
     hold: Hold | None = None,
@@ -95,7 +95,7 @@ def rank(
         Magnitude of the first order's backward part, which the best counterweights leave.
     ``[2].moment.peak``, ``[2].force.peak``, ``[2].torque.peak``
         Largest of one order, any of which can be named; ``peak_xy``, ``forward`` and ``backward``
-        as well.
+        as well. ``moment[2].peak`` is another name for ``[2].moment.peak``.
     ``unevenness_deg``
         Root mean square difference of the firing intervals from equal ones, in the most even
         four-stroke order that the crank allows; up to 16 cylinders.

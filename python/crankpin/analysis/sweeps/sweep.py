@@ -51,8 +51,8 @@ Engines: TypeAlias = Engine | Iterable[Engine] | Mapping[str, Engine]
 
 def sweep(
     engines: Engines,
-    *,
     rpm: ArrayLike,
+    *,
     bank_angle_deg: ArrayLike | None = None,
     hold: Hold | None = None,
     rod_ratio: ArrayLike | None = None,

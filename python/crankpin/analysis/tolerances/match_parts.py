@@ -157,7 +157,7 @@ def match_parts(
     pistons: ArrayLike,
     rods: ArrayLike | None = None,
     *,
-    objective: Objective = "balance",
+    by: Objective = "balance",
     sets: int | None = None,
     orders: Orders = (1, 2),
     seed: int = 0,
@@ -179,7 +179,7 @@ def match_parts(
         cylinder of each engine.
     rods
         Measured masses of the rods' small and big ends, kg: (n_rods, 2).
-    objective
+    by
         ``"balance"``: what remains of ``orders`` in the engine, forward and backward parts of force
         and moment, in kg·m (over ω²), moments over half the distance from the first to the last
         cylinder (none where that is zero); the root of the sum of squares is minimised.
@@ -188,7 +188,7 @@ def match_parts(
         Number of engines to be filled; by default as many as the parts suffice for. Of several
         engines the sum of the objective is minimised.
     orders
-        With ``objective="balance"``: whole multiples of crank speed.
+        With ``by="balance"``: whole multiples of crank speed.
     seed
         Seed of the random starts of the search where there are too many arrangements for all.
     progress
@@ -222,7 +222,7 @@ def match_parts(
     """
     engine_core(engine)
     count = len(engine)
-    inputs.one_of("objective", objective, WORDS)
+    inputs.one_of("by", by, WORDS)
     masses = _masses("pistons", pistons, 1)
     ends = None if rods is None else _masses("rods", rods, 2)
     for name, parts in (("pistons", masses), ("rods", ends)):
@@ -244,13 +244,13 @@ def match_parts(
     asked = progress_bar.checked(progress)
     checks.masses(engine, pistons=masses.max(), rods=0.0 if ends is None else ends.max())
     measured = MeasuredParts(engine, masses[:, 0], ends, tuple(listed))
-    if objective == "spread":
+    if by == "spread":
         chosen, exact = _by_spread(measured, wanted, start, asked)
         # Rods might make up for any difference of pistons.
-        bound = sum(measured.value(objective, each) for each in chosen) if exact else 0.0
+        bound = sum(measured.value(by, each) for each in chosen) if exact else 0.0
     else:
         chosen, exact, bound = _by_balance(measured, wanted, start, asked)
-    return Match(measured, objective, tuple(chosen), bound, exact)
+    return Match(measured, by, tuple(chosen), bound, exact)
 
 
 def _masses(name: str, values: ArrayLike, columns: int) -> NDArray[np.float64]:
@@ -414,7 +414,7 @@ class Match(Tabled):
 
     parts: MeasuredParts
     """The measured parts and the engine."""
-    objective: Objective
+    by: Objective
     """``"balance"`` or ``"spread"``."""
     assignment: tuple[Assignment, ...]
     """For each engine the numbers of its pistons and rods, cylinder by cylinder."""
@@ -431,12 +431,12 @@ class Match(Tabled):
     @property
     def unit(self) -> str:
         """Unit of the objective: kg·m (over ω²) or kg."""
-        return UNITS[self.objective]
+        return UNITS[self.by]
 
     @cached_property
     def values(self) -> tuple[float, ...]:
         """Objective of each engine."""
-        return tuple(self.parts.value(self.objective, each) for each in self.assignment)
+        return tuple(self.parts.value(self.by, each) for each in self.assignment)
 
     @property
     def value(self) -> float:
@@ -450,7 +450,7 @@ class Match(Tabled):
         given = (np.arange(k * count, (k + 1) * count) for k in range(len(self.assignment)))
         return sum(
             self.parts.value(
-                self.objective, assignment_of(*([each] * (1 if self.parts.rods is None else 2)))
+                self.by, assignment_of(*([each] * (1 if self.parts.rods is None else 2)))
             )
             for each in given
         )
@@ -499,5 +499,5 @@ class Match(Tabled):
             columns.append(Column("small end", tuple(small), "kg"))
             columns.append(Column("big end", tuple(big), "kg"))
         known = "no assignment is better" if self.exact else f"none is below {self.bound:.4g}"
-        title = f"{WORDS[self.objective]}: {self.value:.4g} {self.unit}, {known}"
+        title = f"{WORDS[self.by]}: {self.value:.4g} {self.unit}, {known}"
         return Table(f"{title}; as given {self.as_given:.4g}", tuple(columns))

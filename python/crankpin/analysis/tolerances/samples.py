@@ -93,7 +93,7 @@ class Tolerances(ByOrder, Tabled):
     ((500, 2, 2), (500,), (500,))
     >>> t.draws("reciprocating_mass").shape
     (500, 6)
-    >>> b = t.engine_of(7).balance(rpm=6000, orders=[1, 2])
+    >>> b = t.engine_at(7).balance(rpm=6000, orders=[1, 2])
     >>> bool(abs(b.moment.peak - t.moment.peak[7]).max() < 1e-9)
     True
     """
@@ -354,7 +354,7 @@ class Tolerances(ByOrder, Tabled):
         items = len(self.pins) if name in OF_PINS else len(self.engine)
         return drawn if drawn.size else np.broadcast_to(0.0, (self.samples, items))
 
-    def engine_of(self, sample: int) -> Engine:
+    def engine_at(self, sample: int) -> Engine:
         """Return the engine of a sample; moments of its own are about its own middle.
 
         A rotating mass that deviates below zero is an unbalance opposite its crankpin.

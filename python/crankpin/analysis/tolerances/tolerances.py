@@ -32,8 +32,8 @@ MOST_SAMPLES = 10**9
 
 def tolerances(
     engine: Engine,
-    *,
     rpm: float,
+    *,
     reciprocating_mass: ArrayLike = 0.0,
     rotating_mass: ArrayLike = 0.0,
     crank_radius: ArrayLike = 0.0,
