@@ -72,7 +72,7 @@ SOUND: dict[str, list[Any]] = {
     "to_crankpin": [0.05],
     "bank_angle_deg": [60, 90.0, "360/7", [60, 90]],
     "bank_deg": [[60, 120], [90, 90, 90]],
-    "by": ["total.moment.peak", ["[1].force.backward"], lambda b: b.rpm],
+    "by": ["total.moment.peak", ["[1].force.backward"], "spread", lambda b: b.rpm],
     "count": [1, 0],
     "cylinder": [CYLINDER],
     "crank_radius": [0.05],

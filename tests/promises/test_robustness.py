@@ -231,8 +231,6 @@ BAD: list[tuple[Callable[..., Any], str, Any, str]] = [
     (ranked_search, "spacing", None, "None"),
     (ranked_search, "spacing", NAN, "NaN"),
     (ranked_search, "refine", True, "True"),
-    (ranked().best, "count", 2, "2"),
-    (ranked().best, "count", 0.5, "0.5"),
     (proportions, "rod_ratio", [0.3, 1.0], "1"),
     (proportions, "rod_ratio", [0.0], "0"),
     (proportions, "rod_ratio", NAN, "NaN"),
