@@ -66,6 +66,28 @@ def test_logarithmic_spectrum_shows_the_smallest_peak() -> None:
     assert hollow(ax)[0] == [3.0, 5.0, 6.0, 7.0, 9.0]
 
 
+def test_orders_that_cannot_be_seen_take_no_room() -> None:
+    fired = cp.Engine.preset("radial-14").with_cycle(cp.Cycle.example()).balance(2500)
+    for quantity, log, least in (
+        ("moment", False, 1e-6),
+        ("crank_torque", False, 1e-3),
+        ("crank_torque", True, 1e-6),
+    ):
+        peaks = fired.read(quantity, "peak")
+        last = max(
+            order
+            for order, peak in zip(fired.orders, peaks, strict=True)
+            if peak > least * peaks.max()
+        )
+        ax = fired.plot(quantity=quantity, log=log)
+        drawn = [float(np.asarray(line.get_xdata()).max()) for line in series(ax)]
+        assert drawn == [last] * len(drawn)
+        cut = last < fired.orders[-1]
+        assert (f"above order {last}: below {least:g} of the largest" in title_of(ax)) == cut
+        # Inertia torque of order 189 is 1e-148 of the whole.
+        assert not log or ax.get_ylim()[0] >= 0.3e-6 * peaks.max()
+
+
 def test_stems_of_an_order_stand_beside_each_other() -> None:
     ax = V6.balance(5000).plot(label="60°")
     V6.with_bank_angle(90, hold="pins").balance(5000).plot(ax, label="90°")

@@ -219,10 +219,11 @@ class Balance(ByOrder, Tabled):
             Figure or SubFigure for the panels of ``"ellipses"`` or ``"phasors"``; by default a new
             one.
         kind
-            ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles;
-            ``"ellipses"``: the ellipse that force or moment traces in each of the four largest
-            orders, with its direction and, as a dot, the place at θ = 0; ``"phasors"``: what
-            cylinders, counterweights and shafts add to each order, head to tail, and their sum.
+            ``"spectrum"``: peaks along (about) x and y over order, exact zeros as hollow circles,
+            up to the last order that matters, or of all orders given; ``"ellipses"``: the ellipse
+            that force or moment traces in each of the four largest orders, with its direction and,
+            as a dot, the place at θ = 0; ``"phasors"``: what cylinders, counterweights and shafts
+            add to each order, head to tail, and their sum.
         quantity
             ``"force"``, ``"moment"``, ``"torque"`` or ``"crank_torque"``; by default the moment, or
             else the first that is not zero.

@@ -32,7 +32,7 @@ from crankpin.plot.plane import (
     plane_vector,
     scale_plane,
 )
-from crankpin.plot.rows import largest
+from crankpin.plot.rows import MATTERS, largest
 from crankpin.plot.style import MARKERS, SERIES, count_series, hollow, series
 from crankpin.plot.ticks import from_zero, numeric
 from crankpin.plot.words import (
@@ -74,22 +74,29 @@ def spectrum(
     drawn = series_of(result, name)
     reject_figure(figure, "spectrum")
     ax = axes_or_new(ax)
-    orders = np.array(result.orders, dtype=np.float64)
     peaks = (
         result.read(name, "peak_xy")
         if name in PLANE_VECTORS
         else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
     )
+    orders, note = np.array(result.orders, dtype=np.float64), ""
+    if result.request.orders is None:
+        # Gas torque declines slowly: the few orders that can be seen would have no room.
+        least = MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE
+        seen = np.flatnonzero(peaks.max(axis=1) > least * peaks.max(initial=0.0))
+        if seen.size and seen[-1] + 1 < len(orders):
+            orders, peaks = orders[: seen[-1] + 1], peaks[: seen[-1] + 1]
+            note = f"above order {orders[-1]:g}: below {least:g} of the largest"
     how = "" if result.request.orders is None else ", orders given"
     how += "" if result.spectrum is None else ", spectrum given"
-    set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}")
+    set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}", note)
     if label is None and count_series(ax):
         label = labels.name_of(result.engine)
     styles = series(ax, peaks.shape[1], style)
     for k, text in enumerate(series_names(drawn, label)):
         _stems(ax, orders, peaks[:, k], text, styles[k])
     _beside_each_other(ax)
-    _scale(ax, logarithmic=logarithmic)
+    _scale(ax, logarithmic=logarithmic, given=result.request.orders is not None)
     label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)
@@ -130,7 +137,7 @@ def _beside_each_other(ax: Axes) -> None:
         zeros.set_transform(ax.get_xaxis_transform() + shift)
 
 
-def _scale(ax: Axes, *, logarithmic: bool) -> None:
+def _scale(ax: Axes, *, logarithmic: bool, given: bool) -> None:
     drawn = [line for line in ax.lines if line.get_gid() == SERIES]
     along = np.concatenate([line.get_xdata() for line in drawn])
     heights = np.concatenate([line.get_ydata() for line in drawn])
@@ -141,7 +148,8 @@ def _scale(ax: Axes, *, logarithmic: bool) -> None:
         note_zero(ax)
     if logarithmic and peaks.size:
         ax.set_yscale("log", nonpositive="clip")
-        ax.set_ylim(0.3 * float(peaks.min()), 3.0 * float(peaks.max()))
+        least = 0.0 if given else labels.NEGLIGIBLE * float(peaks.max())
+        ax.set_ylim(0.3 * max(least, float(peaks.min())), 3.0 * float(peaks.max()))
     else:
         numeric(ax.yaxis)
         from_zero(ax, float(peaks.max(initial=0.0)))
