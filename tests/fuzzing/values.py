@@ -44,7 +44,7 @@ HOSTILE: list[Any] = [
     *(np.array([True]), np.ones(3, dtype=">f8"), np.arange(6.0)[::-2], np.zeros((1,) * 40)),
     *(np.zeros(2, dtype=[("a", "f8")]), np.ma.MaskedArray([1.0, 2.0], mask=[True, False])),
     *(np.array(["2017-04-01"], dtype="M8[D]"), np.array([1], dtype="m8[s]")),
-    *(np.arange(5), np.broadcast_to(1.0, (3,))),
+    *(np.arange(5), np.array([INF]), np.broadcast_to(1.0, (3,))),
 ]
 
 LEAVES: st.SearchStrategy[Any] = st.one_of(

@@ -387,7 +387,9 @@ def _orders(
     try:
         result = [one(each) for each in listed]
     except (TypeError, ValueError, OverflowError):
-        if any(isinstance(each, float) and each % 1.0 for each in listed) and one is _index:
+        # Of NumPy's infinite numbers a remainder would warn.
+        fractions = any(isinstance(each, float) and float(each) % 1.0 > 0.0 for each in listed)
+        if fractions and one is _index:
             hint += "; forces of inertia repeat in every turn and have no others"
         raise rejected(name, values, hint) from None
     for each in result:
