@@ -89,6 +89,26 @@ def test_curves_are_both_orbits_or_both_torques() -> None:
         np.testing.assert_array_equal(values, wave.torque)
 
 
+def test_torque_of_gas_is_drawn_over_a_cycle_one_curve_for_each_engine() -> None:
+    """A four-stroke's pressure repeats every other turn, and its many orders leave no room."""
+    fired = cp.Engine.preset("v-twin-45").with_cycle(cp.Cycle.example())
+    other = cp.counterweights(fired, planes="ends").fitted
+    compared = cp.compare(fired, other, rpm=5000)
+    bars, curves = compared.plot(quantity="crank_torque").flat
+    drawn = [line for line in curves.lines if line.get_label() in compared.names]
+    assert [line.get_xdata()[-1] for line in drawn] == [720.0, 720.0]
+    wave = fired.waveform(5000, theta_deg=np.arange(721.0))
+    for line in drawn:
+        np.testing.assert_allclose(
+            line.get_ydata(), wave.crank_torque, atol=1e-3 * line.get_ydata().max()
+        )
+    assert curves.get_title(loc="left") == "over two turns"
+    assert len(bars.patches) > 40
+    assert not any(text.get_text() for text in bars.texts)
+    _, orbit = compared.plot(quantity="force").flat
+    assert orbit.get_title(loc="left") == "over a turn"
+
+
 @pytest.mark.slow
 def test_titles_and_legend_name_both() -> None:
     figure = BANKS.plot().flat[0].get_figure(root=True)

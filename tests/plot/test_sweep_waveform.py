@@ -28,6 +28,17 @@ def test_few_points_are_curves() -> None:
     assert legend_texts(figure) == ["V6 60°, shared pins", "Inline-4", "3000 rpm", "5000 rpm"]
 
 
+def test_a_panel_of_zeros_does_not_cut_its_neighbour() -> None:
+    w = cp.sweep(I4, rpm=[3000, 5000], orders=[2]).waveform(THETA)
+    across, along = w.plot(quantity="force")[0]
+    assert across.get_ylim() == along.get_ylim()
+    assert along.get_ylim()[1] > w.force.max()
+    assert [text.get_text() for text in across.texts] == ["zero throughout"]
+    assert not along.texts
+    none = cp.sweep(I4, rpm=[3000, 5000], orders=[1]).waveform(THETA).plot(quantity="force")
+    assert none[0, 0].get_ylim() == (-1.0, 1.0)
+
+
 def test_many_points_are_an_envelope_with_quantiles() -> None:
     w = over_two(orders=[1, 2]).waveform(THETA)
     panels = w.plot()

@@ -23,8 +23,9 @@ from crankpin.plot.layout import (
     width_for,
 )
 from crankpin.plot.rows import MATTERS
-from crankpin.plot.style import background, series, write
+from crankpin.plot.style import SERIES, background, series, write
 from crankpin.plot.ticks import numeric
+from crankpin.plot.waveform import dress
 from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded, with_unit
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ WIDTH = 0.36
 """Width of a bar, as a part of the least distance between orders."""
 SIDE_BY_SIDE = 5.0
 """Inches that two panels beside each other need."""
-TURN = np.arange(361.0)
+LINE = 8.0
+"""Points that a line of upright text needs."""
+TWO_TURNS = np.arange(721.0)
 
 
 @picture.register(Comparison)
@@ -110,6 +113,8 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
     # The layout will take a part of the axes for labels.
     apart = float(np.diff(orders).min(initial=last)) / last
     upright = max(widths, default=0.0) > 0.8 * 72.0 * inches_of(ax) * apart
+    if 72.0 * inches_of(ax) * apart < LINE:
+        texts = [""] * len(texts)
     for order, k, text in zip(orders.tolist(), shown, texts, strict=True):
         look = {"va": "bottom", "fontsize": "x-small", "rotation": 90.0 if upright else 0.0}
         write(ax, text, complex(order, pairs[:, k].max()), 3.0j, **look)
@@ -123,15 +128,24 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
 
 def _curves(ax: Axes, result: Comparison, name: str) -> None:
     """Draw what both forces or moments trace, or both torques over crank angle."""
-    kind = "orbit" if name in PLANE_VECTORS else "curves"
-    for balance, label in zip((result.before, result.after), result.names, strict=True):
-        waveform = Waveform(balance.engine, balance.rpm, TURN, True, balance.request)
-        picture(waveform, ax, kind=kind, quantity=name, label=label)
+    both = (result.before, result.after)
+    # Pressure repeats with the cycle; what is left, and all forces, with the turn.
+    cycle = name not in PLANE_VECTORS and any(b.fired and b.engine.strokes == 4 for b in both)
+    theta = TWO_TURNS if cycle else TWO_TURNS[:361]
+    for balance, label in zip(both, result.names, strict=True):
+        waveform = Waveform(balance.engine, balance.rpm, theta, True, balance.request)
+        if name in PLANE_VECTORS:
+            picture(waveform, ax, kind="orbit", quantity=name, label=label)
+        else:
+            ax.plot(theta, getattr(waveform, name), gid=SERIES, label=label, **series(ax, 1)[0])
+    if name in PLANE_VECTORS:
+        _square(ax)
+    else:
+        dress(ax, theta)
+        label_y(ax, with_unit(name))
     if legend := ax.get_legend():  # the figure's names both
         legend.remove()
-    if kind == "orbit":
-        _square(ax)
-    set_panel_title(ax, "over a turn")
+    set_panel_title(ax, "over two turns" if cycle else "over a turn")
 
 
 def _square(ax: Axes) -> None:

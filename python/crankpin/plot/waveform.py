@@ -103,7 +103,10 @@ def _sweep_waveform(
     made.name_columns(columns)
     handles = draw_panels(made.axes, result, values, style)
     for k, panel in enumerate(made.axes.flat):
-        _dress(panel, result.theta_deg, values[..., k])
+        dress(panel, result.theta_deg)
+        if not values[..., k].any():
+            note_zero(panel)
+    _limit(made.axes[0, 0], values)
     label_y(made.axes[0, 0], with_unit(name))
     column = columns[0] if made.single else ""
     how = ", ".join(filter(None, [summed(result, name), column, points]))
@@ -156,17 +159,20 @@ def _envelope(
     return handles
 
 
-def _dress(ax: Axes, theta_deg: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+def dress(ax: Axes, theta_deg: NDArray[np.float64]) -> None:
     """Let axes show crank angles, and a line at zero."""
     ax.axhline(0.0, color=muted(ax, 0.35), linewidth=0.8, zorder=1)
     degrees(ax.xaxis)
     span(ax, theta_deg)
     numeric(ax.yaxis)
     label_x(ax, "crank angle θ")
+
+
+def _limit(ax: Axes, values: NDArray[np.float64]) -> None:
+    """Give axes that show nothing but zeros no scale: it would mislead."""
     if not values.any():
         ax.set_ylim(-1.0, 1.0)
         ax.set_yticks([0.0])
-        note_zero(ax)
 
 
 # --- waveform ------------------------------------------------------------------------------------
@@ -210,8 +216,11 @@ def curves(
         text = ", ".join(filter(None, [label, "mean"]))
         ax.axhline(getattr(whole, name).mean, label=text, gid=MEAN, **look)
     if first:
-        _dress(ax, result.theta_deg, values)
+        dress(ax, result.theta_deg)
         label_y(ax, with_unit(name))
+        _limit(ax, values)
+        if not values.any():
+            note_zero(ax)
     add_legend(ax)
     return ax
 
