@@ -734,7 +734,8 @@ def test_tables() -> None:
     assert table["interval_deg"].tolist() == [90.0] * 8
     assert table["angle_deg"].tolist() == [90.0 * k for k in range(8)]
     assert table["gap_in_bank_deg"].tolist() == [270, 90, 180, 180, 270, 90, 180, 180]
-    assert "<td>270</td>" in PAGE._repr_html_()
+    assert "<td>270</td>" in str(PAGE._repr_html_())
+    assert PAGE.to_xarray()["to the next"].values.tolist() == [90.0] * 8
 
 
 # --- the command line -----------------------------------------------------------------------------

@@ -236,7 +236,7 @@ def test_a_diagram_is_read_by_order() -> None:
     assert 3 in found
     assert 1 not in found
     assert found[3] == found.sums[1]
-    with pytest.raises(cp.InputError, match=r"order = 2: the diagram has orders 1\.5, 3"):
+    with pytest.raises(cp.InputError, match=r"order = 2: choose from orders 1\.5, 3"):
         found[2]
     assert pickle.loads(pickle.dumps(found)) == found  # noqa: S301 - its own
     with pytest.raises(ValueError, match="read-only"):

@@ -61,6 +61,10 @@ def test_unbalance_and_shaft_keep_what_is_given() -> None:
     assert shaft == Shaft(-2, (weight,), 1, 2, "lower")
     assert hash(shaft) == hash(Shaft(-2, (weight,), 1, 2, "lower"))
     assert eval(repr(shaft)) == shaft  # noqa: S307 - its own
+    assert shaft.replace(x=3.0) == Shaft(-2, [weight], 3, 2, "lower")
+    assert weight.replace(z=0.1) == Unbalance(0.01, 0.1, "51.4")
+    with pytest.raises(cp.InputError, match="ratio = 0"):
+        shaft.replace(ratio=0)
     with pytest.raises(AttributeError):
         shaft.ratio = 1  # type: ignore[misc]
 

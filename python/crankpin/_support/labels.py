@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -9,6 +10,9 @@ if TYPE_CHECKING:
 
     from crankpin._support.inputs import Order
     from crankpin.model.engine import Engine
+
+UNIT_RPM = 30.0 / math.pi
+"""Crank speed at which ω is 1 rad/s."""
 
 TURNING = {"forward": "with the crank", "backward": "against the crank"}
 """Part of a plane vector → how it turns."""
@@ -64,6 +68,11 @@ def value_text(dimension: str, value: float) -> str:
     """Return a swept dimension with its value: ``bank angle 60°``, ``5000 rpm``."""
     name, unit = SWEPT[dimension]
     return f"{name} {value:.10g}{unit}".strip()
+
+
+def at_speed(rpm: float) -> str:
+    """Return a crank speed: ``at 5000 rpm``; at 1 rad/s, that forces in N are kg·m over ω²."""
+    return "over ω² (N stand for kg·m)" if rpm == UNIT_RPM else f"at {rpm:g} rpm"
 
 
 def name_of(engine: Engine) -> str:

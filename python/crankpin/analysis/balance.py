@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -30,8 +29,6 @@ if TYPE_CHECKING:
 
 EXPLAINED = 3
 """Sentences under a table in notebooks."""
-UNIT_RPM = 30.0 / math.pi
-"""Crank speed at which ω is 1 rad/s."""
 
 
 def balance(
@@ -52,7 +49,7 @@ def balance(
 
 def over_square(engine: Engine, orders: Sequence[Order]) -> Balance:
     """Return the balance over ω²: forces in kg·m, moments in kg·m²."""
-    return balance(engine, UNIT_RPM, orders=orders, torque=False)
+    return balance(engine, labels.UNIT_RPM, orders=orders, torque=False)
 
 
 def mean_piston_speed(engine: Engine, rpm: float) -> float:
@@ -278,5 +275,5 @@ class Balance(ByOrder, Tabled):
                 for symbol, values in zip(kind.symbols, rows.T.tolist(), strict=True)
             ]
         given = " of the orders given" if self.request.orders is not None else ""
-        title = f"{labels.name_of(self.engine)} at {self.rpm:g} rpm: peaks{given}"
+        title = f"{labels.name_of(self.engine)} {labels.at_speed(self.rpm)}: peaks{given}"
         return Table(title, tuple(columns), labels.not_shown(left_out))

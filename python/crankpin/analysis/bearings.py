@@ -117,7 +117,14 @@ class BearingLoads(Tabled):
         return self.__dict__["_internal"]  # type: ignore[no-any-return]
 
     def read(self, load: str) -> NDArray[np.float64]:
-        """Return the values of a load by its name, such as ``"main"``, read-only."""
+        """Return the values of a load by its name, read-only.
+
+        Parameters
+        ----------
+        load
+            ``"crankpin"``, ``"wrist_pin"``, ``"main"``, ``"side_thrust"``, ``"rod_force"`` or
+            ``"gas_force"``, as for :meth:`magnitude`, :meth:`peak` and :meth:`mean`.
+        """
         name = inputs.one_of("load", load, LOADS)
         return self.__dict__["_values"][name]  # type: ignore[no-any-return]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from crankpin._support import inputs, labels
 from crankpin._support.record import Record
-from crankpin.analysis.balance import UNIT_RPM, Balance, mean_piston_speed
+from crankpin.analysis.balance import Balance, mean_piston_speed
 from crankpin.analysis.findings import MATTERS, Finding, Sums
 from crankpin.analysis.request import Request, engine_core
 from crankpin.analysis.sentences import abbreviated, sentence, unit_force
@@ -131,7 +131,7 @@ class Explanation(Record):
     def _balance(self, *, torque: bool) -> Balance:
         """Return the balance that findings are read from; over ω² without a speed."""
         request = Request.checked(orders="auto", rtol=None, spectrum=None, torque=torque)
-        return Balance(self.engine, UNIT_RPM if self.rpm is None else self.rpm, request)
+        return Balance(self.engine, labels.UNIT_RPM if self.rpm is None else self.rpm, request)
 
     @cached_property
     def unit(self) -> float:
@@ -142,7 +142,7 @@ class Explanation(Record):
             for each, _ in parts
         )
         throws = max(mass * each.crank_radius for each, mass in parts)
-        omega = inputs.angular_speed(UNIT_RPM if self.rpm is None else self.rpm)
+        omega = inputs.angular_speed(labels.UNIT_RPM if self.rpm is None else self.rpm)
         return omega**2 * float(pistons or throws)
 
     @cached_property

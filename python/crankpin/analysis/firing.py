@@ -12,7 +12,7 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels, optional, tables
-from crankpin._support.record import Record, read_only
+from crankpin._support.record import Tabled, read_only
 from crankpin.analysis.gas_exchange import PortTiming, Timing, ValveTiming, angles
 from crankpin.model import checks
 from crankpin.model.builders import vee_layout
@@ -33,7 +33,7 @@ Gaps: TypeAlias = Mapping[tuple[int, int], float]
 """Numbers of a cylinder and of the next one of its group → crank angle, degrees."""
 
 
-class Firing(Record):
+class Firing(Tabled):
     """One way for an engine to fire.
 
     The crank determines when each piston is at the top, in a four-stroke twice a cycle; the
@@ -285,7 +285,7 @@ class Firing(Record):
 
     @property
     def table(self) -> tables.Table:
-        """Return a table of the cylinders in firing order."""
+        """Table of the cylinders in firing order."""
         name = labels.name_of(self.engine)
         places = np.array(self.order) - 1
         rows = np.stack([self.angles_deg[places], self.intervals_deg, self._gap_in_bank()], axis=1)
@@ -310,9 +310,6 @@ class Firing(Record):
 
     def __repr__(self) -> str:
         return f"<Firing {self.summary}>"
-
-    def _repr_html_(self) -> str:
-        return self.table.html()
 
 
 def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: int | None) -> Firing:
@@ -375,6 +372,11 @@ def throws(
     pin_split_deg
         Left pin minus right pin of each throw, degrees in (−180, 180]: (n_throws,); zero for shared
         pins, empty for an inline engine.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or intervals do not add up to a cycle.
 
     Examples
     --------

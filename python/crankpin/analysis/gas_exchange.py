@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-import dataclasses
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
 from crankpin._support import inputs
+from crankpin._support.record import Record
 
 if TYPE_CHECKING:
     from crankpin._support.inputs import Angle
 
 
-class _Timing:
+class _Timing(Record):
     """Angles of valves or ports, checked."""
 
     def __post_init__(self) -> None:
-        for name in self.__dataclass_fields__:  # type: ignore[attr-defined]
+        for name in self.__dataclass_fields__:
             value = getattr(self, name)
             if not isinstance(value, (str, Fraction)):
                 object.__setattr__(self, name, inputs.number(name, value))
-        _core.check_timing(self.texts)
+        _core.check_timing(self._texts)
 
     @property
-    def texts(self) -> list[str]:
+    def _texts(self) -> list[str]:
         """The angles as text that reads back exactly, as the core takes them."""
-        names = self.__dataclass_fields__  # type: ignore[attr-defined]
+        names = self.__dataclass_fields__
         return [inputs.angle(name, getattr(self, name)) for name in names]
 
 
-@dataclasses.dataclass(frozen=True)
 class ValveTiming(_Timing):
     """Opening and closing of the valves of a four-stroke, in degrees of crank angle.
 
@@ -62,7 +61,6 @@ class ValveTiming(_Timing):
     exhaust_closes_deg: Angle = 10.0
 
 
-@dataclasses.dataclass(frozen=True)
 class PortTiming(_Timing):
     """Opening of the ports of a two-stroke, in degrees of crank angle.
 
@@ -102,4 +100,4 @@ def angles(timing: Timing | None, kind: type[ValveTiming | PortTiming]) -> list[
         if kind is ValveTiming:
             other = "two-stroke a crankpin.PortTiming"
         raise inputs.rejected("timing", timing, f"give a crankpin.{kind.__name__}, of a {other}")
-    return found.texts
+    return found._texts

@@ -36,6 +36,8 @@ def order_key(order: object) -> Order | Literal["all"]:
     except (TypeError, ValueError, OverflowError):
         pass
     hint = 'the key is an order, a multiple of crank speed such as 2 or 0.5, or "all"'
+    if isinstance(order, str):
+        hint += "; quantities are attributes, as in b.force, swept values are in coords"
     if isinstance(order, (slice, tuple)) or order is ... or order is None:
         hint += "; arrays of all orders are in xy, forward, backward and peak"
     raise inputs.rejected("order", order, hint)
@@ -66,6 +68,12 @@ class Keyed:
 
     def __len__(self) -> int:
         return len(self.orders)
+
+    def _place(self, order: object) -> int:
+        """Return the index of an order, or raise an InputError."""
+        if order not in self.orders:
+            raise inputs.rejected("order", order, f"choose from {labels.orders_text(self.orders)}")
+        return self.orders.index(order)
 
 
 # --- quantities ---------------------------------------------------------------------------------
@@ -458,8 +466,8 @@ class OrderBalance(Quantities, Tabled):
         heads = ["quantity", "unit", "x", "y", "largest", *parts]
         heads += [] if self.order == ALL else ["status"]
         columns = zip(heads, zip(*rows, strict=True), strict=True)
-        of = self.result._attributes
-        where = f"{labels.name_of(self.result._engines[0])} at {of['rpm']:g} rpm"
+        speed = labels.at_speed(self.result._attributes["rpm"])
+        where = f"{labels.name_of(self.result._engines[0])} {speed}"
         title = f"{where}: {self._which}"
         return Table(title, tuple(Column(head, values) for head, values in columns))
 

@@ -109,14 +109,7 @@ class StarDiagram(Keyed, Tabled):
         InputError
             If the order is not among ``orders``.
         """
-        return complex(self.sums[self.place(order)])
-
-    def place(self, order: Order) -> int:
-        """Return the index of an order, or raise an InputError."""
-        if order not in self.orders:
-            known = labels.orders_text(self.orders)
-            raise inputs.rejected("order", order, f"the diagram has {known}")
-        return self.orders.index(order)
+        return complex(self.sums[self._place(order)])
 
     @property
     def table(self) -> Table:

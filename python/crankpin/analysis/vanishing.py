@@ -10,8 +10,8 @@ import numpy as np
 from crankpin import _core
 from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import COMPONENTS
-from crankpin._support.record import AbsentError, Record, Tabled, read_only
-from crankpin._support.tables import Table
+from crankpin._support.record import AbsentError, Tabled, read_only
+from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
@@ -50,11 +50,20 @@ def vanishing_orders(
     return VanishingOrders(engine, listed, plane)
 
 
-class Verdicts(Keyed, Record):
+class Verdicts(Keyed, Tabled):
     """Verdicts on a sum by order: "vanishes", "remains" or "undecided".
 
     A mapping from orders to verdicts; ``np.asarray`` makes an array of text. A force or moment
     vanishes where both components do, and has verdicts on its parts.
+
+    Examples
+    --------
+    >>> import crankpin as cp
+    >>> cp.Engine.preset("i4").vanishing_orders([1, 2]).force
+    Verdicts
+    order  verdict   x         y         forward   backward
+        1  vanishes  vanishes  vanishes  vanishes  vanishes
+        2  remains   vanishes  remains   remains   remains
     """
 
     orders: tuple[Order, ...]
@@ -67,7 +76,7 @@ class Verdicts(Keyed, Record):
     """Name and verdicts of each part of a force or moment."""
 
     @classmethod
-    def of_vector(cls, parts: dict[str, Verdicts]) -> Verdicts:
+    def _of_vector(cls, parts: dict[str, Verdicts]) -> Verdicts:
         """Return the verdicts on a force or moment of these parts."""
         x, y = parts["x"], parts["y"]
         pairs = list(zip(x.words, y.words, strict=True))
@@ -129,17 +138,17 @@ class Verdicts(Keyed, Record):
         InputError
             If the order is not among ``orders``.
         """
-        if order not in self.orders:
-            known = labels.orders_text(self.orders)
-            raise inputs.rejected("order", order, f"decided were {known}")
-        return self.words[self.orders.index(order)]
+        return self.words[self._place(order)]
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:  # noqa: ANN401
         return np.array(self.words, dtype=dtype)
 
-    def __repr__(self) -> str:
-        pairs = zip(self.orders, self.words, strict=True)
-        return f"<Verdicts {', '.join(f'{order}: {word}' for order, word in pairs)}>"
+    @property
+    def table(self) -> Table:
+        """Table of the verdicts by order, and of those on the parts of a force or moment."""
+        columns = [Column("order", self.orders, digits=10), Column("verdict", self.words)]
+        columns += [Column(name, part.words) for name, part in self.parts]
+        return Table("Verdicts", tuple(columns))
 
 
 class VanishingOrders(Tabled):
@@ -227,12 +236,12 @@ class VanishingOrders(Tabled):
     @property
     def force(self) -> Verdicts:
         """Shaking force: verdicts on the whole, and on x, y, forward and backward."""
-        return Verdicts.of_vector({each: self._verdicts("force", each) for each in COMPONENTS})
+        return Verdicts._of_vector({each: self._verdicts("force", each) for each in COMPONENTS})
 
     @property
     def moment(self) -> Verdicts:
         """Rocking moment: verdicts on the whole, on x (pitch), y (yaw), forward and backward."""
-        return Verdicts.of_vector({each: self._verdicts("moment", each) for each in COMPONENTS})
+        return Verdicts._of_vector({each: self._verdicts("moment", each) for each in COMPONENTS})
 
     @property
     def torque(self) -> Verdicts:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, TypeAlias
 
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.record import Record
 from crankpin._support.warnings import suppressed
 from crankpin.model import checks
 
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 _Weight: TypeAlias = tuple[float, str, float, int | None]
 
 
-@dataclasses.dataclass(frozen=True)
-class Unbalance:
+class Unbalance(Record):
     """Mass times eccentricity on a shaft (unbalance, ISO 21940): its force is amount·ω².
 
     Parameters
@@ -68,8 +67,7 @@ class Unbalance:
                 raise InputError(f"pin = {self.pin}: give the number of a cylinder, from 1")
 
 
-@dataclasses.dataclass(frozen=True)
-class Shaft:
+class Shaft(Record):
     """A balance shaft: it turns at a fixed ratio to the crankshaft about an axis parallel to it.
 
     An unbalance U on it makes the force U·(ratio·ω)² at order ``|ratio|``: all of it turns with the

@@ -260,7 +260,7 @@ def _star(
     **style: Any,  # noqa: ANN401
 ) -> Axes:
     shown = _shown(result) if order is None else inputs.order(order)
-    vectors = result.vectors[result.place(shown)]
+    vectors = result.vectors[result._place(shown)]
     total, longest = result[shown], float(np.abs(vectors).max(initial=0.0))
     ax = axes_or_new(ax)
     ax.set_aspect("equal")

@@ -37,8 +37,7 @@ _LISTED = "second_order"
 _WHOLE = (0.0, 180.0)
 
 
-@dataclasses.dataclass(frozen=True)
-class Arrangement:
+class Arrangement(Record):
     """A bank angle at which first-order moment is all forward, and the phases of both banks."""
 
     bank_angle_deg: float

@@ -40,7 +40,7 @@ NOTICEABLE = 1e-6
 def counterweights(
     engine: Engine,
     *,
-    planes: Planes,
+    planes: Planes = "webs",
     target: Target = "external",
     factor: float | Mapping[str, float] | None = None,
     minimise: Minimise = "squares",
@@ -55,9 +55,9 @@ def counterweights(
     engine
         The engine; counterweights that it has stay, and count.
     planes
-        Where weights can be: ``"ends"``, at the first and the last cylinder; ``"webs"``, both webs
-        of every throw, each midway between the crankpin and its main bearing (bearings are midway
-        between neighbouring throws); a list of places z, m; or a mapping name → z.
+        Where weights can be: ``"webs"``, both webs of every throw, each midway between the crankpin
+        and its main bearing (bearings are midway between neighbouring throws); ``"ends"``, at the
+        first and the last cylinder; a list of places z, m; or a mapping name → z.
     target
         ``"external"``: force and moment of the whole engine. ``"internal"``: force and moment that
         each throw exerts on its own two main bearings, by weights between these. That relieves

@@ -15,7 +15,7 @@ from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import Listed, Tabled, read_only
 from crankpin._support.tables import Column, Table
-from crankpin.analysis.balance import UNIT_RPM, Balance, balance
+from crankpin.analysis.balance import Balance, balance
 from crankpin.analysis.drawing import draw
 from crankpin.analysis.geometry import direction
 from crankpin.model.shafts import Shaft
@@ -110,7 +110,9 @@ class BalanceShafts(Listed[Shaft], Tabled):
         return self._of(self.fitted)
 
     def _of(self, engine: Engine) -> Balance:
-        return balance(engine, UNIT_RPM if self.rpm is None else self.rpm, orders=self.orders)
+        return balance(
+            engine, labels.UNIT_RPM if self.rpm is None else self.rpm, orders=self.orders
+        )
 
     @cached_property
     def heights(self) -> dict[int, dict[str, float]]:
@@ -241,7 +243,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
         ]
         known = [each for each in self.bearings if each is not None]
         if len(known) == len(self):
-            front, rear = abs(self.bearing_loads(UNIT_RPM)).T.tolist()
+            front, rear = abs(self.bearing_loads(labels.UNIT_RPM)).T.tolist()
             columns += [
                 Column("bearings", tuple(b - a for a, b in known), "m apart"),
                 Column("front load", tuple(front), "kg·m"),

@@ -382,6 +382,8 @@ class Sweep(ByOrder, Tabled):
         >>> s.least(s[2].crank_torque.peak).rpm
         4150.0
         """
+        if isinstance(values, str):
+            raise inputs.rejected("values", values, "give numbers, as in s.total.moment.peak")
         array = inputs.array("values", values)
         shape = tuple(len(self.coords[name]) for name in self.dims)
         if array.shape != shape or np.isnan(array).all():
@@ -631,11 +633,13 @@ def _place(name: str, value: object, values: Any) -> int:  # noqa: ANN401 - name
         names = list(values)
         return names.index(inputs.one_of("engine", value, names))
     number = inputs.number(name, value)
-    found = np.flatnonzero(np.asarray(values) == number)
+    swept = np.asarray(values)
+    found = np.flatnonzero(swept == number)
     if not found.size:
         raise InputError(
             f"{name} = {inputs.shorten(value)}: is not among the {len(values)} swept values, "
-            f"{np.min(values):.10g} to {np.max(values):.10g}"
+            f"{swept.min():.10g} to {swept.max():.10g}; the nearest is "
+            f"{swept[np.abs(swept - number).argmin()]:.10g}"
         )
     return int(found[0])
 
