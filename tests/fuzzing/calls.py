@@ -176,12 +176,13 @@ DAMAGED = st.tuples(damaged(TOML), damaged(JSON))
 
 def read_damaged(texts: tuple[str, str]) -> None:
     """Each text is refused, or gives a sound engine that reads back."""
-    for read, text in zip((cp.Engine.from_toml, cp.Engine.from_json), texts, strict=True):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", UserWarning)  # of units
+    doors = ((cp.Engine.from_toml, cp.Engine.to_toml), (cp.Engine.from_json, cp.Engine.to_json))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of units
+        for (read, write), text in zip(doors, texts, strict=True):
+            try:
                 engine = read(text)
-        except ValueError:
-            continue
-        assert not unsound(engine)
-        assert read(engine.to_toml() if read == cp.Engine.from_toml else engine.to_json()) == engine
+            except ValueError:
+                continue
+            assert not unsound(engine)
+            assert read(write(engine)) == engine
