@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 
     from crankpin.analysis.gas_exchange import Timing
 
-STROKES = (-0.44, 0.5)
+ALONE = (-0.3, 0.6)
 """Upper edge and height of the strokes in the row of a cylinder, which is 1 high."""
+STROKES = (-0.44, 0.5)
+"""The same where valves or ports stand below."""
 INLETS = (0.1, 0.15)
 EXHAUSTS = (0.28, 0.15)
 SMALL_LEGEND: dict[str, Any] = {"fontsize": "x-small", "handlelength": 1.2}
@@ -60,8 +62,9 @@ def _firing(
     row_height = room * _row_height(ax, len(rows))
     inlet, exhaust, compression, power = _inks(ax)
     faces = {"intake": inlet, "compression": compression, "power": power, "exhaust": exhaust}
+    place = ALONE if timing is None else STROKES
     strokes = [  # paler than valves
-        Kind(name, tint(ax, faces[name], 0.45), periods, STROKES, name[0].upper())
+        Kind(name, tint(ax, faces[name], 0.45), periods, place, name[0].upper())
         for name, periods in result.strokes_deg().items()
     ]
     opened = []
@@ -82,13 +85,13 @@ def _firing(
             pieces = _pieces(kind.periods[cylinder - 1], cycle)
             _bars(ax, pieces, row, kind.place, **(looks | style))
             if kind.letter and lettered:
-                _letters(ax, kind.letter, pieces, row)
+                _letters(ax, kind.letter, pieces, _middle(row, place))
         name = f"{kind.letter}: {kind.name}" if kind.letter and lettered else kind.name
         handles.append(Patch(label=name, **(looks | {"edgecolor": "none"} | style)))
     if timing is not None:
         overlaps = result.exhaust_overlaps(timing=timing)
         handles += _mark_overlaps(ax, overlaps, exhausts, rows, cycle)
-    handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1])
+    handles += _mark_firings(ax, result.angles_deg[np.array(rows) - 1], _middle(0.0, place))
     _dress(ax, result, rows, row_height)
     set_title(ax, labels.name_of(result.engine), labels.cut(result.summary))
     add_legend(ax, handles=handles, **({} if lettered else SMALL_LEGEND))
@@ -133,11 +136,16 @@ def _bars(
     ax.broken_barh(pieces, (row + top, height), **style)
 
 
-def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], row: int) -> None:
+def _middle(row: float, place: tuple[float, float]) -> float:
+    top, height = place
+    return row + top + 0.5 * height
+
+
+def _letters(ax: Axes, letter: str, pieces: Iterable[tuple[float, float]], middle: float) -> None:
     for start, length in pieces:
         if length >= 45.0:
-            place = complex(start + 0.5 * length, row + STROKES[0] + 0.5 * STROKES[1])
-            write(ax, letter, place, 0j, va="center_baseline", fontsize="x-small")
+            at = complex(start + 0.5 * length, middle)
+            write(ax, letter, at, 0j, va="center_baseline", fontsize="x-small")
 
 
 def _mark_overlaps(
@@ -157,10 +165,10 @@ def _mark_overlaps(
     return [Patch(label="exhausts overlap", **looks)] if found else []
 
 
-def _mark_firings(ax: Axes, angles: NDArray[np.float64]) -> list[Line2D]:
+def _mark_firings(ax: Axes, angles: NDArray[np.float64], middle: float) -> list[Line2D]:
     return ax.plot(
         angles,
-        np.arange(len(angles)) + STROKES[0] + 0.5 * STROKES[1],
+        np.arange(len(angles)) + middle,
         linestyle="",
         marker="D",
         markersize=5.0,
