@@ -29,8 +29,12 @@ LABELS = 4
 """Dots of a period with their angle."""
 SAME = 0.08
 """Part of the orbit's radius within which dots share one label."""
+NARROWEST = 0.75
+"""The shorter side of panels that share a scale, over the longer one."""
 LEVEL = 1e-9
-"""Height over width below which a curve is a level line: rounding."""
+"""Part of a point's distance within which it is on an axis: rounding."""
+NARROW = 0.3
+"""Shorter over longer reach below which the angles of a curve stand across its length."""
 ARROWS = (15.0, 135.0, 255.0)
 """Crank angles of the arrows, degrees."""
 
@@ -92,11 +96,24 @@ def trace(
         ax.plot(curve.real[dots], curve.imag[dots], "o", color=line.get_color(), markersize=3.5)
     scale_plane(ax, 1.4, centred=centred)  # room for the angles
     if alone:  # of several curves, numbers would not say whose they are
-        high, wide = (abs(each).max(initial=0.0) for each in (curves[0].imag, curves[0].real))
-        level = high <= LEVEL * wide
-        for k, (where_to, angles) in enumerate(_labelled(theta, curves[0], period)):
-            # Beside a level line, one above and one below: they would stand on it.
-            _annotate(ax, where_to, angles, (-1) ** k * 1j if level else where_to)
+        for where_to, angles, outward in _beside(_labelled(theta, curves[0], period), curves[0]):
+            _annotate(ax, where_to, angles, outward)
+
+
+def _beside(
+    labelled: Iterator[tuple[complex, str]], curve: NDArray[np.complex128]
+) -> Iterator[tuple[complex, str, complex]]:
+    """Yield points with their angles, and to which side these stand.
+
+    Away from the origin; of a long and narrow curve, on which they would stand then, across it.
+    """
+    high, wide = (abs(each).max(initial=0.0) for each in (curve.imag, curve.real))
+    across = 1j if high <= NARROW * wide else 1.0 if wide <= NARROW * high else 0.0
+    for k, (point, angles) in enumerate(labelled):
+        side = (point * np.conj(across)).real
+        if abs(side) <= LEVEL * abs(point):
+            side = (-1.0) ** k
+        yield point, angles, across * side or point
 
 
 def _places(theta: NDArray[np.float64], step: float, period: float) -> NDArray[np.intp]:
@@ -145,6 +162,10 @@ def share_scale(panels: Panels) -> None:
     shown = [panel for panel in panels.axes.flat if panel.get_visible()]
     ends = np.array([panel.dataLim.get_points() for panel in shown])
     limits = np.stack([ends.min(axis=(0, 1)), ends.max(axis=(0, 1))], axis=-1)
+    spans = limits[:, 1] - limits[:, 0]
+    # Panels of long and narrow curves have room for the angles at them.
+    lacking = np.maximum(0.0, NARROWEST * spans[::-1] - spans)
+    limits += 0.5 * np.stack([-lacking, lacking], axis=-1)
     columns = panels.axes.shape[1]
     for place, panel in enumerate(shown):
         panel.set(xlim=limits[0], ylim=limits[1])
