@@ -162,9 +162,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "star": lambda **place: FITTED.plot(kind="star", **place),
     "side": lambda **place: FITTED.plot(kind="side", theta_deg=30, **place),
     "firing": lambda **place: V8.firing().plot(**place),
-    "star-diagram": lambda **place: cp.star_diagram(cp.Engine.preset("v6-90-odd-fire")).plot(
-        **place
-    ),
+    "star-diagram": lambda **place: cp.star_diagram(cp.Engine.preset("i5")).plot(**place),
     "phasors": lambda **place: V8.balance(5000).plot(kind="phasors", **place),
     "balance-shafts": lambda **place: cp.balance_shafts(I4, [-2, 2]).plot(
         quantity="force", **place

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import crankpin as cp
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 from matplotlib.patches import FancyArrowPatch
 
 if TYPE_CHECKING:
@@ -55,8 +56,43 @@ def test_a_sum_that_vanishes_has_no_arrow() -> None:
     assert "sum 0, proved" in titled(ax)
 
 
-def test_the_first_order_that_remains_is_drawn() -> None:
-    assert "order 1.5" in titled(ODD.plot())
-    assert "order 3" in titled(cp.star_diagram(cp.Engine.preset("i6")).plot())
+def test_every_star_has_a_panel_that_names_its_orders() -> None:
+    panels = [panel for panel in MODE.plot().flat if panel.get_visible()]
+    assert [titled(panel).split("\n")[0] for panel in panels] == [
+        "order 0.5",
+        "order 1.5",
+        "order 3",
+    ]
+    for panel, order in zip(panels, MODE.orders, strict=True):
+        vectors = MODE.vectors[MODE.orders.index(order)] / max(SHAPE)
+        np.testing.assert_allclose(
+            np.sort_complex(tips(panel)), np.sort_complex(vectors), atol=1e-12
+        )
+    # Directions of an even-firing inline-6 repeat after three orders.
+    panels = list(cp.star_diagram(cp.Engine.preset("i6")).plot().flat)
+    assert [" ".join(titled(panel).split()) for panel in panels] == [
+        "orders 0.5, 3.5, 6.5, 9.5 sum 0, proved",
+        "orders 1, 4, 7, 10 sum 0, proved",
+        "orders 1.5, 4.5, 7.5, 10.5 sum 0, proved",
+        "orders 2, 5, 8, 11 sum 0, proved",
+        "orders 2.5, 5.5, 8.5, 11.5 sum 0, proved",
+        "orders 3, 6, 9, 12 major: sum 6 of 6",
+    ]
+
+
+def test_stars_that_have_no_room_are_named() -> None:
+    panels = ODD.plot()
+    assert panels.size == 12
+    title = panels[0, 0].get_figure(root=True).get_suptitle()
+    assert "not shown: orders 6.5, 7, 7.5, 8, 8.5, 9, 9.5, 10, 10.5, 11, 11.5, 12" in title
+
+
+def test_on_given_axes_the_first_order_that_remains_is_drawn() -> None:
+    assert "order 1.5" in titled(ODD.plot(plt.subplots()[1]))
+    assert "order 3" in titled(cp.star_diagram(cp.Engine.preset("i6")).plot(plt.subplots()[1]))
+    with pytest.raises(cp.InputError, match="ax and figure cannot be combined"):
+        ODD.plot(plt.subplots()[1], figure=plt.figure())
+    with pytest.raises(cp.InputError, match="figure"):
+        ODD.plot(order=1.5, figure=plt.figure())
     with pytest.raises(cp.InputError, match="order = 13: choose from orders"):
         ODD.plot(order=13)

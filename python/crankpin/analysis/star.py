@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order, Orders
@@ -136,21 +137,30 @@ class StarDiagram(Keyed, Tabled):
         self,
         ax: Axes | None = None,
         *,
+        figure: FigureBase | None = None,
         order: Order | None = None,
         **style: Any,  # noqa: ANN401 - of matplotlib's lines
-    ) -> Axes:
-        """Draw the vectors of an order from the centre, with their sum; return the axes.
+    ) -> Axes | NDArray[Any]:
+        """Draw the vectors of the orders from the centre, with their sums.
+
+        A panel for each star: orders whose vectors are the same share one.
 
         Parameters
         ----------
         ax
-            Axes to draw on; by default new ones.
+            Axes to draw one order on: the first whose sum remains and which is no major order.
+        figure
+            Figure or SubFigure for the panels; by default a new one.
         order
-            One of ``orders``; by default the first whose sum remains and which is no major order.
+            One of ``orders``, to draw it alone.
         **style
             Passed on to the vectors, such as ``color=``.
+
+        Returns
+        -------
+        The axes; of several panels an array of them.
         """
-        return draw(self, ax, order=order, **style)  # type: ignore[no-any-return]
+        return draw(self, ax, figure=figure, order=order, **style)  # type: ignore[no-any-return]
 
 
 def star_diagram(

@@ -22,16 +22,19 @@ from crankpin.plot.layout import (
     add_figure_legend,
     add_legend,
     axes_or_new,
+    check_one_place,
     inches_of,
     label_x,
     label_y,
     make_panels,
     note_zero,
     points_of,
+    reject_figure,
     set_figure_title,
     set_panel_title,
     set_title,
 )
+from crankpin.plot.plane import make_plane_panels
 from crankpin.plot.shapes import listed, outside
 from crankpin.plot.style import colours, foreground, muted, write
 from crankpin.plot.words import drawn_quantity, nonzero_in, number, rounded
@@ -251,26 +254,69 @@ DIRECTIONS = 9
 """Decimals to which vectors of one direction agree."""
 
 
+NUMBERED = 1.4
+"""Limit of a panel's axes, in radii of its star: numbers of cylinders stand within."""
+MOST_STARS = 12
+"""Number of panels: the stars of an even-firing four-stroke with as many cylinders."""
+
+
 @picture.register(StarDiagram)
 def _star(
     result: StarDiagram,
     ax: Axes | None = None,
     *,
+    figure: Any = None,  # noqa: ANN401 - checked
     order: Order | None = None,
     **style: Any,  # noqa: ANN401
-) -> Axes:
-    shown = _shown(result) if order is None else inputs.order(order)
-    vectors = result.vectors[result._place(shown)]
-    total, longest = result[shown], float(np.abs(vectors).max(initial=0.0))
-    ax = axes_or_new(ax)
+) -> Any:  # noqa: ANN401 - axes, or an array of axes
+    check_one_place(ax, figure)
+    looks = {"color": None, "linewidth": 1.5} | style
+    if ax is not None or order is not None:
+        if figure is not None:
+            reject_figure(figure, "star")
+        shown = _shown(result) if order is None else inputs.order(order)
+        ax = axes_or_new(ax)
+        handles = _vectors(ax, result, shown, looks)
+        set_title(ax, labels.name_of(result.engine), f"order {shown}, {_finding(result, shown)}")
+        add_legend(ax, handles=handles)
+        return ax
+    stars = _distinct(result)
+    panels = make_plane_panels(figure, len(stars[:MOST_STARS]))
+    handles = []
+    for panel, orders in zip(panels.axes.flat, stars, strict=False):
+        found = _vectors(panel, result, orders[0], looks)
+        handles = max(handles, found, key=len)
+        # The numbers of many cylinders must not take the room of the stars.
+        panel.set(xlim=(-NUMBERED, NUMBERED), ylim=(-NUMBERED, NUMBERED))
+        for text in panel.texts:
+            text.set_fontsize("x-small")
+        set_panel_title(panel, labels.orders_text(orders), _finding(result, orders[0]))
+    rest = sorted(order for orders in stars[MOST_STARS:] for order in orders)
+    note = f"not shown: {labels.orders_text(rest)}" if rest else ""
+    panels.set_title(labels.name_of(result.engine), result.firing.summary, note)
+    panels.add_legend(handles)
+    return panels.drawn
+
+
+def _distinct(result: StarDiagram) -> list[list[Order]]:
+    """Return the orders whose vectors are the same, as after as many orders as turns apart."""
+    found: dict[bytes, list[Order]] = {}
+    for order, vectors in zip(result.orders, result.vectors, strict=True):
+        found.setdefault((np.round(vectors, DIRECTIONS) + 0.0).tobytes(), []).append(order)
+    return list(found.values())
+
+
+def _vectors(ax: Axes, result: StarDiagram, order: Order, looks: dict[str, Any]) -> list[Line2D]:
+    """Draw the vectors of an order and their sum; return the entries of a legend."""
+    vectors = result.vectors[result._place(order)]
+    total, longest = result[order], float(np.abs(vectors).max(initial=0.0))
     ax.set_aspect("equal")
     ax.set(xticks=[], yticks=[], xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), frame_on=False)
     ax.add_patch(Circle((0.0, 0.0), 1.0, fill=False, color=muted(ax, 0.35), linewidth=0.8))
-    set_title(ax, labels.name_of(result.engine), f"order {shown}, {_finding(result, shown)}")
     if not longest:
         note_zero(ax)
-        return ax
-    looks = {"color": colours(ax, 1)[0], "linewidth": 1.5} | style
+        return []
+    looks = looks | {"color": looks["color"] or colours(ax, 1)[0]}
     rays: dict[complex, list[int]] = {}
     for cylinder, vector in enumerate(vectors.tolist(), start=1):
         if abs(vector) > NOTHING * longest:
@@ -288,11 +334,10 @@ def _star(
     handles = [Line2D([], [], color=looks["color"], linewidth=1.5, label="cylinders")]
     if total:
         arrow(ax, 0j, total / size, 0j, color=muted(ax, 0.5), linewidth=SUM, zorder=0.9)
-        share = f"sum, {rounded(100.0 * abs(total) / size)} % of all lengths"
-        handles.append(Line2D([], [], color=muted(ax, 0.5), linewidth=SUM, label=share))
+        label = "sum, over that of all lengths"
+        handles.append(Line2D([], [], color=muted(ax, 0.5), linewidth=SUM, label=label))
     ax.plot([0.0], [0.0], marker="o", markersize=4.0, color=foreground(ax), zorder=4)
-    add_legend(ax, handles=handles)
-    return ax
+    return handles
 
 
 def _shown(result: StarDiagram) -> Order:
@@ -303,8 +348,8 @@ def _shown(result: StarDiagram) -> Order:
 
 
 def _finding(result: StarDiagram, order: Order) -> str:
-    if order in result.major:
-        return f"major: sum {rounded(abs(result[order]), 4)}"
     if result.verdicts[order] == "vanishes":
         return "sum 0, proved"
-    return f"sum {rounded(abs(result[order]), 4)}"
+    size = float(np.abs(result.mode_shape).sum())
+    text = f"sum {rounded(abs(result[order]), 4)} of {rounded(size, 4)}"
+    return f"major: {text}" if order in result.major else text
