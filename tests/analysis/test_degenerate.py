@@ -76,3 +76,30 @@ def test_a_waveform_keeps_what_is_more_than_rounding(heavier: float) -> None:
     # The bound of what counts as zero: (6 + 24)ε times Σ(|z| + |z₀|), twelve times the lever.
     bound = 30 * 12 * 2.3e-16
     assert moment == pytest.approx(-lever * heavier * alone, abs=bound * abs(lever * alone).max())
+
+
+def signs_of_zeros(values: np.ndarray) -> np.ndarray:
+    """Signs of the parts that are zero."""
+    parts = np.ascontiguousarray(values).view(np.float64)
+    return np.signbit(parts[parts == 0.0])
+
+
+@pytest.mark.parametrize("name", ["i4", "v6-60", "single"])
+@pytest.mark.parametrize("fired", [False, True])
+def test_zeros_at_rest_are_above_zero(name: str, fired: bool) -> None:
+    engine = cp.Engine.preset(name)
+    engine = engine.with_cycle(cp.Cycle.example()) if fired else engine
+    zeros = list[np.ndarray]()
+    for result in (engine.balance(0), cp.sweep(engine, [0, 1000])):
+        for quantity in ("force", "moment"):
+            arrays = (result.read(quantity, what) for what in ("phasors", "forward", "backward"))
+            zeros += map(signs_of_zeros, arrays)
+        parts = ("torque", "crank_torque", "torque.inertia", "torque.gas")
+        zeros += (signs_of_zeros(result.read(part, "phasors")) for part in parts)
+    loads = cp.bearing_loads(engine, 0)
+    for load in ("main", "crankpin", "wrist_pin", "side_thrust", "rod_force", "gas_force"):
+        zeros.append(signs_of_zeros(loads.read(load)))
+    zeros += (signs_of_zeros(loads.turned(load)) for load in ("main", "crankpin", "wrist_pin"))
+    piston = engine.cylinders[0]
+    zeros += (signs_of_zeros(of([0, 90, 180], 0)) for of in (piston.velocity, piston.acceleration))
+    assert not np.concatenate(zeros).any()

@@ -314,7 +314,7 @@ class Cylinder:
         >>> float(cp.Cylinder(0.05, 0.15, 0.5).velocity(90, rpm=6000).round(3))
         -31.416
         """
-        return self._motion(theta_deg, 1) * inputs.angular_speed(rpm)
+        return self._motion(theta_deg, 1) * inputs.angular_speed(rpm) + 0.0  # makes −0 0
 
     def acceleration(self, theta_deg: ArrayLike, rpm: float) -> NDArray[np.float64]:
         """Return the piston's acceleration along the bore, away from the crank, m/s².
@@ -334,7 +334,7 @@ class Cylinder:
         >>> float(cp.Cylinder(0.05, 0.15, 0.5).acceleration(0, rpm=6000).round(1))
         -26318.9
         """
-        return self._motion(theta_deg, 2) * inputs.angular_speed(rpm) ** 2
+        return self._motion(theta_deg, 2) * inputs.angular_speed(rpm) ** 2 + 0.0
 
     def harmonics(self, orders: Orders) -> NDArray[np.complex128]:
         """Return the harmonics aₙ of the inertia force, exact, complex, (n_orders,).

@@ -76,7 +76,8 @@ impl Planar {
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
-            forward: self.forward * factor,
+            // Adding zero makes −0, of a part below zero at rest, 0.
+            forward: self.forward * factor + Complex64::default(),
             backward_conj: self.backward_conj * factor,
             size: self.size * factor,
         }
@@ -135,7 +136,9 @@ impl Torque {
     /// The torques times a real factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        Self { roll: self.roll * factor, crank: self.crank * factor, size: self.size * factor }
+        // As of vectors.
+        let [roll, crank] = [self.roll, self.crank].map(|t| t * factor + Complex64::default());
+        Self { roll, crank, size: self.size * factor }
     }
 
     /// The larger of the two.

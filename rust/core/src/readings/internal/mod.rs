@@ -254,7 +254,9 @@ impl Internal {
                 let pairs = values[2 * range.start..2 * range.end].chunks_exact_mut(2);
                 for (k, pair) in pairs.enumerate() {
                     let axis = rod.axis(&units.crank(rod.phase, k), axes);
-                    let seen = Complex64::new(pair[0], pair[1]) * axis.conj();
+                    // Adding zero makes −0 0.
+                    let seen =
+                        Complex64::new(pair[0], pair[1]) * axis.conj() + Complex64::default();
                     pair.copy_from_slice(&[seen.re, seen.im]);
                 }
             }

@@ -201,11 +201,12 @@ impl RodColumns {
             let pairs =
                 [(&mut self.crankpin, forces.crankpin), (&mut self.wrist_pin, forces.wrist_pin)];
             for ([x, y], [u, w]) in pairs {
-                x[k] = rod.bore.re * u - rod.bore.im * w;
-                y[k] = rod.bore.im * u + rod.bore.re * w;
+                // Adding zero makes −0 0.
+                x[k] = rod.bore.re * u - rod.bore.im * w + 0.0;
+                y[k] = rod.bore.im * u + rod.bore.re * w + 0.0;
             }
-            self.across[k] = forces.across;
-            self.compression[k] = forces.compression;
+            self.across[k] = forces.across + 0.0;
+            self.compression[k] = forces.compression + 0.0;
         }
     }
 }

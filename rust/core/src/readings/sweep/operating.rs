@@ -199,7 +199,8 @@ impl<T: Number> Operating<'_, T> {
         } else {
             let square = sweep.squares[place.speed];
             let row = &self.inertia[place.row * width..][..width];
-            out.iter_mut().zip(row).for_each(|(out, &value)| *out = value * square);
+            // Adding zero makes −0 0.
+            out.iter_mut().zip(row).for_each(|(out, &value)| *out = value * square + T::default());
         }
         if self.gas.is_empty() {
             return;
