@@ -15,7 +15,6 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
-from crankpin.model import checks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,14 +39,9 @@ SUMS = {
 """Sums of one order (quantity and component), as the core counts them → heads of columns."""
 
 
-def vanishing_orders(
-    engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
-) -> VanishingOrders:
+def vanishing_orders(engine: Engine, orders: Orders = range(1, 13)) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
-    listed = tuple(inputs.explicit_half_orders(orders))
-    plane = inputs.optional_number("reference_z", reference_z)
-    checks.place(engine_core(engine), "reference_z", plane)
-    return VanishingOrders(engine, listed, plane)
+    return VanishingOrders(engine, tuple(inputs.explicit_half_orders(orders)))
 
 
 class Verdicts(Keyed, Tabled):
@@ -195,8 +189,6 @@ class VanishingOrders(Tabled):
     """The engine."""
     orders: tuple[Order, ...]
     """Multiples of crank speed."""
-    plane: float | None
-    """The reference plane that was given, m, or None."""
     vanishes: NDArray[np.bool_] = field(init=False, compare=False)
     """True where a sum is proved to be zero: (n_orders, 10)."""
     remains: NDArray[np.bool_] = field(init=False, compare=False)
@@ -214,7 +206,7 @@ class VanishingOrders(Tabled):
             # An engine with cycles knows its firing; at whole orders a turn changes nothing.
             firing = fires.firing(self.engine, None, None)._core
         halves = [round(2 * order) for order in self.orders]
-        vanishes, remains, within, obstacles = _core.vanishing(core, halves, self.plane, firing)
+        vanishes, remains, within, obstacles = _core.vanishing(core, halves, None, firing)
         self.__dict__.update(
             vanishes=vanishes,
             remains=remains,
@@ -231,7 +223,7 @@ class VanishingOrders(Tabled):
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        return self.engine.reference_z if self.plane is None else self.plane
+        return self.engine.reference_z
 
     @property
     def force(self) -> Verdicts:
