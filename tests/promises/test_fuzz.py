@@ -78,7 +78,7 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
         assert label in labels
     for label in ("Engine.from_lists", "v6.balance", "sweep.to_pandas", "balance.plot", "i4.save"):
         assert label in labels
-    for label in ("rank", "ranking.description", "ranking.plot"):
+    for label in ("rank", "ranking.to_pandas", "ranking.plot"):
         assert label in labels
 
 

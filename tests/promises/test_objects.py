@@ -133,7 +133,7 @@ def figures(value: Any) -> dict[str, Any]:
     """Public figures of an object, by name; without those that a spectrum leaves unknown."""
     found = {}
     for name in dir(value):
-        if name in ("_", "core", "result") or name.startswith("_"):
+        if name in ("_", "result") or name.startswith("_"):
             continue
         if callable(getattr(type(value), name, None)):
             continue

@@ -195,7 +195,7 @@ class Balance(ByOrder, Tabled):
         if self.request.pairs is not None:
             return table
         engine = self.engine.replace(reference_z=self.reference_z)
-        return f"{table}{Explanation(engine, self.rpm).html(most=EXPLAINED)}"
+        return f"{table}{Explanation(engine, self.rpm).html(count=EXPLAINED)}"
 
     def plot(
         self,

@@ -82,10 +82,10 @@ class Explanation(Record):
     def _repr_html_(self) -> str:
         return self.html()
 
-    def html(self, most: int | None = None) -> str:
+    def html(self, count: int | None = None) -> str:
         """Return all sentences, or the first that are about force and moment, as a list in HTML."""
-        found = self._found() if most is None else filter(_of_planes, self._found())
-        items = (html.escape(each) for each in self._said(itertools.islice(found, most)))
+        found = self._found() if count is None else filter(_of_planes, self._found())
+        items = (html.escape(each) for each in self._said(itertools.islice(found, count)))
         return f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>"
 
     def _said(self, findings: Iterable[Finding]) -> list[str]:

@@ -158,7 +158,7 @@ class Sums:
 
     def _pairs(self, k: int) -> tuple[tuple[int, ...], ...] | None:
         """Return pairs of cylinders that cancel: of one bank, or moments at opposite levers."""
-        bank, z = np.array(self.engine.core.bank), self.engine.z - self.engine.reference_z
+        bank, z = np.array(self.engine._core.bank), self.engine.z - self.engine.reference_z
         far = np.abs(z[:, None] + z) if self.name == "moment" else bank[:, None] != bank
         free = [
             one for one in range(len(z))

@@ -78,7 +78,7 @@ class Firing(Tabled):
     @cached_property
     def _core(self) -> _core.Firing:
         later = [bool(turn) for turn in self.revolutions]
-        return _core.Firing.with_later(self.engine.core, self.strokes, later)
+        return _core.Firing.with_later(self.engine._core, self.strokes, later)
 
     # --- when -----------------------------------------------------------------------------------
 
@@ -316,11 +316,11 @@ def firing(engine: Engine, firing_order: str | Iterable[int] | None, strokes: in
     """Return the way of a fired engine, or the most even in an order; see :meth:`Engine.firing`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
     if firing_order is None and engine.fired and count == engine.strokes:
-        for way in _core.Firing.all_named(engine.core, text, count):
+        for way in _core.Firing.all_named(engine._core, text, count):
             turns = ((way.angles_deg - engine.firing_deg) / 360.0).round() % 2.0
             if not np.ptp(turns):
                 return Firing._of(way, engine)
-    return Firing._of(_core.Firing.named(engine.core, text, count), engine)
+    return Firing._of(_core.Firing.named(engine._core, text, count), engine)
 
 
 def firings(
@@ -329,14 +329,14 @@ def firings(
     """Return every way to fire in an order; see :meth:`Engine.firings`."""
     text, count = _order_and_strokes(engine, firing_order, strokes)
     return tuple(
-        Firing._of(each, engine) for each in _core.Firing.all_named(engine.core, text, count)
+        Firing._of(each, engine) for each in _core.Firing.all_named(engine._core, text, count)
     )
 
 
 def firing_orders(engine: Engine, strokes: int | None) -> tuple[Firing, ...]:
     """Return every way to fire; see :meth:`Engine.firing_orders`."""
     count = engine.strokes if strokes is None else inputs.strokes(strokes)
-    return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine.core, count))
+    return tuple(Firing._of(each, engine) for each in _core.Firing.all(engine._core, count))
 
 
 def throws(

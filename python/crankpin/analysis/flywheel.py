@@ -123,7 +123,7 @@ def flywheel(
     engine = drive if isinstance(drive, Engine) else None
     if engine is not None:
         torque = _of_gas(engine, inputs.number("rpm", rpm), period_deg)
-        checks.flywheel(engine.core, inputs.optional_number("inertia", inertia) or 0.0)
+        checks.flywheel(engine._core, inputs.optional_number("inertia", inertia) or 0.0)
     else:
         torque = _diagram("drive", drive, period_deg)
     against = None if load is None else _diagram("load", load, None)
@@ -148,7 +148,7 @@ def flywheel(
     (speed, moving, of_inertia), figures = grid.speed(
         torque.at(nodes),
         np.zeros(nodes.shape) if against is None else against.at(nodes),
-        None if engine is None else engine.core,
+        None if engine is None else engine._core,
         inputs.number("rpm", rpm),
         inputs.optional_number("inertia", inertia),
         0.0 if irregularity is None else inputs.number("irregularity", irregularity),

@@ -120,7 +120,7 @@ def assumed_bores(engine: Engine) -> NDArray[np.float64]:
     Those given; a bore that is not known is as wide as the stroke is long, but at most 0.9 of the
     distance to the next cylinder of the bank, and at least 0.6 of the stroke.
     """
-    banks = np.array(engine.core.bank)
+    banks = np.array(engine._core.bank)
     cylinders = engine.cylinders
     bores = np.array([cylinder.bore or cylinder.stroke for cylinder in cylinders])
     for k, z in enumerate(engine.z):

@@ -119,7 +119,7 @@ def check_request(request: object, maker: str) -> Request:
 
 def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
-    core = getattr(engine, "core", None)
+    core = getattr(engine, "_core", None)
     if not isinstance(core, _core.Engine):
         raise inputs.rejected(name, engine, ENGINE_HINT)
     return core

@@ -156,7 +156,7 @@ def _engine(
         cylinder or base.cylinder, spacing, **changes | ({"firing_order": ""} if known else {})
     )
     if known and len(engine) == order.replace("+", "-").count("-") + 1:
-        engine = engine.replace(firing_order=allowed(engine.core, order, engine.strokes))
+        engine = engine.replace(firing_order=allowed(engine._core, order, engine.strokes))
     if not engine.firing_order:
         notes.append(f'No firing order is known: "{PROG} firing" lists those of the crank.')
     if len({*engine.z.tolist()}) == 1:

@@ -169,7 +169,7 @@ def place(core: _core.Engine, name: str, *at: float | None, middle: float | None
 
 def masses(engine: Engine, **given: float) -> None:
     """Warn of masses of one cylinder's parts, by the names of their arguments, in grams."""
-    _report(_grams(engine.core.largest_crank_radius, given))
+    _report(_grams(engine._core.largest_crank_radius, given))
 
 
 def oil(mass: float, beside: float) -> None:

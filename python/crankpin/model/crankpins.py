@@ -60,7 +60,7 @@ def throws(engine: Engine) -> list[list[Crankpin]]:
     """
     return [
         [Crankpin(tuple(cylinders), pin_deg, z) for cylinders, pin_deg, z in throw]
-        for throw in engine.core.throws()
+        for throw in engine._core.throws()
     ]
 
 
@@ -72,8 +72,8 @@ def crankpins(engine: Engine) -> tuple[Crankpin, ...]:
 
 def bays(engine: Engine) -> tuple[Bay, ...]:
     """Return the bays with throws from front to flywheel; those at one place are one throw."""
-    places, found = engine.core.throw_places(), []
-    for front, rear in pairwise(engine.core.bearings):
+    places, found = engine._core.throw_places(), []
+    for front, rear in pairwise(engine._core.bearings):
         between = [(z, numbers) for z, numbers in places if front < z < rear]
         if between:
             cylinders = tuple(sorted(number for _, numbers in between for number in numbers))

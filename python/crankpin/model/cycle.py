@@ -95,11 +95,17 @@ class Cycle(Tabled, ComputedCycles):
                     f"{len(self.theta_deg)}, or leave it out"
                 )
             object.__setattr__(self, "degree", degree)
-        if len(self.core):
+        if len(self._core):
             checks.pressure(self.pressure)
 
+    @classmethod
+    def _of(cls, core: _core.Cycle) -> Self:
+        """Return the cycle of what the core has."""
+        theta_deg, pressure, strokes, name, degree = core.points
+        return cls(theta_deg, pressure, strokes, name, degree)
+
     @functools.cached_property
-    def core(self) -> _core.Cycle:
+    def _core(self) -> _core.Cycle:
         """Points as the core takes them, checked."""
         return _core.Cycle(self.theta_deg, self.pressure, self.strokes, self.name, self.degree)
 
@@ -175,12 +181,6 @@ class Cycle(Tabled, ComputedCycles):
         """
         cycle_files.save(self, path)
 
-    @classmethod
-    def _of(cls, core: _core.Cycle) -> Self:
-        """Return the cycle of what the core has."""
-        theta_deg, pressure, strokes, name, degree = core.points
-        return cls(theta_deg, pressure, strokes, name, degree)
-
     @property
     def period_deg(self) -> float:
         """720° or 360°."""
@@ -194,7 +194,7 @@ class Cycle(Tabled, ComputedCycles):
             return f"{panels} polynomials of degree {self.degree}"
         steps = np.diff(self.theta_deg)
         steps = steps[steps > 0.0]
-        if not (closed := self.core.is_closed):
+        if not (closed := self._core.is_closed):
             steps = np.append(steps, self.period_deg - float(np.ptp(self.theta_deg)))
         least, most = float(steps.min()), float(steps.max())
         even = most - least <= EVEN * most
@@ -215,7 +215,7 @@ class Cycle(Tabled, ComputedCycles):
         array of the shape of ``theta_deg``
         """
         theta = inputs.array("theta_deg", theta_deg)
-        return self.core.pressure(theta.ravel()).reshape(theta.shape)
+        return self._core.pressure(theta.ravel()).reshape(theta.shape)
 
     def work(self, cylinder: Cylinder) -> float:
         """Return the indicated work of a cycle, ∮p dV, J.
@@ -247,7 +247,7 @@ class Cycle(Tabled, ComputedCycles):
             Cylinder with a bore.
         """
         scale = area(cylinder) * cylinder.crank_radius
-        return self.core.torque(cylinder._parts, ATMOSPHERE, [])[0] * scale
+        return self._core.torque(cylinder._parts, ATMOSPHERE, [])[0] * scale
 
     def torque_harmonics(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
@@ -281,7 +281,7 @@ class Cycle(Tabled, ComputedCycles):
         halves = [round(2 * each) for each in inputs.explicit_half_orders(orders)]
         scale = area(cylinder) * cylinder.crank_radius
         pressure = inputs.number("crankcase", crankcase)
-        return self.core.torque(cylinder._parts, pressure, halves)[1] * scale
+        return self._core.torque(cylinder._parts, pressure, halves)[1] * scale
 
     def resolution_error(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
@@ -310,7 +310,7 @@ class Cycle(Tabled, ComputedCycles):
         if self.degree is not None:
             return error
         for from_second in (False, True):
-            half = self.core.thinned(from_second)
+            half = self._core.thinned(from_second)
             if half is None:
                 count = len(self.theta_deg)
                 raise InputError(f"theta_deg has {count} points: give more for an error bound")

@@ -89,7 +89,7 @@ class CycleMap(Tabled):
         by_speed = _weights("rpm", self.rpm, inputs.number("rpm", rpm))
         by_load = _weights("load", self.load, inputs.number("load", load))
         parts = [
-            (float(w * v), self.cycles[k][j].core)
+            (float(w * v), self.cycles[k][j]._core)
             for k, w in enumerate(by_speed)
             for j, v in enumerate(by_load)
             if w * v

@@ -90,11 +90,6 @@ class EngineData:
     # --- lists ----------------------------------------------------------------------------------
 
     @property
-    def core(self) -> _CoreEngine:
-        """Compiled counterpart of the engine; private to crankpin."""
-        return self._core
-
-    @property
     def name(self) -> str:
         """Name of the engine; may be empty.
 
@@ -478,7 +473,7 @@ class EngineData:
         for k, one in enumerate(each):
             if not (one is None or isinstance(one, Cycle)):
                 raise inputs.rejected(f"cycle[{k}]", one, hint)
-        cores = [None if one is None else one.core for one in each]
+        cores = [None if one is None else one._core for one in each]
         below = inputs.number("crankcase", crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
@@ -512,15 +507,15 @@ class EngineData:
         order = allowed(core, self.firing_order, self.strokes)
         return type(self)(core if order else core.firing_as("", self.strokes))
 
-    def with_first_tdc(self, tdc_deg: Angle) -> Self:
+    def with_first_tdc(self, first_tdc_deg: Angle) -> Self:
         """Return the same engine, its crank turned so that cylinder 1 is at TDC at this angle.
 
         Parameters
         ----------
-        tdc_deg
+        first_tdc_deg
             Crank angle, degrees.
         """
-        return type(self)(self._core.with_first_tdc(inputs.angle("tdc_deg", tdc_deg)))
+        return type(self)(self._core.with_first_tdc(inputs.angle("first_tdc_deg", first_tdc_deg)))
 
     # --- files ----------------------------------------------------------------------------------
 

@@ -173,7 +173,7 @@ def radius_of_amounts(engine: Engine, amounts: Sequence[float]) -> list[float]:
 
 def crank_radius(engine: Engine) -> float:
     """Return the largest crank radius, m."""
-    return engine.core.largest_crank_radius
+    return engine._core.largest_crank_radius
 
 
 def by_direction(weights: Iterable[Weight]) -> dict[complex, float]:

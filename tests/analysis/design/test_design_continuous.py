@@ -58,7 +58,7 @@ def merit(asked: Question, by: str) -> tuple[Family, _core.Merit]:
     (base,) = engines_of(dataclasses.replace(asked, shafts=()), [family.base])
     turns = [each.turns(asked.banks, asked.count) for each in family.variables]
     listed = [(each.quantity, each.what, each.order) for each in objectives.listed(by)]
-    return family, _core.Merit(base.core, turns, listed, list(range(1, 13)), asked.shafts)
+    return family, _core.Merit(base._core, turns, listed, list(range(1, 13)), asked.shafts)
 
 
 def points(family: Any, count: int) -> list[list[Fraction]]:  # noqa: ANN401

@@ -192,7 +192,7 @@ class ArrangementSearch(Record):
     array([0.])
     """
 
-    core: _core.Search = dataclasses.field(compare=False)
+    _search: _core.Search = dataclasses.field(compare=False)
     """Compiled counterpart."""
     cylinders: int
     """Number of cylinders of the vee."""
@@ -210,7 +210,7 @@ class ArrangementSearch(Record):
     """The progress bar, as given."""
 
     def __post_init__(self) -> None:
-        core: object = self.core
+        core: object = self._search
         if not isinstance(core, _core.Search):
             hint = "use crankpin.search_arrangements"
             raise InputError(f"ArrangementSearch({inputs.shorten(core)}): {hint}")
@@ -218,22 +218,22 @@ class ArrangementSearch(Record):
     @property
     def candidates(self) -> int:
         """Pairs of bank arrangements that were searched."""
-        return self.core.candidates
+        return self._search.candidates
 
     @property
     def qualifying(self) -> int:
         """Pairs with a balanced bank angle, a bank with itself included; at any bank angle."""
-        return self.core.qualifying
+        return self._search.qualifying
 
     @property
     def balanced(self) -> int:
         """Pairs without any first-order moment, balanced at every bank angle."""
-        return self.core.balanced
+        return self._search.balanced
 
     @cached_property
     def _angles(self) -> _core.BankAngles:
         with progress_bar.shown(self.progress, f"V{self.cylinders} bank angles") as told:
-            return _core.BankAngles(self.core, self.window_deg, told)
+            return _core.BankAngles(self._search, self.window_deg, told)
 
     @cached_property
     def bank_angles_deg(self) -> NDArray[np.float64]:

@@ -193,7 +193,7 @@ class Part(NamedTuple):
 def _counterweights(engine: Engine, z: tuple[float, ...], rpm: float) -> tuple[Unbalance, ...]:
     """Return counterweights at places z that remove the forward part of order 1."""
     # As a shaft that turns with the crank, on its axis.
-    ((_, weights, _),), _ = _core.fit_shafts(engine.core, [(1, (0.0, 0.0), z, "both")], rpm)
+    ((_, weights, _),), _ = _core.fit_shafts(engine._core, [(1, (0.0, 0.0), z, "both")], rpm)
     return tuple(map(unbalance_of, weights))
 
 
@@ -232,7 +232,7 @@ def balancer_sets(
             (each.shaft.ratio, places.get(each.shaft.ratio, (None, None)), None, each.remove)
             for each in chosen
         ]
-        fitted, _ = _core.fit_shafts(engine.core, wanted, rpm)
+        fitted, _ = _core.fit_shafts(engine._core, wanted, rpm)
         shafts = tuple(
             dataclasses.replace(each.shaft, x=x, y=y)
             for each, ((x, y), *_) in zip(chosen, fitted, strict=True)

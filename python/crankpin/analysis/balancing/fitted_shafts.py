@@ -141,7 +141,7 @@ class BalanceShafts(Listed[Shaft], Tabled):
             ]
             if _is_a_pair(pair):
                 forces = dict(pair)
-                torque = _core.roll_torque(self.engine.core, order, self.rpm)
+                torque = _core.roll_torque(self.engine._core, order, self.rpm)
                 difference, right, up = _core.pair_heights(forces[order], forces[-order], torque)
                 up_deg = round(math.degrees(up), 13)
                 found[order] = {"difference": difference, "right_sum": right, "up_deg": up_deg}

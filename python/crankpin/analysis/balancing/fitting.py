@@ -258,7 +258,7 @@ def bay_loads(engine: Engine) -> NDArray[np.complex128]:
 def bay_alone(engine: Engine, bay: Bay) -> Engine:
     """Return the cylinders of a bay with what rotates there: an engine of one throw, about it."""
     places = [number - 1 for number in bay.cylinders]
-    tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine.core.exact_angles)
+    tdc_deg, bank_deg = ([angles[k] for k in places] for angles in engine._core.exact_angles)
     return Engine.from_lists(
         [engine.cylinders[k] for k in places],
         tdc_deg=tdc_deg,

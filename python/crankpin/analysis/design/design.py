@@ -306,7 +306,7 @@ class Search:
         (engine,) = engines_of(question, [family.base])
         turns = [each.turns(question.banks, question.count) for each in family.variables]
         removed = self._question.shafts
-        return _core.Merit(engine.core, turns, self._smooth, self._totals, removed)
+        return _core.Merit(engine._core, turns, self._smooth, self._totals, removed)
 
     def _scales(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the largest value that each objective could have; of a function that it has."""

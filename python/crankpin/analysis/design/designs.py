@@ -164,7 +164,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
         """
         return draw(self, ax, count=count, **style)  # type: ignore[no-any-return]
 
-    def description(self, objectives: int | None = None) -> str:
+    def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, the speed and the balancers in words."""
         least = self._minimised(objectives, given=self.orders is not None)
         return ", ".join([least, labels.value_text("rpm", self.rpm), *self._balancers()])
@@ -194,7 +194,7 @@ class Designs(ByObjectives, Listed[Design], Tabled):
             row += [f"{each.bank_angle_deg:.8g}"] if each.bank_angle_deg is not None else []
             rows.append((*row, each.equivalents))
         values = np.array([each.values for each in designs]).reshape(-1, len(self.objectives))
-        title = f"Designs by {self.description()}"
+        title = f"Designs by {self._description()}"
         if len(designs) < self.optima:
             title += f"; {len(designs)} of {self.optima}"
         note = f"{NEARBY} other angles nearby are as good"

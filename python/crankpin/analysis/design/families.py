@@ -335,7 +335,7 @@ def _with_shafts(engine: Engine, ratios: tuple[int, ...]) -> Engine:
     first and the last throw: force and moment determine them.
     """
     wanted = [(ratio, (0.0, 0.0), ends(engine), "both") for ratio in ratios]
-    found, _ = _core.fit_shafts(engine.core, wanted, None)
+    found, _ = _core.fit_shafts(engine._core, wanted, None)
     return engine.with_shafts(
         Shaft(ratio, tuple(map(unbalance_of, weights)), name=f"of order {abs(ratio)}")
         for ratio, (_, weights, _) in zip(ratios, found, strict=True)

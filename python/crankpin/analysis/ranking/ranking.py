@@ -148,7 +148,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         """
         return draw(self, ax, **options)  # type: ignore[no-any-return]
 
-    def description(self, objectives: int | None = None) -> str:
+    def _description(self, objectives: int | None = None) -> str:
         """Return the objectives, all or the first few, and the speed in words."""
         least = self._minimised(objectives, given=self.sweep.request.orders is not None)
         return f"{least}, {labels.value_text('rpm', self.sweep.fixed['rpm'])}"
@@ -158,7 +158,7 @@ class Ranking(ByObjectives, Listed[Choice], Tabled):
         """Table that is shown: the choices, best first."""
         choices = self.choices
         parts = [
-            f"Ranked by {self.description()}",
+            f"Ranked by {self._description()}",
             *([labels.HELD[self.hold]] if self.hold else []),
         ]
         title = ", ".join(parts)

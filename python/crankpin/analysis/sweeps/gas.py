@@ -62,13 +62,13 @@ class GasMap(Record):
         """Return each engine with each cycle, load by load of one speed after the other."""
         shape = np.ndindex(len(self.first.rpm), len(self.first.load))
         of_cylinders = [
-            [None if each is None else each.cycles[k][j].core for each in self.maps]
+            [None if each is None else each.cycles[k][j]._core for each in self.maps]
             for k, j in shape
         ]
         return [
             core
             for engine in engines
-            for core in engine.core.with_cycles(
+            for core in engine._core.with_cycles(
                 [self._of_each(cycles, engine) for cycles in of_cylinders], self.crankcase
             )
         ]

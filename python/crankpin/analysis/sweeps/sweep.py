@@ -234,7 +234,7 @@ class Sweep(ByOrder, Tabled):
 
         As :attr:`Balance.error_bound`.
         """
-        return self.request.bounds(self.core.error_bound)
+        return self.request.bounds(self._core.error_bound)
 
     @property
     def fired(self) -> bool:
@@ -242,14 +242,14 @@ class Sweep(ByOrder, Tabled):
         return self.gas_map is not None or any(engine.fired for engine in self.engines)
 
     @property
-    def core(self) -> _core.Sweep:
+    def _core(self) -> _core.Sweep:
         """Compiled counterpart."""
         return self.__dict__["_core"]  # type: ignore[no-any-return]
 
     @property
     def mean_piston_speed(self) -> float:
         """Largest mean piston speed of any engine at any point, m/s."""
-        return self.core.mean_piston_speed
+        return self._core.mean_piston_speed
 
     @cached_property
     def dims(self) -> tuple[str, ...]:
@@ -304,9 +304,9 @@ class Sweep(ByOrder, Tabled):
     def _compute(self, quantity: str, what: str) -> NDArray[Any]:
         with progress_bar.shown(self.progress, f"{quantity}, {what}") as report:
             if what == "phasors":
-                return self.core.phasors(quantity, False, report)
+                return self._core.phasors(quantity, False, report)
             if what in labels.TURNING:
-                both = read_only(self.core.phasors(quantity, True, report))
+                both = read_only(self._core.phasors(quantity, True, report))
                 for k, part in enumerate(labels.TURNING):  # computed together
                     self._kept.setdefault((quantity, part), read_only(both[..., k]))
                 return self._kept[quantity, what]  # type: ignore[no-any-return]
@@ -318,7 +318,7 @@ class Sweep(ByOrder, Tabled):
                 "zero_bound": "zero bound",
                 "mean": "mean",
             }
-            return self.core.peaks(quantity, figures[what], report)
+            return self._core.peaks(quantity, figures[what], report)
 
     # --- points ---------------------------------------------------------------------------------
 

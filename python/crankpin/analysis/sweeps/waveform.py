@@ -60,7 +60,7 @@ class SweepWaveform(OverAngle, Record):
     """True for exact kinematics, False for the sum of orders."""
 
     def __post_init__(self) -> None:
-        if not hasattr(self.sweep, "core"):
+        if not hasattr(self.sweep, "_core"):
             raise InputError(f"SweepWaveform({inputs.shorten(self.sweep)}): use Sweep.waveform")
         theta = inputs.copied(inputs.vector("theta_deg", self.theta_deg))
         self.__dict__.update(theta_deg=theta, _angles=_core.CrankAngles(theta), _kept={})
@@ -143,7 +143,7 @@ class SweepWaveform(OverAngle, Record):
         name = inputs.one_of("quantity", quantity, KINDS)
         self.sweep.request.check(name)
         progress = progress_bar.checked(progress)
-        core = self.sweep.core
+        core = self.sweep._core
         shape = tuple(core.waveform_shape(name, len(self.theta_deg)))
         values = np.empty(shape) if out is None else inputs.output("out", out, shape)
         with progress_bar.shown(progress, "waveforms") as report:

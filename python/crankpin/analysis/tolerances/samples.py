@@ -31,6 +31,7 @@ from crankpin.analysis.tolerances.spreads import (
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
     from crankpin._support.inputs import Order
@@ -190,7 +191,7 @@ class Tolerances(ByOrder, Tabled):
     # --- arrays ---------------------------------------------------------------------------------
 
     @cached_property
-    def core(self) -> _core.Tolerances:
+    def _core(self) -> _core.Tolerances:
         """Compiled counterpart."""
         return _core.Tolerances(
             engine_core(self.engine),
@@ -211,7 +212,7 @@ class Tolerances(ByOrder, Tabled):
 
     def evaluate(self, progress: Progress = False) -> None:
         """Evaluate the samples now."""
-        core = self.core  # which checks the size of the result, before anything is drawn
+        core = self._core  # which checks the size of the result, before anything is drawn
         drawn = list(self._deviations.values())
         with progress_bar.shown(progress, "tolerances") as report:
             force, moment, torques, peaks = core.sample(self.samples, drawn, report)
@@ -394,12 +395,12 @@ class Tolerances(ByOrder, Tabled):
 
     def plot(
         self,
-        ax: Any = None,  # noqa: ANN401 - matplotlib's axes
+        ax: Axes | None = None,
         *,
         kind: str = "histogram",
         by: str | None = None,
         **style: Any,  # noqa: ANN401 - keywords of matplotlib
-    ) -> Any:  # noqa: ANN401
+    ) -> Axes:
         """Draw the distribution of a value, or the shares of the tolerances; return the axes.
 
         Parameters
@@ -414,7 +415,7 @@ class Tolerances(ByOrder, Tabled):
         **style
             Keywords of the histogram's, curve's or bars' artists, such as ``label`` and ``color``.
         """
-        return draw(self, ax, kind=kind, by=by, **style)
+        return draw(self, ax, kind=kind, by=by, **style)  # type: ignore[no-any-return]
 
     @property
     def table(self) -> Table:
