@@ -504,7 +504,7 @@ _Part: TypeAlias = tuple[_Fraction, _Fraction, int, _Fraction, _Fraction]
 _Coefficients: TypeAlias = tuple[list[int], list[int], list[int]]
 
 def closed_form(
-    engine: Engine, order: int, moment: bool
+    engine: Engine, order: int, moment: bool, reference_z: float | None
 ) -> tuple[int, float, bool, list[_Part], int, int, list[_Coefficients]]: ...
 def waveform(
     engine: Engine,

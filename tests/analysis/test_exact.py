@@ -160,9 +160,9 @@ def test_equal_steps_in_decimals_are_equal(spacing: float) -> None:
 def test_the_plane_of_reference_matters_where_a_force_is_left() -> None:
     i4 = cp.Engine.preset("i4")
     assert i4.vanishing_orders(2).moment.x[2] == "vanishes"
-    assert i4.replace(reference_z=0.0).vanishing_orders(2).moment.x[2] == "remains"
+    assert i4.vanishing_orders(2, reference_z=0.0).moment.x[2] == "remains"
     # No rational multiple of the spacing: still only one thing is left, the force times it.
-    assert i4.replace(reference_z=math.pi).vanishing_orders(2).moment.x[2] == "remains"
+    assert i4.vanishing_orders(2, reference_z=math.pi).moment.x[2] == "remains"
 
 
 def test_an_angle_that_is_no_part_of_a_turn_is_not_decided() -> None:

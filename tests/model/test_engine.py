@@ -368,7 +368,11 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: cp.sweep(I4, rpm=3000).about((0, 80, 0.15)),
         "^point = 80 m at",
     ),
-    "the plane of moments in mm": (lambda: I4.replace(reference_z=150), "^reference_z = 150 m"),
+    "the plane of proofs in mm": (
+        lambda: I4.vanishing_orders(reference_z=150),
+        "^reference_z = 150 m",
+    ),
+    "that of closed forms": (lambda: I4.closed_form(2, reference_z=150), "^reference_z = 150 m"),
     "a bound in g·mm": (
         lambda: cp.counterweights(I4, planes="ends", bound={"rear": 20_000}),
         r"^bound = 20000 kg·m at a crank radius of 0.043 m: was it given in g·mm or g·m",

@@ -404,7 +404,7 @@ def test_bob_weights_of_half_the_mass_remove_all_forward_parts_of_order_1(name: 
                 rtol=1e-12,
                 atol=getattr(before, quantity).zero_bound.max(),
             )
-        verdicts = balanced.replace(reference_z=reference_z).vanishing_orders([1])
+        verdicts = balanced.vanishing_orders([1], reference_z=reference_z)
         assert verdicts.force.forward[1] == "vanishes"
         assert verdicts.moment.forward[1] == "vanishes"
 

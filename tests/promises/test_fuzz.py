@@ -82,14 +82,14 @@ def test_fuzz_reaches_the_whole_public_surface() -> None:
         assert label in labels
 
 
-def test_only_engines_take_a_reference_plane() -> None:
-    """The plane of moments is in one place, on the engine."""
+def test_only_engines_and_proofs_take_a_reference_plane() -> None:
+    """The plane of moments is in one place, on the engine; proofs are of any plane."""
     named = {
         each.label.rpartition(".")[2]
         for each in TARGETS + PICTURES
         if any(parameter.name == "reference_z" for parameter in each.parameters)
     }
-    assert named == {"from_lists", "replace"}
+    assert named == {"from_lists", "replace", "vanishing_orders", "closed_form"}
 
 
 @pytest.mark.parametrize("name", sorted(RESULTS_MADE_ELSEWHERE))

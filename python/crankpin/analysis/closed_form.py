@@ -12,6 +12,7 @@ from crankpin._support import inputs, labels, optional
 from crankpin._support.quantities import COMPONENTS, QUANTITIES
 from crankpin._support.record import Record
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     from crankpin.model.engine import Engine
@@ -21,12 +22,18 @@ Expression: TypeAlias = Any
 
 
 def closed_form(
-    engine: Engine, order: int, quantity: Literal["force", "moment"] = "moment"
+    engine: Engine,
+    order: int,
+    quantity: Literal["force", "moment"] = "moment",
+    *,
+    reference_z: float | None = None,
 ) -> ClosedForm:
     """Return a closed form; :meth:`Engine.closed_form` documents the arguments."""
     word = inputs.one_of("quantity", quantity, ["force", "moment"])
+    plane = inputs.optional_number("reference_z", reference_z)
     (single,) = inputs.explicit_orders([inputs.whole("order", order)], "order")
-    return ClosedForm(engine, single, word)
+    checks.place(engine_core(engine), "reference_z", plane)
+    return ClosedForm(engine, single, word, plane)
 
 
 class ClosedForm(Record):
@@ -55,6 +62,8 @@ class ClosedForm(Record):
     """Multiple of crank speed."""
     quantity: str
     """"force" or "moment"."""
+    plane: float | None
+    """The reference plane that was given, m, or None."""
     unit_cylinder: int = field(init=False, compare=False)
     """Number of the cylinder whose force is F: the first that has reciprocating mass."""
     spacing: float = field(init=False, compare=False)
@@ -76,7 +85,7 @@ class ClosedForm(Record):
         sp = optional.library("sympy")
         moment = self.quantity == "moment"
         unit, spacing, zero, parts, period, denominator, phasors = _core.closed_form(
-            engine_core(self.engine), self.order, moment
+            engine_core(self.engine), self.order, moment, self.plane
         )
         F, a = sp.Symbol("F", positive=True), sp.Symbol("a", positive=True)
         self.__dict__.update(
@@ -96,7 +105,7 @@ class ClosedForm(Record):
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        return self.engine.reference_z
+        return self.engine.reference_z if self.plane is None else self.plane
 
     # --- phasors --------------------------------------------------------------------------------
 

@@ -15,6 +15,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis import firing as fires
 from crankpin.analysis.quantity import Keyed
 from crankpin.analysis.request import engine_core
+from crankpin.model import checks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,9 +40,14 @@ SUMS = {
 """Sums of one order (quantity and component), as the core counts them → heads of columns."""
 
 
-def vanishing_orders(engine: Engine, orders: Orders = range(1, 13)) -> VanishingOrders:
+def vanishing_orders(
+    engine: Engine, orders: Orders = range(1, 13), *, reference_z: float | None = None
+) -> VanishingOrders:
     """Return the vanishing orders; :meth:`Engine.vanishing_orders` documents the arguments."""
-    return VanishingOrders(engine, tuple(inputs.explicit_half_orders(orders)))
+    listed = tuple(inputs.explicit_half_orders(orders))
+    plane = inputs.optional_number("reference_z", reference_z)
+    checks.place(engine_core(engine), "reference_z", plane)
+    return VanishingOrders(engine, listed, plane)
 
 
 class Verdicts(Keyed, Tabled):
@@ -189,6 +195,8 @@ class VanishingOrders(Tabled):
     """The engine."""
     orders: tuple[Order, ...]
     """Multiples of crank speed."""
+    plane: float | None
+    """The reference plane that was given, m, or None."""
     vanishes: NDArray[np.bool_] = field(init=False, compare=False)
     """True where a sum is proved to be zero: (n_orders, 10)."""
     remains: NDArray[np.bool_] = field(init=False, compare=False)
@@ -206,7 +214,7 @@ class VanishingOrders(Tabled):
             # An engine with cycles knows its firing; at whole orders a turn changes nothing.
             firing = fires.firing(self.engine, None, None)._core
         halves = [round(2 * order) for order in self.orders]
-        vanishes, remains, within, obstacles = _core.vanishing(core, halves, None, firing)
+        vanishes, remains, within, obstacles = _core.vanishing(core, halves, self.plane, firing)
         self.__dict__.update(
             vanishes=vanishes,
             remains=remains,
@@ -223,7 +231,7 @@ class VanishingOrders(Tabled):
     @property
     def reference_z(self) -> float:
         """Plane about which moments are taken, m."""
-        return self.engine.reference_z
+        return self.engine.reference_z if self.plane is None else self.plane
 
     @property
     def force(self) -> Verdicts:

@@ -322,16 +322,19 @@ class Engine(Builders):
 
         return firing.firing_orders(self, strokes)
 
-    def vanishing_orders(self, orders: Orders = range(1, 13)) -> VanishingOrders:
+    def vanishing_orders(
+        self, orders: Orders = range(1, 13), *, reference_z: float | None = None
+    ) -> VanishingOrders:
         """Return which orders of force, moment and torque vanish at any speed, proved in integers.
-
-        Moments are about the engine's :attr:`reference_z`.
 
         Parameters
         ----------
         orders
             Multiples of crank speed. Half orders are those of gas and need the engine's firing
             order.
+        reference_z
+            Plane about which moments are taken, m; by default midway between the first and the last
+            cylinder.
 
         Raises
         ------
@@ -346,14 +349,16 @@ class Engine(Builders):
         """
         from crankpin.analysis.vanishing import vanishing_orders
 
-        return vanishing_orders(self, orders)
+        return vanishing_orders(self, orders, reference_z=reference_z)
 
     def closed_form(
-        self, order: int, quantity: Literal["force", "moment"] = "moment"
+        self,
+        order: int,
+        quantity: Literal["force", "moment"] = "moment",
+        *,
+        reference_z: float | None = None,
     ) -> ClosedForm:
         """Return force or moment of one order as exact expressions (needs SymPy).
-
-        Moments are about the engine's :attr:`reference_z`.
 
         Parameters
         ----------
@@ -361,6 +366,8 @@ class Engine(Builders):
             Whole multiple of crank speed.
         quantity
             ``"force"`` or ``"moment"``.
+        reference_z
+            As in :meth:`vanishing_orders`.
 
         Raises
         ------
@@ -378,7 +385,7 @@ class Engine(Builders):
         """
         from crankpin.analysis.closed_form import closed_form
 
-        return closed_form(self, order, quantity)
+        return closed_form(self, order, quantity, reference_z=reference_z)
 
     def explain(self, rpm: float | None = None) -> Explanation:
         """Return how the engine shakes, in plain sentences.

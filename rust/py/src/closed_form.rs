@@ -24,10 +24,12 @@ pub fn closed_form(
     engine: &Bound<'_, Engine>,
     order: u32,
     moment: bool,
+    reference_z: Option<f64>,
 ) -> PyResult<Form> {
     let (engine, order) = (engine.get().0.clone(), Order::whole(order).or_raise()?);
-    let found =
-        interrupt::run(py, |cancel| core::closed_form(&engine, order, moment, None, cancel))?;
+    let found = interrupt::run(py, |cancel| {
+        core::closed_form(&engine, order, moment, reference_z, cancel)
+    })?;
     let ClosedForm { unit, spacing, no_harmonic, parts, period, denominator, phasors } = found;
     let ratio = |r: Ratio| r.into_raw();
     let turns = |(numerator, denominator): (i64, i64)| (numerator.into(), denominator.into());

@@ -198,7 +198,7 @@ def left_by(engine: Engine, factor: float) -> Engine:
 
 def _vanishes(engine: Engine, quantity: str, plane: float) -> bool:
     """Return whether the forward part of order 1 is proved to vanish."""
-    found = engine.replace(reference_z=plane).vanishing_orders([1])
+    found = engine.vanishing_orders([1], reference_z=plane)
     return bool(getattr(found, quantity).forward[1] == "vanishes")
 
 
