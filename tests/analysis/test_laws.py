@@ -112,6 +112,14 @@ def test_another_point_takes_the_moment_of_the_force_off() -> None:
     for point in ("x", (1, 2), np.nan, [1, 2, np.inf], range(10**12)):
         with pytest.raises(cp.InputError, match="point"):
             here.about(point)
+    assert here.about(z=z) == here.about(z) == here.about((0.0, 0.0, z))
+    for mistake, named in (
+        ({}, "give a point"),
+        ({"point": z, "z": z}, "or z"),
+        ({"z": "x"}, "z = 'x'"),
+    ):
+        with pytest.raises(cp.InputError, match=named):
+            here.about(**mistake)
 
 
 @settings(max_examples=60, deadline=None)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin._support.record import AbsentError, read_only
@@ -98,25 +99,37 @@ class ByOrder(Keyed, Quantities):
     def _quantity(self, name: str) -> Quantity:
         return Quantity(self, name)
 
-    def about(self, point: float | Sequence[float]) -> Self:
+    def about(
+        self, point: float | Sequence[float] | None = None, *, z: float | None = None
+    ) -> Self:
         """Return the same result with moments and roll torque about another point.
 
         Parameters
         ----------
         point
             Position z along the crank, or (x, y, z), m.
+        z
+            The position by name.
+
+        Raises
+        ------
+        InputError
+            If both are given or none, or one is no position.
 
         Examples
         --------
         >>> import crankpin as cp
         >>> b = cp.Engine.preset("i4").balance(rpm=6000)
-        >>> b[2].moment.peak, round(b.about(0.0)[2].moment.peak, 1)
+        >>> b[2].moment.peak, round(b.about(z=0.0)[2].moment.peak, 1)
         (np.float64(0.0), np.float64(1390.4))
         """
-        request = self.request.about(point)
+        if (point is None) == (z is None):
+            raise InputError("about: give a point, such as (0, 0.2, 0.1), or z")
+        name = "z" if point is None else "point"
+        request = self.request.about(name, z if point is None else point)
         for engine in self._engines:
-            checks.place(engine_core(engine), "point", request.reference_z)
-            checks.place(engine_core(engine), "point", *request.aside, middle=0.0)
+            checks.place(engine_core(engine), name, request.reference_z)
+            checks.place(engine_core(engine), name, *request.aside, middle=0.0)
         return self._with_request(request)
 
     # --- arrays ---------------------------------------------------------------------------------

@@ -58,14 +58,14 @@ class Request(Record):
             inputs.flag("torque", torque),
         )
 
-    def about(self, point: object) -> Request:
-        """Return the same request with moments about a point: z, or (x, y, z), m."""
+    def about(self, name: str, point: object) -> Request:
+        """Return the same request with moments about the point of a name: z, or (x, y, z), m."""
+        if name == "z" or not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
+            return self.replace(reference_z=inputs.finite(name, point), aside=(0.0, 0.0))
         hint = "point is a position z along the crank, or (x, y, z), m"
-        if not isinstance(point, Iterable) or getattr(point, "ndim", 1) == 0:
-            return self.replace(reference_z=inputs.finite("point", point), aside=(0.0, 0.0))
-        listed = [inputs.finite("point", each) for each in inputs.items("point", point, hint)]
+        listed = [inputs.finite(name, each) for each in inputs.items(name, point, hint)]
         if len(listed) != 3:
-            raise inputs.rejected("point", point, hint)
+            raise inputs.rejected(name, point, hint)
         x, y, z = listed
         return self.replace(reference_z=z, aside=(x, y))
 
