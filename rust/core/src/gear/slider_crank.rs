@@ -39,7 +39,14 @@ impl Cylinder {
         };
         let reach = rod_length - pin_offset.abs();
         if crank_radius >= reach {
-            return Err(Error::CannotTurn { crank_radius, rod_length, pin_offset, reach });
+            let value = format!(
+                "{crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}"
+            );
+            let hint = format!(
+                "the crank cannot turn; make crank_radius less than rod_length - |pin_offset| = \
+                 {reach:?}"
+            );
+            return Err(Error::value("crank_radius", value, hint));
         }
         Ok(cylinder)
     }

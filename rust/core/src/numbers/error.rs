@@ -18,21 +18,6 @@ pub enum Error {
         /// What would be right.
         hint: String,
     },
-    /// A crank that cannot turn: the rod does not reach.
-    #[error(
-        "crank_radius = {crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}: the \
-         crank cannot turn; make crank_radius less than rod_length - |pin_offset| = {reach:?}"
-    )]
-    CannotTurn {
-        /// Crank radius, m.
-        crank_radius: f64,
-        /// Rod length, m.
-        rod_length: f64,
-        /// Pin offset, m.
-        pin_offset: f64,
-        /// Rod length less the offset, m.
-        reach: f64,
-    },
     /// A quantity that this engine does not have.
     #[error("{argument} is undefined for this engine: {reason}")]
     Undefined {
@@ -57,17 +42,6 @@ pub enum Error {
         expected: usize,
         /// What the lists run over.
         item: &'static str,
-    },
-    /// A tolerance that no number of orders we sum can reach.
-    #[error(
-        "rtol = {rtol:?}: too many orders would be needed at a rod ratio of {rod_ratio:?}; ask for \
-         exact kinematics or a larger rtol"
-    )]
-    TooManyOrders {
-        /// The tolerance asked for.
-        rtol: f64,
-        /// Crank radius over rod length.
-        rod_ratio: f64,
     },
     /// A result that would not fit in memory.
     #[error(
@@ -139,16 +113,6 @@ impl Error {
             Self::Value { argument, value, hint } => {
                 Self::Value { argument: format!("{place}{argument}"), value, hint }
             }
-            Self::CannotTurn { crank_radius, rod_length, pin_offset, reach } => Self::Value {
-                argument: format!("{place}crank_radius"),
-                value: format!(
-                    "{crank_radius:?}, rod_length = {rod_length:?}, pin_offset = {pin_offset:?}"
-                ),
-                hint: format!(
-                    "the crank cannot turn; make crank_radius less than rod_length - |pin_offset| \
-                     = {reach:?}"
-                ),
-            },
             other => other,
         }
     }

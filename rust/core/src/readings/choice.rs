@@ -148,8 +148,12 @@ pub(crate) fn candidates(
                         limits::HIGHEST_ORDER
                     }
                     None => {
-                        let rod_ratio = 1.0 / proportions.rod;
-                        return Err(Error::TooManyOrders { rtol, rod_ratio });
+                        let hint = format!(
+                            "too many orders would be needed at a rod ratio of {:?}; ask for exact \
+                             kinematics or a larger rtol",
+                            1.0 / proportions.rod
+                        );
+                        return Err(Error::figure("rtol", rtol, hint));
                     }
                 };
                 (1..=last).collect()
