@@ -38,9 +38,7 @@ impl Engine {
         check_each_cylinder("later", gas.later.len(), self.stations.len())?;
         limits::not_negative("crankcase", gas.crankcase)?;
         let firing = gas.cycle_of.iter().any(Option::is_some);
-        let engine = Self { gas: firing.then_some(gas), ..self.clone() };
-        engine.check_gas()?;
-        Ok(engine)
+        Self { gas: firing.then_some(gas), ..self.clone() }.with_known_torque()
     }
 
     /// Crank angle at which a cylinder is at its firing top dead centre, within a cycle.
@@ -70,9 +68,9 @@ impl Engine {
         Self { gas: None, ..self.clone() }
     }
 
-    /// Rejects cylinders whose pressure has no torque that is known.
-    pub(super) fn check_gas(&self) -> Result<()> {
-        let Some(gas) = &self.gas else { return Ok(()) };
+    /// The engine; rejects cylinders whose pressure has no torque that is known.
+    pub(super) fn with_known_torque(self) -> Result<Self> {
+        let Some(gas) = &self.gas else { return Ok(self) };
         for (i, cycle) in gas.cycle_of.iter().enumerate() {
             let Some(cycle) = *cycle else { continue };
             let Some(cycle) = gas.cycles.get(cycle) else {
@@ -103,7 +101,7 @@ impl Engine {
                 ));
             }
         }
-        Ok(())
+        Ok(self)
     }
 
     /// Area of a piston times its crank radius, m³; none where the bore is not known.

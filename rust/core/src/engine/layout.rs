@@ -64,10 +64,13 @@ impl Strokes {
     /// Turns of the crank in a cycle.
     #[must_use]
     pub fn turns(self) -> i64 {
-        match self {
-            Self::Two => 1,
-            Self::Four => 2,
-        }
+        i64::from(self.number() / 2)
+    }
+
+    /// Crank angle of a cycle.
+    #[must_use]
+    pub fn cycle(self) -> Angle {
+        Angle::whole_turns(self.turns() as i32)
     }
 }
 
@@ -220,8 +223,7 @@ impl FiringOrder {
             }
             times.push(times[k] + interval);
         }
-        let (sum, cycle) =
-            (times.pop().unwrap_or(Angle::ZERO), Angle::whole_turns(strokes.turns() as i32));
+        let (sum, cycle) = (times.pop().unwrap_or(Angle::ZERO), strokes.cycle());
         // Intervals that are no parts of a turn may have been rounded, once each.
         if (sum - cycle).degrees().abs() > MOST_ROUNDING {
             let hint = format!(

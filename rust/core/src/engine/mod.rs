@@ -355,9 +355,7 @@ impl Engine {
             let hint = format!("give the number of a crank, below {}", cranks.len());
             return Err(Error::value(format!("crank_of[{k}]"), crank_of[k], hint));
         }
-        let engine = Self { cranks, crank_of, ..self.clone() };
-        engine.check_gas()?;
-        Ok(engine)
+        Self { cranks, crank_of, ..self.clone() }.with_known_torque()
     }
 
     /// The same engine with these counterweights on the crankshaft instead of those it has.
@@ -394,9 +392,7 @@ impl Engine {
                 limits::not_negative("rod.to_crankpin", to_crankpin)?;
             }
         }
-        let engine = Self { details, ..self.clone() };
-        engine.check_gas()?;
-        Ok(engine)
+        Self { details, ..self.clone() }.with_known_torque()
     }
 
     /// The same engine with main bearings at these places; none for those of [`Self::bearings`].
@@ -423,9 +419,7 @@ impl Engine {
     pub fn firing_as(&self, firing_order: impl Into<String>, strokes: Strokes) -> Result<Self> {
         let firing_order = firing_order.into();
         limits::name("firing_order", &firing_order)?;
-        let engine = Self { firing_order, strokes, ..self.clone() };
-        engine.check_gas()?;
-        Ok(engine)
+        Self { firing_order, strokes, ..self.clone() }.with_known_torque()
     }
 
     /// The same engine under another name.

@@ -146,25 +146,20 @@ fn unevenness(firing: &Firing) -> u64 {
     (firing.unevenness() * 1e6).round() as u64
 }
 
-/// The first few distinct orders as a list.
+/// The first few distinct orders, shortened, as a list.
 fn listed(firings: &[Firing]) -> String {
-    let (listed, more) = distinct_orders(firings);
-    listed.join(", ") + if more { ", …" } else { "" }
-}
-
-/// The first few distinct orders, shortened, and true if there are more.
-fn distinct_orders(firings: &[Firing]) -> (Vec<String>, bool) {
     let mut texts: Vec<String> = Vec::new();
     for text in firings.iter().map(|firing| shorten(&firing.to_string())) {
         if texts.contains(&text) {
             continue;
         }
         if texts.len() == EXAMPLES {
-            return (texts, true);
+            texts.push("…".to_owned());
+            break;
         }
         texts.push(text);
     }
-    (texts, false)
+    texts.join(", ")
 }
 
 #[cfg(test)]

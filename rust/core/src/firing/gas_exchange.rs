@@ -1,6 +1,6 @@
 //! Strokes, and when valves and ports are open.
 
-use super::tops::{same, top_to_bottom, turns};
+use super::tops::{same, top_to_bottom};
 use super::way::Firing;
 use crate::engine::Station;
 use crate::layout::{MOST_ROUNDING, Strokes};
@@ -108,11 +108,11 @@ impl Firing {
         };
         let period = |k: usize, (firing, station): (Angle, &Station)| {
             let downwards = top_to_bottom(station);
-            let before = turns((k / 2) as i64);
+            let before = Angle::whole_turns((k / 2) as i32);
             let (from, length) = if k.is_multiple_of(2) {
                 (before, downwards)
             } else {
-                (before + downwards, turns(1) - downwards)
+                (before + downwards, Angle::TURN - downwards)
             };
             self.period(firing + from, length)
         };
@@ -132,7 +132,7 @@ impl Firing {
         for (i, (firing, place)) in
             self.angles().into_iter().zip(self.engine().stations()).enumerate()
         {
-            let (turn, downwards) = (turns(1), top_to_bottom(place));
+            let (turn, downwards) = (Angle::TURN, top_to_bottom(place));
             let [first, second] = match (*timing, self.strokes()) {
                 (Timing::Valves { intake, exhaust }, Strokes::Four) => {
                     let open = open_for("intake", i, intake, downwards)?;
@@ -173,7 +173,7 @@ impl Firing {
                     let place = (k + step) % members.len();
                     let after = members[place];
                     let gap = self.within(open[after][0] - open[before][0]);
-                    let gap = if same(gap, self.cycle()) { Angle::ZERO } else { gap };
+                    let gap = if same(gap, self.strokes().cycle()) { Angle::ZERO } else { gap };
                     // Two that open together overlap once, not each with the other.
                     if same(gap, Angle::ZERO) && place < k {
                         continue;

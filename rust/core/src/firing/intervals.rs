@@ -61,7 +61,8 @@ impl Firing {
                     let (before, after) = (members[k], members[(k + 1) % members.len()]);
                     let gap = self.times[after] - self.times[before];
                     // Round the end of the cycle; cylinders that fire together stay 0 apart.
-                    let gap = if k + 1 == members.len() { gap + self.cycle() } else { gap };
+                    let gap =
+                        if k + 1 == members.len() { gap + self.strokes().cycle() } else { gap };
                     Gap { before, after, gap }
                 })
                 .collect()

@@ -28,7 +28,7 @@ pub fn vee_throws(order: &FiringOrder, rule: &FiringRule, layout: &Vee) -> Resul
         sides[usize::from(seat.side == Side::Left)][seat.throw] = pin;
     }
     let [right, left] = sides;
-    let half = super::tops::turns(1).half();
+    let half = Angle::HALF_TURN;
     let splits = left.iter().zip(&right).map(|(&left, &right)| {
         // Half a turn less what is in [0°, 360°) is above −180° and up to 180°.
         half - (half - (left - right)).reduced()

@@ -23,7 +23,7 @@ impl Tops {
                     (top + degrees(past)).nearby_part(MOST_ROUNDING)
                 };
                 let top = top.reduced();
-                if same(top, turns(1)) { Angle::ZERO } else { top }
+                if same(top, Angle::TURN) { Angle::ZERO } else { top }
             })
             .collect();
         // Merge angles that differ only by rounding.
@@ -48,17 +48,12 @@ pub(super) fn highest_after_tdc(station: &Station) -> f64 {
 pub(super) fn top_to_bottom(station: &Station) -> Angle {
     let part = station.cylinder;
     let lowest = (part.pin_offset() / (part.rod_length() - part.crank_radius())).asin();
-    turns(1).half() + degrees(lowest.to_degrees() - highest_after_tdc(station))
+    Angle::HALF_TURN + degrees(lowest.to_degrees() - highest_after_tdc(station))
 }
 
 /// An angle from degrees that are in range, such as those of an arc sine.
 pub(super) fn degrees(degrees: f64) -> Angle {
     Angle::from_degrees(degrees).unwrap_or(Angle::ZERO)
-}
-
-/// A whole number of turns, 0 to 2.
-pub(super) fn turns(count: i64) -> Angle {
-    Angle::from_degree_fraction(360 * count, 1).unwrap_or(Angle::ZERO)
 }
 
 /// True if two angles are equal: exactly as fractions of a turn, otherwise within rounding.
@@ -93,6 +88,6 @@ mod tests {
         let engine = placed(&[(cylinder(0.02), 0.0, 90.0), (cylinder(0.0), past + 120.0, 90.0)]);
         let firing = Firing::all(&engine, Strokes::Two, &Cancel::new()).unwrap().remove(0);
         assert_eq!(intervals(&firing), [120.0, 240.0]);
-        assert_eq!(firing.intervals()[0], turns(1) - Angle::from_degrees(240.0).unwrap());
+        assert_eq!(firing.intervals()[0], Angle::TURN - Angle::from_degrees(240.0).unwrap());
     }
 }

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::tops::{Tops, degrees, highest_after_tdc, same, turns};
+use super::tops::{Tops, degrees, highest_after_tdc, same};
 use crate::engine::{Engine, Station};
 use crate::layout::Strokes;
 use crate::numbers::angle::Angle;
@@ -39,12 +39,11 @@ impl Firing {
         strokes: Strokes,
         later: &[bool],
     ) -> Self {
-        let turn = |later: bool| turns(i64::from(later));
         let times: Vec<Angle> =
-            tops.0.iter().zip(later).map(|(&top, &later)| top + turn(later)).collect();
+            tops.0.iter().zip(later).map(|(&top, &later)| top + turn_if(later)).collect();
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
-        let cycle = turns(strokes.turns());
+        let cycle = strokes.cycle();
         let intervals: Vec<Angle> = order
             .iter()
             .enumerate()
@@ -98,7 +97,7 @@ impl Firing {
     }
 
     pub(super) fn is_later(&self) -> impl Iterator<Item = bool> {
-        self.times.iter().map(|&time| time >= turns(1))
+        self.times.iter().map(|&time| time >= Angle::TURN)
     }
 
     /// Crank angles at which the cylinders fire, by number, within a cycle.
@@ -128,7 +127,7 @@ impl Firing {
     #[must_use]
     pub fn phases(&self) -> Vec<Angle> {
         let each = self.engine.stations().iter().zip(self.in_second_turn());
-        each.map(|(place, second)| place.tdc.reduced() + turns(i64::from(second))).collect()
+        each.map(|(place, second)| place.tdc.reduced() + turn_if(second)).collect()
     }
 
     /// True if all intervals are equal.
@@ -143,11 +142,6 @@ impl Firing {
         self.unevenness
     }
 
-    /// Crank angle of a cycle.
-    pub(super) fn cycle(&self) -> Angle {
-        turns(self.strokes.turns())
-    }
-
     /// Reduced modulo a cycle.
     pub(super) fn within(&self, angle: Angle) -> Angle {
         angle.reduced_to(self.strokes.turns())
@@ -157,6 +151,11 @@ impl Firing {
     pub(super) fn in_order(&self, group: &[usize]) -> Vec<usize> {
         self.order.iter().copied().filter(|cylinder| group.contains(cylinder)).collect()
     }
+}
+
+/// A whole turn for what comes a turn later, else none.
+fn turn_if(later: bool) -> Angle {
+    Angle::whole_turns(later.into())
 }
 
 impl std::fmt::Display for Firing {

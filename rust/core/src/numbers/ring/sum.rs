@@ -128,10 +128,7 @@ impl RootSum {
     #[must_use]
     pub fn turned(&self, numerator: i128, denominator: i128) -> Self {
         let shift = numerator * self.period / denominator;
-        let mut terms: Vec<(i128, i128)> =
-            self.terms.iter().map(|&(e, w)| ((e + shift).rem_euclid(self.period), w)).collect();
-        terms.sort_unstable_by_key(|&(exponent, _)| exponent);
-        Self { period: self.period, terms }
+        self.moved(|exponent| exponent + shift)
     }
 
     /// This sum plus a multiple of another of the same period.
@@ -147,8 +144,13 @@ impl RootSum {
     /// The conjugate.
     #[must_use]
     pub fn conjugate(&self) -> Self {
-        let mut terms: Vec<(i128, i128)> =
-            self.terms.iter().map(|&(e, w)| ((-e).rem_euclid(self.period), w)).collect();
+        self.moved(|exponent| -exponent)
+    }
+
+    /// Each root to another one.
+    fn moved(&self, to: impl Fn(i128) -> i128) -> Self {
+        let moved = self.terms.iter().map(|&(e, w)| (to(e).rem_euclid(self.period), w));
+        let mut terms: Vec<(i128, i128)> = moved.collect();
         terms.sort_unstable_by_key(|&(exponent, _)| exponent);
         Self { period: self.period, terms }
     }
