@@ -72,7 +72,7 @@ impl TurnedBank {
     pub(super) fn phases(self, families: Families<'_>) -> Vec<u32> {
         let Families { moments, entries } = families;
         let phases = moments.images.phases(packed(entries.all[self.place]), self.image);
-        phases.into_iter().map(|phase| (phase + self.turned) % moments.bank.parts).collect()
+        phases.map(|phase| (phase + self.turned) % moments.bank.parts).collect()
     }
 }
 
@@ -197,7 +197,7 @@ impl Equals {
         let Families { moments, entries } = families;
         let known = |member: Member| (packed(entries.all[member.place]), member.argument);
         let near = near(moments.twice(known(of).0).norm());
-        for image in Image::ALL.into_iter().filter(|&image| moments.images.has(image)) {
+        for image in moments.images.all() {
             if let Some(turned) = moments.turned_to(known(of), known(member), image, near) {
                 let bank = TurnedBank::new(families, member.place).seen(moments, image, turned);
                 let rounded = [bank.second.re, bank.second.im]

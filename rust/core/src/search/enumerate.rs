@@ -118,9 +118,7 @@ fn fill(
     let mut rest = all;
     for range in 0..ranges {
         for (places, counts) in places.iter_mut().zip(counts) {
-            let (place, after) = rest.split_at_mut(counts[range]);
-            places.push(place.iter_mut());
-            rest = after;
+            places.extend(rest.split_off_mut(..counts[range]).map(|place| place.iter_mut()));
         }
     }
     let tasks = tasks.iter().zip(places).collect();
@@ -136,13 +134,9 @@ fn fill(
 }
 
 fn sort(all: &mut [Entry], starts: &[usize], cancel: &Cancel) -> Result<()> {
-    let mut parts = Vec::with_capacity(starts.len());
     let mut rest = all;
-    for ends in starts.windows(2) {
-        let (part, after) = rest.split_at_mut(ends[1] - ends[0]);
-        parts.push(part);
-        rest = after;
-    }
+    let parts = starts.windows(2).filter_map(|ends| rest.split_off_mut(..ends[1] - ends[0]));
+    let parts = parts.collect();
     pool::map(cancel, parts, |part| {
         part.sort_unstable();
         cancel.step()
@@ -207,7 +201,7 @@ impl<'a> Walk<'a> {
 
     /// Nodes from which the whole walk goes on, at least `least` unless it ends there.
     fn tasks(&self, least: usize, bank: &Bank) -> Vec<Node> {
-        let others = Image::OTHERS.iter().filter(|&&image| self.images.has(image));
+        let others = self.images.all().skip(1);
         let root = |pool| Node {
             pool,
             pairs: 0,
@@ -377,8 +371,8 @@ mod tests {
             let images: u64 = entries.all.iter().map(|&entry| image_count(entry)).sum();
             assert_eq!(u128::from(images) * u128::from(bank.turns()), bank.count(), "{bank:?}");
             for &entry in &entries.all {
-                for image in Image::ALL.into_iter().filter(|&image| moments.images.has(image)) {
-                    let phases = moments.images.phases(packed(entry), image);
+                for image in moments.images.all() {
+                    let phases: Vec<u32> = moments.images.phases(packed(entry), image).collect();
                     let mut ascending = phases.clone();
                     ascending.sort_unstable();
                     assert_eq!(ascending, bank.phases);

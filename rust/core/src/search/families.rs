@@ -69,7 +69,7 @@ impl Families<'_> {
             let mut members = Vec::new();
             let mut place = start;
             for class in classes(range) {
-                self.members(place, class, &mut members);
+                self.sorted_out(place, class, &mut members, |_, _| ());
                 self.class(&members, |family| {
                     if wanted.has(family.folded()) && stored.is_ok() {
                         stored = memory::push(&mut families, family);
@@ -149,12 +149,7 @@ impl Families<'_> {
     }
 
     /// One arrangement for each Z of a class, where turned, reversed and mirrored ones count once;
-    /// none of the class of Z = 0.
-    fn members(self, start: usize, class: &[Entry], members: &mut Vec<Member>) {
-        self.sorted_out(start, class, members, |_, _| ());
-    }
-
-    /// The same, and `each` arrangement of the class after the one that counts for it.
+    /// none of the class of Z = 0. `each` gets all of the class after the one that counts for them.
     pub(super) fn sorted_out(
         self,
         start: usize,
@@ -209,8 +204,8 @@ impl Families<'_> {
         let size = self.moments.twice(packed(self.entries.all[first.place])).norm();
         for (a, first) in members.iter().enumerate() {
             for (b, second) in members[a..].iter().enumerate() {
-                for image in Image::ALL {
-                    if !self.moments.images.has(image) || (b == 0 && !image.mirrored) {
+                for image in self.moments.images.all() {
+                    if b == 0 && !image.mirrored {
                         continue;
                     }
                     let angle = PI + self.moments.seen(second.argument, image) - first.argument;
@@ -363,7 +358,7 @@ mod tests {
                 for class in classes(&entries.all) {
                     let start = entries.all.iter().position(|e| e == &class[0]).unwrap();
                     let mut members = Vec::new();
-                    families.members(start, class, &mut members);
+                    families.sorted_out(start, class, &mut members, |_, _| ());
                     families.class(&members, |family| all.push(family));
                 }
                 all.extend(families.common());
@@ -389,7 +384,7 @@ mod tests {
                 let all: Vec<_> = entries.all.iter().map(of).filter(|a| a.1 > APART).collect();
                 for &(a, size_a, arg_a) in &all {
                     for &(b, size_b, arg_b) in &all {
-                        let mut images = Image::ALL.into_iter().filter(|&i| moments.images.has(i));
+                        let mut images = moments.images.all();
                         let expected = (size_a - size_b).abs() < APART
                             && images.any(|image| {
                                 fold(arg_a - moments.seen(arg_b, image), moments.turn) < APART
@@ -410,7 +405,7 @@ mod tests {
     fn turns_and_images_fold_to_one_argument() {
         for bank in banks() {
             let moments = Moments::new(bank).unwrap();
-            let images = || Image::ALL.into_iter().filter(|&image| moments.images.has(image));
+            let images = || moments.images.all();
             let middle = moments
                 .images
                 .mirror
@@ -465,7 +460,7 @@ mod tests {
     fn of_class(families: Families<'_>, class: &[Entry]) -> (usize, Vec<Family>) {
         let start = families.entries.all.iter().position(|e| e == &class[0]).unwrap();
         let (mut members, mut found) = (Vec::new(), Vec::new());
-        families.members(start, class, &mut members);
+        families.sorted_out(start, class, &mut members, |_, _| ());
         families.class(&members, |family| found.push(family));
         (members.len(), found)
     }

@@ -92,9 +92,10 @@ impl Images {
         Self { throws: bank.throws(), distinct, parts, mirror, plain, mirrored }
     }
 
-    /// Whether the bank has this image.
-    pub(super) fn has(&self, image: Image) -> bool {
-        !image.mirrored || self.mirror.is_some()
+    /// Images that the bank has.
+    pub(super) fn all(&self) -> impl Iterator<Item = Image> + Clone {
+        let mirrored = self.mirror.is_some();
+        Image::ALL.into_iter().filter(move |image| mirrored || !image.mirrored)
     }
 
     /// What phases become where these come to the front and to the flywheel, turned back so that the
@@ -120,9 +121,10 @@ impl Images {
     }
 
     /// Phases of an image, front to flywheel; not turned back.
-    pub(super) fn phases(&self, packed: Packed, image: Image) -> Vec<u32> {
-        let throw = |i: usize| if image.reversed { self.throws - 1 - i } else { i };
-        let phase = |i: usize| self.distinct[index(packed, throw(i))];
-        (0..self.throws).map(|i| self.seen(phase(i), image)).collect()
+    pub(super) fn phases(&self, packed: Packed, image: Image) -> impl Iterator<Item = u32> {
+        (0..self.throws).map(move |i| {
+            let throw = if image.reversed { self.throws - 1 - i } else { i };
+            self.seen(self.distinct[index(packed, throw)], image)
+        })
     }
 }

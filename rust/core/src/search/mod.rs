@@ -155,10 +155,8 @@ impl Search {
         let Some(pair) = self.best_pair(angles, origin, bank_angle, by, cancel)? else {
             return Ok(None);
         };
-        let parts = self.bank().parts;
-        let part = Angle::from_turns(1, parts.into())?;
         let mut banks = pair.map(|bank| bank.phases(self.families()));
-        let [z1, z2] = banks.each_ref().map(|phases| self.moment(part, phases, 1));
+        let [z1, z2] = banks.each_ref().map(|phases| self.moment(phases, 1));
         let condition = (-z2 / z1).arg();
         let angle = match self.hold {
             Hold::Firing => condition,
@@ -170,22 +168,20 @@ impl Search {
         if angle < 0.0 {
             banks.swap(0, 1);
         }
-        Ok(self.evaluated(self.hold, banks, bank_angle))
+        Ok(Some(self.evaluated(self.hold, banks, bank_angle)))
     }
 
-    /// Z of a bank at an order, `part` being one part of a turn.
-    fn moment(&self, part: Angle, phases: &[u32], order: i64) -> Complex64 {
-        let unit = |p: u32| part.cis(i64::from(p) * order);
+    /// Z of a bank at an order.
+    fn moment(&self, phases: &[u32], order: i64) -> Complex64 {
+        let unit = |p: u32| self.moments.part.cis(i64::from(p) * order);
         let weights = self.bank().weights();
         phases.iter().zip(weights).map(|(&p, w)| unit(p) * (0.5 * w as f64)).sum()
     }
 
     /// A pair of banks at a bank angle that leaves no backward moment.
-    fn evaluated(&self, hold: Hold, banks: [Arrangement; 2], bank_angle: f64) -> Option<Solution> {
+    fn evaluated(&self, hold: Hold, banks: [Arrangement; 2], bank_angle: f64) -> Solution {
         let parts = self.bank().parts;
-        let part = Angle::from_turns(1, parts.into()).ok()?;
-        let orders =
-            [1, 2].map(|order| banks.each_ref().map(|phases| self.moment(part, phases, order)));
+        let orders = [1, 2].map(|order| banks.each_ref().map(|phases| self.moment(phases, order)));
         let half = 0.5 * bank_angle.to_radians();
         // Bores at 90° ∓ α/2. With the pins held a cylinder's phase turns with its bore.
         let [[first, second], [z1, z2]] =
@@ -205,7 +201,7 @@ impl Search {
         // Forward part of what both banks make: (e^{i·bank₁} Z₁ + e^{i·bank₂} Z₂)/2.
         let forward = 0.5 * (Complex64::cis(-half) * first + Complex64::cis(half) * second).norm();
         let counterweight = left(forward, 1.0);
-        Some(Solution { hold, bank_angle, banks, parts, counterweight, second_order })
+        Solution { hold, bank_angle, banks, parts, counterweight, second_order }
     }
 }
 
@@ -278,8 +274,8 @@ mod tests {
             let (entries, moments) = (&search.entries.all, &search.moments);
             let phases = |k: usize| {
                 let phases = moments.images.phases(packed(entries[k]), Image::ITSELF);
-                let angle = |&p: &u32| Angle::from_turns(p.into(), moments.bank.parts.into());
-                phases.iter().map(|p| angle(p).unwrap()).collect::<Vec<_>>()
+                let angle = |p: u32| Angle::from_turns(p.into(), moments.bank.parts.into());
+                phases.map(|p| angle(p).unwrap()).collect::<Vec<_>>()
             };
             let size = |k: usize| {
                 let banks = [phases(k), phases((7 * k + 3) % entries.len())];

@@ -33,7 +33,7 @@ pub(super) struct Moments {
     units: Vec<Complex64>,
     squares: Vec<Complex64>,
     /// One part of a turn.
-    part: Angle,
+    pub part: Angle,
     /// The same as remainders, packed.
     exact: Vec<u128>,
     /// Index among the distinct phases of each part of a turn.
@@ -130,8 +130,7 @@ impl Moments {
     /// Whether Z of two arrangements is the same up to turns and images, where the arguments are
     /// known within `near`.
     pub(super) fn same(&self, a: (Packed, f64), b: (Packed, f64), near: f64) -> bool {
-        let mut images = Image::ALL.into_iter().filter(|&image| self.images.has(image));
-        images.any(|image| self.turned_to(a, b, image, near).is_some())
+        self.images.all().any(|image| self.turned_to(a, b, image, near).is_some())
     }
 
     /// By how many parts of a turn the image of b is turned to have the Z of a, if it can be.
@@ -217,7 +216,7 @@ mod tests {
                 (0..throws).fold(0, |packed, i| packed | ((5 * i % throws) as u64) << (4 * i + 4));
             let z = moments.twice(packed);
             let mut combination = Vec::new();
-            for image in Image::ALL.into_iter().filter(|&image| moments.images.has(image)) {
+            for image in moments.images.all() {
                 moments.combination(packed, image, &mut combination);
                 let parts = combination.len() as f64;
                 let unit = |k: usize| Complex64::cis(TAU * k as f64 / parts);

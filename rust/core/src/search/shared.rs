@@ -2,7 +2,7 @@
 //! first-order moment is all forward at 90°.
 
 use super::enumerate::{image_count, packed};
-use super::images::{Image, index};
+use super::images::{Image, Packed};
 use super::{Search, Solution};
 use crate::engine::Hold;
 use crate::numbers::cancel::Cancel;
@@ -39,37 +39,32 @@ impl Search {
         let mut keyed = memory::room(entries.len())?;
         for (place, &entry) in entries.iter().enumerate() {
             cancel.step()?;
-            let images = Image::ALL.into_iter().filter(|&image| self.moments.images.has(image));
-            let keys = images.map(|image| self.shared_key(packed(entry), image));
-            keyed.push((keys.min().unwrap_or(0), place));
+            keyed.push((self.shared_key(packed(entry)), place));
         }
         keyed.sort_unstable();
         memory::collected(keyed.into_iter().map(|(_, place)| place))
     }
 
-    /// Phases of an image after its front one, nine bits each: a bank has at most 360 parts of a turn.
-    fn shared_key(&self, packed: u64, image: Image) -> u128 {
+    /// Phases after the front one, nine bits each, of the image that has the least of them: a bank has
+    /// at most 360 parts of a turn.
+    fn shared_key(&self, packed: Packed) -> u128 {
         let images = &self.moments.images;
-        let throws = images.throws;
-        let phase = |i: usize| {
-            let throw = if image.reversed { throws - 1 - i } else { i };
-            images.seen(images.distinct[index(packed, throw)], image)
+        let key = |image: Image| {
+            let mut phases = images.phases(packed, image);
+            let front = phases.next().unwrap_or(0);
+            let after = phases.map(|phase| (phase + images.parts - front) % images.parts);
+            after.fold(0, |key, phase| key << 9 | u128::from(phase))
         };
-        let front = phase(0);
-        let after = |i: usize| (phase(i) + images.parts - front) % images.parts;
-        (1..throws).fold(0, |key, i| key << 9 | u128::from(after(i)))
+        images.all().map(key).min().unwrap_or(0)
     }
 
     /// What the arrangement at a place is at 90°; its front pin is at 0.
     #[must_use]
     pub fn shared_solution(&self, place: usize) -> Option<Solution> {
-        let entry = packed(*self.entries.all.get(place)?);
-        let has = |image: &Image| self.moments.images.has(*image);
-        let keyed = Image::ALL.into_iter().filter(has).map(|i| self.shared_key(entry, i));
-        let key = keyed.min()?;
+        let key = self.shared_key(packed(*self.entries.all.get(place)?));
         let throws = self.bank().throws();
         let phases: Vec<u32> = (0..throws).rev().map(|i| (key >> (9 * i)) as u32 & 0x1ff).collect();
-        self.evaluated(Hold::Pins, [phases.clone(), phases], 90.0)
+        Some(self.evaluated(Hold::Pins, [phases.clone(), phases], 90.0))
     }
 }
 
