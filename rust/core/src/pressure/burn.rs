@@ -4,9 +4,10 @@ use std::sync::LazyLock;
 
 use super::Cycle;
 use super::chamber::{
-    Chamber, Curves, DEGREE, NARROWEST, RESOLVED, absolute, angles, exponent, is_resolved, within,
+    Chamber, Curves, DEGREE, NARROWEST, RESOLVED, absolute, exponent, is_resolved, largest_of_last,
+    within,
 };
-use super::interpolant::{coefficient, node};
+use super::interpolant::{coefficient, node, points};
 use super::period_deg;
 use crate::engine::layout::Strokes;
 use crate::numbers::cancel::Cancel;
@@ -179,7 +180,7 @@ impl Closed<'_> {
         while let Some((low, high)) = parts.pop() {
             cancel.check()?;
             let ratios: Vec<f64> =
-                angles(low, high).map(|angle| self.chamber.ratio(angle)).collect();
+                points(low, high, DEGREE).map(|angle| self.chamber.ratio(angle)).collect();
             let narrow = high - low < NARROWEST;
             match self.panel(low, high, burns, state, &ratios) {
                 Some((values, resolved)) if resolved || narrow => {
@@ -219,7 +220,7 @@ impl Closed<'_> {
     ) -> Option<(Vec<f64>, bool)> {
         let half = 0.5 * (high - low);
         let burnt: Vec<f64> =
-            angles(low, high)
+            points(low, high, DEGREE)
                 .map(|angle| {
                     if burns == Some(true) { self.heat * self.wiebe.burn_rate(angle) } else { 0.0 }
                 })
@@ -245,8 +246,8 @@ impl Closed<'_> {
             }
             values = next;
             if change <= 4.0 * f64::EPSILON * largest {
-                let last = [DEGREE - 1, DEGREE].map(|n| coefficient(&slopes, n).abs());
-                let resolved = half * last[0].max(last[1]) <= RESOLVED * largest * DEGREE as f64;
+                let resolved =
+                    half * largest_of_last(&slopes) <= RESOLVED * largest * DEGREE as f64;
                 return Some((values, resolved));
             }
         }
@@ -261,7 +262,7 @@ impl Closed<'_> {
         let temperature = wiebe.charge_temperature * pressure * ratio / self.ratio;
         let speed = 2.0 * chamber.stroke() * wall.rpm / 60.0;
         let motored = (self.ratio / ratio).powf(wiebe.gamma);
-        let displaced = chamber.compression_ratio() - 1.0;
+        let displaced = chamber.compression_ratio - 1.0;
         let by_burn = if ignited {
             3.24e-3 * displaced * wiebe.charge_temperature / self.ratio
                 * (pressure - motored).max(0.0)
@@ -270,13 +271,13 @@ impl Closed<'_> {
         };
         let velocity = 2.28 * speed + by_burn;
         let film = 3.26
-            * chamber.bore().powf(-0.2)
+            * chamber.bore.powf(-0.2)
             * (1e-3 * wiebe.intake_pressure * pressure).powf(0.8)
             * temperature.powf(-0.55)
             * velocity.powf(0.8);
         // Head, piston crown, and the liner's height as that of a disc of the same volume.
         let volume = ratio * chamber.clearance();
-        let surface = 2.0 * chamber.area() + 4.0 * volume / chamber.bore();
+        let surface = 2.0 * chamber.area() + 4.0 * volume / chamber.bore;
         let per_degree = 1.0 / (6.0 * wall.rpm);
         film * surface * (temperature - wall.temperature) * per_degree
             / (wiebe.intake_pressure * chamber.clearance())

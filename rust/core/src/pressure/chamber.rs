@@ -1,6 +1,6 @@
 //! The volume over a piston, and cycles that are put together of smooth curves.
 
-use super::interpolant::{coefficient, node};
+use super::interpolant::{coefficient, points};
 use super::{Cycle, Given, MOST_POINTS, period_deg};
 use crate::engine::layout::Strokes;
 use crate::gear::slider_crank::{Cylinder, Proportions};
@@ -20,12 +20,14 @@ pub(super) const NARROWEST: f64 = 1e-4;
 pub struct Chamber {
     proportions: Proportions,
     crank_radius: f64,
-    bore: f64,
+    /// m.
+    pub(super) bore: f64,
     /// Position of the piston at its highest point, crank radii.
     highest: f64,
     /// Travel of the piston, crank radii.
     travel: f64,
-    compression_ratio: f64,
+    /// Ratio of largest to smallest volume.
+    pub(super) compression_ratio: f64,
     /// Crank angles of the piston's highest and lowest point, degrees.
     pub(super) top: f64,
     pub(super) bottom: f64,
@@ -72,19 +74,9 @@ impl Chamber {
         0.25 * std::f64::consts::PI * self.bore * self.bore
     }
 
-    /// Bore, m.
-    pub(super) fn bore(&self) -> f64 {
-        self.bore
-    }
-
     /// Travel of the piston, m.
     pub(super) fn stroke(&self) -> f64 {
         self.travel * self.crank_radius
-    }
-
-    /// Ratio of largest to smallest volume.
-    pub(super) fn compression_ratio(&self) -> f64 {
-        self.compression_ratio
     }
 
     /// Volume over the clearance volume.
@@ -122,7 +114,7 @@ impl Curves {
     pub fn add(&mut self, from: f64, to: f64, of: impl Fn(f64) -> f64) -> Result<()> {
         let mut parts = vec![(from, to)];
         while let Some((low, high)) = parts.pop() {
-            let values: Vec<f64> = angles(low, high).map(&of).collect();
+            let values: Vec<f64> = points(low, high, DEGREE).map(&of).collect();
             if high - low < NARROWEST || is_resolved(&values) {
                 self.panel(low, high, &values)?;
             } else {
@@ -142,7 +134,7 @@ impl Curves {
             let hint = "pressure changes too fast; give a longer burn, or a smaller m";
             return Err(Error::value("points", format!("more than {MOST_POINTS}"), hint));
         }
-        self.theta_deg.extend(angles(low, high));
+        self.theta_deg.extend(points(low, high, DEGREE));
         self.pressure.extend(values);
         Ok(())
     }
@@ -155,20 +147,16 @@ impl Curves {
     }
 }
 
-/// Chebyshev points of a panel, ascending, its edges exact.
-pub(super) fn angles(low: f64, high: f64) -> impl Iterator<Item = f64> {
-    (0..=DEGREE).map(move |k| match k {
-        0 => low,
-        DEGREE => high,
-        k => 0.5 * (low + high) - 0.5 * (high - low) * node(k, DEGREE),
-    })
-}
-
 /// Whether the polynomial through values at Chebyshev points has converged.
 pub(super) fn is_resolved(values: &[f64]) -> bool {
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    largest_of_last(values) <= RESOLVED * largest
+}
+
+/// The larger of the last two coefficients of the polynomial through values at Chebyshev points.
+pub(super) fn largest_of_last(values: &[f64]) -> f64 {
     let last = [DEGREE - 1, DEGREE].map(|n| coefficient(values, n).abs());
-    last[0].max(last[1]) <= RESOLVED * largest
+    last[0].max(last[1])
 }
 
 /// Polytropic compression and expansion with ideal combustion at constant volume and pressure.

@@ -108,13 +108,10 @@ impl Panels {
         let mut coefficients = Vec::with_capacity(values.len());
         for (nodes, values) in angles.chunks(degree + 1).zip(values.chunks(degree + 1)) {
             let (from, to) = (nodes[0], nodes[degree]);
-            let is_node = |(k, &angle): (usize, &f64)| {
-                let node = 0.5 * (from + to) - 0.5 * (to - from) * node(k, degree);
-                (angle - node).abs() <= 1e-9 * period
-            };
+            let mut both = nodes.iter().zip(points(from, to, degree));
             if edges[edges.len() - 1] != from
                 || from >= to
-                || !nodes.iter().enumerate().all(is_node)
+                || both.any(|(angle, point)| (angle - point).abs() > 1e-9 * period)
             {
                 return Err(hint("angles are not Chebyshev points of adjoining panels"));
             }
@@ -174,12 +171,7 @@ pub(super) fn blend(parts: &[(f64, &Panels)]) -> (Vec<f64>, Vec<f64>, usize) {
     let (mut angles, mut values) = (Vec::new(), Vec::new());
     for pair in edges.windows(2) {
         let middle = 0.5 * (pair[0] + pair[1]);
-        for k in 0..=degree {
-            let angle = match k {
-                0 => pair[0],
-                k if k == degree => pair[1],
-                k => middle - 0.5 * (pair[1] - pair[0]) * node(k, degree),
-            };
+        for angle in points(pair[0], pair[1], degree) {
             angles.push(angle);
             let sum: f64 =
                 parts.iter().map(|(weight, panels)| weight * panels.beside(angle, middle)).sum();
@@ -196,6 +188,15 @@ const ROUNDED: f64 = 1e-12;
 pub(super) fn node(k: usize, degree: usize) -> f64 {
     // By the sine, so that they are symmetric.
     (std::f64::consts::FRAC_PI_2 * (degree as f64 - 2.0 * k as f64) / degree as f64).sin()
+}
+
+/// Chebyshev points of a panel, ascending, its edges exact.
+pub(super) fn points(low: f64, high: f64, degree: usize) -> impl Iterator<Item = f64> {
+    (0..=degree).map(move |k| match k {
+        0 => low,
+        k if k == degree => high,
+        k => 0.5 * (low + high) - 0.5 * (high - low) * node(k, degree),
+    })
 }
 
 /// Coefficient `n` of the Chebyshev series through ascending Chebyshev points.

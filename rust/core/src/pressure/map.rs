@@ -5,7 +5,7 @@ use crate::numbers::error::{Error, Result};
 use crate::numbers::memory;
 
 /// Place between two neighbours on an axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Between {
     /// Index of the lower one.
     pub lower: usize,

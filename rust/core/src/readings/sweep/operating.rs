@@ -32,12 +32,11 @@ pub(super) struct Nodes {
 impl Nodes {
     pub fn new(axes: &Axes, cancel: &Cancel) -> Result<Self> {
         let Some(map) = &axes.map else {
-            let one = Between { lower: 0, share: 0.0 };
             return Ok(Self {
                 loads_of_map: 1,
                 speeds_of_map: 1,
                 speeds: vec![],
-                loads: vec![one],
+                loads: vec![Between::default()],
             });
         };
         Ok(Self {
@@ -60,7 +59,7 @@ impl Nodes {
 
     /// Cycles and their weights at a speed and a load.
     fn weights(&self, speed: usize, load: usize) -> [(usize, f64); 4] {
-        let at_speed = self.speeds.get(speed).copied().unwrap_or(Between { lower: 0, share: 0.0 });
+        let at_speed = self.speeds.get(speed).copied().unwrap_or_default();
         let mut weights = [(0, 0.0); 4];
         let places = at_speed.weights().into_iter().flat_map(|of_speed| {
             self.loads[load].weights().map(move |of_load| (of_speed, of_load))
