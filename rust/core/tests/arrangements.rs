@@ -213,9 +213,7 @@ fn every_pair_is_found_and_no_other() {
             assert_eq!(search.candidates(), (all * all) as u128, "{bank:?}");
             assert_eq!(search.qualifying(), qualifying as u128, "{bank:?}");
             assert_eq!(search.balanced(), balanced as u128, "{bank:?}");
-            assert!(
-                search.distinct() * 4 * bank.turns() as usize >= all && search.distinct() <= all
-            );
+            assert!(search.distinct() * 4 * bank.turns as usize >= all && search.distinct() <= all);
             let cancel = Cancel::new();
             let found = search.angles([0.0, 180.0], &cancel).unwrap();
             let (done, total) = cancel.progress();

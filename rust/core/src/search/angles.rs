@@ -59,7 +59,7 @@ impl Angles {
         window: [f64; 2],
     ) -> Result<Self> {
         let bank = &context.moments.bank;
-        let (turns, parts) = (bank.turns(), bank.parts);
+        let (turns, parts) = (bank.turns, bank.parts);
         let mut angles = Self {
             families,
             others,

@@ -327,8 +327,8 @@ impl Search {
         let sigma = if angle.rem_euclid(*turn) <= 0.5 * turn { 1 } else { -1 };
         let own = ((angle - sigma as f64 * family.folded()) / turn).round() as i64;
         let direction = sigma * origin.sign;
-        let ahead = (direction * origin.middle - own).rem_euclid(i64::from(bank.turns())) as u32;
-        (ahead * (bank.parts / bank.turns()), (direction < 0) != origin.beyond)
+        let ahead = (direction * origin.middle - own).rem_euclid(i64::from(bank.turns)) as u32;
+        (ahead * (bank.parts / bank.turns), (direction < 0) != origin.beyond)
     }
 }
 

@@ -60,7 +60,7 @@ impl Entries {
         images: &Images,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let arrangements = bank.count() / u128::from(bank.turns() * images.count());
+        let arrangements = bank.count() / u128::from(bank.turns * images.count());
         let bytes = arrangements * size_of::<Entry>() as u128;
         refuse_too_large("cylinders", bytes, "ask for fewer cylinders")?;
         let walk = Walk::new(bank, magnitude, images);
@@ -369,7 +369,7 @@ mod tests {
             let magnitude = Magnitude::new(bank, &moments.ring).unwrap();
             let entries = Entries::new(bank, &magnitude, &moments.images, &Cancel::new()).unwrap();
             let images: u64 = entries.all.iter().map(|&entry| image_count(entry)).sum();
-            assert_eq!(u128::from(images) * u128::from(bank.turns()), bank.count(), "{bank:?}");
+            assert_eq!(u128::from(images) * u128::from(bank.turns), bank.count(), "{bank:?}");
             for &entry in &entries.all {
                 for image in moments.images.all() {
                     let phases: Vec<u32> = moments.images.phases(packed(entry), image).collect();

@@ -95,7 +95,7 @@ impl Families<'_> {
             difference[(power - k as i64).rem_euclid(parts) as usize] -= sign * term;
         }
         let exact = moments.ring.vanishes(&difference, &mut Vec::new());
-        let in_a_turn = 4 * parts / i64::from(moments.bank.turns());
+        let in_a_turn = 4 * parts / i64::from(moments.bank.turns);
         let rest = steps.rem_euclid(in_a_turn);
         exact.then(|| rest.min(in_a_turn - rest))
     }

@@ -71,7 +71,7 @@ impl Images {
         let mut distinct = bank.phases.clone();
         distinct.dedup();
         let parts = bank.parts;
-        let period = parts / bank.turns();
+        let period = parts / bank.turns;
         let table = |mirror: Option<u32>| -> Tables {
             let seen = |phase: u32| mirror.map_or(phase, |sum| (parts + sum - phase) % parts);
             let turned_back = |front: u32| {
@@ -87,8 +87,8 @@ impl Images {
             distinct.iter().map(|&front| turned_back(front)).collect()
         };
         let plain = table(None);
-        let mirrored = bank.mirror().map(|sum| table(Some(sum))).unwrap_or_default();
-        let mirror = bank.mirror();
+        let mirrored = bank.mirror.map(|sum| table(Some(sum))).unwrap_or_default();
+        let mirror = bank.mirror;
         Self { throws: bank.throws(), distinct, parts, mirror, plain, mirrored }
     }
 

@@ -78,7 +78,7 @@ impl Search {
         let moments = Moments::new(bank)?;
         let magnitude = Magnitude::new(&moments.bank, &moments.ring)?;
         let entries = Entries::new(&moments.bank, &magnitude, &moments.images, cancel)?;
-        let turns = u128::from(moments.bank.turns());
+        let turns = u128::from(moments.bank.turns);
         let pairs = |class: &[Entry]| {
             let images: u64 = class.iter().map(|&entry| image_count(entry)).sum();
             (u128::from(images) * turns).pow(2)

@@ -66,7 +66,7 @@ impl Moments {
         for (index, &phase) in images.distinct.iter().enumerate() {
             index_of[phase as usize] = index;
         }
-        let turn = TAU / f64::from(bank.turns());
+        let turn = TAU / f64::from(bank.turns);
         let exact = packing.columns;
         Ok(Self { bank, ring, images, turn, weights, units, squares, part, exact, index_of })
     }
@@ -120,7 +120,7 @@ impl Moments {
     /// What turning the crank and taking images leave of an argument.
     pub(super) fn folded(&self, argument: f64) -> f64 {
         // An even number of least turns has half a circle among them, which is what reversing adds.
-        let step = if self.bank.turns().is_multiple_of(2) { self.turn } else { 0.5 * self.turn };
+        let step = if self.bank.turns.is_multiple_of(2) { self.turn } else { 0.5 * self.turn };
         match self.images.mirror {
             Some(sum) => fold(argument - PI * f64::from(sum) / f64::from(self.bank.parts), step),
             None => argument.rem_euclid(step),
@@ -165,7 +165,7 @@ impl Moments {
 
     /// An angle as the nearest number of least turns, in parts of a turn.
     pub(super) fn turns_in(&self, angle: f64) -> usize {
-        let turns = i64::from(self.bank.turns());
+        let turns = i64::from(self.bank.turns);
         let nearest = (angle / self.turn).round() as i64;
         nearest.rem_euclid(turns) as usize * (i64::from(self.bank.parts) / turns) as usize
     }

@@ -22,7 +22,7 @@ impl Search {
     /// Arrangements of the pins without any first-order moment.
     #[must_use]
     pub fn shared_balanced(&self) -> u128 {
-        let turns = u128::from(self.moments.bank.turns());
+        let turns = u128::from(self.moments.bank.turns);
         let images = self.zero_class().iter().map(|&entry| u128::from(image_count(entry)));
         turns * images.sum::<u128>()
     }
@@ -109,7 +109,7 @@ mod tests {
                 let images = image_count(search.entries.all[place]);
                 balanced += if found.counterweight < 1e-13 { images } else { 0 };
             }
-            let turns = u64::from(search.bank().turns());
+            let turns = u64::from(search.bank().turns);
             assert_eq!(u128::from(balanced * turns), search.shared_balanced());
             let cancel = Cancel::new();
             cancel.raise();

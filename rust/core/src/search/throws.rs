@@ -16,8 +16,10 @@ pub struct Bank {
     pub parts: u32,
     /// Only arrangements whose front and rear halves take turns to fire.
     pub alternating: bool,
-    turns: u32,
-    mirror: Option<u32>,
+    /// In how many ways the crank can be turned and still have the same phases.
+    pub turns: u32,
+    /// Sum of a phase and its mirror image, where the crank running backward has the same phases.
+    pub mirror: Option<u32>,
 }
 
 /// One arrangement: the phase of each throw, front to flywheel, in multiples of 1/`parts` of a turn.
@@ -81,18 +83,6 @@ impl Bank {
     pub fn weights(&self) -> Vec<i64> {
         let n = self.throws() as i64;
         (0..n).map(|i| n - 1 - 2 * i).collect()
-    }
-
-    /// In how many ways the crank can be turned and still have the same phases.
-    #[must_use]
-    pub fn turns(&self) -> u32 {
-        self.turns
-    }
-
-    /// Sum of a phase and its mirror image, where the crank running backward has the same phases.
-    #[must_use]
-    pub fn mirror(&self) -> Option<u32> {
-        self.mirror
     }
 
     /// Number of arrangements, turned ones counted apart.
@@ -306,9 +296,9 @@ pub(super) mod tests {
     fn a_bank_of_an_inline_six_has_its_phases_twice() {
         let bank = Bank::even_firing(6, false).unwrap();
         assert_eq!((bank.phases.clone(), bank.parts), (vec![0, 0, 1, 1, 2, 2], 3));
-        assert_eq!(bank.turns(), 3);
-        assert_eq!(bank.mirror(), Some(0));
+        assert_eq!(bank.turns, 3);
+        assert_eq!(bank.mirror, Some(0));
         let one_way = [0.0, 30.0, 90.0].map(|d| Angle::from_degrees(d).unwrap());
-        assert_eq!(Bank::with_phases(&one_way).unwrap().mirror(), None);
+        assert_eq!(Bank::with_phases(&one_way).unwrap().mirror, None);
     }
 }
