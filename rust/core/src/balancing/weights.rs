@@ -145,8 +145,7 @@ pub(super) fn unbounded(
     let moment = -Complex64::i() * wanted.moment / length;
     let target = vectors(&[wanted.force, moment]);
     let found = least_squares(&DMatrix::from_fn(2, z.len(), lever), &target, 2);
-    let mut weights: Vec<Complex64> =
-        each(&found.solution).iter().map(|weight| weight.vector).collect();
+    let mut weights = complex(&found.solution);
     without_rounding(&mut weights);
     (weights, found.rank)
 }
@@ -213,7 +212,7 @@ impl Problem<'_> {
                 units[plane].iter().map(|unit| (unit.conj() * seen).re).fold(0.0, f64::max)
             }
         };
-        (0..seen.nrows()).map(|plane| vector(&seen, plane)).enumerate().map(along).collect()
+        complex(&seen).into_iter().enumerate().map(along).collect()
     }
 
     /// Weights within bounds that come nearest to a target; at any angle, the least such weights.
@@ -349,8 +348,7 @@ impl Problem<'_> {
         let (change, is_proved): (Vec<Complex64>, bool) = if self.directions.is_none() {
             let planes: Vec<usize> = free_weights.map(|weight| weight.plane).collect();
             let found = least_squares(&self.rows.select_columns(&planes), &missing, 2);
-            let change = each(&found.solution).iter().map(|weight| weight.vector).collect();
-            (change, found.rank == all)
+            (complex(&found.solution), found.rank == all)
         } else {
             let units: Vec<(usize, Complex64)> =
                 free_weights.map(|each| (each.plane, each.vector / each.vector.norm())).collect();
@@ -374,8 +372,8 @@ fn row(vector: Complex64) -> RowVector2<f64> {
     RowVector2::new(vector.re, vector.im)
 }
 
-pub(super) fn vector(of: &Vectors, row: usize) -> Complex64 {
-    Complex64::new(of[(row, 0)], of[(row, 1)])
+fn complex(vectors: &Vectors) -> Vec<Complex64> {
+    vectors.row_iter().map(|row| Complex64::new(row[0], row[1])).collect()
 }
 
 fn vectors(rows: &[Complex64]) -> Vectors {
@@ -384,8 +382,8 @@ fn vectors(rows: &[Complex64]) -> Vectors {
 
 /// A weight in each plane.
 fn each(found: &Vectors) -> Vec<PlacedWeight> {
-    let weight = |plane| PlacedWeight { plane, angle: 0, vector: vector(found, plane) };
-    (0..found.nrows()).map(weight).collect()
+    let weight = |(plane, vector)| PlacedWeight { plane, angle: 0, vector };
+    complex(found).into_iter().enumerate().map(weight).collect()
 }
 
 #[cfg(test)]
