@@ -62,7 +62,7 @@ pub(crate) struct Load {
     /// Direction of the force when the crank stands at `phase`, from +x.
     pub direction: Angle,
     /// Unit vector of that direction, x + iy.
-    unit: Complex64,
+    pub unit: Complex64,
     /// Crank angle; of pressure half of that of the firing, which half orders turn by whole numbers.
     pub phase: Angle,
     /// Place along the crank, m.
@@ -87,25 +87,16 @@ pub(crate) enum Harmonic {
     Torque(usize),
     /// Of the torque of a gear's rod inertia.
     Rod(usize),
-    /// Of the torque of the pressure on a gear's piston.
+    /// Of the torque of the pressure on a gear's piston: whatever the speed, where all others are over ω².
     Gas(usize),
 }
 
-/// What a term scales with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scale {
-    /// The square of the speed of the crank, ω²: inertia.
-    Speed,
-    /// Nothing: gas pressure, whatever the speed.
-    Given,
-}
-
 impl Harmonic {
-    /// What the terms of this harmonic scale with.
-    pub fn scale(self) -> Scale {
+    /// Index of the gear that it is of, if it is of one.
+    pub fn gear(self) -> Option<usize> {
         match self {
-            Self::One | Self::Force(_) | Self::Torque(_) | Self::Rod(_) => Scale::Speed,
-            Self::Gas(_) => Scale::Given,
+            Self::One => None,
+            Self::Force(k) | Self::Torque(k) | Self::Rod(k) | Self::Gas(k) => Some(k),
         }
     }
 }
@@ -348,11 +339,6 @@ impl Term<PhasorSum> {
 }
 
 impl Load {
-    /// Unit vector of its direction, x + iy.
-    pub fn unit(&self) -> Complex64 {
-        self.unit
-    }
-
     /// The order of an unbalance.
     pub fn unbalance_order(&self) -> Option<Order> {
         let order = Order::whole(self.ratio.unsigned_abs()).ok()?;

@@ -135,11 +135,12 @@ impl Loads {
         self.gears.iter().filter_map(cylinder).collect()
     }
 
-    /// Whether a rod of this gear has inertia beyond that of its two masses.
-    pub fn has_rod_inertia(&self, of_gear: usize) -> bool {
-        self.list.iter().any(|load| {
-            matches!(load.source, Source::Piston { gear, rod_inertia, .. }
-                if gear == of_gear && rod_inertia != 0.0)
-        })
+    /// Largest magnitude of the inertia of a rod of this gear beyond that of its two masses, kg·m².
+    pub fn largest_rod_inertia(&self, of_gear: usize) -> f64 {
+        let own = |load: &Load| match load.source {
+            Source::Piston { gear, rod_inertia, .. } if gear == of_gear => rod_inertia.abs(),
+            _ => 0.0,
+        };
+        self.list.iter().map(own).fold(0.0, f64::max)
     }
 }

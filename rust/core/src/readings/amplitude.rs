@@ -2,7 +2,7 @@
 
 use crate::Complex64;
 use crate::gear::harmonics::rod::TorqueHarmonics;
-use crate::load::{Harmonic, Loads, Scale, Source, Wanted};
+use crate::load::{Harmonic, Loads, Source, Wanted};
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::Result;
 use crate::numbers::memory;
@@ -35,9 +35,9 @@ pub(crate) fn wrenches(
             let [force, moment] = term.planar();
             wrench.force.add_scaled(&force, on_force);
             wrench.moment.add_scaled(&moment, on_force);
-            let torque = match term.harmonic.scale() {
-                Scale::Speed => &mut wrench.inertia,
-                Scale::Given => &mut wrench.gas,
+            let torque = match term.harmonic {
+                Harmonic::Gas(_) => &mut wrench.gas,
+                _ => &mut wrench.inertia,
             };
             torque.roll += term.roll.value * roll;
             torque.crank += term.roll.value * crank;
@@ -82,7 +82,8 @@ impl GearHarmonics {
         for (k, gear) in loads.gears.iter().enumerate() {
             force.push(gear.force(orders, cancel)?);
             if torque {
-                let rod = loads.has_rod_inertia(k).then(|| gear.rod_torque(orders, cancel));
+                let has_rod = loads.largest_rod_inertia(k) > 0.0;
+                let rod = has_rod.then(|| gear.rod_torque(orders, cancel));
                 torques.push((gear.torque(orders, cancel)?, rod.transpose()?));
                 let known = known.get(k).and_then(Option::as_ref);
                 let fired = gear.pressure.is_some().then(|| gear.gas(orders, known, cancel));

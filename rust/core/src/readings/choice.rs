@@ -111,12 +111,8 @@ pub(crate) fn few<S: AsRef<[f64]>>(sizes: &[S], allowed: &[f64], lost: &mut [f64
 }
 
 /// Largest rod inertia of a gear over what a tolerance of torque is relative to.
-fn rod_share(loads: &Loads, of_gear: usize, scales: &[f64; 3]) -> f64 {
-    let inertia = loads.list.iter().map(|load| match load.source {
-        Source::Piston { gear, rod_inertia, .. } if gear == of_gear => rod_inertia.abs(),
-        _ => 0.0,
-    });
-    let largest = inertia.fold(0.0, f64::max);
+fn rod_share(loads: &Loads, gear: usize, scales: &[f64; 3]) -> f64 {
+    let largest = loads.largest_rod_inertia(gear);
     if largest == 0.0 { 0.0 } else { largest / scales[2] }
 }
 

@@ -178,6 +178,11 @@ struct Cubic {
 }
 
 impl Cubic {
+    fn integral(&self) -> f64 {
+        let Self { ends, slopes, width } = *self;
+        width * (0.5 * (ends[0] + ends[1]) + width * (slopes[0] - slopes[1]) / 12.0)
+    }
+
     /// Least and largest value of the cubic that has them.
     fn extremes(&self) -> [f64; 2] {
         let [from, to] = self.ends;
@@ -303,11 +308,7 @@ impl WorkCurve {
     }
 
     fn mean_moving(&self) -> f64 {
-        let of_cell = |cell: &Cell| {
-            let Cubic { ends, slopes, width } = cell.moving;
-            width * (0.5 * (ends[0] + ends[1]) + width * (slopes[0] - slopes[1]) / 12.0)
-        };
-        self.cells.iter().map(of_cell).sum::<f64>() / self.period()
+        self.cells.iter().map(|cell| cell.moving.integral()).sum::<f64>() / self.period()
     }
 
     /// The speeds with a flywheel, at the mean speed: by Newton's method on the energy at the start.
@@ -328,9 +329,7 @@ impl WorkCurve {
                 let half = cell.half_square(inertia, energy);
                 let slowness = half.ends.map(|half| (2.0 * half).sqrt().recip());
                 let steep = [0, 1].map(|k| -half.slopes[k] * slowness[k].powi(3));
-                time += half.width
-                    * (0.5 * (slowness[0] + slowness[1])
-                        + half.width * (steep[0] - steep[1]) / 12.0);
+                time += Cubic { ends: slowness, slopes: steep, width: half.width }.integral();
                 slope -= half.width * slowness[0].powi(3) / (inertia + cell.moving.ends[0]);
             }
             let next = energy + (wanted - time) / slope;

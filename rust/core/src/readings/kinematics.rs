@@ -119,7 +119,7 @@ impl Kinematics {
         for load in &loads.list {
             let ratio = load.ratio;
             let square = f64::from(ratio * ratio);
-            let force = load.unit() * (load.weight * square);
+            let force = load.unit * (load.weight * square);
             // A moment is its levered force turned by a quarter.
             let lever = Complex64::new(0.0, load.z - loads.reference);
             if !matches!(load.source, Source::Pressure { .. }) {

@@ -280,9 +280,7 @@ fn fill_blocks(
         }
         (thetas, pairs, of_block)
     });
-    let mut listed = memory::room(tasks.len())?;
-    listed.extend(tasks);
-    let tasks = listed;
+    let tasks = memory::collected(tasks)?;
     let block = |(thetas, pairs, torques): (&[f64], [&mut [f64]; 2], [&mut [f64]; 4])| {
         cancel.check()?;
         let mut rows = WaveformRows::ZERO;

@@ -83,7 +83,7 @@ impl Turning {
     /// An unbalance at a square of angular speed.
     fn new(load: &Load, square: f64) -> Self {
         let force = load.weight * square * f64::from(load.ratio * load.ratio);
-        let at_start = load.unit() * load.phase.cis(-i64::from(load.ratio)) * force;
+        let at_start = load.unit * load.phase.cis(-i64::from(load.ratio)) * force;
         Self { z: load.z, ratio: load.ratio, at_start }
     }
 }
@@ -114,7 +114,7 @@ impl Internal {
         for (i, load) in pistons.iter().enumerate() {
             let rod = DrivenRod::new(engine, i, load, square)?;
             // What the crankpin gets from the rod is part of the rotating mass.
-            let at_start = load.unit() * load.phase.cis(-1) * -rod.rotating;
+            let at_start = load.unit * load.phase.cis(-1) * -rod.rotating;
             found.on_crank.push(Turning { z: load.z, ratio: 1, at_start });
             found.rods.push(rod);
         }

@@ -123,7 +123,7 @@ impl DrivenRod {
         Ok(Self {
             proportions: cylinder.proportions(),
             phase: load.phase.cis(-1),
-            bore: load.unit(),
+            bore: load.unit,
             z: load.z,
             reciprocating: load.weight * square,
             piston: piston * square,

@@ -207,12 +207,7 @@ impl Sweep {
         known: &mut Known,
         cancel: &Cancel,
     ) -> Result<usize> {
-        let gear = match harmonic {
-            Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) | Harmonic::Gas(k) => {
-                slowest.get(k)
-            }
-            Harmonic::One => None,
-        };
+        let gear = harmonic.gear().map(|k| &slowest[k]);
         let kind = discriminant(&harmonic);
         let same = |(of, at, _): &(Option<Gear>, _, _)| of.as_ref() == gear && *at == kind;
         if let Some(place) = known.iter().position(same) {

@@ -73,15 +73,12 @@ impl Sweep {
         for _ in &self.orders {
             columns.push([memory::zeros(points.len())?, memory::zeros(points.len())?]);
         }
-        let (Harmonic::Force(k) | Harmonic::Torque(k) | Harmonic::Rod(k) | Harmonic::Gas(k)) =
-            harmonic
-        else {
+        let Some(gear) = harmonic.gear().map(|k| &gears[k]) else {
             for [re, _] in &mut columns {
                 re.fill(1.0);
             }
             return Ok(columns);
         };
-        let gear = &gears[k];
         let [ratios, offsets] = [&self.axes.rod_ratio, &self.axes.pin_offset];
         if let (Some(ratios), None, Harmonic::Force(_)) = (ratios, offsets, harmonic)
             && gear.is_centred()

@@ -3,7 +3,7 @@
 use super::{Quantity, Sweep};
 use crate::Complex64;
 use crate::engine::{Engine, Hold};
-use crate::load::{Harmonic, Loads, PhasorSum, Scale, Term, Turn, Wanted};
+use crate::load::{Harmonic, Loads, PhasorSum, Term, Turn, Wanted, found_or};
 use crate::numbers::angle::Angle;
 use crate::numbers::error::Result;
 use crate::numbers::order::Order;
@@ -66,7 +66,12 @@ impl Sweep {
             for (quantity, layout) in quantities.iter().zip(&mut layouts) {
                 let mut sums = Vec::new();
                 for (term, parts) in terms.iter().filter_map(|t| Some((t, quantity.parts(t)?))) {
-                    let sum = sum_of(&mut sums, term.harmonic);
+                    let harmonic = term.harmonic;
+                    let sum = found_or(
+                        &mut sums,
+                        |sum: &LayoutSum| sum.harmonic == harmonic,
+                        || LayoutSum { harmonic, ..LayoutSum::default() },
+                    );
                     sum.bound += (parts[0].size + parts[1].size) * rounding;
                     let Some((bank, (right, to_bisector, hold))) = term.bank.zip(vee) else {
                         sum.parts.iter_mut().zip(parts).for_each(|(k, part)| k.rest += part.value);
@@ -96,15 +101,6 @@ impl Sweep {
     }
 }
 
-/// The sum of this harmonic, added where there is none yet.
-fn sum_of(sums: &mut Vec<LayoutSum>, harmonic: Harmonic) -> &mut LayoutSum {
-    let known = sums.iter().position(|sum| sum.harmonic == harmonic).unwrap_or_else(|| {
-        sums.push(LayoutSum { harmonic, ..LayoutSum::default() });
-        sums.len() - 1
-    });
-    &mut sums[known]
-}
-
 impl Quantity {
     /// Whether it is a vector in the cross-section.
     pub(super) fn is_planar(self) -> bool {
@@ -113,12 +109,12 @@ impl Quantity {
 
     /// The sums of a term that make it: forward part and conjugate of the backward part, or torque.
     fn parts(self, term: &Term<PhasorSum>) -> Option<[PhasorSum; 2]> {
-        let own =
-            matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_) | Harmonic::Gas(_));
+        let is_gas = matches!(term.harmonic, Harmonic::Gas(_));
+        let own = is_gas || matches!(term.harmonic, Harmonic::Torque(_) | Harmonic::Rod(_));
         let left_out = match self.part() {
             Some(TorquePart::Whole) => false,
-            Some(TorquePart::Inertia) => term.harmonic.scale() == Scale::Given,
-            Some(TorquePart::Gas) => term.harmonic.scale() == Scale::Speed,
+            Some(TorquePart::Inertia) => is_gas,
+            Some(TorquePart::Gas) => !is_gas,
             None => own,
         };
         match self {
