@@ -69,16 +69,6 @@ fn vector(quantity: &str) -> PyResult<Vector> {
     choice("quantity", quantity, &[("force", Vector::Force), ("moment", Vector::Moment)])
 }
 
-impl Balance {
-    fn each<'py, T: numpy::Element>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(usize) -> T,
-    ) -> Bound<'py, PyArray1<T>> {
-        frozen(py, (0..self.0.orders.len()).map(of).collect::<Array1<T>>())
-    }
-}
-
 #[pymethods]
 impl Balance {
     #[getter]
@@ -122,11 +112,14 @@ impl Balance {
     }
 
     fn zero_bound<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        if let Some(part) = part(name) {
-            return Ok(self.each(py, |k| self.0.torque_zero_bound(part, k)));
-        }
-        let vector = vector(name)?;
-        Ok(self.each(py, |k| self.0.zero_bound(vector, k)))
+        let orders = 0..self.0.orders.len();
+        let bounds: Array1<f64> = if let Some(part) = part(name) {
+            orders.map(|k| self.0.torque_zero_bound(part, k)).collect()
+        } else {
+            let vector = vector(name)?;
+            orders.map(|k| self.0.zero_bound(vector, k)).collect()
+        };
+        Ok(frozen(py, bounds))
     }
 
     fn total_peak_xy<'py>(

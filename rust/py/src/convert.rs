@@ -127,6 +127,11 @@ pub fn orders(orders: &[OrderNumber]) -> PyResult<Vec<core::Order>> {
     orders.iter().map(order).collect::<core::Result<_>>().or_raise()
 }
 
+/// The core's orders of these numbers of halves.
+pub fn orders_of_halves(halves: Vec<u32>) -> PyResult<Vec<core::Order>> {
+    halves.into_iter().map(core::Order::from_halves).collect::<core::Result<_>>().or_raise()
+}
+
 /// Orders for Python.
 pub fn numbers(orders: &[core::Order]) -> Vec<OrderNumber> {
     let number = |order: &core::Order| {

@@ -53,7 +53,7 @@ type Kept = (Option<f64>, Option<f64>, Option<(f64, f64, f64)>);
 type Pin = (Vec<usize>, f64, f64);
 
 /// Cylinders by number.
-fn numbers(cylinders: &[usize]) -> Vec<usize> {
+pub fn numbers(cylinders: &[usize]) -> Vec<usize> {
     cylinders.iter().map(|k| k + 1).collect()
 }
 

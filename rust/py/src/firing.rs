@@ -10,8 +10,8 @@ use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{Angle, OrRaise, frozen};
-use crate::engine::{Engine, VeeLayout, firing_rule};
+use crate::convert::{self, Angle, OrRaise, frozen};
+use crate::engine::{Engine, VeeLayout, firing_rule, numbers};
 use crate::interrupt;
 
 /// A way to fire, of the core.
@@ -29,8 +29,8 @@ type Two<'py, A> = (Bound<'py, A>, Bound<'py, A>);
 type Overlap = (usize, usize, f64, f64);
 
 /// Opening and closing angles of valves or ports.
-fn timing(angles: &[Angle]) -> PyResult<Timing> {
-    Timing::new(&angles.iter().map(|angle| angle.0).collect::<Vec<_>>()).or_raise()
+fn timing(angles: Vec<Angle>) -> PyResult<Timing> {
+    Timing::new(&convert::angles(angles)).or_raise()
 }
 
 fn column(
@@ -84,7 +84,7 @@ impl Firing {
 
     #[getter]
     fn order(&self) -> Vec<usize> {
-        self.0.order().iter().map(|i| i + 1).collect()
+        numbers(self.0.order())
     }
 
     #[getter]
@@ -119,7 +119,7 @@ impl Firing {
 
     #[getter]
     fn banks(&self) -> Vec<Vec<usize>> {
-        self.0.banks().iter().map(|bank| bank.iter().map(|i| i + 1).collect()).collect()
+        self.0.banks().iter().map(|bank| numbers(bank)).collect()
     }
 
     fn gaps(&self, groups: Groups) -> PyResult<Vec<Vec<(usize, usize, f64)>>> {
@@ -139,12 +139,12 @@ impl Firing {
 
     /// When intake valves or transfer ports, and exhausts are open.
     fn open<'py>(&self, py: Python<'py>, given: Vec<Angle>) -> PyResult<Two<'py, PyArray2<f64>>> {
-        let [intake, exhaust] = self.0.open(&timing(&given)?).or_raise()?;
+        let [intake, exhaust] = self.0.open(&timing(given)?).or_raise()?;
         Ok((periods(py, &intake), periods(py, &exhaust)))
     }
 
     fn overlaps(&self, groups: Groups, given: Vec<Angle>) -> PyResult<Vec<Vec<Overlap>>> {
-        let [_, exhaust] = self.0.open(&timing(&given)?).or_raise()?;
+        let [_, exhaust] = self.0.open(&timing(given)?).or_raise()?;
         let groups = self.0.groups(groups.as_deref()).or_raise()?;
         let found = self.0.overlaps(&groups, &exhaust);
         let figures = |each: &firing::Overlap| {
@@ -157,7 +157,7 @@ impl Firing {
 /// Raise if valves or ports cannot open and close so.
 #[pyfunction]
 pub fn check_timing(given: Vec<Angle>) -> PyResult<()> {
-    timing(&given).map(drop)
+    timing(given).map(drop)
 }
 
 /// Crankpins that a firing order needs, and no pin splits.

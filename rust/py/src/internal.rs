@@ -10,10 +10,7 @@ use crate::interrupt;
 
 /// An engine with main bearings at a speed.
 #[pyclass(frozen, module = "crankpin._core")]
-pub struct Internal {
-    engine: crankpin_core::Engine,
-    rpm: f64,
-}
+pub struct Internal(internal::Internal);
 
 /// Loads of crankpins, wrist pins and main bearings along x and y, side thrust, rod force, gas force.
 type Loads<'py> = (
@@ -25,29 +22,21 @@ type Loads<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-impl Internal {
-    fn core(&self) -> crankpin_core::Result<internal::Internal> {
-        internal::Internal::new(&self.engine, self.rpm)
-    }
-}
-
 #[pymethods]
 impl Internal {
     #[new]
     fn new(engine: &Bound<'_, Engine>, rpm: f64) -> PyResult<Self> {
-        let engine = crankpin_core::Engine::clone(&engine.get().0);
-        internal::Internal::new(&engine, rpm).or_raise()?;
-        Ok(Self { engine, rpm })
+        internal::Internal::new(&engine.get().0, rpm).or_raise().map(Self)
     }
 
     /// Places of loads and main bearings along z.
-    fn places(&self) -> PyResult<Vec<f64>> {
-        self.core().or_raise().map(|core| core.places())
+    fn places(&self) -> Vec<f64> {
+        self.0.places()
     }
 
     /// Share of each crankpin's load that each main bearing carries.
-    fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.core().or_raise().map(|core| frozen(py, core.shares()))
+    fn shares<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        frozen(py, self.0.shares())
     }
 
     fn loads<'py>(
@@ -56,7 +45,7 @@ impl Internal {
         theta_deg: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Loads<'py>> {
         let thetas = theta_deg.as_slice()?;
-        let found = interrupt::run(py, |cancel| self.core()?.loads(thetas, cancel))?;
+        let found = interrupt::run(py, |cancel| self.0.loads(thetas, cancel))?;
         let BearingLoads { crankpin, wrist_pin, main, side_thrust, rod, gas } = found;
         let [crankpin, wrist_pin, main] = [crankpin, wrist_pin, main].map(|each| frozen(py, each));
         let [side_thrust, rod, gas] = [side_thrust, rod, gas].map(|each| frozen(py, each));
@@ -80,8 +69,7 @@ impl Internal {
         let axes =
             choice("axes", axes, &[("crank", TurningAxes::Crank), ("rod", TurningAxes::Rod)])?;
         let thetas = theta_deg.as_slice()?;
-        let found =
-            interrupt::run(py, |cancel| self.core()?.turned(bearing, axes, thetas, cancel))?;
+        let found = interrupt::run(py, |cancel| self.0.turned(bearing, axes, thetas, cancel))?;
         Ok(frozen(py, found))
     }
 
@@ -95,14 +83,14 @@ impl Internal {
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
         let part = choice("part", part, &[("crank", Part::Crank), ("crankcase", Part::Crankcase)])?;
         let thetas = theta_deg.as_slice()?;
-        let found = interrupt::run(py, |cancel| self.core()?.sections(part, thetas, cancel))?;
+        let found = interrupt::run(py, |cancel| self.0.sections(part, thetas, cancel))?;
         let Sections { shear, bending } = found;
         Ok((frozen(py, shear), frozen(py, bending)))
     }
 
     /// Ranges of crank angles in which each rod is in tension, degrees of a cycle.
     fn tension(&self, py: Python<'_>, cycle_deg: u32) -> PyResult<Vec<Vec<(f64, f64)>>> {
-        let found = interrupt::run(py, |cancel| self.core()?.tension(cycle_deg, cancel))?;
+        let found = interrupt::run(py, |cancel| self.0.tension(cycle_deg, cancel))?;
         Ok(found.into_iter().map(|rod| rod.into_iter().map(<(f64, f64)>::from).collect()).collect())
     }
 }

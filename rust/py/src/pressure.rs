@@ -9,11 +9,11 @@ use crankpin_core::pressure::Given;
 use crankpin_core::pressure::burn::{Heat, WallLoss, Wiebe};
 use crankpin_core::pressure::chamber::{Chamber, Ideal};
 use crankpin_core::pressure::map::between;
-use crankpin_core::{Complex64, Order, order};
+use crankpin_core::{Complex64, order};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, Parts, cylinder, frozen};
+use crate::convert::{OrRaise, Parts, cylinder, frozen, orders_of_halves};
 use crate::engine::entry;
 use crate::interrupt;
 
@@ -207,8 +207,7 @@ impl Cycle {
     ) -> PyResult<(f64, Bound<'py, PyArray1<Complex64>>)> {
         let proportions = cylinder(parts)?.proportions();
         let crankcase = core::limits::finite("crankcase", crankcase).or_raise()?;
-        let orders: Vec<Order> =
-            halves.into_iter().map(Order::from_halves).collect::<core::Result<_>>().or_raise()?;
+        let orders = orders_of_halves(halves)?;
         if !orders.is_empty() {
             order::check_list(&orders).or_raise()?;
         }

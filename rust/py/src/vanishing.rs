@@ -8,7 +8,7 @@ use ndarray::{Array1, Array2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::convert::{OrRaise, frozen};
+use crate::convert::{frozen, orders_of_halves};
 use crate::engine::Engine;
 use crate::firing::Firing;
 use crate::interrupt;
@@ -24,11 +24,6 @@ type Star<'py> = (
     Column<'py>,
 );
 
-/// Orders of these numbers of halves.
-fn orders(halves: Vec<u32>) -> PyResult<Vec<Order>> {
-    halves.into_iter().map(Order::from_halves).collect::<core::Result<_>>().or_raise()
-}
-
 /// Proved to vanish, proved to remain, zero within rounding, each (`n_orders`, 10), and obstacles.
 #[pyfunction]
 pub fn vanishing<'py>(
@@ -38,7 +33,7 @@ pub fn vanishing<'py>(
     firing: Option<&Firing>,
 ) -> PyResult<(Table<'py>, Table<'py>, Table<'py>, Vec<String>)> {
     let py = engine.py();
-    let (engine, orders) = (&engine.get().0, orders(halves)?);
+    let (engine, orders) = (&engine.get().0, orders_of_halves(halves)?);
     let firing = firing.map(|firing| &firing.0);
     let Vanishing { verdicts, within_rounding, obstacles, .. } = interrupt::run(py, |cancel| {
         core::exact::vanishing::vanishing(engine, &orders, reference_z, firing, cancel)
@@ -63,7 +58,7 @@ pub fn star<'py>(
     halves: Vec<u32>,
     weights: Vec<f64>,
 ) -> PyResult<Star<'py>> {
-    let (firing, orders, count) = (&firing.0, orders(halves)?, weights.len());
+    let (firing, orders, count) = (&firing.0, orders_of_halves(halves)?, weights.len());
     let stars = interrupt::run(py, |cancel| {
         let stars = Stars::new(firing.phases(), weights, vec![(0, false); count], cancel)?;
         let at = |&order: &Order| {
