@@ -331,7 +331,7 @@ def test_sentences_are_those_of_the_engine_as_given(open_engine: Open) -> None:
     page.clock.run_for(500)
     assert angle(page) == 0  # the key opened the list, and played nothing
     # They say at what speed; another engine they do not describe.
-    assert page.get_by_text("How it shakes, at 4500 r/min").is_visible()
+    assert page.get_by_text("How it shakes, at 4500 rpm").is_visible()
     page.locator("[data-name=rpm]").fill("2000")
     assert listed.first.is_visible()
     for field, value, own in (("bank-angle", "60", "90"), ("rod-ratio", "0.25", None)):

@@ -90,7 +90,7 @@ export class Settings {
     this.view = view;
     const { figures } = view;
     const [least, most] = rodRatioLimits(figures);
-    // Cars' engines reach 8000 r/min, slow ones half as much again as they are shown at first.
+    // Cars' engines reach 8000 rpm, slow ones half as much again as they are shown at first.
     const slow = figures.rpm > 0 && figures.rpm < 1000;
     const fastest = slow ? 1.5 * figures.rpm : Math.max(1.5 * figures.rpm, 8000);
     const settle = () => this.show(view.state);

@@ -80,7 +80,7 @@ export const STRINGS = {
   intervals: (degrees) => `(intervals ${degrees}°)`,
   keys: "Keys: space plays and stops, ← → step, shift ten times as far, R reverses, home returns to the start",
   units: { force: "N", moment: "N·m", torque: "N·m", orbit: "m", pressure: "Pa" },
-  rpm: "r/min",
+  rpm: "rpm",
   millimetres: "mm",
   degrees: "°",
 };
