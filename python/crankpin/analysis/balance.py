@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
@@ -202,7 +202,7 @@ class Balance(ByOrder, Tabled):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        kind: str = "spectrum",
+        kind: Literal["spectrum", "ellipses", "phasors"] = "spectrum",
         quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes

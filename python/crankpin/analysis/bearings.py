@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -336,7 +336,7 @@ class BearingLoads(Tabled):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        kind: str = "polar",
+        kind: Literal["polar", "curves", "bending"] = "polar",
         **options: Any,  # noqa: ANN401 - as below
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes
         """Draw loads; return the axes.

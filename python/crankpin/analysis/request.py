@@ -121,7 +121,8 @@ def engine_core(engine: object, name: str = "engine") -> _core.Engine:
     """Return the compiled counterpart of an engine, or say that it is none."""
     core = getattr(engine, "_core", None)
     if not isinstance(core, _core.Engine):
-        raise inputs.rejected(name, engine, ENGINE_HINT)
+        hint = "give its .fitted, an engine" if hasattr(engine, "fitted") else ENGINE_HINT
+        raise inputs.rejected(name, engine, hint)
     return core
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -260,7 +260,7 @@ class Waveform(OverAngle, Tabled):
         self,
         ax: Axes | None = None,
         *,
-        kind: str = "curves",
+        kind: Literal["curves", "orbit"] = "curves",
         quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Axes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import PLANE_VECTORS, QUANTITIES
@@ -298,7 +298,7 @@ class Counterweights(Tabled):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        kind: str = "summary",
+        kind: Literal["summary", "weights", "ellipses"] = "summary",
         quantity: str | None = None,
         **style: Any,  # noqa: ANN401 - of lines
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from crankpin._support.tables import Column, Table
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.by_order import ByOrder
 from crankpin.analysis.drawing import draw
-from crankpin.analysis.request import ENGINE_HINT, Request, check_request, engine_core
+from crankpin.analysis.request import Request, check_request, engine_core
 from crankpin.analysis.sweeps import dask
 from crankpin.analysis.sweeps.gas import GasMap
 from crankpin.analysis.sweeps.waveform import SweepWaveform
@@ -526,7 +526,7 @@ class Sweep(ByOrder, Tabled):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        kind: str | None = None,
+        kind: Literal["curves", "parts", "map", "orders", "bars"] | None = None,
         quantity: str | None = None,
         x: str | None = None,
         orders: Orders | None = None,
@@ -654,8 +654,7 @@ def _listed(engines: Engines) -> tuple[list[Engine], tuple[str, ...] | None]:
             names, engines = [str(name) for name in engines], engines.values()
         engines = inputs.items("engines", engines, "give crankpin.Engine objects")
     for engine in engines:
-        if not isinstance(engine, Engine):
-            raise inputs.rejected("engines", engine, ENGINE_HINT)
+        engine_core(engine, "engines")
     if names is None:
         names = [""] * len(engines)
     return list(engines), tuple(names)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -181,7 +181,7 @@ class SweepWaveform(OverAngle, Record):
         ax: Axes | None = None,
         *,
         figure: Figure | SubFigure | None = None,
-        kind: str | None = None,
+        kind: Literal["curves", "envelope"] | None = None,
         quantity: str | None = None,
         **options: Any,  # noqa: ANN401 - as below
     ) -> Any:  # noqa: ANN401 - axes, or an array of axes

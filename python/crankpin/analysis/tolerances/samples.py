@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -397,7 +397,7 @@ class Tolerances(ByOrder, Tabled):
         self,
         ax: Axes | None = None,
         *,
-        kind: str = "histogram",
+        kind: Literal["histogram", "ecdf", "shares"] = "histogram",
         by: str | None = None,
         **style: Any,  # noqa: ANN401 - keywords of matplotlib
     ) -> Axes:
