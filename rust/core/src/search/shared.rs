@@ -45,8 +45,8 @@ impl Search {
         memory::collected(keyed.into_iter().map(|(_, place)| place))
     }
 
-    /// Phases after the front one, nine bits each, of the image that has the least of them: a bank has
-    /// at most 360 parts of a turn.
+    /// Phases after the front one, nine bits each, of the image where they are least: a bank has at
+    /// most 360 parts of a turn.
     fn shared_key(&self, packed: Packed) -> u128 {
         let images = &self.moments.images;
         let key = |image: Image| {
