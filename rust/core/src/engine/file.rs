@@ -443,7 +443,7 @@ pub fn from_json(text: &str) -> Result<Engine> {
     sized("JSON", text)?;
     let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
     check_tables(&value, "the file")?;
-    serde_json::from_str::<EngineFile>(text).map_err(|e| unreadable("JSON", &e))?.engine()
+    from_state(text)
 }
 
 /// A message of serde's with JSON's words for types, and not too long.

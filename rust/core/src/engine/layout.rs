@@ -139,20 +139,27 @@ pub struct Vee {
 impl Vee {
     /// The engine with this cylinder throughout.
     pub fn engine(&self, cylinder: Cylinder) -> Result<Engine> {
-        let seats = self.seats(2 * self.throws.len())?;
-        let masses = per_cylinder(&self.rotating_mass, seats.len())?;
-        let stations = seats.iter().zip(masses).map(|(seat, mass)| {
+        let seats = self.seats(2 * self.throws.len())?.into_iter().map(|seat| {
             let split = if seat.side == Side::Left { self.pin_split } else { Angle::ZERO };
-            let pin = self.throws[seat.throw] + split;
-            seat.station(cylinder, seat.bank - pin, mass)
+            let tdc = seat.bank - (self.throws[seat.throw] + split);
+            (seat, tdc)
         });
-        self.in_banks(&seats, stations.collect())
+        self.seated(cylinder, &seats.collect::<Vec<_>>())
     }
 
-    /// The engine of these stations, each in the bank of its seat.
-    fn in_banks(&self, seats: &[Seat], stations: Vec<Station>) -> Result<Engine> {
-        let sides: Vec<usize> = seats.iter().map(|seat| seat.side as usize).collect();
-        Ok(Engine::in_banks("", "", stations, &sides)?.with_first_tdc(self.first_tdc))
+    /// The engine with a cylinder in each seat, at top dead centre at these crank angles.
+    fn seated(&self, cylinder: Cylinder, seats: &[(Seat, Angle)]) -> Result<Engine> {
+        let masses = per_cylinder(&self.rotating_mass, seats.len())?;
+        let stations = seats.iter().zip(masses).map(|((seat, tdc), rotating_mass)| Station {
+            cylinder,
+            tdc: *tdc,
+            bank: seat.bank,
+            z: seat.z,
+            rotating_mass,
+        });
+        let sides: Vec<usize> = seats.iter().map(|(seat, _)| seat.side as usize).collect();
+        let engine = Engine::in_banks("", "", stations.collect(), &sides)?;
+        Ok(engine.with_first_tdc(self.first_tdc))
     }
 
     /// Where each cylinder sits, by number; `throws` is ignored.
@@ -187,12 +194,6 @@ pub(crate) struct Seat {
     pub side: Side,
     bank: Angle,
     z: f64,
-}
-
-impl Seat {
-    fn station(&self, cylinder: Cylinder, tdc: Angle, rotating_mass: f64) -> Station {
-        Station { cylinder, tdc, bank: self.bank, z: self.z, rotating_mass }
-    }
 }
 
 impl FiringOrder {
@@ -263,13 +264,7 @@ impl FiringOrder {
 
     /// A vee that fires so; `layout.throws` and `layout.pin_split` are not asked.
     pub fn vee(&self, cylinder: Cylinder, rule: &FiringRule, layout: &Vee) -> Result<Engine> {
-        let seats = self.vee_seats(rule, layout)?;
-        let masses = per_cylinder(&layout.rotating_mass, seats.len())?;
-        let stations =
-            seats.iter().zip(masses).map(|((seat, tdc), mass)| seat.station(cylinder, *tdc, mass));
-        let stations = stations.collect();
-        let seats: Vec<Seat> = seats.into_iter().map(|(seat, _)| seat).collect();
-        layout.in_banks(&seats, stations)
+        layout.seated(cylinder, &self.vee_seats(rule, layout)?)
     }
 
     /// Where each cylinder of a vee sits, and its top dead centre.
