@@ -41,13 +41,8 @@ impl fmt::Debug for Poll {
 impl Cancel {
     /// Not cancelled; no steps done.
     #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            raised: AtomicBool::new(false),
-            done: AtomicUsize::new(0),
-            total: AtomicUsize::new(0),
-            poll: None,
-        }
+    pub fn new() -> Self {
+        Self::default()
     }
 
     /// Like [`Cancel::new`], but calls `stop` in the calling thread about every [`PERIOD`], whichever

@@ -15,10 +15,10 @@ impl Order {
 
     /// A whole order, 1 to [`HIGHEST_ORDER`].
     pub fn whole(order: u32) -> Result<Self> {
-        order
-            .checked_mul(2)
-            .ok_or_else(|| out_of_range(order))
-            .and_then(|halves| Self::from_halves(halves).map_err(|_| out_of_range(order)))
+        if (1..=HIGHEST_ORDER).contains(&order) {
+            return Ok(Self(2 * order));
+        }
+        Err(out_of_range(order))
     }
 
     /// Twice the order, 1 to 2·[`HIGHEST_ORDER`].
@@ -33,7 +33,7 @@ impl Order {
     pub fn from_number(order: f64) -> Result<Self> {
         let halves = 2.0 * order;
         if halves.fract() == 0.0 && (1.0..=2.0 * f64::from(HIGHEST_ORDER)).contains(&halves) {
-            return Self::from_halves(halves as u32);
+            return Ok(Self(halves as u32));
         }
         Err(out_of_range(order))
     }

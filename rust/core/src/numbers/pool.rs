@@ -27,8 +27,14 @@ struct Pools {
     idle: Vec<ThreadPool>,
 }
 
-static POOLS: Mutex<Pools> =
-    Mutex::new(Pools { process: 0, threads: 0, made: 0, idle: Vec::new() });
+static POOLS: Mutex<Pools> = Mutex::new(Pools::of(0));
+
+impl Pools {
+    /// Those of a process that has made none.
+    const fn of(process: u32) -> Self {
+        Self { process, threads: 0, made: 0, idle: Vec::new() }
+    }
+}
 
 thread_local! {
     /// Whether this thread computes alone because no other thread could be started.
@@ -125,10 +131,7 @@ impl Lease {
         let threads = {
             let mut pools = lock()?;
             if pools.process != process {
-                let old = mem::replace(
-                    &mut *pools,
-                    Pools { process, threads: 0, made: 0, idle: Vec::new() },
-                );
+                let old = mem::replace(&mut *pools, Pools::of(process));
                 // Their threads exist in the parent alone: dropping them would wait for these.
                 mem::forget(old);
             }
