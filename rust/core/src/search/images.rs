@@ -93,6 +93,7 @@ impl Images {
     }
 
     /// Images that the bank has.
+    #[inline]
     pub(super) fn all(&self) -> impl Iterator<Item = Image> + Clone {
         let mirrored = self.mirror.is_some();
         Image::ALL.into_iter().filter(move |image| mirrored || !image.mirrored)
@@ -121,6 +122,7 @@ impl Images {
     }
 
     /// Phases of an image, front to flywheel; not turned back.
+    #[inline]
     pub(super) fn phases(&self, packed: Packed, image: Image) -> impl Iterator<Item = u32> {
         (0..self.throws).map(move |i| {
             let throw = if image.reversed { self.throws - 1 - i } else { i };
