@@ -98,20 +98,19 @@ impl Error {
     /// The same error under the name by which the caller knows the argument.
     #[must_use]
     pub fn named(self, argument: &str) -> Self {
-        match self {
-            Self::Value { value, hint, .. } => {
-                Self::Value { argument: argument.to_owned(), value, hint }
-            }
-            other => other,
-        }
+        self.renamed(|_| argument.to_owned())
     }
 
     /// The same error about an argument that is part of a larger one (`cylinders[3].z`).
     #[must_use]
     pub fn within(self, place: &str) -> Self {
+        self.renamed(|argument| format!("{place}{argument}"))
+    }
+
+    fn renamed(self, name: impl FnOnce(&str) -> String) -> Self {
         match self {
             Self::Value { argument, value, hint } => {
-                Self::Value { argument: format!("{place}{argument}"), value, hint }
+                Self::Value { argument: name(&argument), value, hint }
             }
             other => other,
         }
