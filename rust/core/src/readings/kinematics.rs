@@ -1,7 +1,7 @@
 //! Exact kinematics of a whole engine: its loads gathered by motion and top dead centre.
 
 use std::borrow::Cow;
-use std::ops::{Deref, DerefMut, Range};
+use std::ops::Range;
 
 use crate::Complex64;
 use crate::gear::rod::Swing;
@@ -16,30 +16,8 @@ use crate::wrench::rounding;
 /// Crank angles evaluated side by side.
 pub(crate) const BLOCK: usize = 256;
 
-/// One value for each crank angle of a block; whole cache lines.
-#[derive(Clone)]
-#[repr(align(64))]
-pub(crate) struct AngleColumn([f64; BLOCK]);
-
-impl AngleColumn {
-    pub const ZERO: Self = Self([0.0; BLOCK]);
-}
-
-impl Deref for AngleColumn {
-    type Target = [f64; BLOCK];
-
-    #[inline(always)]
-    fn deref(&self) -> &Self::Target {
-        &self.0
-    }
-}
-
-impl DerefMut for AngleColumn {
-    #[inline(always)]
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.0
-    }
-}
+/// One value for each crank angle of a block.
+pub(crate) type AngleColumn = [f64; BLOCK];
 
 /// An engine's loads as functions of crank angle, over ω².
 pub(crate) struct Kinematics {
@@ -230,8 +208,9 @@ impl<'a> AngleBlock<'a> {
     }
 }
 
-/// `e^{iθ}` of a block of crank angles, or of a multiple of θ.
+/// `e^{iθ}` of a block of crank angles, or of a multiple of θ; whole lines of the cache.
 #[derive(Clone)]
+#[repr(align(64))]
 pub(crate) struct Units {
     pub cos: AngleColumn,
     pub sin: AngleColumn,
@@ -240,8 +219,8 @@ pub(crate) struct Units {
 impl Units {
     /// At these crank angles, at most [`BLOCK`]; the rest of the columns is that of θ = 0.
     pub fn new(angles: &CrankAngles, range: Range<usize>, order: Order) -> Self {
-        let mut units = Self { cos: AngleColumn([1.0; BLOCK]), sin: AngleColumn::ZERO };
-        angles.multiples(order, range, &mut units.cos[..], &mut units.sin[..]);
+        let mut units = Self { cos: [1.0; BLOCK], sin: [0.0; BLOCK] };
+        angles.multiples(order, range, &mut units.cos, &mut units.sin);
         units
     }
 

@@ -104,13 +104,14 @@ fn torques(engine: &Engine, wanted: bool) -> usize {
 }
 
 /// Force x, y, moment x, y, roll and crank torque, and what pressure adds to these, at a block of crank
-/// angles.
+/// angles; whole lines of the cache.
+#[repr(align(64))]
 pub(super) struct WaveformRows {
     pub columns: [AngleColumn; 8],
 }
 
 impl WaveformRows {
-    pub const ZERO: Self = Self { columns: [const { AngleColumn::ZERO }; 8] };
+    pub const ZERO: Self = Self { columns: [[0.0; BLOCK]; 8] };
 
     #[inline(always)]
     fn add_kinematics(
@@ -148,7 +149,7 @@ impl WaveformRows {
             units.add_turning(force, unbalances.ratio, [&mut force_x[..], &mut force_y[..]]);
             units.add_turning(moment, unbalances.ratio, [&mut moment_x[..], &mut moment_y[..]]);
             if torque && unbalances.roll != Complex64::default() {
-                let mut real = AngleColumn::ZERO;
+                let mut real = [0.0; BLOCK];
                 let at_start = unbalances.roll * square;
                 units.add_turning(at_start, unbalances.ratio, [&mut real[..], &mut roll[..]]);
             }
@@ -201,7 +202,7 @@ impl WaveformRows {
         proportions: &Proportions,
         block: &AngleBlock,
     ) {
-        let mut torques = AngleColumn::ZERO;
+        let mut torques = [0.0; BLOCK];
         pressures.add(proportions, block, &mut torques[..]);
         let [on_block, on_crank] = pressures.gear.senses();
         for (column, sense) in [(4, -on_block), (5, on_crank)] {

@@ -71,7 +71,8 @@ struct RodForces {
     compression: f64,
 }
 
-/// The same over a block of crank angles; vectors along x and y.
+/// The same over a block of crank angles; vectors along x and y. Whole lines of the cache.
+#[repr(align(64))]
 pub(super) struct RodColumns {
     pub crankpin: [AngleColumn; 2],
     pub wrist_pin: [AngleColumn; 2],
@@ -177,11 +178,11 @@ impl DrivenRod {
 
 impl RodColumns {
     pub const ZERO: Self = Self {
-        crankpin: [AngleColumn::ZERO; 2],
-        wrist_pin: [AngleColumn::ZERO; 2],
-        across: AngleColumn::ZERO,
-        compression: AngleColumn::ZERO,
-        gas: AngleColumn::ZERO,
+        crankpin: [[0.0; BLOCK]; 2],
+        wrist_pin: [[0.0; BLOCK]; 2],
+        across: [0.0; BLOCK],
+        compression: [0.0; BLOCK],
+        gas: [0.0; BLOCK],
     };
 
     /// Gas forces at crank angles of a block, degrees.

@@ -7,7 +7,7 @@ use crate::Complex64;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::crank_angles::{CrankAngles, parts};
 use crate::numbers::error::Result;
-use crate::readings::kinematics::{AngleColumn, BLOCK, Units};
+use crate::readings::kinematics::{BLOCK, Units};
 
 /// What is cut at some z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +63,7 @@ impl Internal {
                 cancel.check()?;
                 let angles = CrankAngles::of_checked(&theta_deg[range.clone()]);
                 let units = Units::at_speed(&angles, 0..angles.len(), load.ratio);
-                let [mut x, mut y] = [AngleColumn::ZERO; 2];
+                let [mut x, mut y] = [[0.0; BLOCK]; 2];
                 units.add_turning(load.at_start, load.ratio, [&mut x[..], &mut y[..]]);
                 for (at, (x, y)) in range.zip(x.iter().zip(&y[..])) {
                     sum[[at, 0]] += x;
