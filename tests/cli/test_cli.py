@@ -251,7 +251,7 @@ def test_sweep_holds_pins_unless_told_otherwise(capsys: CAPTURE) -> None:
         np.testing.assert_array_equal(values, s.moment.peak_xy[:, 0])
 
 
-@pytest.mark.parametrize("quantity", ["force", "moment", "torque"])
+@pytest.mark.parametrize("quantity", ["force", "moment", "torque", "crank_torque"])
 def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
     argv = ["sweep", "i4", "--rod-ratio", "0.2:0.4:0.1", "--pin-offset=-0.002,0.002"]
     argv += ["--rpm", "1000,2000", "--orders", "2,3", "--quantity", quantity]
@@ -263,7 +263,8 @@ def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
         pin_offset=[-0.002, 0.002],
         orders=[2, 3],
     )
-    peaks = s.torque.peak if quantity == "torque" else getattr(s, quantity).peak_xy
+    found = getattr(s, quantity)
+    peaks = found.peak if quantity.endswith("torque") else found.peak_xy
     np.testing.assert_array_equal(values, peaks.reshape(12, -1))
     assert values.any() == (quantity != "moment")  # an inline-4 has no rocking moment
     assert head[:3] == ["rod ratio", "pin offset m", "rpm"]
@@ -276,6 +277,7 @@ def test_sweep_of_several_things(capsys: CAPTURE, quantity: str) -> None:
         "force": "|F_x| order 2 N",
         "moment": "|M_x| order 2 N·m",
         "torque": "|M_z| order 2 N·m",
+        "crank_torque": "|T| order 2 N·m",
     }
     assert head[3] == first[quantity]
     assert "held" not in printed(capsys, *argv)

@@ -114,6 +114,7 @@ def test_pictures_are_written(
     ("typed", "message"),
     [
         ("torque i4 --cycle nowhere.csv", "nowhere.csv"),
+        ("torque i4 --cycle gasoline", "--cycle = gasoline: give petrol or diesel for an example"),
         ("torque i4 --crankcase 1.2bars", "--crankcase = 1.2bars: give a number"),
         ("torque i4 --orders 0.25", "--orders = 0.25: give multiples of crank speed"),
         ("bearings i4 --load piston", "--load"),

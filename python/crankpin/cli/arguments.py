@@ -13,6 +13,7 @@ import numpy as np
 
 from crankpin._core import InputError
 from crankpin._support import inputs, labels
+from crankpin._support.quantities import QUANTITIES
 from crankpin.model import checks, engine_files, presets
 from crankpin.model.engine import Engine
 
@@ -129,7 +130,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "(default: 1e-9)"
     },
     "--quantity": {
-        "choices": ("force", "moment", "torque"),
+        "choices": tuple(QUANTITIES),
         "help": "quantity of the picture (default: moment, or force if all cylinders are at one z)",
     },
     "--reference-z": {

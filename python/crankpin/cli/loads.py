@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from crankpin._core import InputError
 from crankpin._support import labels
 from crankpin._support.quantities import LOADS
 from crankpin.analysis.bearings import AXES, bearing_loads
@@ -106,6 +108,9 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
             return engine, ""
         typed = otherwise
     example = typed in EXAMPLES
+    if not example and not Path(typed).suffix:
+        hint = f"give {' or '.join(EXAMPLES)} for an example, or a text file"
+        raise InputError(f"--cycle = {labels.cut(typed)}: {hint}")
     cycle = Cycle.example(typed, strokes=engine.strokes) if example else Cycle.load(typed)
     bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
