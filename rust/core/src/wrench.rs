@@ -105,7 +105,9 @@ impl Planar {
     pub fn xy(&self, bound: f64) -> [Complex64; 2] {
         let (sum, difference) =
             (self.forward + self.backward_conj, self.forward - self.backward_conj);
-        [sum, -Complex64::i() * difference].map(|phasor| snapped(phasor, bound))
+        // Adding zero makes −0 of a part 0.
+        [sum, -Complex64::i() * difference]
+            .map(|phasor| snapped(phasor, bound) + Complex64::default())
     }
 
     /// Coefficient of `e^{−inθ}`: what turns against the crank.
