@@ -1,5 +1,6 @@
 """Classes of results, for annotations and ``isinstance``; functions and engines make them."""
 
+from crankpin._support.tables import Table
 from crankpin.analysis.arrangements.search import Arrangement, ArrangementSearch
 from crankpin.analysis.balance import Balance
 from crankpin.analysis.balancing.balancers import BalancerOption, BalancerOptions
@@ -50,6 +51,7 @@ __all__ = [
     "StarDiagram",
     "Sweep",
     "SweepWaveform",
+    "Table",
     "Tolerances",
     "TorsionalExcitation",
     "TwoPlaneCorrection",

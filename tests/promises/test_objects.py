@@ -752,6 +752,7 @@ def test_every_public_object_is_documented_and_the_main_ones_by_example() -> Non
             cp.Cylinder,
             cp.types.Balance,
             cp.types.OrderBalance,
+            cp.types.Table,
             cp.Rod,
             cp.Shaft,
             cp.Unbalance,
