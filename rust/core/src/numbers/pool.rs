@@ -88,10 +88,20 @@ pub fn map<I: Send, T: Send>(
     items: Vec<I>,
     function: impl Fn(I) -> Result<T> + Send + Sync,
 ) -> Result<Vec<T>> {
-    if items.len() <= 1 {
-        return items.into_iter().map(function).collect();
+    map_if(true, cancel, items, function)
+}
+
+/// [`map`] in the calling thread alone unless the work is worth waking others for.
+pub fn map_if<I: Send, T: Send>(
+    is_worth: bool,
+    cancel: &Cancel,
+    items: Vec<I>,
+    function: impl Fn(I) -> Result<T> + Send + Sync,
+) -> Result<Vec<T>> {
+    if is_worth && items.len() > 1 {
+        return run(cancel, || items.into_par_iter().map(function).collect());
     }
-    run(cancel, || items.into_par_iter().map(function).collect())
+    items.into_iter().map(function).collect()
 }
 
 /// Do some work for each item, in parallel where the `numbers`, counted as for [`worth`], are worth it.
@@ -101,10 +111,7 @@ pub fn each<I: Send>(
     numbers: usize,
     work: impl Fn(I) -> Result<()> + Send + Sync,
 ) -> Result<()> {
-    if worth(numbers) {
-        return map(cancel, items, work).map(drop);
-    }
-    items.into_iter().try_for_each(work)
+    map_if(worth(numbers), cancel, items, work).map(drop)
 }
 
 /// Make the calling thread the only worker of a pool, so that rayon starts no threads for it.

@@ -76,7 +76,7 @@ impl Job<'_> {
         let engines: Vec<usize> = sweep.engines_of(self.quantity).collect();
         let many = pool::worth(numbers)
             || engines.len() > 3 && self.quantity.part() == Some(TorquePart::Gas);
-        let layouts: Vec<(Loads, Layout)> = self.each(engines, many, layout)?;
+        let layouts: Vec<(Loads, Layout)> = pool::map_if(many, self.cancel, engines, layout)?;
         self.cancel.expect(layouts.len() * angles * points);
         for angle_slab in slabs(angles) {
             let waves = Waves::new(sweep, self.quantity, angle_slab.clone(), self.cancel)?;
@@ -88,7 +88,8 @@ impl Job<'_> {
                 let coefficients = |((loads, layout), points): (&(Loads, Layout), Range<usize>)| {
                     Coefficients::new(sweep, self.quantity, (loads, layout), points, self.cancel)
                 };
-                let coefficients = self.each(each_part.collect(), many, coefficients)?;
+                let coefficients =
+                    pool::map_if(many, self.cancel, each_part.collect(), coefficients)?;
                 let mut tasks = Vec::new();
                 for (out, coefficients) in
                     out.chunks_mut(angles * points * width).zip(coefficients.chunks(parts.len()))
@@ -138,19 +139,6 @@ impl Job<'_> {
             }
         }
         Ok(())
-    }
-
-    /// A function of each item, in parallel if the job is large.
-    fn each<I: Send, T: Send>(
-        &self,
-        items: Vec<I>,
-        large: bool,
-        function: impl Fn(I) -> Result<T> + Send + Sync,
-    ) -> Result<Vec<T>> {
-        if large {
-            return pool::map(self.cancel, items, function);
-        }
-        items.into_iter().map(function).collect()
     }
 }
 
