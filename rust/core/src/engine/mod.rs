@@ -348,7 +348,7 @@ impl Engine {
             return Err(Error::value("cranks[0]", format!("{:?}", cranks.first()), hint));
         }
         for (k, crank) in cranks.iter().enumerate() {
-            crank.check(&format!("cranks[{k}]"))?;
+            shaft::check_rotation(&format!("cranks[{k}]"), crank.ratio, crank.axis)?;
         }
         check_each_cylinder("crank_of", crank_of.len(), self.stations.len())?;
         if let Some(k) = crank_of.iter().position(|&crank| crank >= cranks.len()) {

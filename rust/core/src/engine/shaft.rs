@@ -47,15 +47,10 @@ const FASTEST: i32 = 20;
 impl Crank {
     /// The main crank, to which crank angles and ratios refer.
     pub const MAIN: Self = Self { axis: [0.0; 2], ratio: 1 };
-
-    /// Rejects figures that make no crank; `place` is its name in errors.
-    pub(super) fn check(&self, place: &str) -> Result<()> {
-        check_rotation(place, self.ratio, self.axis)
-    }
 }
 
-/// Rejects a ratio and an axis that no shaft has.
-fn check_rotation(place: &str, ratio: i32, axis: [f64; 2]) -> Result<()> {
+/// Rejects a ratio and an axis that no shaft or crank has; `place` is its name in errors.
+pub(super) fn check_rotation(place: &str, ratio: i32, axis: [f64; 2]) -> Result<()> {
     if ratio == 0 || ratio.abs() > FASTEST {
         let hint = format!(
             "give a whole number from -{FASTEST} to {FASTEST} except 0; 1 turns with the crank, \

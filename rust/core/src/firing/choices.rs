@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::tops::Tops;
+use super::tops;
 use super::way::Firing;
 use crate::engine::Engine;
 use crate::layout::{FiringOrder, Strokes};
@@ -23,8 +23,8 @@ impl Firing {
         order: &FiringOrder,
         strokes: Strokes,
     ) -> Result<Vec<Self>> {
-        let tops = Tops::of(engine);
-        let count = tops.0.len();
+        let tops = tops::tops(engine);
+        let count = tops.len();
         let (cylinders, together) = order.rotated();
         if cylinders.len() != count {
             let hint = format!("name each of the engine's {count} cylinders once");
@@ -34,7 +34,7 @@ impl Firing {
         // top once, where the second turn begins.
         let mut second_turn_at = Vec::new();
         for (k, pair) in (1..).zip(cylinders.windows(2)) {
-            let [before, now] = [pair[0], pair[1]].map(|cylinder| tops.0[cylinder]);
+            let [before, now] = [pair[0], pair[1]].map(|cylinder| tops[cylinder]);
             if together[k] {
                 if before != now {
                     return Ok(Vec::new());
@@ -77,7 +77,7 @@ impl Firing {
         }
         let count = engine.stations().len();
         let later = vec![false; count];
-        let within_a_turn = Self::assemble(engine, &Tops::of(engine), Strokes::Two, &later);
+        let within_a_turn = Self::assemble(engine, &tops::tops(engine), Strokes::Two, &later);
         let tops = shorten(&within_a_turn.to_string().replace('-', ", "));
         let mut hint = format!("this crank cannot fire in this order: its TDC sequence is {tops}");
         if can_list(count, strokes) {
@@ -106,8 +106,8 @@ impl Firing {
 
     /// Every way for an engine to fire, the most even first.
     pub fn all(engine: &Arc<Engine>, strokes: Strokes, cancel: &Cancel) -> Result<Vec<Self>> {
-        let tops = Tops::of(engine);
-        let count = tops.0.len();
+        let tops = tops::tops(engine);
+        let count = tops.len();
         if !can_list(count, strokes) {
             let hint = format!(
                 "all firing orders are listed for up to {MOST_LISTED} cylinders, 2 to the power of {}; \

@@ -5,37 +5,30 @@ use crate::layout::MOST_ROUNDING;
 use crate::numbers::angle::Angle;
 
 /// Crank angles at which pistons are highest, after the first one's, within a turn.
-pub(super) struct Tops(pub Vec<Angle>);
-
-impl Tops {
-    pub fn of(engine: &Engine) -> Self {
-        let stations = engine.stations();
-        let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
-        let mut tops: Vec<Angle> = stations
-            .iter()
-            .map(|station| {
-                let past = highest_after_tdc(station) - past_first;
-                let top = station.tdc - first;
-                // Engines with offset pins are laid out so that this is a part of a turn.
-                let top = if past == 0.0 {
-                    top
-                } else {
-                    (top + degrees(past)).nearby_part(MOST_ROUNDING)
-                };
-                let top = top.reduced();
-                if same(top, Angle::TURN) { Angle::ZERO } else { top }
-            })
-            .collect();
-        // Merge angles that differ only by rounding.
-        let mut order: Vec<usize> = (0..tops.len()).collect();
-        order.sort_by(|&a, &b| tops[a].degrees().total_cmp(&tops[b].degrees()));
-        for pair in order.windows(2) {
-            if same(tops[pair[0]], tops[pair[1]]) {
-                tops[pair[1]] = tops[pair[0]];
-            }
+pub(super) fn tops(engine: &Engine) -> Vec<Angle> {
+    let stations = engine.stations();
+    let (first, past_first) = (stations[0].tdc, highest_after_tdc(&stations[0]));
+    let mut tops: Vec<Angle> = stations
+        .iter()
+        .map(|station| {
+            let past = highest_after_tdc(station) - past_first;
+            let top = station.tdc - first;
+            // Engines with offset pins are laid out so that this is a part of a turn.
+            let top =
+                if past == 0.0 { top } else { (top + degrees(past)).nearby_part(MOST_ROUNDING) };
+            let top = top.reduced();
+            if same(top, Angle::TURN) { Angle::ZERO } else { top }
+        })
+        .collect();
+    // Merge angles that differ only by rounding.
+    let mut order: Vec<usize> = (0..tops.len()).collect();
+    order.sort_by(|&a, &b| tops[a].degrees().total_cmp(&tops[b].degrees()));
+    for pair in order.windows(2) {
+        if same(tops[pair[0]], tops[pair[1]]) {
+            tops[pair[1]] = tops[pair[0]];
         }
-        Self(tops)
     }
+    tops
 }
 
 /// Degrees after top dead centre at which crank and rod are in line.

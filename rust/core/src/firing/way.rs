@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::tops::{Tops, degrees, highest_after_tdc, same};
+use super::tops::{self, degrees, highest_after_tdc, same};
 use crate::engine::{Engine, Station};
 use crate::layout::Strokes;
 use crate::numbers::angle::Angle;
@@ -30,17 +30,17 @@ impl Firing {
             let hint = "give 0 or 1 for each cylinder, 0 for the first and in a two-stroke";
             return Err(Error::value("revolutions", format!("{later:?}"), hint));
         }
-        Ok(Self::assemble(engine, &Tops::of(engine), strokes, later))
+        Ok(Self::assemble(engine, &tops::tops(engine), strokes, later))
     }
 
     pub(super) fn assemble(
         engine: &Arc<Engine>,
-        tops: &Tops,
+        tops: &[Angle],
         strokes: Strokes,
         later: &[bool],
     ) -> Self {
         let times: Vec<Angle> =
-            tops.0.iter().zip(later).map(|(&top, &later)| top + turn_if(later)).collect();
+            tops.iter().zip(later).map(|(&top, &later)| top + turn_if(later)).collect();
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&a, &b| times[a].partial_cmp(&times[b]).unwrap_or(Ordering::Equal));
         let cycle = strokes.cycle();

@@ -6,7 +6,7 @@ use crate::numbers::angle::LARGEST_ANGLE;
 use crate::numbers::cancel::Cancel;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::order::Order;
-use crate::numbers::simd::{sin_cos_degrees, vectorised};
+use crate::numbers::simd::{ROUND, sin_cos_degrees, vectorised};
 
 /// Crank angles modulo two turns, in which half orders come round.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +24,6 @@ impl CrankAngles {
 
     /// From degrees that are known to be angles.
     pub(crate) fn of_checked(theta_deg: &[f64]) -> Self {
-        /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
-        const ROUND: f64 = 6_755_399_441_055_744.0;
         // Both terms are multiples of θ's last place, and the difference is less than θ or 360:
         // nothing is rounded.
         let reduced = theta_deg.iter().map(|θ| θ - 720.0 * ((θ * (1.0 / 720.0) + ROUND) - ROUND));

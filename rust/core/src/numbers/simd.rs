@@ -7,6 +7,9 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
 }
 
+/// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
+pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
+
 /// Sine and cosine of degrees, for a whole slice at once.
 ///
 /// Quadrants are taken off exactly; on the ±45° that are left, minimax polynomials (fdlibm's) are
@@ -14,8 +17,6 @@ pub(crate) fn vectorised<R>(work: impl FnOnce() -> R) -> R {
 #[inline(always)]
 #[expect(clippy::excessive_precision, reason = "the coefficients as fdlibm gives them")]
 pub(crate) fn sin_cos_degrees(degrees: &[f64], sin: &mut [f64], cos: &mut [f64]) {
-    /// 1.5·2⁵²: adding and taking it away rounds to the nearest whole number.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
     const RADIANS: f64 = std::f64::consts::PI / 180.0;
     for ((&degrees, sin), cos) in degrees.iter().zip(sin).zip(cos) {
         let quarters = (degrees * (1.0 / 90.0) + ROUND) - ROUND;
