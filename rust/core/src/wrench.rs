@@ -57,13 +57,6 @@ pub fn snapped(sum: Complex64, bound: f64) -> Complex64 {
 }
 
 impl Planar {
-    /// Adds another vector.
-    pub fn add(&mut self, other: &Self) {
-        self.forward += other.forward;
-        self.backward_conj += other.backward_conj;
-        self.size += other.size;
-    }
-
     /// Adds another vector times a complex amplitude.
     pub fn add_scaled(&mut self, other: &Self, amplitude: Complex64) {
         // The backward part was conjugated, its amplitude was not.

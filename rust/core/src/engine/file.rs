@@ -418,8 +418,7 @@ pub fn from_state(text: &str) -> Result<Engine> {
 
 /// Engine from TOML.
 pub fn from_toml(text: &str) -> Result<Engine> {
-    let text = unmarked(text);
-    sized("TOML", text)?;
+    let text = readable("TOML", text)?;
     toml::from_str::<EngineFile>(text)
         .map_err(|error| {
             let end = error.span().map_or(0, |span| span.start.min(text.len()));
@@ -439,8 +438,7 @@ pub fn from_toml(text: &str) -> Result<Engine> {
 
 /// Engine from JSON.
 pub fn from_json(text: &str) -> Result<Engine> {
-    let text = unmarked(text);
-    sized("JSON", text)?;
+    let text = readable("JSON", text)?;
     let value = serde_json::from_str(text).map_err(|e| unreadable("JSON", &e))?;
     check_tables(&value, "the file")?;
     from_state(text)
@@ -476,14 +474,11 @@ fn hint(value: &str) -> &'static str {
     }
 }
 
-/// Without a byte order mark, which some editors put before a text.
-fn unmarked(text: &str) -> &str {
-    text.trim_start_matches('\u{feff}')
-}
-
-fn sized(format: &'static str, text: &str) -> Result<()> {
+/// A text without the byte order mark that some editors put before it; rejects one that is too long.
+fn readable<'t>(format: &'static str, text: &'t str) -> Result<&'t str> {
+    let text = text.trim_start_matches('\u{feff}');
     if text.len() <= LONGEST_TEXT {
-        return Ok(());
+        return Ok(text);
     }
     let reason = format!("{} bytes long; an engine file has at most {LONGEST_TEXT}", text.len());
     Err(Error::File { format, reason })
