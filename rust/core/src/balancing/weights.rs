@@ -221,12 +221,8 @@ impl Problem<'_> {
             None => discs::nearest(&self.rows, target, bounds, self.cancel)?.map(|u| each(&u)),
             Some(directions) => angle_lists::nearest(self, directions, target, bounds)?,
         };
-        let found = found.ok_or_else(|| self.not_found("nearest"))?;
-        if self.is_nearest(&found, target, bounds) {
-            Ok(found)
-        } else {
-            Err(self.not_found("nearest"))
-        }
+        let found = found.filter(|found| self.is_nearest(found, target, bounds));
+        found.ok_or_else(|| self.not_found("nearest"))
     }
 
     /// Whether no weights within bounds come nearer to a target: they would go further along the residual.

@@ -87,7 +87,7 @@ impl Angle {
             let value = format!("{numerator}/0");
             return Err(Error::value("angle", value, "the denominator must not be 0"));
         }
-        match turns_of_degrees(numerator, denominator) {
+        match turns_of_degrees((numerator, denominator)) {
             Some(angle) if angle.degrees().abs() <= LARGEST_ANGLE => Ok(angle),
             _ => Self::from_degrees(nearest(numerator, denominator)),
         }
@@ -96,7 +96,7 @@ impl Angle {
     /// What a finite double of degrees stands for.
     fn of_double(degrees: f64) -> Self {
         decimal::meant(degrees)
-            .and_then(|(numerator, denominator)| turns_of_degrees(numerator, denominator))
+            .and_then(turns_of_degrees)
             .or_else(|| recognise(degrees, WITHIN_ULP * ulp(degrees)))
             .unwrap_or(Self(Degrees(degrees)))
     }
@@ -244,7 +244,7 @@ fn turns(numerator: i128, denominator: i128) -> Option<Angle> {
 }
 
 /// The same of a fraction of degrees, with a denominator of either sign.
-fn turns_of_degrees(numerator: i128, denominator: i128) -> Option<Angle> {
+fn turns_of_degrees((numerator, denominator): (i128, i128)) -> Option<Angle> {
     let sign = denominator.signum();
     turns(numerator.checked_mul(sign)?, denominator.checked_mul(360 * sign)?)
 }
@@ -328,8 +328,7 @@ impl FromStr for Angle {
         }
         let text = text.trim();
         let double = Self::from_degrees(text.parse().map_err(|_| wrong())?)?;
-        let exact = decimal::parse(text)
-            .and_then(|(numerator, denominator)| turns_of_degrees(numerator, denominator));
+        let exact = decimal::parse(text).and_then(turns_of_degrees);
         Ok(exact.unwrap_or(double))
     }
 }

@@ -167,20 +167,12 @@ impl Proof {
                 left.push((symbol, terms));
             }
         }
-        let channel = |k: usize| left.get(k).map(|(symbol, _): &(Symbol, _)| symbol.channel);
-        Ok(match left.len() {
-            0 => Verdict::Vanishes,
-            1 if self.is_nonzero(
-                channel(0).unwrap_or_default(),
-                order,
-                torque,
-                view,
-                cancel,
-            )? =>
-            {
+        Ok(match &left[..] {
+            [] => Verdict::Vanishes,
+            [(symbol, _)] if self.is_nonzero(symbol.channel, order, torque, view, cancel)? => {
                 Verdict::Remains
             }
-            2 if order == Order::FIRST && !torque && self.balanced_angle(&left, order)? => {
+            [_, _] if order == Order::FIRST && !torque && self.balanced_angle(&left, order)? => {
                 Verdict::Vanishes
             }
             _ => Verdict::Undecided,
