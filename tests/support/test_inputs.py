@@ -155,3 +155,19 @@ def test_no_module_changes_the_warnings_of_the_process() -> None:
         if "warnings.catch_warnings()" in file.read_text(encoding="utf-8")
     }
     assert using <= {"cli"}
+
+
+def test_long_lists_are_read_in_pieces_as_a_whole() -> None:
+    count = inputs.PIECE + 3
+    for values in (
+        list(range(count)),
+        [*range(count - 1), 0.5],  # whole numbers, then another kind
+        [[k, 0.1] for k in range(count)],
+        tuple(Fraction(k, 3) for k in range(count)),
+    ):
+        read = inputs.array("angles", values)
+        assert read.tobytes() == np.array(values, dtype=np.float64).tobytes()
+        assert read.shape == np.shape(values)
+    for last in ([0.5, 0.5, 0.5], [0.5], 0.5):  # in a piece of its own
+        with pytest.raises(cp.InputError, match="angles = .*give numbers"):
+            inputs.array("angles", [[0.1, 0.2]] * inputs.PIECE + [last])

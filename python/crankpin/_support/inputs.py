@@ -124,7 +124,16 @@ def vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
 def _from_list(values: ArrayLike) -> NDArray[Any]:
     if not isinstance(values, (list, tuple, range)) or len(values) <= PIECE:
         return _piece(values)
-    return np.concatenate([_piece(values[k : k + PIECE]) for k in range(0, len(values), PIECE)])
+    pieces = [_piece(values[k : k + PIECE]) for k in range(0, len(values), PIECE)]
+    if len({piece.shape[1:] for piece in pieces}) > 1:
+        raise ValueError("lists of different lengths")
+    # Not by concatenate, which Ctrl-C does not interrupt.
+    joined = np.empty(
+        (len(values), *pieces[0].shape[1:]), np.result_type(*{piece.dtype for piece in pieces})
+    )
+    for k, piece in enumerate(pieces):
+        joined[k * PIECE : (k + 1) * PIECE] = piece
+    return joined
 
 
 def _piece(values: ArrayLike) -> NDArray[Any]:
