@@ -169,5 +169,5 @@ def test_long_lists_are_read_in_pieces_as_a_whole() -> None:
         assert read.tobytes() == np.array(values, dtype=np.float64).tobytes()
         assert read.shape == np.shape(values)
     for last in ([0.5, 0.5, 0.5], [0.5], 0.5):  # in a piece of its own
-        with pytest.raises(cp.InputError, match="angles = .*give numbers"):
+        with pytest.raises(cp.InputError, match=r"angles = .*give numbers"):
             inputs.array("angles", [[0.1, 0.2]] * inputs.PIECE + [last])
