@@ -92,7 +92,13 @@ def test_on_given_axes_the_first_order_that_remains_is_drawn() -> None:
     assert "order 3" in titled(cp.star_diagram(cp.Engine.preset("i6")).plot(plt.subplots()[1]))
     with pytest.raises(cp.InputError, match="ax and figure cannot be combined"):
         ODD.plot(plt.subplots()[1], figure=plt.figure())
-    with pytest.raises(cp.InputError, match="figure"):
+    with pytest.raises(cp.InputError, match=r"figure = .*: one order has one panel"):
         ODD.plot(order=1.5, figure=plt.figure())
     with pytest.raises(cp.InputError, match="order = 13: choose from orders"):
         ODD.plot(order=13)
+
+
+def test_any_colour_of_matplotlib_is_taken() -> None:
+    for panel in MODE.plot(color=np.array([1.0, 0.0, 0.0])).flat:
+        dots = [line for line in panel.lines if line.get_gid() == "tip"]
+        assert all(tuple(line.get_color()) == (1.0, 0.0, 0.0) for line in dots)

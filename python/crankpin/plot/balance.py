@@ -80,14 +80,15 @@ def spectrum(
         else np.stack([result.read(each, "peak") for each in drawn], axis=-1)
     )
     orders, note = np.array(result.orders, dtype=np.float64), ""
-    if result.request.orders is None:
+    given = result.request.orders is not None
+    if not given:
         # Gas torque declines slowly: the few orders that can be seen would have no room.
         least = MATTERS if len(drawn) > 1 and not logarithmic else labels.NEGLIGIBLE
         seen = np.flatnonzero(peaks.max(axis=1) > least * peaks.max(initial=0.0))
         if seen.size and seen[-1] + 1 < len(orders):
             orders, peaks = orders[: seen[-1] + 1], peaks[: seen[-1] + 1]
             note = f"above order {orders[-1]:g}: below {least:g} of the largest"
-    how = "" if result.request.orders is None else ", orders given"
+    how = ", orders given" if given else ""
     how += "" if result.spectrum is None else ", spectrum given"
     set_title(ax, labels.name_of(result.engine), f"{number(result.rpm)} rpm{how}", note)
     if label is None and count_series(ax):
@@ -96,7 +97,7 @@ def spectrum(
     for k, text in enumerate(series_names(drawn, label)):
         _stems(ax, orders, peaks[:, k], text, styles[k])
     _beside_each_other(ax)
-    _scale(ax, logarithmic=logarithmic, given=result.request.orders is not None)
+    _scale(ax, logarithmic=logarithmic, given=given)
     label_x(ax, "order (multiples of crank speed)")
     label_y(ax, with_unit(name, peak=True))
     add_legend(ax, last=ZERO)

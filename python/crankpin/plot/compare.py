@@ -128,17 +128,17 @@ def _bars(ax: Axes, result: Comparison, name: str, style: dict[str, Any]) -> Non
 
 def _curves(ax: Axes, result: Comparison, name: str) -> None:
     """Draw what both forces or moments trace, or both torques over crank angle."""
-    both = (result.before, result.after)
+    both, planar = (result.before, result.after), name in PLANE_VECTORS
     # Pressure repeats with the cycle; what is left, and all forces, with the turn.
-    cycle = name not in PLANE_VECTORS and any(b.fired and b.engine.strokes == 4 for b in both)
+    cycle = not planar and any(b.fired and b.engine.strokes == 4 for b in both)
     theta = TWO_TURNS if cycle else TWO_TURNS[:361]
     for balance, label in zip(both, result.names, strict=True):
         waveform = Waveform(balance.engine, balance.rpm, theta, True, balance.request)
-        if name in PLANE_VECTORS:
+        if planar:
             picture(waveform, ax, kind="orbit", quantity=name, label=label)
         else:
             ax.plot(theta, getattr(waveform, name), gid=SERIES, label=label, **series(ax, 1)[0])
-    if name in PLANE_VECTORS:
+    if planar:
         _square(ax)
     else:
         dress(ax, theta)

@@ -29,7 +29,6 @@ from crankpin.plot.layout import (
     make_panels,
     note_zero,
     points_of,
-    reject_figure,
     set_figure_title,
     set_panel_title,
     set_title,
@@ -270,13 +269,12 @@ def _star(
     **style: Any,  # noqa: ANN401
 ) -> Any:  # noqa: ANN401 - axes, or an array of axes
     check_one_place(ax, figure)
-    looks = {"color": None, "linewidth": 1.5} | style
+    if order is not None and figure is not None:
+        raise inputs.rejected("figure", figure, "one order has one panel; give ax")
     if ax is not None or order is not None:
-        if figure is not None:
-            reject_figure(figure, "star")
         shown = _shown(result) if order is None else inputs.order(order)
         ax = axes_or_new(ax)
-        handles = _vectors(ax, result, shown, looks)
+        handles = _vectors(ax, result, shown, style)
         set_title(ax, labels.name_of(result.engine), f"order {shown}, {_finding(result, shown)}")
         add_legend(ax, handles=handles)
         return ax
@@ -284,7 +282,7 @@ def _star(
     panels = make_plane_panels(figure, len(stars[:MOST_STARS]))
     handles = []
     for panel, orders in zip(panels.axes.flat, stars, strict=False):
-        found = _vectors(panel, result, orders[0], looks)
+        found = _vectors(panel, result, orders[0], style)
         handles = max(handles, found, key=len)
         # The numbers of many cylinders must not take the room of the stars.
         panel.set(xlim=(-NUMBERED, NUMBERED), ylim=(-NUMBERED, NUMBERED))
@@ -299,14 +297,14 @@ def _star(
 
 
 def _distinct(result: StarDiagram) -> list[list[Order]]:
-    """Return the orders whose vectors are the same, as after as many orders as turns apart."""
+    """Return the orders that have the same vectors, as even firing makes them every few orders."""
     found: dict[bytes, list[Order]] = {}
     for order, vectors in zip(result.orders, result.vectors, strict=True):
         found.setdefault((np.round(vectors, DIRECTIONS) + 0.0).tobytes(), []).append(order)
     return list(found.values())
 
 
-def _vectors(ax: Axes, result: StarDiagram, order: Order, looks: dict[str, Any]) -> list[Line2D]:
+def _vectors(ax: Axes, result: StarDiagram, order: Order, style: dict[str, Any]) -> list[Line2D]:
     """Draw the vectors of an order and their sum; return the entries of a legend."""
     vectors = result.vectors[result._place(order)]
     total, longest = result[order], float(np.abs(vectors).max(initial=0.0))
@@ -316,7 +314,7 @@ def _vectors(ax: Axes, result: StarDiagram, order: Order, looks: dict[str, Any])
     if not longest:
         note_zero(ax)
         return []
-    looks = looks | {"color": looks["color"] or colours(ax, 1)[0]}
+    looks = {"color": colours(ax, 1)[0], "linewidth": 1.5} | style
     rays: dict[complex, list[int]] = {}
     for cylinder, vector in enumerate(vectors.tolist(), start=1):
         if abs(vector) > NOTHING * longest:
