@@ -139,3 +139,14 @@ def test_marks_are_seen_on_a_dark_background() -> None:
         ax = V8.plot()
     (fires,) = (line for line in ax.lines if line.get_label() == "fires")
     assert mpl.colors.to_hex(fires.get_color()) == "#ffffff"
+
+
+def test_strokes_alone_stand_in_the_middle_of_their_rows() -> None:
+    ax = V8.plot()
+    for bars in ax.collections:
+        for path in bars.get_paths():
+            heights = np.asarray(path.vertices)[:, 1]
+            middle = 0.5 * (heights.min() + heights.max())
+            assert middle == pytest.approx(round(middle), abs=1e-9)  # rounding
+    (fires,) = (line for line in ax.lines if line.get_label() == "fires")
+    np.testing.assert_allclose(fires.get_ydata(), np.arange(8), atol=1e-9)

@@ -128,3 +128,17 @@ def test_an_engine_at_rest_says_so() -> None:
 def test_errors_name_the_option(options: dict[str, object], message: str) -> None:
     with pytest.raises(cp.InputError, match=message):
         LOADED.plot(**options)
+
+
+def test_angles_stand_beside_a_narrow_load() -> None:
+    """A single's loads are a fifth as wide as high: away from the origin is along the curve."""
+    single = cp.Engine.preset("single").with_cycle(cp.Cycle.example())
+    for panel in cp.bearing_loads(single, 6000).plot().flat:
+        wide, high = np.ptp([panel.get_xlim(), panel.get_ylim()], axis=1)
+        assert wide == pytest.approx(0.75 * high)  # narrower ones have no room for angles
+        places = [(text.xy, text.xyann) for text in panel.texts if text.get_text()]  # type: ignore[attr-defined]
+        assert len(places) > 1
+        for (x, _), (aside, up) in places:
+            assert up == 0.0
+            # Of a point within rounding of the axis either side will do.
+            assert aside * x > 0.0 or (aside != 0.0 and abs(x) < 1e-9 * high)
