@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Torque = Callable[[float], float]
+RTOL = 1e-10
+"""Relative error of a step of the time integration."""
+NOISE = 1e-7
+"""Relative error of a start, of which times of a cycle differ by noise: 4e-8 where torque is a table."""
 
 
 class Piston(NamedTuple):
@@ -75,7 +79,7 @@ def speeds(
         return float(state[0] - theta[-1])
 
     at_end.terminal = True  # type: ignore[attr-defined]
-    limits = {"rtol": 1e-10, "atol": 1e-10, "method": "DOP853"}
+    limits = {"rtol": RTOL, "atol": RTOL, "method": "DOP853"}
 
     def run(start: float, *, dense: bool = False) -> object:
         state = [float(theta[0]), start]
@@ -85,7 +89,8 @@ def speeds(
     def late(start: float) -> float:
         return float(run(start).t[-1] - period / mean)  # type: ignore[attr-defined]
 
-    start = newton(late, mean, x1=1.1 * mean, tol=1e-11 * mean)  # by secants
+    # By secants, to what the integration knows of a start: closer ones would chase its noise.
+    start = newton(late, mean, x1=1.1 * mean, tol=NOISE * mean)
     found = run(start, dense=True)
     times = [
         brentq(lambda t, angle=angle: float(found.sol(t)[0]) - angle, 0.0, found.t[-1], xtol=1e-14)  # type: ignore[attr-defined]
