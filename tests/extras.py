@@ -1,59 +1,69 @@
-"""Skips tests that need a package which is not installed, so that the others run with NumPy alone.
+"""Skips tests that need an optional package which is not installed, and says which skips are right.
 
-Only what is absent is skipped: an ImportError of crankpin counts if it names the extra to install,
-any other one if a test or ``crankpin.plot`` raised it, for the rest has to import without extras.
+With ``CRANKPIN_NO_SKIPS=1`` in the environment any skip fails that ``ANYWHERE`` does not name.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+import importlib.util
+import os
 from typing import TYPE_CHECKING
 
-import crankpin
 import pytest
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-PACKAGE = Path(crankpin.__file__).parent
+    Report = pytest.CollectReport | pytest.TestReport
+
+OPTIONAL = {
+    *("PIL", "anywidget", "cycler", "dask", "distributed", "exudyn", "hypothesis", "jsonschema"),
+    *("matplotlib", "mpmath", "nbclient", "nbformat", "numba", "openpyxl", "pandas", "playwright"),
+    *("pytest_mpl", "scipy", "sympy", "tqdm", "xarray"),
+}
+"""Packages without which crankpin works, and tests of other things run."""
+ANYWHERE = (
+    "CRANKPIN_FUZZ_SECONDS is not set",
+    "Python has its lock",
+    # In an environment of their own: packaging/torsional.txt.
+    "could not import 'opentorsion'",
+    "could not import 'ross'",
+)
+"""How reasons begin for which tests are skipped where everything of ``[test]`` is installed."""
+NO_SKIPS = os.environ.get("CRANKPIN_NO_SKIPS") == "1"
 
 
 def absent(error: BaseException | None) -> str | None:
-    """Return which package is not installed, if that is what an error says."""
-    while error is not None and not isinstance(error, ImportError):
-        error = error.__cause__  # collectors wrap what importing a module raised
-    if error is None:
-        return None
-    if 'pip install "crankpin[' in str(error):
-        return str(error)
-    frame = error.__traceback__
-    while frame is not None and frame.tb_next is not None:
-        frame = frame.tb_next
-    folders = Path(frame.tb_frame.f_code.co_filename).parents if frame else [PACKAGE]
-    if isinstance(error, ModuleNotFoundError) and (
-        PACKAGE not in folders or PACKAGE / "plot" in folders
-    ):
-        return str(error)
-    return None
+    """Return the optional package that is not installed, if its import raised an error.
+
+    Collectors and ``crankpin`` wrap what importing a module raised.
+    """
+    while error is not None and not isinstance(error, ModuleNotFoundError):
+        error = error.__cause__
+    package = (error.name or "").partition(".")[0] if error else ""
+    missing = package in OPTIONAL and importlib.util.find_spec(package) is None
+    return package if missing else None
 
 
-def _skip(
-    report: pytest.CollectReport | pytest.TestReport,
-    place: tuple[str, int | None],
-    raised: pytest.ExceptionInfo[BaseException] | None,
-) -> None:
-    if report.failed and raised and (reason := absent(raised.value)):
+def _judge(report: Report, raised: pytest.ExceptionInfo[BaseException] | None, file: str) -> None:
+    """Turn a failure for want of a package into a skip, and a skip for no good reason into one."""
+    if report.failed and raised and (package := absent(raised.value)):
         report.outcome = "skipped"
-        report.longrepr = (place[0], (place[1] or 0) + 1, f"Skipped: {reason}")
+        report.longrepr = (file, 1, f"Skipped: {package} is not installed")
+    if report.skipped and NO_SKIPS and isinstance(report.longrepr, tuple):
+        reason = report.longrepr[2].removeprefix("Skipped: ")
+        if not reason.startswith(ANYWHERE):
+            report.outcome = "failed"
+            report.longrepr = f"{file}: skipped, with CRANKPIN_NO_SKIPS=1: {reason}"
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_make_collect_report(
     collector: pytest.Collector,
 ) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
-    """Skip modules and folders whose imports need an extra."""
+    """Judge modules and folders."""
     report = yield
-    _skip(report, (str(collector.path), None), report.call.excinfo)
+    _judge(report, report.call.excinfo if report.call else None, str(collector.path))
     return report
 
 
@@ -61,7 +71,7 @@ def pytest_make_collect_report(
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Skip tests that call what needs an extra."""
+    """Judge tests."""
     report = yield
-    _skip(report, item.location[:2], call.excinfo)
+    _judge(report, call.excinfo, item.location[0])
     return report

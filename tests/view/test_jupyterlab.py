@@ -27,8 +27,7 @@ if TYPE_CHECKING:
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(
-        importlib.util.find_spec("jupyterlab") is None
-        and os.environ.get("CRANKPIN_REQUIRE_BROWSER") != "1",
+        importlib.util.find_spec("jupyterlab") is None,
         reason="needs JupyterLab: pip install jupyterlab",
     ),
 ]
