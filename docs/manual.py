@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import hashlib
 import os
+import re
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 
 GALLERY = Path(__file__).parent / "gallery"
 """Folder of what is made; not in the repository."""
+TUTORIALS = Path(__file__).parent / "tutorials"
+"""Folder of the notebooks' copies: Sphinx reads nothing outside its own."""
+NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 RPM = 3000.0
 PRESET = """\
 # {engine.name}
@@ -135,6 +139,18 @@ class EngineFile(SphinxDirective):
         return [section]
 
 
+def copy_notebooks(app: Sphinx) -> None:
+    """Copy the notebooks beside the page that lists them, with links as they are from there."""
+    for notebook in NOTEBOOKS.glob("*.ipynb"):
+        text = notebook.read_text(encoding="utf-8")
+        _write(TUTORIALS / notebook.name, text.replace("](../docs/", "](../"))
+
+
+def link_copies(app: Sphinx, page: str, text: list[str]) -> None:
+    """Let links to notebooks lead to their copies."""
+    text[0] = re.sub(r"\]\(\.\./((?:\.\./)*)notebooks/", rf"](\1{TUTORIALS.name}/", text[0])
+
+
 def make_gallery(app: Sphinx) -> None:
     """Write a source page for each preset, and one that lists them."""
     GALLERY.mkdir(exist_ok=True)
@@ -222,6 +238,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("engine-file", EngineFile)
     app.add_html_math_renderer("mathml", (formula, None), (formula_block, None))
     app.connect("autodoc-process-signature", hide_constructor)
+    app.connect("builder-inited", copy_notebooks)
     app.connect("builder-inited", make_gallery)
+    app.connect("source-read", link_copies)
     app.connect("build-finished", make_turning)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
