@@ -64,8 +64,26 @@ LARGEST_IN_BAR, LARGEST_IN_KPA = 500.0, 5e4
 """Peak pressures, Pa, below which they are in bar or kPa: a motored cylinder reaches 1e6 Pa, a
 diesel 3e7."""
 
+LARGEST_PRESSURE = 5e7
+"""Peak pressure, Pa, above which it is not in Pa: the highest of diesels are 3e7."""
+
 LEAST_ABSOLUTE = 1e4
 """Least pressure, Pa, below which gauge pressure is likely: an engine that idles has 2e4 Pa."""
+
+NOISE = 0.05
+"""Part of a cycle's points that noise may have below the least pressure; of gauge pressure two
+strokes of four are."""
+
+FARTHEST_PEAK = 60.0
+"""Degrees from the firing top dead centre up to which pressure peaks: compression does at 0, and
+the latest burns at 40."""
+
+PEAKED = 2.0
+"""Peak over mean pressure from which there is a peak: compression alone has 4 and more."""
+
+STRONGEST_BRAKE = -5e5
+"""Imep, Pa, below which figures are likely wrong: motored engines have -2e5, and engine brakes, the
+exception, as much as -1.2e6."""
 
 UNITS = "Lengths are metres here, masses kilograms"
 MILLIMETRES = ": was it given in millimetres?"
@@ -190,17 +208,54 @@ def pressure(values: NDArray[np.float64]) -> None:
     if most < LARGEST_IN_KPA:
         unit = "bar" if most < LARGEST_IN_BAR else "kPa"
         warn(f"pressure is at most {most:g} Pa: was it given in {unit}? Pressures are Pa here")
-    elif least < LEAST_ABSOLUTE:
+    elif most > LARGEST_PRESSURE:
+        warn(
+            f"pressure is as much as {most:g} Pa, more than any engine's: are its numbers in the "
+            "unit that is named for them? Pressures are Pa here"
+        )
+    elif float(np.quantile(values, NOISE)) < LEAST_ABSOLUTE:
         warn(
             f"pressure is {least:g} Pa at its least: is it gauge pressure? Pressures are absolute "
             "here: add that of the atmosphere, 101325 Pa"
         )
+    elif least < 0.0:
+        warn(
+            f"pressure is {least:g} Pa at its least, which noise or an offset of the sensor does: "
+            "torque is linear in pressure, and counts it as it is"
+        )
+
+
+def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
+    """Warn of pressure whose peak is far from the firing top dead centre."""
+    most = values.max()
+    if most < PEAKED * values.mean():
+        return
+    half = period_deg / 2.0
+    at = (theta_deg[values == most] + half) % period_deg - half
+    nearest = float(at[np.abs(at).argmin()])
+    if abs(nearest) > FARTHEST_PEAK:
+        warn(
+            f"theta_deg: pressure peaks at {nearest:.4g}°, far from the firing top dead centre, "
+            "from which angles are counted: subtract the angle of that one, or give it as tdc_deg "
+            "where a file is loaded"
+        )
+
+
+def imep(mean_pressure: float) -> None:
+    """Warn of pressure that takes more work from the crank than an engine does."""
+    if mean_pressure < STRONGEST_BRAKE:
+        warn(
+            f"imep = {mean_pressure / 1e5:.3g} bar: pressure brakes the crank. Are angles counted "
+            "in the direction of rotation, from the firing top dead centre?"
+        )
 
 
 def crankcase(pressure: float) -> None:
-    """Warn of the pressure below the pistons in bar or kPa; 0 is a vacuum."""
+    """Warn of the pressure below the pistons in other units; 0 is a vacuum."""
     if 0.0 < pressure < LARGEST_IN_BAR:
         warn(f"crankcase = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
+    elif pressure > LARGEST_PRESSURE:
+        warn(f"crankcase = {pressure:g} Pa: is it in Pa? Pressures are Pa here")
 
 
 def _at(radius: float) -> str:
