@@ -236,8 +236,8 @@ def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg
     if abs(nearest) > FARTHEST_PEAK:
         warn(
             f"theta_deg: pressure peaks at {nearest:.4g}°, far from the firing top dead centre, "
-            "from which angles are counted: subtract the angle of that one, or give it as tdc_deg "
-            "where a file is loaded"
+            "from which angles are counted here; load a file that counts from elsewhere with "
+            "tdc_deg=…, the angle at which it has that centre"
         )
 
 

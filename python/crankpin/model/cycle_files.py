@@ -101,10 +101,15 @@ def load(
     return (
         angles,
         pressures,
-        _fact(split.facts, "strokes") or 4 if strokes is None else strokes,
+        _strokes(split.facts) if strokes is None else strokes,
         split.facts.get("name", file.stem) if name is None else name,
         _fact(split.facts, "degree"),
     )
+
+
+def _strokes(facts: dict[str, str]) -> int:
+    known = _fact(facts, "strokes")
+    return 4 if known is None else known
 
 
 def _decoded(found: bytes) -> str:

@@ -561,8 +561,10 @@ class EngineData:
         checks.units(core)
         if core.cycles is not None and core.crankcase is not None:
             checks.crankcase(core.crankcase)
-            of_core = {each: each and Cycle._of(each) for each in core.cycles}
-            _warn_of_work([of_core[each] for each in core.cycles], read.cylinders)
+            distinct = {each for each in core.cycles if each is not None}
+            of_core = {each: Cycle._of(each) for each in distinct}
+            pressures = [None if each is None else of_core[each] for each in core.cycles]
+            _warn_of_work(pressures, read.cylinders)
         for name in ("tdc_deg", "bank_deg"):
             angles = getattr(core, name).tolist()
             checks.radians(name, angles, angles)

@@ -354,12 +354,14 @@ impl FromStr for Angle {
 }
 
 impl fmt::Display for Angle {
-    /// Degrees that read back as the same angle: the shortest decimal, else a fraction, or with an
-    /// exponent a double whose decimal is another angle.
+    /// Degrees that are exactly this angle: the shortest decimal, or a fraction; and with an exponent
+    /// a double whose decimal is another angle.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shortest = self.degrees().to_string();
         match self.0 {
-            Turns(numerator, denominator) if shortest.parse() != Ok(*self) => {
+            Turns(numerator, denominator)
+                if !self.is_decimal() || shortest.parse() != Ok(*self) =>
+            {
                 let (above, below) = (i128::from(numerator) * 360, i128::from(denominator));
                 let divisor = rational::common_divisor(above, below);
                 write!(f, "{}/{}", above / divisor, below / divisor)
