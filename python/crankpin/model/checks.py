@@ -7,12 +7,14 @@ once per call, however many cylinders are alike.
 from __future__ import annotations
 
 import math
+import re
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
@@ -357,7 +359,7 @@ def other_bank(odd_bank: str) -> str:
     return "left" if odd_bank == "right" else "right"
 
 
-def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
+def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     """Warn of cylinder 1 in the wrong bank: in the other one a firing order needs smaller splits.
 
     Parameters
@@ -366,14 +368,51 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
         Bank of cylinder 1.
     split_deg, of_other
         Pin splits of all throws, and those with cylinder 1 in the other bank, degrees.
+
+    Returns
+    -------
+    bool
+        Whether the caller was warned.
     """
     largest, smaller = (float(np.abs(each).max()) for each in (split_deg, of_other))
     if largest < LARGEST_SPLIT or smaller > largest / 2.0:
-        return
+        return False
     how = f"split by {smaller:.6g}°" if smaller else "shared"
     warn(
         f'odd_bank = "{given}": this firing order needs pins split by {largest:.6g}°; with '
         f'odd_bank="{other_bank(given)}" pins are {how}. Makers differ in the side of cylinder 1'
+    )
+    return True
+
+
+def split_pins(split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int) -> None:
+    """Warn of pins that even firing splits, with the intervals at which shared ones fire.
+
+    Parameters
+    ----------
+    split_deg
+        Pin splits of all throws, degrees.
+    shared
+        The engine with shared pins.
+    firing_order, strokes
+        As of builders.
+    """
+    if (largest := float(np.abs(split_deg).max())) < ROUNDING:
+        return
+    try:
+        intervals = _core.Firing.named(shared, firing_order, strokes).intervals_deg.tolist()
+    except InputError:
+        fires = "do not fire in this order"
+    else:
+        count = next(
+            count
+            for count in range(1, len(intervals) + 1)
+            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=ROUNDING)
+        )
+        fires = f"fire at {'-'.join(f'{each:.6g}' for each in intervals[:count])}°"
+    warn(
+        f"firing_order = {firing_order}: even firing needs crankpins split by {largest:.6g}°; "
+        f"shared ones, which shared_pins=True gives, {fires}"
     )
 
 
@@ -389,7 +428,7 @@ def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> N
     firing
         The firing that the engine takes.
     """
-    first = firing.order.index(int(order.partition("-")[0]))
+    first = firing.order.index(int(re.findall(r"\d+", order)[0]))
     taken = np.roll(firing.intervals_deg, -first)
     if np.abs(taken - given_deg).max() > ROUNDING:
         asked, even = (
