@@ -210,6 +210,11 @@ def pressure(values: NDArray[np.float64]) -> None:
     if most < LARGEST_IN_KPA:
         unit = "bar" if most < LARGEST_IN_BAR else "kPa"
         warn(f"pressure is at most {most:g} Pa: was it given in {unit}? Pressures are Pa here")
+    elif 0.0 < most - least < LARGEST_IN_BAR:
+        warn(
+            f"pressure varies by {most - least:g} Pa alone: was gauge pressure given in bar? "
+            "Pressures are Pa here"
+        )
     elif most > LARGEST_PRESSURE:
         warn(
             f"pressure is as much as {most:g} Pa, more than any engine's: are its numbers in the "
