@@ -427,6 +427,63 @@ def test_throws_of_inline_engines() -> None:
     assert cp.throws([1, 2, 3], strokes=2)[0].tolist() == [0.0, 240.0, 120.0]
 
 
+def test_pins_that_even_firing_splits_are_warned_of() -> None:
+    order = range(1, 17)
+    with pytest.warns(UserWarning, match="split by 15°; shared ones, .* fire at 60-30°"):
+        split = cp.Engine.from_firing_order(CYLINDER, order, bank_angle_deg=60, spacing=0.1)
+    options: dict[str, Any] = {"bank_angle_deg": 60, "spacing": 0.1}
+    assert split == cp.Engine.from_firing_order(CYLINDER, order, shared_pins=False, **options)
+    shared = cp.Engine.from_firing_order(CYLINDER, order, shared_pins=True, **options)
+    assert not shared.pin_split_deg.any()
+    assert shared.firing().intervals_deg.tolist() == [60.0, 30.0] * 8
+    for wrong in ({"intervals_deg": [45] * 16}, {"rule": "ijesc"}, {"bank_angle_deg": None}):
+        with pytest.raises(cp.InputError, match="shared_pins = True: "):
+            cp.Engine.from_firing_order(CYLINDER, order, shared_pins=True, **options | wrong)
+
+
+@pytest.mark.filterwarnings("ignore:odd_bank = ")
+@given(
+    throws=st.integers(1, 6),
+    angle=st.integers(1, 179),
+    strokes=st.sampled_from([2, 4]),
+    odd_bank=st.sampled_from(["right", "left"]),
+    numbering=st.sampled_from(["alternating", "by-bank"]),
+    data=st.data(),
+)
+def test_shared_pins_are_shared_and_fire_in_the_order_or_say_so(
+    throws: int, angle: int, strokes: int, odd_bank: str, numbering: str, data: st.DataObject
+) -> None:
+    order = data.draw(st.permutations(range(1, 2 * throws + 1)))
+    options: dict[str, Any] = {
+        "bank_angle_deg": angle, "spacing": 0.1, "strokes": strokes, "odd_bank": odd_bank,
+        "numbering": numbering, "first_tdc_deg": 7,
+    }  # fmt: skip
+    split = cp.Engine.from_firing_order(CYLINDER, order, shared_pins=False, **options)
+    assert split.fires_evenly
+    try:
+        shared = cp.Engine.from_firing_order(CYLINDER, order, shared_pins=True, **options)
+    except cp.InputError as error:
+        assert "firing_order = " in str(error)  # noqa: PT017 - either is right
+        return
+    assert not shared.pin_split_deg.any()
+    assert shared.firing_order == split.firing_order
+    assert shared.tdc_deg[0] == split.tdc_deg[0] == 7.0
+    first = shared.bank_deg == shared.bank_deg[0]
+    np.testing.assert_allclose(shared.tdc_deg[first], split.tdc_deg[first], atol=1e-9)
+
+
+def test_intervals_ask_for_the_other_bank_too() -> None:
+    options: dict[str, Any] = {"bank_angle_deg": 90, "spacing": 0.1}
+    for text in ("1-8-4-3-6-5-7-2", "1,8,4,3,6,5,7,2", "1–8–4–3–6–5–7–2"):
+        for intervals in (None, [90] * 8):
+            with pytest.warns(UserWarning, match='odd_bank="left" pins are shared'):
+                cp.Engine.from_firing_order(CYLINDER, text, intervals_deg=intervals, **options)
+    with pytest.warns(UserWarning, match="odd_bank"):
+        cp.Engine.from_firing_order(
+            CYLINDER, "1-2-3-4", intervals_deg=[90, 270, 90, 270], odd_bank="left", **options
+        )
+
+
 ORDERS = st.integers(1, 4).flatmap(lambda n: st.permutations(range(1, 2 * n + 1)))
 
 
@@ -442,6 +499,7 @@ def made_for(order: list[int], wanted: list[int], **options: Any) -> cp.Engine: 
     """Return the engine of an order that can fire at these intervals, and warns if it does not."""
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
+        warnings.filterwarnings("ignore", "odd_bank = ")  # of splits, not of intervals
         engine = cp.Engine.from_firing_order(
             CYLINDER, order, spacing=0.1, intervals_deg=wanted, **options
         )

@@ -84,6 +84,18 @@ def test_writes_a_picture(capsys: CAPTURE, tmp_path: Path, argv: list[str]) -> N
     assert plt.get_fignums() == before
 
 
+def test_a_speed_of_zero_is_zero(capsys: pytest.CaptureFixture[str]) -> None:
+    """As the library takes it: not the default speed."""
+    try:
+        said = f"{cp.balancer_options(cp.Engine.preset('i4'), rpm=0)}\n"
+    except cp.InputError as error:
+        said = str(error).partition(" = ")[2]
+    main(["shafts", "i4", "--rpm", "0"])
+    out, err = capsys.readouterr()
+    assert said in out + err
+    assert "3000 rpm" not in out
+
+
 @pytest.mark.parametrize(
     ("argv", "words"),
     [

@@ -110,6 +110,49 @@ def test_pictures_are_written(
     assert len(sizes) == len(pictures)
 
 
+@pytest.mark.filterwarnings("default:pressure varies")
+def test_files_of_cycles_are_read_as_options_say(capsys: CAPTURE, tmp_path: Path) -> None:
+    theta = np.arange(0, 720, 2)
+    pressure = cp.Cycle.example().pressure_at(theta)
+    file = tmp_path / "bench.csv"
+    columns = [np.radians(theta + 90.0), theta, pressure / 1e5 - 1.01325]
+    np.savetxt(file, np.transpose(columns), delimiter=",", header="a,b,p")
+    read = f"--cycle {file} --angle-unit rad --tdc 90deg --columns 0,2"
+    out = printed(capsys, f"torque i4 {read} --pressure-unit bar --gauge --bore 86mm --orders 2")
+    engine = cp.Engine.preset("i4", cylinder=cp.Cylinder(0.043, 0.145, 0.5, bore=0.086))
+    mean = engine.with_cycle(cp.Cycle(theta, pressure)).balance(3000, orders=[2]).crank_torque.mean
+    assert f"{mean:.2f}" in out
+    for typed, hints in (
+        (f"bearings i4 {read}", ["--pressure-unit = None: ", "give one of Pa"]),
+        (f"torque i4 {read} --pressure-unit bar", ["--gauge = None: ", "give --gauge, or --abso"]),
+        ("torque i4 --tdc 3", ["--tdc needs a file of --cycle"]),
+        ("torque i4 --cycle petrol --gauge", ["--gauge needs a file of --cycle"]),
+        (f"torque i4 {read} --gauge --absolute", ["--gauge cannot be combined with --absolute"]),
+    ):
+        assert main(typed.split()) == 2
+        err = capsys.readouterr().err
+        assert all(hint in err for hint in hints), err
+    assert main(f"torque i4 --cycle {file} --columns 1,2 --gauge --pressure-unit Pa".split()) == 0
+    assert "was gauge pressure given in bar" in capsys.readouterr().err
+
+
+def test_hints_can_be_followed(capsys: CAPTURE, tmp_path: Path) -> None:
+    file = tmp_path / "fired.toml"
+    fired("i4", bore=0.086).save(file)
+    assert "Gas pressure is not counted" in printed(
+        capsys, f"tolerances {file} --pin 0.1 --samples 50"
+    )
+    assert main(f"shafts {file} --ratios 2,-2".split()) == 2
+    assert "--rpm = None: " in capsys.readouterr().err
+    assert "at 2000 rpm" in printed(capsys, f"shafts {file} --ratios 2,-2 --rpm 2000")
+    bare = tmp_path / "bare.toml"
+    cp.Engine.preset("i4").replace(firing_order="").save(bare)
+    assert main(f"torque {bare}".split()) == 2
+    assert "--firing-order = None: " in capsys.readouterr().err
+    table = printed(capsys, "torque i4 --firing-order 1-3-4-2").splitlines()[1:]
+    assert printed(capsys, f"torque {bare} --firing-order 1-3-4-2").splitlines()[1:] == table
+
+
 @pytest.mark.parametrize(
     ("typed", "message"),
     [

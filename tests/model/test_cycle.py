@@ -126,7 +126,7 @@ def test_cycles_are_values() -> None:
         (np.radians(np.arange(720)), None, r"theta_deg = .*radians"),
         (np.arange(720)[::-1], None, r"theta_deg\[1\] = 718.0: give ascending angles"),
         (np.arange(720), np.full(719, 1e5), "pressure has 719 entries"),
-        (np.arange(720), fired(np.arange(720)) - 2e5, r"pressure\[\d+\] = -.*absolute"),
+        (np.arange(720), fired(np.arange(720)) - 3e5, r"pressure\[\d+\] = -.*absolute"),
         (np.arange(721), np.linspace(1e5, 2e5, 721), r"pressure\[720\] = 200000.0: .* closed"),
         (np.arange(720), "high", "pressure = 'high': give numbers"),
         (np.arange(720), np.full(720, np.nan), r"pressure\[0\] = NaN"),
@@ -143,11 +143,94 @@ def test_tables_that_are_no_cycle_are_named(theta_deg: Any, pressure: Any, messa
         (fired(np.arange(720)) / 1e3, "was it given in kPa"),
         (fired(np.arange(720)) / 1e5, "was it given in bar"),
         (fired(np.arange(720)) - 1e5, "is it gauge pressure"),
+        (fired(np.arange(720)) * 1e5, "more than any engine's"),
+        (fired(np.arange(720)) * 1e3, "more than any engine's"),
     ],
 )
 def test_other_units_are_warned_of(pressure: Any, message: str) -> None:
     with pytest.warns(UserWarning, match=message):
         cp.Cycle(np.arange(720), pressure)
+
+
+@pytest.mark.parametrize("count", [16, 17, 225, 719, 720, 1440, 1441])
+@pytest.mark.parametrize("closed", [False, True])
+def test_any_number_of_points_has_an_error_estimate(count: int, *, closed: bool) -> None:
+    theta = np.linspace(0, 720, count + closed, endpoint=closed)
+    assert sampled(theta).resolution_error(CYLINDER, [0.5, 6]).max() > 0.0
+
+
+def test_error_estimates_of_random_tables_hold() -> None:
+    random = np.random.default_rng(1)
+    _, phasors = expected(CYLINDER, ORDERS)
+    for count in random.integers(180, 1440, 60):
+        start = random.uniform(-360, 360)
+        cycle = sampled(np.linspace(start, start + 720, count, endpoint=False))
+        error = abs(cycle.torque_harmonics(CYLINDER, ORDERS) - phasors)
+        assert error.max() <= cycle.resolution_error(CYLINDER, ORDERS).max()
+
+
+def test_too_few_points_have_no_error_estimate() -> None:
+    with pytest.raises(cp.InputError, match="has 12 points: give 16 or more for an estimate"):
+        sampled(np.arange(0, 720, 60)).resolution_error(CYLINDER, 1)
+
+
+@pytest.mark.parametrize("shift", [360, 90, -90, 200])
+def test_a_peak_far_from_firing_tdc_is_warned_of(shift: int) -> None:
+    theta = np.arange(720.0)
+    with pytest.warns(UserWarning, match=r"theta_deg: pressure peaks at .* tdc_deg"):
+        cp.Cycle(theta, fired(theta - shift))
+
+
+def test_peaks_of_running_engines_are_not_warned_of() -> None:
+    """Any phase of the grid, and burns from early to late, at full load or motored."""
+    random = np.random.default_rng(2)
+    for _ in range(100):
+        start = random.uniform(-1000, 1000)
+        theta = np.arange(720.0) + start
+        late, load = random.uniform(-5, 30), random.uniform(0.2, 1)
+        compression = 2e6 * np.exp(-((((theta + 360) % 720 - 360) / 35) ** 2))
+        cp.Cycle(theta, 1e5 + compression + load * (fired(theta - late) - 1e5))
+    flat = np.full(720, 101325.0)
+    cp.Cycle(np.arange(720), flat)
+
+
+def test_noise_below_zero_is_warned_of_and_counted_as_it_is() -> None:
+    theta = np.arange(720.0)
+    noise = np.random.default_rng(3).normal(0.0, 4e4, 720)
+    with pytest.warns(UserWarning, match="which noise or an offset of the sensor does"):
+        noisy = cp.Cycle(theta, fired(theta) + noise)
+    found = noisy.torque_harmonics(CYLINDER, ORDERS) - sampled(theta).torque_harmonics(
+        CYLINDER, ORDERS
+    )
+    # Linear but for limited slopes: the noise's own harmonics, below 4e4 Pa · area · radius / √720.
+    assert abs(found).max() < 4 * 4e4 * 5.8e-3 * 0.043 / np.sqrt(720) * 2
+
+
+def test_work_taken_from_the_crank_is_warned_of() -> None:
+    theta = np.arange(720.0)
+    backward = cp.Cycle(theta, fired(-theta))
+    with pytest.warns(UserWarning, match=r"imep = -.* bar: pressure brakes the crank"):
+        backward.imep(CYLINDER)
+    i4 = cp.Engine.preset("i4", cylinder=CYLINDER)
+    with pytest.warns(UserWarning, match="pressure brakes the crank"):
+        fired_engine = i4.with_cycle(backward)
+    with pytest.warns(UserWarning, match="pressure brakes the crank"):
+        cp.Engine.from_toml(fired_engine.to_toml())
+    motored = cp.Cycle.wiebe(
+        CYLINDER, compression_ratio=16, heat=0, wall_temperature=400, rpm=1000, intake_pressure=3e5
+    )
+    assert motored.imep(CYLINDER) < 0.0
+    i4.with_cycle(motored)
+
+
+def test_a_crankcase_in_other_units_is_warned_of() -> None:
+    cycle = sampled(np.arange(720))
+    i4 = cp.Engine.preset("i4", cylinder=CYLINDER)
+    for pressure in (1.01325, 101.325, 1e10):
+        with pytest.warns(UserWarning, match="Pressures are Pa here"):
+            i4.with_cycle(cycle, crankcase=pressure)
+        with pytest.warns(UserWarning, match="Pressures are Pa here"):
+            cycle.torque_harmonics(CYLINDER, 1, crankcase=pressure)
 
 
 def test_torque_needs_a_bore_and_says_so() -> None:

@@ -84,6 +84,51 @@ def test_angles_from_any_event_in_radians_and_columns_by_name(tmp_path: Path) ->
     assert cycle == again
 
 
+def test_quoted_numbers_utf_16_and_names_above_units_are_read(tmp_path: Path) -> None:
+    lines = [f'"{angle:g}","{p / 1e5:.12g}"' for angle, p in zip(THETA, PRESSURE, strict=True)]
+    text = "\n".join(['"angle","absolute pressure"', '"deg","bar"', *lines])
+    for encoding in ("utf-8", "utf-8-sig", "utf-16", "latin-1"):
+        path = tmp_path / f"{encoding}.csv"
+        path.write_bytes(text.encode(encoding))
+        cycle = cp.Cycle.load(path, name="bench")
+        np.testing.assert_allclose(cycle.pressure, PRESSURE, rtol=1e-10)
+        assert cycle == cp.Cycle.load(path, columns=("angle", "bar"), name="bench")
+    path.write_bytes(text.encode("utf-16-le"))
+    with pytest.raises(cp.InputError, match="NUL bytes and is no text"):
+        cp.Cycle.load(path)
+
+
+def test_several_cycles_in_columns_are_warned_of(tmp_path: Path) -> None:
+    random = np.random.default_rng(4)
+    cycles = PRESSURE * (1.0 + 0.05 * random.standard_normal((5, 1)))
+    volume = 5e-4 * (1.05 - np.cos(np.radians(THETA)))
+    columns = [THETA, *cycles, volume]
+    path = tmp_path / "five.csv"
+    np.savetxt(path, np.transpose(columns), delimiter=",", header="angle,abs Pa,Pa,Pa,Pa,Pa,m3")
+    with pytest.warns(UserWarning, match=r"4 more look like further cycles: .* columns=\(0, 2\)"):
+        cycle = cp.Cycle.load(path, **ABSOLUTE)
+    np.testing.assert_allclose(cycle.pressure, cycles[0])
+    third = cp.Cycle.load(path, columns=(0, 3), **ABSOLUTE)
+    np.testing.assert_allclose(third.pressure, cycles[2])
+    np.savetxt(path, np.transpose([THETA, cycles[0], volume]), header="angle,abs Pa,m3")
+    assert cp.Cycle.load(path, **ABSOLUTE).pressure.size == 360
+    below = [np.tile(THETA, 3), np.tile(PRESSURE, 3)]
+    np.savetxt(path, np.transpose(below), header="angle, absolute pressure Pa")
+    with pytest.raises(cp.InputError, match="several cycles below each other"):
+        cp.Cycle.load(path)
+
+
+def test_pressure_in_pa_under_another_heading_is_warned_of(tmp_path: Path) -> None:
+    for heading in ("bar", "kPa", "psi", "MPa"):
+        path = written(tmp_path, f"angle,absolute pressure {heading}")
+        with pytest.warns(UserWarning, match="are its numbers in the unit that is named"):
+            cp.Cycle.load(path)
+    shifted = written(tmp_path, "angle,absolute pressure Pa", angles=THETA + 360)
+    with pytest.warns(UserWarning, match=r"far from the firing top dead centre.*tdc_deg=…"):
+        cp.Cycle.load(shifted)
+    assert cp.Cycle.load(shifted, tdc_deg=360).theta_deg[0] == 0.0
+
+
 def test_old_encodings_are_read(tmp_path: Path) -> None:
     path = written(tmp_path, "Kurbelwinkel °,Druck Pa abs", encoding="latin-1")
     assert len(cp.Cycle.load(path).theta_deg) == 360
@@ -115,6 +160,7 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
         ("angle,p\n0,1e5\n", {"pressure_unit": "atm"}, "pressure_unit = 'atm': give \"Pa\""),
         ("angle,p\n0,1e5\n", ABSOLUTE, "theta_deg = 1 points"),
         ("", ABSOLUTE, "no line of two numbers"),
+        ("angle|p\n0|1e5\n", ABSOLUTE, r"no line of two numbers.* with digits is '0\|1e5'"),
         ("angle,p\n0,1e5\n1,high\n", ABSOLUTE, "line 2 of the numbers, '1 high', has no number"),
         ("angle,p\n0,1e5\n1\n", ABSOLUTE, "line 2 of the numbers, '1', has no number in column 1"),
         ("angle,p\n0,0,1,5\n", ABSOLUTE, "decimals written with commas"),
@@ -124,6 +170,7 @@ def test_what_is_saved_reads_back_as_an_equal_cycle(
         ("angle,p\n0,1e5\n", {**ABSOLUTE, "tdc_deg": np.nan}, "tdc_deg = nan: give a finite"),
         ("# degree: x\nangle,p\n0,1e5\n", ABSOLUTE, "degree: 'x' is not a whole number"),
         ("# strokes: 9\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 9: give 4"),
+        ("# strokes: 0\nangle,p\n0,1e5\n", ABSOLUTE, "strokes = 0: give 4"),
     ],
 )
 def test_files_that_are_no_cycle_are_named(

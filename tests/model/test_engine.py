@@ -238,7 +238,12 @@ def test_rotating_mass_means_the_same_to_every_builder_and_to_replace(mass: Any)
         cp.Engine.inline(CYLINDER, throws_deg=[0] * 6, spacing=0.1, rotating_mass=mass),
         cp.Engine.from_firing_order(CYLINDER, "1-5-3-6-2-4", spacing=0.1, rotating_mass=mass),
         cp.Engine.from_firing_order(
-            CYLINDER, "1-2-3-4-5-6", bank_angle_deg=60, spacing=0.1, rotating_mass=mass
+            CYLINDER,
+            "1-2-3-4-5-6",
+            bank_angle_deg=60,
+            shared_pins=False,
+            spacing=0.1,
+            rotating_mass=mass,
         ),
     )
     for engine in made:

@@ -54,6 +54,9 @@ def test_one_angle_however_typed(value: object) -> None:
         (0.1 + 0.2, "0.3"),
         (Decimal.from_float(0.3), "0.3"),
         (Fraction(0.3), "0.3"),
+        (Fraction(49.54), "49.54"),
+        (Fraction(1, 2**20), "1/1048576"),
+        (Decimal("-236.37001175040001"), "-23637001175040001/100000000000000"),
         (Fraction(1, 10**40), "1e-40"),
         (np.int64(90), "90"),
         (Decimal("49.1234567"), "491234567/10000000"),
@@ -80,6 +83,26 @@ def test_six_decimals_are_one_angle_in_every_form(millionths: int) -> None:
     decimal = Decimal(millionths).scaleb(-6)
     forms: list[Any] = [exact, decimal, str(decimal), float(exact), np.float64(float(exact))]
     assert len({text(form) for form in forms}) == 1
+
+
+@given(st.integers(6, 14), st.integers(0, 720 * 10**14))
+def test_typed_decimals_are_exact_and_a_turn_apart_the_same(places: int, number: int) -> None:
+    """Equal engines, and there and back by another bank angle the same one."""
+    here = Decimal(number // 10 ** (14 - places)).scaleb(-places)
+    assert Fraction(text(str(here))) == Fraction(here)
+    engines = {
+        cp.Engine.from_lists(CYLINDER, tdc_deg=[0, form], bank_deg=[60, 120], z=[0, 0])
+        for form in (str(here), here, Fraction(here), str(here - 360), f"{here + 720}")
+    }
+    assert len(engines) == 1
+    (engine,) = engines
+    other = str(here % 180)
+    for hold in ("pins", "firing"):
+        there = engine.with_bank_angle(other, hold=hold)  # type: ignore[arg-type]
+        assert there.with_bank_angle(60, hold=hold) == engine  # type: ignore[arg-type]
+        again = there.with_bank_angle("47.00000000000001", hold=hold)  # type: ignore[arg-type]
+        assert again.with_bank_angle(other, hold=hold) == there  # type: ignore[arg-type]
+    assert cp.Engine.from_toml(engine.to_toml()) == engine
 
 
 @given(st.floats(-1e12, 1e12))

@@ -47,6 +47,8 @@ PIECE = 2**16
 SINGLES = (np.float16, np.float32)
 """Types whose shortest decimal is not that of the double of the same value."""
 
+LARGEST_BINARY = 2**44
+"""Denominator of a fraction from which one that a float holds exactly was made of a float."""
 MOST_EXACT = 10**18
 """Fractions are exact up to this value and this denominator; others become floats."""
 
@@ -332,7 +334,8 @@ def angle(name: str, value: object) -> str:
     Strings, fractions and decimals are exact as written, a float is read as its shortest decimal.
     """
     if isinstance(value, Fraction):
-        if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT:
+        of_float = value.denominator > LARGEST_BINARY and value == float(value)
+        if abs(value) < MOST_EXACT and value.denominator < MOST_EXACT and not of_float:
             value = f"{value.numerator}/{value.denominator}"
     elif isinstance(value, np.ndarray) and not value.ndim:
         return angle(name, value[()])

@@ -133,9 +133,17 @@ class Explanation(Record):
         request = Request.checked(orders="auto", rtol=None, spectrum=None, torque=torque)
         return Balance(self.engine, labels.UNIT_RPM if self.rpm is None else self.rpm, request)
 
-    @cached_property
+    @property
     def unit(self) -> float:
-        """First-order force of the strongest piston, without pistons of a throw; 0 without both."""
+        """First-order force of the strongest piston, or of a throw; 0 without both."""
+        return self.strongest[0]
+
+    @cached_property
+    def strongest(self) -> tuple[float, str]:
+        """First-order force that others are relative to, and the part that makes it.
+
+        A piston's; a throw's where pistons are not worth mention beside it.
+        """
         parts = list(zip(self.engine.cylinders, self.engine.rotating_mass.tolist(), strict=True))
         pistons = max(
             each.reciprocating_mass * each.crank_radius * abs(each.harmonics(1)[0])
@@ -143,7 +151,9 @@ class Explanation(Record):
         )
         throws = max(mass * each.crank_radius for each, mass in parts)
         omega = inputs.angular_speed(labels.UNIT_RPM if self.rpm is None else self.rpm)
-        return omega**2 * float(pistons or throws)
+        if pistons > MATTERS * throws:
+            return omega**2 * float(pistons), "piston"
+        return omega**2 * float(throws), "throw"
 
     @cached_property
     def lever(self) -> float:

@@ -99,10 +99,13 @@ class Sums:
         values = (forward, backward, float(self.tilt_deg[k]))
         yield Finding("shakes", self.name, (order,), values, reason)
         if order <= REMOVABLE:
-            ratios = [order] * bool(forward and order > 1) + [-order] * bool(backward)
-            weights = "counterweights" if forward and order == 1 else ""
-            kept = (backward, *map(float, ratios))
-            yield Finding("remedy", self.name, (order,), kept, weights)
+            # A part that would not be mentioned alone is not worth hardware of its own.
+            ahead, against = (part > MATTERS * self.size for part in (forward, backward))
+            weights = "counterweights" if ahead and order == 1 else ""
+            ratios = [order] * bool(ahead and order > 1) + [-order] * bool(against)
+            kept = backward if weights else forward * (not ahead) + backward * (not against)
+            if weights or ratios:
+                yield Finding("remedy", self.name, (order,), (kept, *map(float, ratios)), weights)
 
     def _together(self, k: int) -> bool:
         """Return whether all pistons pull at once, each along its own bore."""

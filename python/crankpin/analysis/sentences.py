@@ -31,7 +31,8 @@ AXES = {
 LISTED = 4
 """Most pairs of cylinders that a sentence lists."""
 LINE = 1e-9
-"""Forward and backward parts that differ by less make a straight line."""
+"""Forward and backward parts that differ by less make a straight line; one that is less of both is
+no part, and the vector's tip draws a circle."""
 LONG = 0.9995
 """Levers from here on, m, are given in metres: in millimetres they have more than three digits."""
 SAME = 0.005
@@ -77,8 +78,7 @@ def size(value: float, quantity: str, whole: Explanation, *, up: bool = False) -
 
 def unit_force(whole: Explanation) -> str:
     """Return what forces are relative to where no speed is given."""
-    part = "piston" if any(each.reciprocating_mass for each in whole.engine.cylinders) else "throw"
-    return f"one {part}'s first-order force"
+    return f"one {whole.strongest[1]}'s first-order force"
 
 
 def abbreviated(sentences: Iterable[str], phrase: str, symbol: str) -> list[str]:
@@ -127,8 +127,8 @@ def _shakes(finding: Finding, whole: Explanation) -> str:
 
 def _shape(forward: float, backward: float, tilt: float, quantity: str) -> str:
     """Return how a vector moves."""
-    if not (forward and backward):
-        return f"constant in size, turning {'with' if forward else 'against'} the crank"
+    if min(forward, backward) <= LINE * (forward + backward):
+        return f"constant in size, turning {'with' if forward > backward else 'against'} the crank"
     level, upright, other = AXES[quantity]
     named = {0.0: level, 90.0: upright}
     direction = named.get(round(abs(tilt), 1), f"{other} {tilt:.3g}°")
@@ -141,6 +141,9 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
     kept, *ratios = finding.values
     what = f"the {words(finding)} of {orders(finding.orders)}"
     other = "other counterweights" if whole.engine.counterweights else "counterweights"
+    least = f"down to {size(kept, finding.quantity, whole)}" if kept else ""
+    if not ratios and kept > LINE * whole.unit:
+        return f"{other} could bring {what} {least}, too little for a balance shaft"
     if not ratios:
         return f"{other} could remove all of {what}"
     senses = ["with" if ratio > 0 else "against" for ratio in ratios]
@@ -152,11 +155,12 @@ def _remedy(finding: Finding, whole: Explanation) -> str:
         both = f"one {senses[0]} the crank and one {senses[1]} it"
         shaft = f"{two} balance shafts at {speed}, {both}"
     if finding.reason:
-        left = size(kept, finding.quantity, whole)
         rest = f"the rest turns against the crank, and takes {one} balance shaft that does so"
-        return f"{other} could bring {what} down to {left}; {rest} at {speed}"
+        return f"{other} could bring {what} {least}; {rest} at {speed}"
     if finding.orders == (1,):
         return f"no counterweight reaches {what}: it takes {shaft}"
+    if kept > LINE * whole.unit:
+        return f"{shaft}, would bring {what} {least}"
     return f"{shaft}, would remove {what}"
 
 

@@ -13,7 +13,7 @@ from crankpin.cli.arguments import COMMANDS, PROG, Given, Parser, in_options
 from crankpin.model import checks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Mapping, Sequence
 
 ORDER = (
     "presets", "new", "balance", "explain", "sweep", "rank", "firing", "torque", "bearings",
@@ -54,19 +54,18 @@ def _text(argv: Sequence[str] | None) -> str:
         if sys.stdout is not None:
             outputs.write("")  # flushes the help while a broken pipe can still be answered
         raise
-    given = {name for name, value in vars(arguments).items() if value is not None}
     with warnings.catch_warnings():
-        warnings.showwarning = _Warnings(given)
+        warnings.showwarning = _Warnings(vars(arguments))
         try:
             return outputs.shown(Given(arguments, typed), arguments.run)
         except InputError as error:
-            raise InputError(in_options(str(error), given)) from None
+            raise InputError(in_options(str(error), vars(arguments))) from None
 
 
 class _Warnings:
     """What shows warnings, in place of ``warnings.showwarning``: of wrong units the first."""
 
-    def __init__(self, options: Iterable[str]) -> None:
+    def __init__(self, options: Mapping[str, object]) -> None:
         self._options, self._of_units = options, False
 
     def __call__(self, message: Warning | str, *_: object, **__: object) -> None:

@@ -15,10 +15,11 @@ from crankpin._core import InputError
 from crankpin._support import inputs, labels
 from crankpin._support.quantities import QUANTITIES
 from crankpin.model import checks, engine_files, presets
+from crankpin.model.cycle_files import ANGLE_UNITS, PRESSURE_UNITS
 from crankpin.model.engine import Engine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -148,6 +149,31 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "such as angle [deg], absolute pressure [bar], or petrol or diesel for an example "
         "(default: the engine's own, or else petrol)",
     },
+    "--firing-order": {
+        "help": "such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
+        "engine's own, if it is known)"
+    },
+    "--pressure-unit": {
+        "metavar": "UNIT",
+        "help": f"{', '.join(PRESSURE_UNITS)} (default: what its header names)",
+    },
+    "--gauge": {
+        "action": "store_true",
+        "help": "pressure is above that of the atmosphere (default: what its header says)",
+    },
+    "--absolute": {"action": "store_true", "help": "pressure is absolute"},
+    "--angle-unit": {
+        "choices": tuple(ANGLE_UNITS),
+        "help": "unit of angles (default: what its header names, else deg)",
+    },
+    "--tdc": {
+        "metavar": "ANGLE",
+        "help": "angle of the firing top dead centre as the file counts, degrees (default: 0)",
+    },
+    "--columns": {
+        "metavar": "A,P",
+        "help": "columns of angle and pressure, by number from 0 or name (default: 0,1)",
+    },
     "--bore": {"help": "bore of all cylinders, m (default: the engine's, or else the stroke)"},
     "--crankcase": {
         "metavar": "P",
@@ -171,6 +197,8 @@ OPTIONS: dict[str, dict[str, Any]] = {
 """Options of several commands."""
 
 
+OPPOSITES = {"gauge": "absolute"}
+"""Argument of the library that may be False → the option that says so."""
 RENAMED = {"path": "out", "to_crankpin": "rod_centre"}
 """Argument of the library → the option of a command that has it under another name."""
 
@@ -229,16 +257,37 @@ def command(
 # --- values -------------------------------------------------------------------------------------
 
 
-def in_options(message: str, options: Iterable[str]) -> str:
-    """Return a message of the library with arguments named, and units asked for, as in a shell."""
-    known = {*options} - {"name", "names"}
+def in_options(message: str, typed: Mapping[str, object]) -> str:
+    """Return a message of the library with arguments named, and units asked for, as in a shell.
+
+    Parameters
+    ----------
+    message
+        The message of an error or a warning.
+    typed
+        Values of all options of the command; None for those that are left out.
+    """
+    options = {name: value for name, value in typed.items() if name not in ("name", "names")}
+    known = {name for name, value in options.items() if value is not None}
+
+    def flag(name: str, among: Iterable[str]) -> str:
+        names = (name, name.removesuffix("_deg"), RENAMED.get(name, name))
+        return next((f"--{each.replace('_', '-')}" for each in names if each in among), "")
 
     def option(found: re.Match[str]) -> str:
-        names = (found[0], found[1], RENAMED.get(found[0]))
-        named = next((each for each in names if each in known), None)
-        return f"--{named.replace('_', '-')}" if named else found[0]
+        # One that is left out is named only where that is the fault.
+        left_out = found.string.startswith(" = None", found.end())
+        return flag(found[0], options if left_out else known) or found[0]
 
-    said = re.sub(r"(?:(?<=^)|(?<=; ))(\w+?)(?:_deg)?(?=(?: =| is| has|\[))", option, message)
+    def hint(found: re.Match[str]) -> str:
+        name, value = found.groups()
+        if value in ("True", "False"):
+            return flag(name if value == "True" else OPPOSITES.get(name, ""), options) or found[0]
+        plain = re.sub(r'[\[\]()"]|(?<=,) ', "", value)
+        return f"{named} {plain}" if (named := flag(name, options)) else found[0]
+
+    said = re.sub(r"(?:(?<=^)|(?<=; ))\w+(?=(?: =| is| has|\[))", option, message)
+    said = re.sub(r'(?<![\w.(-])(\w+)=(\([^()]*\)|\[[^\[\]]*\]|"[^"]*"|[^\s,;()]+)', hint, said)
     if said == message and "kind" not in known:  # a figure of an engine file, which has no units
         return message
     asked = "plain numbers are metres and kilograms; type units, such as 86mm or 480g"

@@ -32,11 +32,7 @@ def _presets(_: Given) -> Shown:
     "firing",
     "intervals and exhaust gaps of a firing order, or all orders that a crank allows",
     "name",
-    option(
-        "--firing-order",
-        help="such as 1-3-4-2, with + for cylinders that fire together: 1+4-2+3 (default: the "
-        "engine's own, if it is known)",
-    ),
+    "--firing-order",
     option("--all", action="store_true", help="list all orders that the crank allows"),
     option(
         "--strokes", choices=("4", "2"), help="strokes of a cycle (default: the engine's own, or 4)"

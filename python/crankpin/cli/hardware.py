@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 OF_A_FIT = ("--x", "--y", "--planes", "--bearings", "--remove", "--quantity")
 """Options that need ``--ratios``."""
 OF_OPTIONS = ("--rpm", "--by", "--target")
-"""Options that ``--ratios`` has no use for."""
+"""Options that ``--ratios`` has no use for, but for the speed where gas pressure has torque."""
 
 
 @command(
@@ -140,7 +140,12 @@ def _axis(flag: str, where: str) -> Option:
     option("--planes", metavar="Z,…", help="places of the unbalances along the crank, m"),
     option("--bearings", metavar="Z,Z", help="places of the bearings, m"),
     option("--remove", choices=REMOVE, help="what the shafts remove (default: both)"),
-    option("--rpm", default=None, help="crank speed of the comparison (default: 3000)"),
+    option(
+        "--rpm",
+        default=None,
+        help="crank speed of the comparison (default: 3000), or with --ratios that at which shafts "
+        "cancel torque of gas pressure",
+    ),
     option(
         "--by",
         default=None,
@@ -168,7 +173,7 @@ def _shafts(given: Given) -> Shown:
     engine = given.engine("shafts")
     fits = given.text("--ratios") is not None
     for name in OF_OPTIONS if fits else OF_A_FIT:
-        if given.text(name) is not None:
+        if given.text(name) is not None and not (name == "--rpm" and engine.fired):
             what = "is of the comparison without" if fits else "needs"
             raise InputError(f"{name} {what} --ratios")
     return _fit(engine, given) if fits else _compare(engine, given)
@@ -183,6 +188,7 @@ def _fit(engine: Engine, given: Given) -> Shown:
         planes=given.numbers("--planes", "m"),
         bearings=given.numbers("--bearings", "m"),
         remove=given.text("--remove") or "both",
+        rpm=given.optional("--rpm", "rpm"),
     )
     return Shown(fit.table, fit, {"quantity": given.quantity([engine])}, fit.fitted)
 
@@ -192,10 +198,11 @@ def _compare(engine: Engine, given: Given) -> Shown:
     saved = given.text("--save") is not None
     if saved and targets is None:
         raise InputError("--save needs --ratios or --target")
+    rpm, by = given.optional("--rpm", "rpm"), given.text("--by")
     options = balancer_options(
         engine,
-        rpm=given.optional("--rpm", "rpm") or 3000.0,
-        by=given.text("--by") or DEFAULT,
+        rpm=3000.0 if rpm is None else rpm,
+        by=DEFAULT if by is None else by,
         target=targets,
         relative=relative,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from crankpin._core import InputError
 from crankpin._support import labels
@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from crankpin.cli.arguments import Given
     from crankpin.model.engine import Engine
 
+OF_A_FILE = tuple(
+    option(flag, group="the file of --cycle")
+    for flag in ["--pressure-unit", "--gauge", "--absolute", "--angle-unit", "--tdc", "--columns"]
+)
+"""Options that need a file of ``--cycle``."""
 ON = {"crank": "crank_torque", "block": "torque"}
 """What a torque acts on → its quantity."""
 
@@ -32,7 +37,8 @@ ON = {"crank": "crank_torque", "block": "torque"}
         default="crank",
         help="torque that is printed (default: %(default)s)",
     ),
-    "--cycle --bore --crankcase",
+    "--cycle --firing-order --bore --crankcase",
+    *OF_A_FILE,
     option(
         "--picture",
         choices=("curves", "spectrum"),
@@ -41,8 +47,8 @@ ON = {"crank": "crank_torque", "block": "torque"}
     ),
     "--units --csv --plot",
     example="torque i4 --rpm 1500 --bore 86mm --plot torque.png",
-    note="Order n is |T|·cos(n·θ + phase), θ from cylinder 1's top dead centre.\n"
-    "The engine needs a firing order.",
+    note="Order n is |T|·cos(n·θ + phase), θ the crank angle: cylinder 1 is at top dead centre\n"
+    "at 0 in presets, in an engine file at its tdc_deg. The engine needs a firing order.",
 )
 def _torque(given: Given) -> Shown:
     engine, note = _fired(given, "torque", otherwise="petrol")
@@ -64,7 +70,8 @@ def _torque(given: Given) -> Shown:
         help="cylinder pressure over crank angle: a file, or petrol or diesel for an example "
         "(default: the engine's own, if it has one)",
     ),
-    "--bore --crankcase",
+    "--firing-order --bore --crankcase",
+    *OF_A_FILE,
     option(
         "--load",
         choices=tuple(LOADS),
@@ -103,6 +110,11 @@ def _bearings(given: Given) -> Shown:
 def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engine, str]:
     """Return the engine, with gas pressure if there is any, and a note of what was assumed."""
     engine, typed = given.engine(name), given.text("--cycle")
+    if (order := given.text("--firing-order")) is not None:
+        engine = engine.replace(firing_order=order)
+    of_a_file = [each.names[0] for each in OF_A_FILE if given.text(each.names[0])]
+    if of_a_file and (typed is None or typed in EXAMPLES):
+        raise InputError(f"{of_a_file[0]} needs a file of --cycle")
     if typed is None:
         if engine.fired or otherwise is None:
             return engine, ""
@@ -111,7 +123,8 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
     if not example and not Path(typed).suffix:
         hint = f"give {' or '.join(EXAMPLES)} for an example, or a text file"
         raise InputError(f"--cycle = {labels.cut(typed)}: {hint}")
-    cycle = Cycle.example(typed, strokes=engine.strokes) if example else Cycle.load(typed)
+    strokes = engine.strokes
+    cycle = Cycle.example(typed, strokes=strokes) if example else _loaded(given, typed, strokes)
     bore = given.optional("--bore", "m")
     unknown = bore is None and any(each.bore is None for each in engine.cylinders)
     cylinders = [
@@ -126,3 +139,23 @@ def _fired(given: Given, name: str, otherwise: str | None = None) -> tuple[Engin
     shown = labels.cut(labels.printable(cycle.name) or typed)
     note = " Bores that are not known are taken to equal the stroke." if unknown else ""
     return fired, f"Cycle: {shown}.{note}\n"
+
+
+def _loaded(given: Given, path: str, strokes: int) -> Cycle:
+    """Return the cycle in a file, read as options say."""
+    gauge, absolute = given.text("--gauge"), given.text("--absolute")
+    if gauge and absolute:
+        raise InputError("--gauge cannot be combined with --absolute")
+    columns: Any = None
+    if (listed := given.text("--columns")) is not None:
+        parts = (part.strip() for part in listed.split(","))
+        columns = [int(part) if part.isdecimal() else part for part in parts]
+    return Cycle.load(
+        path,
+        pressure_unit=given.text("--pressure-unit"),
+        angle_unit=given.text("--angle-unit"),
+        gauge=gauge if gauge or absolute else None,
+        tdc_deg=given.optional("--tdc", "°") or 0.0,
+        columns=columns,
+        strokes=strokes,
+    )

@@ -177,6 +177,9 @@ def _tolerances(given: Given) -> Shown:
     }
     if not any(spreads.values()):
         raise InputError(f"no part deviates: give a spread, {', '.join(FLAGS.values())}")
+    note = ""
+    if engine.fired:
+        engine, note = engine.with_cycle(None), "Gas pressure is not counted.\n"
     result = tolerances(
         engine,
         rpm=given.number("--rpm", "rpm"),
@@ -188,5 +191,5 @@ def _tolerances(given: Given) -> Shown:
         **given.chosen(),
     )
     if given.text("--shares"):
-        return Shown(result.shares, result, {"kind": "shares"})
-    return Shown(result.table, result)
+        return Shown(result.shares, result, {"kind": "shares"}, note=note)
+    return Shown(result.table, result, note=note)

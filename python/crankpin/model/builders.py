@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias
 
 from crankpin import _core
@@ -376,6 +377,7 @@ class Builders(EngineData):
         *,
         spacing: float,
         bank_angle_deg: Angle | None = None,
+        shared_pins: bool | None = None,
         rule: FiringRule = "even",
         intervals_deg: Angles | None = None,
         strokes: int = 4,
@@ -400,6 +402,11 @@ class Builders(EngineData):
             Distance between neighbouring throws, m.
         bank_angle_deg
             Angle between the banks of a vee; None for an inline engine.
+        shared_pins
+            True for a vee whose opposed cylinders share crankpins: the bank of cylinder 1 fires as
+            evenly as with split pins, and the other bank a bank angle later or earlier. False for
+            even firing, with pins split where the bank angle requires it; the default is that too,
+            with a warning that names the split and the intervals of shared pins.
         rule
             ``"even"``: all firing intervals are equal; top dead centres follow from the order, pins
             are split where the bank angle asks for it. ``"ijesc"``: the rule of the IJESC paper of
@@ -439,6 +446,16 @@ class Builders(EngineData):
             None if intervals_deg is None else inputs.angles("intervals_deg", intervals_deg),
             inputs.strokes(strokes),
         )
+        if shared_pins is not None and inputs.flag("shared_pins", shared_pins):
+            even = rule == "even" and intervals_deg is None
+            if bank_angle_deg is None or not even:
+                hint = "it is of vees, and needs bank_angle_deg"
+                hint = (
+                    hint
+                    if even
+                    else "they have intervals of their own; leave out rule and intervals_deg"
+                )
+                raise inputs.rejected("shared_pins", shared_pins, hint)
         along = _along_crank((), spacing, rotating_mass, first_tdc_deg)
         # What an inline engine ignores is checked all the same.
         angle = 0.0 if bank_angle_deg is None else bank_angle_deg
@@ -448,10 +465,20 @@ class Builders(EngineData):
             core = _core.Engine.inline_from_firing_order(moving, order, *fired, along)
         else:
             core = _core.Engine.vee_from_firing_order(moving, order, *fired, along | across)
-            if rule == "even" and intervals_deg is None:
+            if rule == "even":
                 other = across | {"odd_bank": checks.other_bank(odd_bank)}
                 exchanged = _core.Engine.vee_from_firing_order(moving, order, *fired, along | other)
-                checks.odd_bank(odd_bank, _splits(core), _splits(exchanged))
+                splits = _splits(core)
+                shared = _sharing(core, along | across)
+                if shared_pins:
+                    _core.Firing.named(shared, order, strokes)  # an error if it cannot fire so
+                    core = shared
+                elif (
+                    not checks.odd_bank(odd_bank, splits, _splits(exchanged))
+                    and intervals_deg is None
+                    and shared_pins is None
+                ):
+                    checks.split_pins(splits, shared, order, strokes)
         core = _kept(core, cylinder)
         checks.angles(
             bank_angle_deg=bank_angle_deg, intervals_deg=intervals_deg, first_tdc_deg=first_tdc_deg
@@ -506,6 +533,17 @@ def _along_crank(
         "rotating_mass": inputs.vector("rotating_mass", rotating_mass).tolist(),
         "first_tdc": inputs.angle("first_tdc_deg", first_tdc_deg),
     }
+
+
+def _sharing(core: _core.Engine, layout: dict[str, Any]) -> _core.Engine:
+    """Return a vee with the crankpins of the bank of cylinder 1, which the other bank shares."""
+    of_first = (
+        tdc
+        for tdc, bank in zip(core.exact_angles[0], core.bank, strict=True)
+        if bank == core.bank[0]
+    )
+    throws = [str(-Fraction(tdc)) for tdc in of_first]
+    return _core.Engine.vee(core.cylinders[0], layout | {"throws": throws})
 
 
 def _splits(core: _core.Engine) -> NDArray[np.float64]:

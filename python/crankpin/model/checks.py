@@ -7,12 +7,14 @@ once per call, however many cylinders are alike.
 from __future__ import annotations
 
 import math
+import re
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from crankpin import _core
+from crankpin._core import InputError
 from crankpin._support import inputs
 from crankpin._support.warnings import warn
 
@@ -64,8 +66,26 @@ LARGEST_IN_BAR, LARGEST_IN_KPA = 500.0, 5e4
 """Peak pressures, Pa, below which they are in bar or kPa: a motored cylinder reaches 1e6 Pa, a
 diesel 3e7."""
 
+LARGEST_PRESSURE = 5e7
+"""Peak pressure, Pa, above which it is not in Pa: the highest of diesels are 3e7."""
+
 LEAST_ABSOLUTE = 1e4
 """Least pressure, Pa, below which gauge pressure is likely: an engine that idles has 2e4 Pa."""
+
+NOISE = 0.05
+"""Part of a cycle's points that noise may have below the least pressure; of gauge pressure two
+strokes of four are."""
+
+FARTHEST_PEAK = 60.0
+"""Degrees from the firing top dead centre up to which pressure peaks: compression does at 0, and
+the latest burns at 40."""
+
+PEAKED = 2.0
+"""Peak over mean pressure from which there is a peak: compression alone has 4 and more."""
+
+STRONGEST_BRAKE = -5e5
+"""Imep, Pa, below which figures are likely wrong: motored engines have -2e5, and engine brakes, the
+exception, as much as -1.2e6."""
 
 UNITS = "Lengths are metres here, masses kilograms"
 MILLIMETRES = ": was it given in millimetres?"
@@ -190,17 +210,59 @@ def pressure(values: NDArray[np.float64]) -> None:
     if most < LARGEST_IN_KPA:
         unit = "bar" if most < LARGEST_IN_BAR else "kPa"
         warn(f"pressure is at most {most:g} Pa: was it given in {unit}? Pressures are Pa here")
-    elif least < LEAST_ABSOLUTE:
+    elif 0.0 < most - least < LARGEST_IN_BAR:
+        warn(
+            f"pressure varies by {most - least:g} Pa alone: was gauge pressure given in bar? "
+            "Pressures are Pa here"
+        )
+    elif most > LARGEST_PRESSURE:
+        warn(
+            f"pressure is as much as {most:g} Pa, more than any engine's: are its numbers in the "
+            "unit that is named for them? Pressures are Pa here"
+        )
+    elif float(np.quantile(values, NOISE)) < LEAST_ABSOLUTE:
         warn(
             f"pressure is {least:g} Pa at its least: is it gauge pressure? Pressures are absolute "
             "here: add that of the atmosphere, 101325 Pa"
         )
+    elif least < 0.0:
+        warn(
+            f"pressure is {least:g} Pa at its least, which noise or an offset of the sensor does: "
+            "torque is linear in pressure, and counts it as it is"
+        )
+
+
+def peak(theta_deg: NDArray[np.float64], values: NDArray[np.float64], period_deg: float) -> None:
+    """Warn of pressure whose peak is far from the firing top dead centre."""
+    most = values.max()
+    if most < PEAKED * values.mean():
+        return
+    half = period_deg / 2.0
+    at = (theta_deg[values == most] + half) % period_deg - half
+    nearest = float(at[np.abs(at).argmin()])
+    if abs(nearest) > FARTHEST_PEAK:
+        warn(
+            f"theta_deg: pressure peaks at {nearest:.4g}°, far from the firing top dead centre, "
+            "from which angles are counted here; load a file that counts from elsewhere with "
+            "tdc_deg=…, the angle at which it has that centre"
+        )
+
+
+def imep(mean_pressure: float) -> None:
+    """Warn of pressure that takes more work from the crank than an engine does."""
+    if mean_pressure < STRONGEST_BRAKE:
+        warn(
+            f"imep = {mean_pressure / 1e5:.3g} bar: pressure brakes the crank. Are angles counted "
+            "in the direction of rotation, from the firing top dead centre?"
+        )
 
 
 def crankcase(pressure: float) -> None:
-    """Warn of the pressure below the pistons in bar or kPa; 0 is a vacuum."""
+    """Warn of the pressure below the pistons in other units; 0 is a vacuum."""
     if 0.0 < pressure < LARGEST_IN_BAR:
         warn(f"crankcase = {pressure:g} Pa: was it given in bar or kPa? Pressures are Pa here")
+    elif pressure > LARGEST_PRESSURE:
+        warn(f"crankcase = {pressure:g} Pa: is it in Pa? Pressures are Pa here")
 
 
 def _at(radius: float) -> str:
@@ -302,7 +364,7 @@ def other_bank(odd_bank: str) -> str:
     return "left" if odd_bank == "right" else "right"
 
 
-def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
+def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> bool:
     """Warn of cylinder 1 in the wrong bank: in the other one a firing order needs smaller splits.
 
     Parameters
@@ -311,14 +373,51 @@ def odd_bank(given: str, split_deg: ArrayLike, of_other: ArrayLike) -> None:
         Bank of cylinder 1.
     split_deg, of_other
         Pin splits of all throws, and those with cylinder 1 in the other bank, degrees.
+
+    Returns
+    -------
+    bool
+        Whether the caller was warned.
     """
     largest, smaller = (float(np.abs(each).max()) for each in (split_deg, of_other))
     if largest < LARGEST_SPLIT or smaller > largest / 2.0:
-        return
+        return False
     how = f"split by {smaller:.6g}°" if smaller else "shared"
     warn(
         f'odd_bank = "{given}": this firing order needs pins split by {largest:.6g}°; with '
         f'odd_bank="{other_bank(given)}" pins are {how}. Makers differ in the side of cylinder 1'
+    )
+    return True
+
+
+def split_pins(split_deg: ArrayLike, shared: _core.Engine, firing_order: str, strokes: int) -> None:
+    """Warn of pins that even firing splits, with the intervals at which shared ones fire.
+
+    Parameters
+    ----------
+    split_deg
+        Pin splits of all throws, degrees.
+    shared
+        The engine with shared pins.
+    firing_order, strokes
+        As of builders.
+    """
+    if (largest := float(np.abs(split_deg).max())) < ROUNDING:
+        return
+    try:
+        intervals = _core.Firing.named(shared, firing_order, strokes).intervals_deg.tolist()
+    except InputError:
+        fires = "do not fire in this order"
+    else:
+        count = next(
+            count
+            for count in range(1, len(intervals) + 1)
+            if np.allclose(intervals, np.roll(intervals, -count), rtol=0.0, atol=ROUNDING)
+        )
+        fires = f"fire at {'-'.join(f'{each:.6g}' for each in intervals[:count])}°"
+    warn(
+        f"firing_order = {firing_order}: even firing needs crankpins split by {largest:.6g}°; "
+        f"shared ones, which shared_pins=True gives, {fires}"
     )
 
 
@@ -334,7 +433,7 @@ def intervals(order: str, given_deg: Sequence[float], firing: _core.Firing) -> N
     firing
         The firing that the engine takes.
     """
-    first = firing.order.index(int(order.partition("-")[0]))
+    first = firing.order.index(int(re.findall(r"\d+", order)[0]))
     taken = np.roll(firing.intervals_deg, -first)
     if np.abs(taken - given_deg).max() > ROUNDING:
         asked, even = (

@@ -13,6 +13,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs, labels
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.model import checks, cycle_files
 from crankpin.model.computed_cycles import ComputedCycles, area
 
@@ -56,7 +57,8 @@ class Cycle(Tabled, ComputedCycles):
     Raises
     ------
     InputError
-        If angles are not ascending or do not cover one period, or a pressure is negative.
+        If angles are not ascending or do not cover one period, or a pressure is below that of a
+        vacuum by more than an atmosphere.
 
     Examples
     --------
@@ -97,6 +99,7 @@ class Cycle(Tabled, ComputedCycles):
             object.__setattr__(self, "degree", degree)
         if len(self._core):
             checks.pressure(self.pressure)
+            checks.peak(self.theta_deg, self.pressure, self.period_deg)
 
     @classmethod
     def _of(cls, core: _core.Cycle) -> Self:
@@ -119,7 +122,7 @@ class Cycle(Tabled, ComputedCycles):
         gauge: bool | None = None,
         atmosphere: float = ATMOSPHERE,
         tdc_deg: float = 0.0,
-        columns: tuple[int | str, int | str] = (0, 1),
+        columns: tuple[int | str, int | str] | None = None,
         strokes: int | None = None,
         name: str | None = None,
     ) -> Cycle:
@@ -127,7 +130,9 @@ class Cycle(Tabled, ComputedCycles):
 
         Columns are separated by commas, semicolons, tabs or blanks; decimal commas are recognised
         unless columns are separated by commas too. Lines before the numbers, and lines that begin
-        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header.
+        with ``#``, ``%`` or ``!``, are comments; the last before the numbers is the header, with
+        the one above it if that has as many cells. Text is UTF-8, Latin-1, or UTF-16 with a byte
+        order mark.
 
         Parameters
         ----------
@@ -146,7 +151,8 @@ class Cycle(Tabled, ComputedCycles):
         tdc_deg
             Angle of the firing top dead centre as the file counts angles, degrees.
         columns
-            Numbers from 0, or names, of the columns of angle and pressure.
+            Numbers from 0, or names, of the columns of angle and pressure; by default the first
+            two, with a warning if there are more.
         strokes
             4 or 2; by default 4, or what :meth:`save` has written.
         name
@@ -236,7 +242,9 @@ class Cycle(Tabled, ComputedCycles):
             Cylinder with a bore; its displacement follows from the travel of the piston, which a
             pin offset lengthens.
         """
-        return self.work(cylinder) / (area(cylinder) * cylinder.travel)
+        mean_pressure = self.work(cylinder) / (area(cylinder) * cylinder.travel)
+        checks.imep(mean_pressure)
+        return mean_pressure
 
     def mean_torque(self, cylinder: Cylinder) -> float:
         """Return the mean torque of the pressure on the crank, N·m.
@@ -280,8 +288,9 @@ class Cycle(Tabled, ComputedCycles):
         """
         halves = [round(2 * each) for each in inputs.explicit_half_orders(orders)]
         scale = area(cylinder) * cylinder.crank_radius
-        pressure = inputs.number("crankcase", crankcase)
-        return self._core.torque(cylinder._parts, pressure, halves)[1] * scale
+        below = inputs.number("crankcase", crankcase)
+        checks.crankcase(below)
+        return self._core.torque(cylinder._parts, below, halves)[1] * scale
 
     def resolution_error(
         self, cylinder: Cylinder, orders: Order | Iterable[Order], *, crankcase: float = ATMOSPHERE
@@ -293,7 +302,10 @@ class Cycle(Tabled, ComputedCycles):
         as large beside a jump between points: the change exceeds the error of the whole table if
         that is at most half of the thinned table's. Of peaks 4° to 40° wide at steps of 0.5° to 4°,
         two harmonics in a thousand have errors above it, up to six times, where the two errors are
-        alike by chance; the largest over orders ½ to 12 never is. Zero for polynomials.
+        alike by chance; the largest over orders ½ to 12 never is. It is no bound. Of a measured
+        trace it is what interpolation adds: noise, coarse digits and the sensor's own error are in
+        the points, which both tables share, and can be hundreds of times larger. The spread of
+        harmonics over several cycles shows these. Zero for polynomials.
 
         Parameters
         ----------
@@ -303,7 +315,7 @@ class Cycle(Tabled, ComputedCycles):
         Raises
         ------
         InputError
-            If half of the points are no table.
+            If half of the points are fewer than a table has.
         """
         whole = self.torque_harmonics(cylinder, orders, crankcase=crankcase)
         error = np.zeros(whole.shape)
@@ -313,8 +325,12 @@ class Cycle(Tabled, ComputedCycles):
             half = self._core.thinned(from_second)
             if half is None:
                 count = len(self.theta_deg)
-                raise InputError(f"theta_deg has {count} points: give more for an error bound")
-            coarse = Cycle._of(half).torque_harmonics(cylinder, orders, crankcase=crankcase)
+                raise InputError(
+                    f"theta_deg has {count} points: give 16 or more for an estimate of the error"
+                )
+            with suppressed():  # Warned of where the whole was given.
+                thinned = Cycle._of(half)
+                coarse = thinned.torque_harmonics(cylinder, orders, crankcase=crankcase)
             np.maximum(error, abs(coarse - whole), out=error)
         return error
 

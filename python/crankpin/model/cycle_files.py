@@ -11,10 +11,9 @@ import numpy as np
 from crankpin import _core
 from crankpin._core import InputError
 from crankpin._support import inputs
+from crankpin._support.warnings import warn
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from crankpin.model.cycle import Cycle
@@ -43,6 +42,11 @@ _FACT = re.compile(r"# (name|strokes|degree): ?(.*)")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 _COMMA_NUMBER = re.compile(_NUMBER.replace(r"\.", "[.,]"))
 
+_MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+"""Byte order marks, and what they stand for."""
+SIMILAR = 0.9
+"""Correlation of two columns from which both are pressure: cycles of one cylinder have 0.99."""
+
 Column: TypeAlias = int | str
 
 
@@ -51,6 +55,8 @@ class _Text(NamedTuple):
 
     facts: dict[str, str]
     header: list[str]
+    names: list[str]
+    """Cells of the line above the header, where it has as many; else empty."""
     rows: list[list[str]]
 
 
@@ -62,7 +68,7 @@ def load(
     gauge: bool | None,
     atmosphere: float,
     tdc_deg: float,
-    columns: tuple[Column, Column],
+    columns: tuple[Column, Column] | None,
     strokes: int | None,
     name: str | None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], int, str, int | None]:
@@ -72,20 +78,19 @@ def load(
         found = opened.read(_core.LONGEST_FILE + 1)
     if len(found) > _core.LONGEST_FILE:
         raise inputs.rejected("path", str(path), f"more than {_core.LONGEST_FILE} bytes")
-    try:
-        text = found.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = found.decode("latin-1")  # a degree sign of an old program
-    split = _split(text)
-    place = [
-        _place(split.header, column) for column in inputs.items("columns", columns, "give two")
-    ]
+    split = _split(_decoded(found))
+    listed = inputs.items("columns", (0, 1) if columns is None else columns, "give two")
+    place = [_place(split, column) for column in listed]
     if len(place) != 2:
         raise inputs.rejected("columns", columns, "give two, of angle and pressure")
     angles, pressures = (_numbers(split.rows, k) for k in place)
+    if columns is None:
+        _warn_of_others(split.rows, pressures)
     # Names with blanks of columns separated by blanks cannot be distinguished.
     apart = len(split.header) == len(split.rows[0])
     heads = [split.header[k] if apart else " ".join(split.header) for k in place]
+    if split.names:
+        heads = [f"{split.names[k]} {head}" for k, head in zip(place, heads, strict=True)]
     radians = bool(_RADIANS.search(heads[0]))
     unit = angle_unit or ("rad" if radians else "deg")
     angles *= ANGLE_UNITS[inputs.one_of("angle_unit", unit, ANGLE_UNITS)]
@@ -96,10 +101,46 @@ def load(
     return (
         angles,
         pressures,
-        _fact(split.facts, "strokes") or 4 if strokes is None else strokes,
+        _strokes(split.facts) if strokes is None else strokes,
         split.facts.get("name", file.stem) if name is None else name,
         _fact(split.facts, "degree"),
     )
+
+
+def _strokes(facts: dict[str, str]) -> int:
+    known = _fact(facts, "strokes")
+    return 4 if known is None else known
+
+
+def _decoded(found: bytes) -> str:
+    for mark, encoding in _MARKS:
+        if found.startswith(mark):
+            return found.decode(encoding, "replace")
+    if b"\0" in found[:1000]:
+        raise InputError("path: the file has NUL bytes and is no text: export it as text, UTF-8")
+    try:
+        return found.decode()
+    except UnicodeDecodeError:
+        return found.decode("latin-1")  # a degree sign of an old program
+
+
+def _warn_of_others(rows: list[list[str]], pressures: NDArray[np.float64]) -> None:
+    """Warn of further columns that are pressure too: of several cycles one is read."""
+    others = []
+    for k in range(2, min(map(len, rows))):
+        try:
+            values = _numbers(rows, k)
+        except InputError:
+            continue
+        spread = float(np.std(values)) * float(np.std(pressures))
+        covariance = float(np.mean((values - values.mean()) * (pressures - pressures.mean())))
+        if covariance > SIMILAR * spread > 0.0:
+            others.append(k)
+    if others:
+        warn(
+            f"columns = None: column 1 is read, and {len(others)} more look like further cycles: "
+            f"choose one, such as columns=(0, {others[0]}), or give their mean"
+        )
 
 
 def save(cycle: Cycle, path: str | Path) -> None:
@@ -123,7 +164,7 @@ def _fact(facts: dict[str, str], name: str) -> int | None:
 
 def _split(text: str) -> _Text:
     facts: dict[str, str] = {}
-    header = ""
+    header = above = ""
     rows: list[list[str]] = []
     pattern: tuple[str | None, bool] | None = None
     for line in text.splitlines():
@@ -134,21 +175,27 @@ def _split(text: str) -> _Text:
         if pattern is None:
             pattern = _separator(stripped)
             if pattern is None:
-                header = stripped.lstrip("#%!/ ") if stripped else header
+                if stripped:
+                    header, above = stripped.lstrip("#%!/ "), header
                 continue
         if not stripped or stripped[0] in "#%!":
             continue
         rows.append(_cells(stripped, *pattern))
     if pattern is None:
-        raise InputError("path: the file has no line of two numbers; give angle and pressure")
-    return _Text(facts, _cells(header, pattern[0], comma=False), rows)
+        shown = next((line for line in text.splitlines() if re.search(r"\d", line)), "")
+        hint = f"; the first with digits is {inputs.shorten(shown)}" if shown else ""
+        raise InputError(
+            "path: the file has no line of two numbers alone, separated by commas, semicolons, "
+            f"tabs or blanks{hint}"
+        )
+    heads, names = (_cells(line, pattern[0], comma=False) for line in (header, above))
+    return _Text(facts, heads, names if len(names) == len(heads) == len(rows[0]) else [], rows)
 
 
 def _separator(line: str) -> tuple[str | None, bool] | None:
     """Return what separates the cells of a line of numbers and whether decimals have commas."""
     for separator in ("\t", ";", ",", None):
-        cells = [cell.strip() for cell in line.split(separator)]
-        cells = [cell for cell in cells if cell]
+        cells = [cell for cell in _cells(line, separator, comma=False) if cell]
         if len(cells) < 2 or not all(map(_COMMA_NUMBER.fullmatch, cells)):
             continue
         comma = any("," in cell for cell in cells)
@@ -164,18 +211,17 @@ def _separator(line: str) -> tuple[str | None, bool] | None:
 
 
 def _cells(line: str, separator: str | None, comma: bool) -> list[str]:
-    cells = [cell.strip().strip('"') for cell in line.split(separator)]
+    cells = [cell.strip().strip('"').strip() for cell in line.split(separator)]
     return [cell.replace(",", ".") for cell in cells] if comma else cells
 
 
-def _place(header: Sequence[str], column: object) -> int:
+def _place(split: _Text, column: object) -> int:
     if isinstance(column, str):
-        if column not in header:
-            listed = ", ".join(map(repr, header[:10])) or "none"
-            raise InputError(
-                f"columns: there is no {inputs.shorten(column)}; the file has {listed}"
-            )
-        return header.index(column)
+        for heads in (split.header, split.names):
+            if column in heads:
+                return heads.index(column)
+        listed = ", ".join(map(repr, (split.names or split.header)[:10])) or "none"
+        raise InputError(f"columns: there is no {inputs.shorten(column)}; the file has {listed}")
     place = inputs.whole("columns", column)
     if not 0 <= place < 1000:
         raise InputError(f"columns = {place}: give numbers from 0, or names")
@@ -215,7 +261,7 @@ def _is_gauge(given: bool | None, head: str) -> bool:
     if bool(_GAUGE.search(head)) == bool(_ABSOLUTE.search(head)):
         raise InputError(
             "gauge = None: the file does not state whether pressure is gauge or absolute; write "
-            "one of these words into its header, or give True for gauge, False for absolute "
+            "one of these words into its header, or give gauge=True, or gauge=False for absolute "
             "pressure"
         )
     return bool(_GAUGE.search(head))

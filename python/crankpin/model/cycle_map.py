@@ -11,6 +11,7 @@ from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.record import Tabled, read_only
 from crankpin._support.tables import Column, Table
+from crankpin._support.warnings import suppressed
 from crankpin.model.cycle import Cycle
 
 if TYPE_CHECKING:
@@ -97,7 +98,8 @@ class CycleMap(Tabled):
         (_, core), *others = parts
         if others:
             core = _core.Cycle.blend(parts, f"{rpm:.10g} rpm, load {load:.10g}")
-        return Cycle._of(core)
+        with suppressed():  # Warned of where they were given.
+            return Cycle._of(core)
 
     def torque_harmonics(
         self,

@@ -12,6 +12,7 @@ from crankpin import _core
 from crankpin._core import ATMOSPHERE, InputError
 from crankpin._support import inputs
 from crankpin._support.record import AbsentError, read_only
+from crankpin._support.warnings import suppressed
 from crankpin.model import checks, engine_files
 from crankpin.model import shafts as rotating
 from crankpin.model.cycle import Cycle
@@ -215,7 +216,8 @@ class EngineData:
         known: dict[_core.Cycle, Cycle] = {}
         for core in cores:
             if core is not None and core not in known:
-                known[core] = Cycle._of(core)
+                with suppressed():  # Warned of where it was given.
+                    known[core] = Cycle._of(core)
         return tuple(None if core is None else known[core] for core in cores)
 
     @property
@@ -477,6 +479,7 @@ class EngineData:
         below = inputs.number("crankcase", crankcase)
         (fired,) = self._core.with_cycles([cores], below)
         checks.crankcase(below)
+        _warn_of_work(each, self.cylinders)
         return type(self)(fired)
 
     def with_bank_angle(self, bank_angle_deg: Angle, *, hold: Hold) -> Self:
@@ -556,6 +559,12 @@ class EngineData:
             if each.bore is not None:
                 checks.bore(each.bore, each.stroke)
         checks.units(core)
+        if core.cycles is not None and core.crankcase is not None:
+            checks.crankcase(core.crankcase)
+            distinct = {each for each in core.cycles if each is not None}
+            of_core = {each: Cycle._of(each) for each in distinct}
+            pressures = [None if each is None else of_core[each] for each in core.cycles]
+            _warn_of_work(pressures, read.cylinders)
         for name in ("tdc_deg", "bank_deg"):
             angles = getattr(core, name).tolist()
             checks.radians(name, angles, angles)
@@ -649,6 +658,13 @@ def allowed(core: _CoreEngine, firing_order: str, strokes: int) -> str:
     """Return a firing order, or an empty text if the crank does not allow it."""
     possible = firing_order and _core.Firing.all_named(core, firing_order, strokes)
     return firing_order if possible else ""
+
+
+def _warn_of_work(cycles: Sequence[Cycle | None], cylinders: Sequence[Cylinder]) -> None:
+    """Warn of pressure that takes much work from the crank."""
+    for cycle, cylinder in dict.fromkeys(zip(cycles, cylinders, strict=True)):
+        if cycle is not None:
+            cycle.imep(cylinder)  # which warns
 
 
 def _is_kept(value: object) -> bool:

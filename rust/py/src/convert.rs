@@ -71,17 +71,11 @@ pub fn near_miss(degrees: &str) -> Option<String> {
     core::Angle::from_degrees(degrees.parse().ok()?).ok()?.near_miss()?;
     let (simple, distance) = angle.near_miss()?;
     let (turns, parts) = simple.turns().filter(|(_, parts)| *parts <= MOST_PARTS)?;
-    let simple = Ratio::new(360 * i128::from(turns), parts.into());
     // A decimal can be typed as it is: only others are rounded.
-    let rest = [2, 5].into_iter().fold(*simple.denom(), |mut rest, factor| {
-        while rest % factor == 0 {
-            rest /= factor;
-        }
-        rest
-    });
-    if rest == 1 {
+    if simple.is_decimal() {
         return None;
     }
+    let simple = Ratio::new(360 * i128::from(turns), parts.into());
     Some(format!("{degrees} is {distance:.1e}° from {simple}"))
 }
 

@@ -5,6 +5,10 @@ use std::str::FromStr;
 use crate::numbers::error::{Error, Result};
 use crate::numbers::limits;
 
+/// What stands between cylinders: hyphens and the dashes that typesetters make of them.
+const BETWEEN: [char; 9] =
+    ['-', ',', ' ', '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}', '\u{2212}'];
+
 /// The order in which cylinders fire, by number from 1, such as 1-3-4-2, or 1+4-2+3 for cylinders that
 /// fire together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,6 +31,10 @@ impl FiringOrder {
             let named =
                 "name every cylinder from 1 to the number of cylinders once, such as 1-3-4-2";
             let hint = match fault {
+                Some(_) if count == 1 => {
+                    let digits: Vec<_> = order.to_string().chars().map(String::from).collect();
+                    format!("write '-' between cylinders: {}", digits.join("-"))
+                }
                 Some((number, fault)) => format!("{number} is {fault}; {named}"),
                 None => named.to_owned(),
             };
@@ -65,11 +73,15 @@ impl FromStr for FiringOrder {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let parts = text.split(['-', ',', ' ']).filter(|part| !part.is_empty());
+        let parts = text.split(BETWEEN).filter(|part| !part.is_empty());
         let groups: std::result::Result<Vec<Vec<usize>>, _> =
             parts.map(|part| part.split('+').map(str::parse).collect()).collect();
-        let hint = "give cylinder numbers joined by '-', such as 1-3-4-2, those that fire together \
-                    by '+'";
+        let mut hint = "give cylinder numbers joined by '-', such as 1-3-4-2, those that fire \
+                        together by '+'"
+            .to_owned();
+        if text.contains(|letter: char| letter.is_ascii_alphabetic()) {
+            hint += "; letters of banks are not read: number all cylinders from 1 in place of them";
+        }
         groups.map_err(|_| Error::value("firing_order", text, hint)).and_then(Self::new)
     }
 }
@@ -89,6 +101,9 @@ mod tests {
 
     #[test]
     fn orders_that_are_none_are_refused() {
+        let hint = |text: &str| text.parse::<FiringOrder>().unwrap_err().to_string();
+        assert!(hint("145236").ends_with("write '-' between cylinders: 1-4-5-2-3-6"));
+        assert!(hint("1L-3R-2L-4R").contains("letters of banks are not read"));
         for bad in ["", "-", "+", "1+", "1-1", "1+1", "1-+2", "0-1", "1-3", "2-3", "1-x"] {
             assert!(bad.parse::<FiringOrder>().is_err(), "{bad}");
         }
@@ -98,6 +113,7 @@ mod tests {
     fn orders_begin_with_the_first_cylinder() {
         let order: FiringOrder = "3+2 4,1-5-6".parse().unwrap();
         assert_eq!(order.to_string(), "3+2-4-1-5-6");
+        assert_eq!("3+2 – 4‐1—5−6".parse(), Ok(order.clone()));
         let (cylinders, together) = order.rotated();
         assert_eq!(cylinders, [0, 4, 5, 1, 2, 3]);
         assert_eq!(together, [false, false, false, false, true, false]);

@@ -200,8 +200,8 @@ impl FiringOrder {
     /// Crank angles after the first firing at which the first, second … fire.
     fn times(&self, rule: &FiringRule) -> Result<Vec<Angle>> {
         if self.has_groups() {
-            let hint = "give an order without '+': its pins are those of cylinders that fire one after \
-                        the other";
+            let hint = "give an order without '+', or Engine.from_lists all top dead centres: pins \
+                        are computed of cylinders that fire one after the other";
             return Err(Error::value("firing_order", self, hint));
         }
         let count = self.cylinders().len();
@@ -219,7 +219,8 @@ impl FiringOrder {
         let mut times = vec![Angle::ZERO];
         for (k, &interval) in intervals.iter().enumerate() {
             if interval.degrees() <= 0.0 {
-                let hint = "give degrees above 0: cylinders of an order fire one after the other";
+                let hint = "give degrees above 0, or Engine.from_lists all top dead centres: \
+                            cylinders of an order fire one after the other";
                 return Err(Error::value(format!("intervals_deg[{k}]"), interval, hint));
             }
             times.push(times[k] + interval);

@@ -23,9 +23,9 @@ use crate::numbers::rational::{self, nearest};
 /// A double that is no decimal stands for k/N of a turn up to this N, where it is within
 /// [`WITHIN_ULP`] of it.
 const MOST_PARTS: f64 = 1000.0;
-/// Fractions with a larger denominator become doubles. Halves of halves of six-decimal angles need
-/// 1.44e9; with this limit the product of a denominator and the largest order stays far below 2^127.
-const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000;
+/// Fractions with a larger denominator become doubles. Halves of halves of angles of 14 places need
+/// 1.44e17; nine times this limit, which [`cis_turns`] adds up to, is below 2^63.
+const LARGEST_DENOMINATOR: i64 = 1_000_000_000_000_000_000;
 /// Distance in degrees up to which [`Angle::near_miss`] names a simple fraction of a turn.
 const NEAR_MISS: f64 = 1e-5;
 /// Largest angle, degrees; beyond it a double no longer resolves a thousandth of a degree.
@@ -165,6 +165,22 @@ impl Angle {
         }
         let simple = recognise(self.degrees(), NEAR_MISS)?;
         Some((simple, (self - simple).degrees().abs()))
+    }
+
+    /// Whether it is a decimal of degrees, which can be typed as it is.
+    #[must_use]
+    pub fn is_decimal(self) -> bool {
+        self.turns().is_some_and(|(numerator, denominator)| {
+            let degrees = 360 * i128::from(numerator);
+            let below = i128::from(denominator);
+            let mut rest = below / rational::common_divisor(degrees, below);
+            for factor in [2, 5] {
+                while rest % factor == 0 {
+                    rest /= factor;
+                }
+            }
+            rest == 1
+        })
     }
 
     /// Half the angle.
@@ -317,8 +333,9 @@ impl Sub for Angle {
 impl FromStr for Angle {
     type Err = Error;
 
-    /// Degrees, exact: a fraction (`"360/7"`) or a decimal of up to 12 significant digits
-    /// (`"51.4"`). A longer one stands for what its nearest double stands for.
+    /// Degrees, exact: a fraction (`"360/7"`) or a decimal (`"51.4"`). A decimal of more digits than
+    /// [`decimal::parse`] takes stands for what its nearest double stands for, and one within the
+    /// rounding of k/N of a turn, N ≤ 1000, that no decimal is, for that: it was printed of one.
     fn from_str(text: &str) -> Result<Self> {
         let wrong = || Error::value("angle", text, "give degrees, such as 90, 51.4 or \"360/7\"");
         if let Some((numerator, denominator)) = text.split_once('/') {
@@ -328,21 +345,28 @@ impl FromStr for Angle {
         }
         let text = text.trim();
         let double = Self::from_degrees(text.parse().map_err(|_| wrong())?)?;
-        let exact = decimal::parse(text).and_then(turns_of_degrees);
-        Ok(exact.unwrap_or(double))
+        let simple = double.turns().is_some_and(|(_, parts)| parts as f64 <= MOST_PARTS);
+        if simple && !double.is_decimal() {
+            return Ok(double);
+        }
+        Ok(decimal::parse(text).and_then(turns_of_degrees).unwrap_or(double))
     }
 }
 
 impl fmt::Display for Angle {
-    /// Degrees that read back as the same angle: the shortest decimal, else a fraction.
+    /// Degrees that are exactly this angle: the shortest decimal, or a fraction; and with an exponent
+    /// a double whose decimal is another angle.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shortest = self.degrees().to_string();
         match self.0 {
-            Turns(numerator, denominator) if shortest.parse() != Ok(*self) => {
+            Turns(numerator, denominator)
+                if !self.is_decimal() || shortest.parse() != Ok(*self) =>
+            {
                 let (above, below) = (i128::from(numerator) * 360, i128::from(denominator));
                 let divisor = rational::common_divisor(above, below);
                 write!(f, "{}/{}", above / divisor, below / divisor)
             }
+            Degrees(degrees) if shortest.parse() != Ok(*self) => write!(f, "{degrees:e}"),
             _ => f.write_str(&shortest),
         }
     }

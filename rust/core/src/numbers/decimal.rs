@@ -3,12 +3,16 @@
 //! 0.3 is typed, 0.299999999999999989 is what a double of it holds, and 3·0.1 is one unit in its last
 //! place off. There is one reading of both, for angles, masses and lengths: a number of up to
 //! [`MOST_DIGITS`] significant digits is exactly that decimal, a double within [`WITHIN_ULP`] units
-//! in the last place of one stands for it, and any other number is a double.
+//! in the last place of one stands for it, and any other double is itself. Text is exact with more
+//! digits too, up to [`MOST_DECIMALS`] behind the point, unless it is written as doubles are, with an
+//! exponent.
 
 use crate::numbers::rational::nearest;
 
 /// Every double keeps 15 digits; three of them leave room for the rounding of products and sums.
 const MOST_DIGITS: usize = 12;
+/// Most digits behind the point of longer text: as many as doubles from 64 to 1000 print.
+const MOST_DECIMALS: usize = 14;
 /// Most digits before or behind the point.
 const MOST_PLACES: u32 = 18;
 /// Units in its last place within which a double is right.
@@ -25,16 +29,17 @@ pub(crate) fn meant(x: f64) -> Option<(i128, i128)> {
 /// or is no number.
 pub(crate) fn parse(text: &str) -> Option<(i128, i128)> {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
-        None => (text, 0),
+        Some((mantissa, exponent)) => (mantissa, Some(exponent.parse::<i32>().ok()?)),
+        None => (text, None),
     };
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let decimals = decimals.trim_end_matches('0');
     let digits = format!("{whole}{decimals}");
-    if digits.trim_start_matches(['+', '-', '0']).len() > MOST_DIGITS {
+    let is_short = digits.trim_start_matches(['+', '-', '0']).len() <= MOST_DIGITS;
+    if !is_short && (exponent.is_some() || decimals.len() > MOST_DECIMALS) {
         return None;
     }
-    let scale = i32::try_from(decimals.len()).ok()?.checked_sub(exponent)?;
+    let scale = i32::try_from(decimals.len()).ok()?.checked_sub(exponent.unwrap_or(0))?;
     let power = (scale.unsigned_abs() <= MOST_PLACES).then(|| 10_i128.pow(scale.unsigned_abs()))?;
     let number: i128 = digits.parse().ok()?;
     Some(if scale < 0 { (number * power, 1) } else { (number, power) })
@@ -75,7 +80,9 @@ mod tests {
             assert_eq!(parse(text), meant(text.parse().unwrap()), "{text}");
         }
         assert_eq!(parse("+049.54000"), parse("49.54"));
-        for none in ["70.2439024390244", "0.3000000000001", "", "x", "1e400", "nan", "1.5.2"] {
+        assert_eq!(parse("-236.37001175040001"), Some((-23_637_001_175_040_001, 10_i128.pow(14))));
+        let long = ["7.02439024390244e1", "0.300000000000001", "0.30000000000000004"];
+        for none in long.into_iter().chain(["", "x", "1e400", "nan", "1.5.2"]) {
             assert_eq!(parse(none), None, "{none}");
         }
     }

@@ -88,7 +88,10 @@ impl Cycle {
         for (k, &angle) in angles.iter().enumerate() {
             limits::finite(&format!("theta_deg[{k}]"), angle)?;
             if k > 0 && angle < angles[k - 1] {
-                let hint = format!("give ascending angles: it follows {:?}", angles[k - 1]);
+                let mut hint = format!("give ascending angles: it follows {:?}", angles[k - 1]);
+                if k >= FEWEST_POINTS && angle <= angles[0] + (angles[1] - angles[0]) {
+                    hint += "; of several cycles below each other, give one or their mean";
+                }
                 return Err(Error::figure(format!("theta_deg[{k}]"), angle, hint));
             }
             if k > 1 && angle == angles[k - 2] {
@@ -100,8 +103,9 @@ impl Cycle {
         for (k, &value) in values.iter().enumerate() {
             let argument = format!("pressure[{k}]");
             limits::finite(&argument, value)?;
-            if value < 0.0 {
-                let hint = "give absolute pressure in Pa: gauge pressure and 101325";
+            // Noise and an offset of the sensor reach below zero, and torque is linear in pressure.
+            if value < -ATMOSPHERE {
+                let hint = "give absolute pressure in Pa: gauge pressure is none below -101325";
                 return Err(Error::figure(argument, value, hint));
             }
         }
@@ -165,14 +169,22 @@ impl Cycle {
         if self.given.degree.is_some() {
             return None;
         }
-        let last = self.given.theta_deg.len() - usize::from(self.is_closed());
-        let places = (usize::from(from_second)..last).step_by(2);
-        let given = Given {
-            theta_deg: places.clone().map(|k| self.given.theta_deg[k]).collect(),
-            pressure: places.map(|k| self.given.pressure[k]).collect(),
-            ..self.given.clone()
-        };
-        Self::new(given).ok()
+        let (angles, values) = (&self.given.theta_deg, &self.given.pressure);
+        let count = angles.len() - usize::from(self.is_closed());
+        let mut places: Vec<usize> = (usize::from(from_second)..count).step_by(2).collect();
+        if from_second && count % 2 == 1 {
+            // Neighbours, or the step to the next period would be of three.
+            places.push(count - 1);
+        }
+        let first = *places.first()?;
+        let pick = |list: &[f64]| places.iter().map(|&k| list[k]).collect();
+        let (mut theta_deg, mut pressure): (Vec<f64>, Vec<f64>) = (pick(angles), pick(values));
+        // Closed: of uneven steps, that to the next period may be the widest.
+        theta_deg.push(angles[first] + period_deg(self.strokes));
+        pressure.push(values[first]);
+        let few = theta_deg.len() <= FEWEST_POINTS;
+        let given = Given { theta_deg, pressure, ..self.given.clone() };
+        if few { None } else { Self::new(given).ok() }
     }
 }
 

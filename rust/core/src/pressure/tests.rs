@@ -196,8 +196,14 @@ fn grids_that_are_no_period_are_rejected_with_a_hint() {
     let mut thrice = degrees(0, 720);
     thrice.splice(5..5, [5.0, 5.0]);
     assert!(error(thrice, 4).contains("three times"));
-    let negative = table(even(720, 720.0), |t| if t == 5.0 { -1.0 } else { 1e5 }, 4);
-    assert!(negative.unwrap_err().to_string().starts_with("pressure[5] = -1.0: give absolute"));
+    let dip = |least: f64| {
+        table(even(720, 720.0), |t| if t == 5.0 { least } else { 1e5 }, 4)
+            .map_err(|error| error.to_string())
+    };
+    assert!(dip(-1e5).is_ok());
+    assert!(dip(-1e6).unwrap_err().starts_with("pressure[5] = -1000000.0: give absolute"));
+    let below = (0..3).flat_map(|_| degrees(0, 720)).collect();
+    assert!(error(below, 4).contains("of several cycles below each other"));
 }
 
 #[test]
@@ -246,8 +252,30 @@ fn a_two_stroke_has_whole_orders_alone() {
 fn half_the_points_are_a_table_of_their_own() {
     let cycle = table((0..=720).map(f64::from), smooth, 4).unwrap();
     let (even, odd) = (cycle.thinned(false).unwrap(), cycle.thinned(true).unwrap());
-    assert_eq!((even.given().theta_deg.len(), odd.given().theta_deg[0]), (360, 1.0));
+    assert_eq!((even.given().theta_deg.len(), odd.given().theta_deg[0]), (361, 1.0));
     assert_relative_eq!(even.pressure_deg(718.0), smooth(718.0), max_relative = 1e-14);
     let text = serde_json::to_string(&cycle).unwrap();
     assert_eq!(serde_json::from_str::<Cycle>(&text).unwrap(), cycle);
+}
+
+/// Even and odd numbers of points, open and closed, equal steps and others.
+#[test]
+fn every_table_of_sixteen_points_has_two_halves() {
+    for count in 16..80 {
+        let step = 720.0 / f64::from(count);
+        for (bend, closed) in [(0.0, false), (0.0, true), (0.4, true)] {
+            let angle = |k: i32| step * (f64::from(k) + bend * f64::from(k).sin());
+            let angles = (0..count).map(angle).chain(closed.then_some(720.0));
+            let cycle = table(angles, smooth, 4).unwrap();
+            for from_second in [false, true] {
+                let half = cycle.thinned(from_second).unwrap();
+                let widest = half.given().theta_deg.windows(2).map(|pair| pair[1] - pair[0]);
+                assert!(widest.fold(0.0, f64::max) <= 2.001 * step * (1.0 + bend));
+            }
+        }
+    }
+    let few = table((0..15).map(|k| 48.0 * f64::from(k)), smooth, 4).unwrap();
+    assert!(few.thinned(true).is_some());
+    let fewer = table((0..14).map(|k| 720.0 / 14.0 * f64::from(k)), smooth, 4).unwrap();
+    assert!(fewer.thinned(false).is_none());
 }

@@ -45,7 +45,7 @@ impl Bank {
                 let hint = "give rational parts of a turn, such as 90 or \"360/7\"";
                 return Err(Error::value("phases_deg", phase, hint));
             };
-            parts = parts / divisor(parts, denominator) * denominator;
+            parts = (parts / divisor(parts, denominator)).saturating_mul(denominator);
             if parts > 360 {
                 let hint = "give phases that are multiples of one part of a turn, 1/360 or larger";
                 return Err(Error::value("phases_deg", phase, hint));

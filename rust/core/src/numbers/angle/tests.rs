@@ -29,6 +29,7 @@ fn typed_decimals_floats_and_fractions_are_one_angle() {
         assert_eq!(typed(same), float(49.54), "{same}");
     }
     assert_eq!(float(49.54), turns(2477, 18_000));
+    assert_eq!(typed("-236.3700117504").reduced(), typed("123.6299882496"));
     for six in ["123.456789", "-0.000001", "1e-6", "359.999999", "999999.999999"] {
         assert_eq!(typed(six), float(six.parse().unwrap()), "{six}");
         assert!(typed(six).turns().is_some());
@@ -38,6 +39,7 @@ fn typed_decimals_floats_and_fractions_are_one_angle() {
     // The digits of a double, not those of a decimal.
     assert_eq!(typed("51.42857142857143"), turns(1, 7));
     assert_eq!(typed("70.2439024390244"), turns(8, 41));
+    assert_eq!(typed("-359.9999999999999").reduced(), typed("0.0000000000001"));
     assert_eq!(float(70.243_902_439_024_4), turns(8, 41));
     assert_eq!(typed("720051.4285714285"), float(720_000.0 + 360.0 / 7.0));
     assert_eq!(typed("0.30000000000000004"), turns(1, 1200));
@@ -51,10 +53,12 @@ fn a_float_stands_for_a_decimal_within_four_units_in_the_last_place() {
     let beyond = (0..5).fold(0.3_f64, |x, _| x.next_up());
     assert_eq!(float(beyond), Angle(Degrees(beyond)));
     assert_eq!(float(0.123_456_7).turns(), Some((1_234_567, 3_600_000_000)));
-    // Twelve digits are typed, thirteen are those of a double.
+    // A double of twelve digits was typed, thirteen are those of a double; text is typed.
     assert!(float(49.541_234_567_8).turns().is_some());
     assert_eq!(typed("49.5412345678"), float(49.541_234_567_8));
-    assert_eq!(typed("49.54123456789"), Angle(Degrees(49.541_234_567_89)));
+    assert_eq!(float(49.541_234_567_89), Angle(Degrees(49.541_234_567_89)));
+    assert_eq!(typed("49.54123456789"), typed("4954123456789/100000000000"));
+    assert_eq!(typed("4.954123456789e1"), float(49.541_234_567_89));
 }
 
 #[test]
@@ -150,9 +154,9 @@ fn angles_have_a_largest() {
 
 #[test]
 fn fractions_of_large_denominator_are_degrees() {
-    let denominator = 7_000_000_000_000_001;
-    let angle = Angle::from_degree_fraction(1_000_000_000_000_001, denominator).unwrap();
-    assert_eq!(angle, Angle(Degrees(1_000_000_000_000_001.0 / denominator as f64)));
+    let denominator = 7_000_000_000_000_000_001;
+    let angle = Angle::from_degree_fraction(1_000_000_000_000_000_001, denominator).unwrap();
+    assert_eq!(angle, Angle(Degrees(1_000_000_000_000_000_001.0 / denominator as f64)));
     let small = turns(1, LARGEST_DENOMINATOR - 1);
     let half = 180.0 / (LARGEST_DENOMINATOR - 1) as f64;
     assert_eq!(small.half(), Angle(Degrees(half)));
@@ -223,6 +227,30 @@ proptest! {
         prop_assert_eq!(double.to_string().parse::<Angle>(), Ok(double));
         prop_assert_eq!(double.degrees(), shortest.parse::<f64>().unwrap());
         prop_assert_eq!(double, exact);
+    }
+
+    /// A whole turn away, or there and back by another angle: the same angle, to the last place.
+    #[test]
+    fn typed_decimals_are_exact(a in -72_000_000_i64..72_000_000, b in 0_i64..1_000_000_000,
+                                c in 0_i64..18_000_000, places in 6_usize..=14) {
+        let text = |whole: i64, rest: i64| {
+            let decimals = format!("{:05}{rest:09}", whole.abs() % 100_000);
+            let sign = if whole < 0 { "-" } else { "" };
+            format!("{sign}{}.{}", whole.abs() / 100_000, &decimals[..places])
+        };
+        let whole: i128 = text(a, b).replace('.', "").parse().unwrap();
+        let scale = 10_i128.pow(places as u32);
+        let angle = typed(&text(a, b));
+        prop_assert_eq!(angle, Angle::of_fraction(whole, scale).unwrap());
+        prop_assert_eq!(angle.to_string().parse::<Angle>(), Ok(angle));
+        let turned = whole - 360 * scale;
+        let sign = if turned < 0 { "-" } else { "" };
+        let (above, below) = (turned.abs() / scale, turned.abs() % scale);
+        let turned = typed(&format!("{sign}{above}.{below:0places$}"));
+        prop_assert_eq!(turned.reduced(), angle.reduced());
+        let other = typed(&text(c, b)).half();
+        prop_assert_eq!(angle + other - other, angle);
+        prop_assert_eq!((angle - other) + (other + other), angle + other);
     }
 
     #[test]

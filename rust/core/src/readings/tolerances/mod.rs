@@ -135,7 +135,7 @@ impl Tolerances {
         engine.check_one_crank("tolerances")?;
         if request.torque && engine.gas().is_some() {
             return Err(Error::NoTorque(
-                "tolerances do not count gas pressure; leave out torque, or the engine's cycles",
+                "tolerances do not count gas pressure; give torque=False, or engine.with_cycle(None)",
             ));
         }
         check_pins(engine, pin_of)?;
