@@ -22,7 +22,7 @@ Torque = Callable[[float], float]
 RTOL = 1e-10
 """Relative error of a step of the time integration."""
 NOISE = 1e-7
-"""Relative error of a start, of which times of a cycle differ by noise: 4e-8 where torque is a table."""
+"""Relative error of a start: the time of a cycle has noise of 4e-8 where torque is a table."""
 
 
 class Piston(NamedTuple):
