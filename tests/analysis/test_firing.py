@@ -821,10 +821,10 @@ def test_command_of_an_order(capsys: CAPTURE, tmp_path: Path) -> None:
     head, *rows = csv.reader(io.StringIO(printed(capsys, *argv, "--csv")))
     assert head[0] == "cylinder"
     assert [float(row[1]) for row in rows] == PAGE.to_pandas()["angle_deg"].tolist()
-    picture = tmp_path / "v8.png"
+    picture, before = tmp_path / "v8.png", plt.get_fignums()
     printed(capsys, *argv, "--plot", str(picture))
     assert picture.read_bytes().startswith(b"\x89PNG")
-    assert not plt.get_fignums()
+    assert plt.get_fignums() == before
 
 
 def test_command_of_an_order_in_several_turns(capsys: CAPTURE) -> None:
