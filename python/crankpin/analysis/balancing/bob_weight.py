@@ -111,8 +111,8 @@ class BobWeight(Tabled):
     def crankpins(self) -> tuple[Crankpin, ...]:
         """The crankpins.
 
-        Cylinders share one if they are of different banks, their pins point the same way, and their
-        places are less than a crank radius apart; split pins are two.
+        Cylinders of one crankshaft share one if they are of different banks, their pins point the
+        same way, and their places are less than a crank radius apart; split pins are two.
         """
         return crankpins(self.engine)
 

@@ -174,7 +174,7 @@ pub(crate) fn tail(loads: &Loads, last: Option<&Order>, torque: bool, gears: &[G
         let Source::Piston { gear, second_moment, rod_inertia } = load.source else { continue };
         let [force, masses, rod] = bounds[gear];
         let square = f64::from(load.ratio * load.ratio);
-        let force = times(load.weight, force) * square;
+        let force = times(load.weight.abs(), force) * square;
         sum[0] += force;
         sum[1] += times((load.z - loads.reference).abs(), force);
         if torque {
@@ -201,14 +201,14 @@ pub(crate) fn scales(engine: &Engine, loads: &Loads) -> [f64; 3] {
         let (of_load, of_torque) = match load.source {
             Source::Piston { gear, second_moment, rod_inertia } => match &loads.gears[gear].kind {
                 GearKind::SliderCrank { proportions, .. } => {
-                    (load.weight, second_moment.max(rod_inertia.abs() / proportions.rod))
+                    (load.weight.abs(), second_moment.max(rod_inertia.abs() / proportions.rod))
                 }
                 GearKind::Given(spectrum) => (spectrum.largest(), 0.0),
             },
             Source::Pressure { .. } => continue,
             Source::Unbalance => {
                 let arm = engine.largest_crank_radius().max(load.axis.norm());
-                (load.weight, load.weight * arm)
+                (load.weight.abs(), load.weight.abs() * arm)
             }
         };
         force = force.max(square * of_load);
@@ -255,7 +255,7 @@ impl GasOrders {
         for load in &loads.list {
             let Source::Pressure { gear: k } = load.source else { continue };
             let Some(of_cylinder) = gears[k].largest_gas() else { continue };
-            largest = largest.max(load.weight * of_cylinder);
+            largest = largest.max(load.weight.abs() * of_cylinder);
             if gears[k].pressure.as_ref().is_some_and(|p| p.cycle.strokes() == Strokes::Four) {
                 step = 1;
             }
@@ -270,7 +270,7 @@ impl GasOrders {
             for (gear, weight) in gears.iter().zip(&volumes) {
                 let found = gear.gas_up_to(Order::whole(highest)?, cancel)?;
                 torques.push(found.map(|(torque, of_gear)| {
-                    let own = of_gear.into_iter().map(|tail| times(*weight, tail));
+                    let own = of_gear.into_iter().map(|tail| times(weight.size, tail));
                     tails.iter_mut().zip(own).for_each(|(sum, tail)| *sum += tail);
                     torque
                 }));
