@@ -319,6 +319,24 @@ mod tests {
     }
 
     #[test]
+    fn loads_that_act_the_other_way_are_bounded_alike() {
+        let engine = crate::load::tests::fired([Some(0); 3]).0;
+        let ahead = Loads::new(&engine, 0.0);
+        let mut opposite = Loads::new(&engine, 0.0);
+        opposite.list.iter_mut().for_each(|load| load.weight *= -1.0);
+        let last = Order::whole(4).unwrap();
+        let bounds = |loads: &Loads| {
+            let gas = GasOrders::new(0.1, loads, &loads.gears, FIRST_OF_GAS, &Cancel::new());
+            let gas = gas.unwrap();
+            let inertia = tail(loads, Some(&last), true, &loads.gears);
+            (inertia, scales(&engine, loads), gas.tail, gas.allowed)
+        };
+        let found = bounds(&opposite);
+        assert_eq!(bounds(&ahead), found);
+        assert!(found.0.iter().all(|&bound| bound > 0.0) && found.2 > 0.0 && found.3 > 0.0);
+    }
+
+    #[test]
     fn orders_are_dropped_from_the_smallest_up() {
         let sizes = [[4.0], [1.0], [0.0], [3.0], [2.0]];
         let mut lost = [0.5];
