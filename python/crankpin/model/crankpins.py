@@ -56,12 +56,12 @@ class Bay(NamedTuple):
 def throws(engine: Engine) -> list[list[Crankpin]]:
     """Return the crankpins of an engine from front to flywheel, those of one throw a list.
 
-    Cylinders of one crank and different banks whose places are less than a crank radius apart are on one throw.
-    Those of them whose pins are at one place share a crankpin; a throw has several where pins are
-    split, and in a boxer.
+    Cylinders of one crank and different banks whose places are less than a crank radius apart are
+    on one throw. Those of them whose pins are at one place share a crankpin; a throw has several
+    where pins are split, and in a boxer.
     """
     return [
-        [Crankpin(tuple(cylinders), *place) for cylinders, *place in throw]
+        [Crankpin(tuple(cylinders), pin_deg, z, crank) for cylinders, pin_deg, z, crank in throw]
         for throw in engine._core.throws()
     ]
 

@@ -95,14 +95,15 @@ class MeasuredParts(Record):
 
     def _influences(self, *, rotating: bool) -> NDArray[np.float64]:
         """Return what a kilogram in each cylinder adds: (n_cylinders, n_dimensions)."""
-        each = [one.replace(reciprocating_mass=float(not rotating)) for one in self.engine.cylinders]
+        mass = float(not rotating)
+        cylinders = [each.replace(reciprocating_mass=mass) for each in self.engine.cylinders]
         with suppressed():  # of a kilogram
             laden = self.engine.replace(
-                cylinder=each, rotating_mass=float(rotating), counterweights=(), shafts=()
+                cylinder=cylinders, rotating_mass=float(rotating), counterweights=(), shafts=()
             )
         balance = over_square(laden, self.orders)
-        parts = (contributions(balance, name) for name in PLANE_VECTORS)
-        return np.stack([self._vector(*(each.phasors for each in of)) for of in zip(*parts, strict=True)])
+        pairs = zip(*(contributions(balance, name) for name in PLANE_VECTORS), strict=True)
+        return np.stack([self._vector(force.phasors, moment.phasors) for force, moment in pairs])
 
     def _vector(
         self, force: NDArray[np.complex128], moment: NDArray[np.complex128]
