@@ -149,7 +149,7 @@ def add(
 
 
 def pins_in_line(engine: Engine, theta_deg: float = 0.0) -> dict[complex, list[int]]:
-    """Return the crankpins seen from the flywheel: place from the axis, m → cylinders on all there."""
+    """Return the crankpins as seen from the flywheel: place from the axis, m → cylinders there."""
     places = geometry(engine, theta_deg)
     at = places.crankpin - places.axis
     found: dict[complex, list[int]] = {}
