@@ -212,7 +212,7 @@ class BobWeight(Tabled):
         return read_only(found) if factors.ndim else (float(found[0]), float(found[1]))
 
     def least(self, quantity: str) -> float | None:
-        """Return the factor of the least longest vector: 0.5 without pin offset.
+        """Return the factor of the least longest vector: 0.5 on one crankshaft, without pin offset.
 
         From 0 to 10, as ``factor`` is taken. None if the factor makes no difference: the pistons
         have no part that turns with their crank.
