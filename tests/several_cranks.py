@@ -129,6 +129,16 @@ def random_engine(seed: int, *, ratios: Sequence[int] = RATIOS, offset: bool = T
     return Draft(seed, ratios=ratios, offset=offset).engine()
 
 
+def fired_engine(seed: int) -> cp.Engine:
+    """Return a random engine on cranks as fast as the main one, with pressure in most cylinders."""
+    engine = random_engine(seed, ratios=(1, -1))
+    engine = engine.replace(firing_order=engine.firing_orders()[0].order)
+    cylinders = [each.replace(bore=0.08) for each in engine.cylinders]
+    cycle = cp.Cycle.example("petrol")
+    cycles = [None if k % 4 == 3 else cycle for k in range(len(engine))]
+    return engine.replace(cylinder=cylinders).with_cycle(cycles)
+
+
 def size(engine: cp.Engine, rpm: float) -> float:
     """Return what rounding is relative to: Σ m·r·ω² at the levers of all parts, N·m."""
     cranks, crank_of = engine._core.cranks

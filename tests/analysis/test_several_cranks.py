@@ -12,7 +12,7 @@ import pytest
 from crankpin.analysis.contributions import contributions, phasors
 from crankpin.analysis.geometry import geometry, rotating_masses, weights_on_crank
 from crankpin.model.crankpins import crankpins
-from several_cranks import Draft, random_engine, size
+from several_cranks import Draft, fired_engine, random_engine, size
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,16 +26,6 @@ QUANTITIES = ("force", "moment", "torque", "crank_torque")
 POINT = (0.3, -0.2, 0.15)
 ROUNDING = 1e-12
 """Of terms of unlike sizes, at phases known to 1e-13: far above what sums of a dozen leave."""
-
-
-def fired(seed: int) -> cp.Engine:
-    """Return a random engine on cranks as fast as the main one, with pressure in its cylinders."""
-    engine = random_engine(seed, ratios=(1, -1))
-    engine = engine.replace(firing_order=engine.firing_orders()[0].order)
-    cylinders = [each.replace(bore=0.08) for each in engine.cylinders]
-    cycle = cp.Cycle.example("petrol")
-    cycles = [None if k % 4 == 3 else cycle for k in range(len(engine))]
-    return engine.replace(cylinder=cylinders).with_cycle(cycles)
 
 
 def same(found: cp.types.Balance, expected: cp.types.Balance, names: tuple[str, ...]) -> None:
@@ -127,7 +117,7 @@ def test_cylinders_on_two_cranks_share_no_bob_weight() -> None:
 # --- parts ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("make", [random_engine, fired])
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_parts_add_up_to_the_whole_about_any_point(
     seed: int, make: Callable[[int], cp.Engine]
@@ -246,7 +236,7 @@ def test_a_crank_without_cylinders_changes_nothing(seed: int) -> None:
 # --- bounds about another point -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("make", [random_engine, fired])
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bounds_hold_about_any_point(seed: int, make: Callable[[int], cp.Engine]) -> None:
     engine = make(seed)
@@ -324,11 +314,9 @@ def test_a_bob_weight_on_a_crank_that_turns_against_the_main_one_meets_the_backw
 # --- proofs ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("make", [random_engine, fired])
+@pytest.mark.parametrize("make", [random_engine, fired_engine])
 @pytest.mark.parametrize("seed", SEEDS)
-def test_what_is_said_of_an_engine_does_not_fail(
-    seed: int, make: Callable[[int], cp.Engine]
-) -> None:
+def test_what_is_said_does_not_fail(seed: int, make: Callable[[int], cp.Engine]) -> None:
     engine = make(seed)
     assert engine.explain(RPM).sentences
     assert engine.balance(RPM)._repr_html_()
